@@ -1,0 +1,13 @@
+# cmake -DFOLDER=render_node/shaders -DOUTPUT=embedded_shaders.cpp -P EmbedShaders.cmake
+# Writes every file of the folder into one C++ source, in pieces below the compiler's limit for a literal.
+file(GLOB files LIST_DIRECTORIES false ${FOLDER}/*)
+list(SORT files)
+set(source "#include \"render_node/gl/embedded_shaders.h\"\n\n#include <array>\n\nnamespace aquarama::gl {\n\nnamespace {\n\n")
+string(APPEND source "constexpr std::array kShaders{\n")
+foreach(file IN LISTS files)
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} text)
+  string(APPEND source "    EmbeddedShader{\"${name}\",\n                   R\"glsl(${text})glsl\"},\n")
+endforeach()
+string(APPEND source "};\n\n}  // namespace\n\nstd::span<const EmbeddedShader> embeddedShaders() { return kShaders; }\n\n}  // namespace aquarama::gl\n")
+file(WRITE ${OUTPUT} "${source}")

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/units/digest.h"
+
+#include <openssl/sha.h>
+
+namespace aquarama {
+
+Digest digestOf(std::span<const std::byte> content) {
+    Digest digest;
+    SHA256(reinterpret_cast<const unsigned char*>(content.data()), content.size(), digest.bytes.data());
+    return digest;
+}
+
+Digest digestOf(std::string_view content) { return digestOf(std::as_bytes(std::span{content.data(), content.size()})); }
+
+std::string toHex(const Digest& digest) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string hex;
+    for (const std::uint8_t byte : digest.bytes) {
+        hex += kDigits[byte >> 4U];
+        hex += kDigits[byte & 0xFU];
+    }
+    return hex;
+}
+
+}  // namespace aquarama

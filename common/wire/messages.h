@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What master and nodes say to each other, as plain data. Protobuf's types stay inside this folder's .cpp files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/motion/motion_state.h"
+#include "common/units/digest.h"
+#include "common/units/ids.h"
+
+namespace aquarama {
+
+// The submarine: where the wall's sweet spot is in the world.
+struct Eye {
+    glm::vec3 positionMetres{};
+    glm::quat worldFromWall{1, 0, 0, 0};
+};
+
+// All that a frame shows; nothing before it is needed to draw it. `before` is empty where fraction is 1: the frame shows
+// the tick itself. Else the frame shows the moment between tick - 1 (before) and tick (after).
+struct StateFrame {
+    Frame frame;
+    Tick tick;
+    float fraction = 1.0F;
+    Eye eye;
+    std::uint64_t worldHash = 0;
+    std::vector<FishRecord> before;
+    std::vector<FishRecord> after;
+};
+
+enum class Pace : std::uint8_t { Live, Lockstep };
+// What the channels show: the world, or a pattern for setting up and for tests.
+enum class Pattern : std::uint8_t { World, Grid, Grey };
+
+// What a node needs to take part, sent in answer to its hello.
+struct Welcome {
+    std::string rigText;               // writeRig / parseRig
+    std::uint32_t seed = 0;
+    Pace pace = Pace::Live;
+    Pattern pattern = Pattern::World;
+    std::vector<FishTraits> school;
+    Digest species;                    // blob: the species file
+    Digest repertoire;                 // blob: encodeRepertoire
+};
+
+}  // namespace aquarama

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The undersea world as one channel sees it, in linear light.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/body/fish_body.h"
+#include "common/motion/reconstruct.h"
+#include "common/motion/repertoire.h"
+
+namespace aquarama {
+
+// One camera at the sweet spot. Column vectors; reversed depth, zero to one.
+struct View {
+    glm::mat4 clipFromCamera{1.0F};
+    glm::mat4 cameraFromWorld{1.0F};
+    glm::ivec2 sizePixels{};
+};
+
+// Everything that a frame shows, the same on every node: a pure function of the shared eye, the tick and the fish.
+struct SceneFrame {
+    double timeSeconds = 0;
+    glm::vec3 eyePositionMetres{};
+    glm::quat worldFromWall{1, 0, 0, 0};
+    std::span<const PresentedFish> fish;
+};
+
+struct SceneOptions {
+    std::uint32_t seed = 1;
+    int samples = 4;               // of multisampling, 1 for none
+    bool culling = true;           // off only to measure what it saves
+    bool levelsOfDetail = true;
+};
+
+// Owns its GL objects; construct, use and destroy with the same context current.
+class Scene {
+  public:
+    Scene(const SceneOptions& options, const FishBody& body, const Repertoire& repertoire);
+    ~Scene();
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    // Draws into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already exposed and toned to display light
+    // (0 black, 1 the projector's full white), and returns its GL name; valid until the next draw.
+    unsigned draw(const SceneFrame& frame, const View& view);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace aquarama

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame's uniform block, included by C++ and by GLSL: one truth for both. std140, so only vec4 and mat4 members.
+#ifdef __cplusplus
+#pragma once
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+namespace aquarama {
+using mat4 = glm::mat4;
+using vec4 = glm::vec4;
+struct FrameUniforms {
+#else
+layout(std140, binding = 0) uniform FrameUniforms {
+#endif
+    mat4 clipFromWorld;
+    mat4 worldFromClip;
+    vec4 eyeAndTime;        // shared eye in world metres; w: time in seconds
+    vec4 sunAndFilterDepth; // unit vector towards the refracted sun; w: depth of the diver's filter, metres
+    vec4 viewport;          // width, height in pixels, 1/width, 1/height
+#ifdef __cplusplus
+};
+}  // namespace aquarama
+#else
+};
+#endif
