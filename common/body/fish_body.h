@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a species is: the rest shape of the 23 nodal points and the control cage that is bound to them.
+// What a species is: the rest shape of the 23 nodal points and the control cage that is bound to
+// them.
 #pragma once
 
 #include <array>
@@ -17,18 +18,29 @@ inline constexpr int kNodalPoints = 23;
 inline constexpr int kControlPoints = 426;
 inline constexpr int kCageFaces = 424;
 
-// All positions of the 23 nodal points, in the order of the paper's Fig. 1: 0 nose, rings 1-4, 5-8, 9-12, 13-16,
-// 17-20 (dorsal left, dorsal right, ventral right, ventral left), 21 dorsal and 22 ventral tail tip.
+// All positions of the 23 nodal points, in the order of the paper's Fig. 1: 0 nose, rings 1-4, 5-8,
+// 9-12, 13-16, 17-20 (dorsal left, dorsal right, ventral right, ventral left), 21 dorsal and 22
+// ventral tail tip.
 using NodalPoints = std::array<glm::vec3, kNodalPoints>;
 
 // Which part of the fish a cage vertex belongs to; the skin is painted by it.
-enum class CagePart : std::uint8_t { Body, Caudal, FirstDorsal, SecondDorsal, Anal, Pelvic, Pectoral };
+enum class CagePart : std::uint8_t {
+    Body,
+    Caudal,
+    FirstDorsal,
+    SecondDorsal,
+    Anal,
+    Pelvic,
+    Pectoral
+};
 
-// One vertex of the control cage. Rest coordinates in body lengths: s from nose (0) to caudal tip (1), y up, z right.
+// One vertex of the control cage. Rest coordinates in body lengths: s from nose (0) to caudal tip
+// (1), y up, z right.
 struct CageVertex {
-    glm::vec3 rest{};          // (s, y, z)
+    glm::vec3 rest{};  // (s, y, z)
     CagePart part = CagePart::Body;
-    glm::vec2 fin{};           // on a fin: p along its base and q from base (0) to edge (1); on the body zero
+    glm::vec2
+        fin{};  // on a fin: p along its base and q from base (0) to edge (1); on the body zero
 };
 
 struct CageCrease {
@@ -36,7 +48,8 @@ struct CageCrease {
     float sharpness = 0.0F;
 };
 
-// A closed all-quad surface, outward when seen counter-clockwise, of kControlPoints vertices and kCageFaces faces.
+// A closed all-quad surface, outward when seen counter-clockwise, of kControlPoints vertices and
+// kCageFaces faces.
 struct ControlCage {
     std::vector<CageVertex> vertices;
     std::vector<std::array<std::uint16_t, 4>> faces;
@@ -46,18 +59,19 @@ struct ControlCage {
 struct FishBody {
     std::string species;
     float typicalLengthMetres = 0.0F;
-    NodalPoints restNodes{};                  // body lengths, nose at the origin, body along -x, y dorsal, z right
-    std::array<float, 5> ringStations{};      // s of the five rings
-    std::vector<float> profileStations;       // s of the body profile below (body lengths)
-    std::vector<float> profileDorsal;         // height above the axis (positive)
-    std::vector<float> profileVentral;        // depth below the axis (positive)
+    NodalPoints restNodes{};  // body lengths, nose at the origin, body along -x, y dorsal, z right
+    std::array<float, 5> ringStations{};  // s of the five rings
+    std::vector<float> profileStations;   // s of the body profile below (body lengths)
+    std::vector<float> profileDorsal;     // height above the axis (positive)
+    std::vector<float> profileVentral;    // depth below the axis (positive)
     std::vector<float> profileHalfWidth;
-    glm::vec3 eye{};                          // (s, y, radius)
+    glm::vec3 eye{};  // (s, y, radius)
     ControlCage cage;
 };
 
-// The cage moved by the nodal points: cubic spine through nose, ring centres and tail, lateral axis from the rings.
-// nodes and the result are in one and the same frame (body or world), body lengths. The rest nodes give the rest cage.
+// The cage moved by the nodal points: cubic spine through nose, ring centres and tail, lateral axis
+// from the rings. nodes and the result are in one and the same frame (body or world), body lengths.
+// The rest nodes give the rest cage.
 void poseCage(const FishBody& body, const NodalPoints& nodes, std::span<glm::vec3> controlPoints);
 
 }  // namespace aquarama

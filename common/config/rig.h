@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rig: the wall, its projectors and channels, and the addresses of one installation, as plain data.
+// A rig: the wall, its projectors and channels, and the addresses of one installation, as plain
+// data.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,9 @@
 
 namespace aquarama {
 
-// A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin at the sweet spot,
-// which is on the cylinder's axis at the screen's mid-height; the screen's middle is at (0, 0, -radius).
+// A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin at
+// the sweet spot, which is on the cylinder's axis at the screen's mid-height; the screen's middle
+// is at (0, 0, -radius).
 struct Screen {
     double radiusMetres = 0;
     double arcRadians = 0;
@@ -22,52 +24,56 @@ struct Screen {
 
 // A pinhole: x right, y up, looking along -Z of its own frame.
 struct Projector {
-    glm::dvec3 positionMetres{};      // wall frame
-    glm::dvec3 yawPitchRollRadians{}; // yaw about +Y (left positive), then pitch about +X (up positive), then roll about +Z
-    glm::dvec2 focalPixels{};         // fx and fy differ where pixels are not square
-    glm::dvec2 principalPixels{};     // from the top left corner of the picture
+    glm::dvec3 positionMetres{};       // wall frame
+    glm::dvec3 yawPitchRollRadians{};  // yaw about +Y (left positive), then pitch about +X (up
+                                       // positive), then roll about +Z
+    glm::dvec2 focalPixels{};          // fx and fy differ where pixels are not square
+    glm::dvec2 principalPixels{};      // from the top left corner of the picture
 };
 
 enum class DisplayMode : std::uint8_t { Window, Fullscreen };
 
 struct Display {
     DisplayMode mode = DisplayMode::Window;
-    int monitor = 0;                       // index of the monitor, for fullscreen
-    glm::ivec2 windowPosition{};           // top left corner on the desktop, for a window
-    std::string device = "auto";           // auto | nvidia | mesa | surfaceless | device:N
-    std::optional<double> refreshHertz;    // refused where the monitor's differs
+    int monitor = 0;                     // index of the monitor, for fullscreen
+    glm::ivec2 windowPosition{};         // top left corner on the desktop, for a window
+    std::string device = "auto";         // auto | nvidia | mesa | surfaceless | device:N
+    std::optional<double> refreshHertz;  // refused where the monitor's differs
 };
 
 struct Channel {
     std::uint32_t id = 0;
     std::string name;
-    glm::ivec2 sizePixels{};               // of the projector's picture
+    glm::ivec2 sizePixels{};  // of the projector's picture
     Projector projector;
     Display display;
 };
 
 struct Timing {
     double refreshHertz = 60;
-    double presentDeadlineSeconds = 0;     // how long the first ready node waits for the others; default one refresh
-    double membershipSeconds = 0.25;       // silence after which a node is no longer counted
+    double presentDeadlineSeconds =
+        0;  // how long the first ready node waits for the others; default one refresh
+    double membershipSeconds = 0.25;  // silence after which a node is no longer counted
 };
 
 struct Rig {
     std::string name;
     Screen screen;
-    glm::ivec2 panoramaPixels{};           // the unrolled wall, for the composed pictures
-    std::string controlAddress;            // "tcp://127.0.0.1:7400": ROUTER
-    std::string stateAddress;              // "tcp://127.0.0.1:7401": PUB
+    glm::ivec2 panoramaPixels{};  // the unrolled wall, for the composed pictures
+    std::string controlAddress;   // "tcp://127.0.0.1:7400": ROUTER
+    std::string stateAddress;     // "tcp://127.0.0.1:7401": PUB
     std::vector<Channel> channels;
     Timing timing;
-    std::string species;                   // path of the species file, relative to the rig's folder
+    std::string species;  // path of the species file, relative to the rig's folder
     std::uint32_t fish = 51;
 };
 
-// Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind past the loopback):
-// throws Error with file:line:column. Geometry (a projector that misses the screen) is checked by common/wall.
+// Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind
+// past the loopback): throws Error with file:line:column. Geometry (a projector that misses the
+// screen) is checked by common/wall.
 [[nodiscard]] Rig readRig(const std::string& path);
 [[nodiscard]] Rig parseRig(const std::string& text, const std::string& source);
-[[nodiscard]] std::string writeRig(const Rig& rig);  // text that parseRig reads back to the same rig; sent to the nodes
+[[nodiscard]] std::string writeRig(
+    const Rig& rig);  // text that parseRig reads back to the same rig; sent to the nodes
 
 }  // namespace aquarama

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of a school's motion: integers only, so that every machine agrees to the bit (docs/architecture.md).
+// The state of a school's motion: integers only, so that every machine agrees to the bit
+// (docs/architecture.md).
 #pragma once
 
 #include <array>
@@ -16,30 +17,35 @@ namespace aquarama {
 
 inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
 
-// Structure of arrays, one element a fish. Position of the body frame's origin in units of 2^-16 m; orientation as the
-// smallest three of a unit quaternion, 20 bits each; phase in 1/65536 of a cycle.
+// Structure of arrays, one element a fish. Position of the body frame's origin in units of 2^-16 m;
+// orientation as the smallest three of a unit quaternion, 20 bits each; phase in 1/65536 of a
+// cycle.
 struct MotionStates {
     std::vector<std::int32_t> x, y, z;
-    std::vector<std::int32_t> orientationA, orientationB, orientationC;  // signed 20-bit, in units of 2^-19 / sqrt(2)
-    std::vector<std::uint8_t> orientationLargest;                        // which of w, x, y, z is left out (it is >= 0)
+    std::vector<std::int32_t> orientationA, orientationB,
+        orientationC;                              // signed 20-bit, in units of 2^-19 / sqrt(2)
+    std::vector<std::uint8_t> orientationLargest;  // which of w, x, y, z is left out (it is >= 0)
     std::vector<std::uint16_t> phase;
-    std::vector<std::uint8_t> segment;      // Action
-    // A motion warp glides from a frozen pose of one segment to the first pose of the next (section 4.2).
+    std::vector<std::uint8_t> segment;  // Action
+    // A motion warp glides from a frozen pose of one segment to the first pose of the next
+    // (section 4.2).
     std::vector<std::uint16_t> fromPhase;
     std::vector<std::uint8_t> fromSegment;
-    std::vector<std::uint8_t> warpFrame;    // 0 .. warpLength; equal when no warp is under way
-    std::vector<std::uint8_t> warpLength;   // K interpolated frames
+    std::vector<std::uint8_t> warpFrame;   // 0 .. warpLength; equal when no warp is under way
+    std::vector<std::uint8_t> warpLength;  // K interpolated frames
 
     void resize(std::size_t fish);
     [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
-// What the mind asks of the body; the motor's only input. It changes at decision instants, not every tick.
+// What the mind asks of the body; the motor's only input. It changes at decision instants, not
+// every tick.
 struct MotorCommands {
-    std::vector<std::uint8_t> segment;       // Action to play next
-    std::vector<std::uint16_t> phaseRate;    // 1/65536 of a cycle in a tick
-    std::vector<std::int16_t> pitch;         // sine of the wanted pitch, in units of 2^-15; up is positive
-    std::vector<std::int16_t> yawRate;       // extra turn about the world's up, in units of 2^-20 rad a tick; left is positive
+    std::vector<std::uint8_t> segment;     // Action to play next
+    std::vector<std::uint16_t> phaseRate;  // 1/65536 of a cycle in a tick
+    std::vector<std::int16_t> pitch;  // sine of the wanted pitch, in units of 2^-15; up is positive
+    std::vector<std::int16_t>
+        yawRate;  // extra turn about the world's up, in units of 2^-20 rad a tick; left is positive
 
     void resize(std::size_t fish);
 };
@@ -47,13 +53,15 @@ struct MotorCommands {
 // What never changes about a fish, sent once.
 struct FishTraits {
     std::uint32_t id = 0;
-    std::uint16_t lengthMillimetres = 0;   // alpha of eq. 12: the recorded data are in body lengths
+    std::uint16_t lengthMillimetres = 0;  // alpha of eq. 12: the recorded data are in body lengths
 };
 
 // One fish on the wire and on its way to the GPU: exactly the bits of MotionStates, little-endian.
 struct FishRecord {
     std::int32_t x = 0, y = 0, z = 0;
-    std::uint32_t orientationLow = 0, orientationHigh = 0;  // a | b << 20 | c << 40 | largest << 60 (20-bit two's complement)
+    std::uint32_t orientationLow = 0,
+                  orientationHigh =
+                      0;  // a | b << 20 | c << 40 | largest << 60 (20-bit two's complement)
     std::uint16_t phase = 0, fromPhase = 0;
     std::uint8_t segment = 0, fromSegment = 0, warpFrame = 0, warpLength = 0;
     friend bool operator==(const FishRecord&, const FishRecord&) = default;
@@ -63,14 +71,17 @@ static_assert(sizeof(FishRecord) == 28);
 [[nodiscard]] FishRecord recordOf(const MotionStates& states, std::size_t fish);
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record);
 
-// The body frame as floats: position of o in metres, rotation that takes body axes (x anterior, y dorsal, z right) to world.
+// The body frame as floats: position of o in metres, rotation that takes body axes (x anterior, y
+// dorsal, z right) to world.
 struct BodyFrame {
     glm::vec3 position{};
     glm::quat rotation{1, 0, 0, 0};
 };
 [[nodiscard]] BodyFrame bodyFrameOf(const FishRecord& record);
 [[nodiscard]] BodyFrame bodyFrameOf(const MotionStates& states, std::size_t fish);
-void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame);  // rounds to the integers
+void setBodyFrame(MotionStates& states,
+                  std::size_t fish,
+                  const BodyFrame& frame);  // rounds to the integers
 
 // Folds every bit of the state into one number; equal worlds have equal hashes.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From motion state to nodal points and control points (eq. 12 and 13): the CPU reference of what the GPU does.
+// From motion state to nodal points and control points (eq. 12 and 13): the CPU reference of what
+// the GPU does.
 #pragma once
 
 #include <span>
@@ -12,14 +13,16 @@
 
 namespace aquarama {
 
-// One fish as a frame shows it: between two ticks in the live show, on one in lockstep. 64 bytes, uploaded as it is.
+// One fish as a frame shows it: between two ticks in the live show, on one in lockstep. 64 bytes,
+// uploaded as it is.
 struct PresentedFish {
     glm::vec3 positionMetres{};
     float lengthMetres = 0.0F;
     glm::vec4 rotation{0, 0, 0, 1};  // quaternion (x, y, z, w), body to world
     float phase = 0.0F;              // cycles, [0, 1)
     float fromPhase = 0.0F;
-    float warpWeight = 1.0F;         // share of `segment` against `fromSegment`; 1 when no warp is under way
+    float warpWeight =
+        1.0F;  // share of `segment` against `fromSegment`; 1 when no warp is under way
     std::uint32_t segment = 0;
     std::uint32_t fromSegment = 0;
     std::uint32_t id = 0;
@@ -27,16 +30,24 @@ struct PresentedFish {
 };
 static_assert(sizeof(PresentedFish) == 64);
 
-// fraction 0 shows `before`, 1 shows `after` (the next tick). Fish that differ in segment are shown as `after` poses them.
-[[nodiscard]] PresentedFish present(const FishRecord& before, const FishRecord& after, float fraction, const FishTraits& traits);
+// fraction 0 shows `before`, 1 shows `after` (the next tick). Fish that differ in segment are shown
+// as `after` poses them.
+[[nodiscard]] PresentedFish present(const FishRecord& before,
+                                    const FishRecord& after,
+                                    float fraction,
+                                    const FishTraits& traits);
 
 // Body frame, body lengths (eq. 12 and 13 before R and o).
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes);
 // World frame, metres.
 void nodalPoints(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes);
-void controlPoints(const Repertoire& repertoire, const PresentedFish& fish, std::span<glm::vec3> points);
+void controlPoints(const Repertoire& repertoire,
+                   const PresentedFish& fish,
+                   std::span<glm::vec3> points);
 
 // The same for many fish at once, vectorised: world frame, metres; nodes[fish].
-void nodalPoints(const Repertoire& repertoire, std::span<const PresentedFish> fish, std::span<NodalPoints> nodes);
+void nodalPoints(const Repertoire& repertoire,
+                 std::span<const PresentedFish> fish,
+                 std::span<NodalPoints> nodes);
 
 }  // namespace aquarama

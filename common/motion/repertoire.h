@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The action repertoire of a species: one cycle of each action, captured from the biomechanical fish (paper, section 3).
+// The action repertoire of a species: one cycle of each action, captured from the biomechanical
+// fish (paper, section 3).
 #pragma once
 
 #include <array>
@@ -31,8 +32,9 @@ enum class Action : std::uint8_t {
 inline constexpr int kActions = 7;
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
 
-// The change of the body frame from one phase to the next, in the body frame at its start: B' = B * increment
-// (eq. 6 and 7 with the remedy of a body-frame rotation, R' = R * rotation). Translation in body lengths.
+// The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
+// increment (eq. 6 and 7 with the remedy of a body-frame rotation, R' = R * rotation). Translation
+// in body lengths.
 struct FrameIncrement {
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 translation{};
@@ -45,11 +47,12 @@ using NodalPose = std::array<std::array<std::int16_t, 3>, kNodalPoints>;
 inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 
 struct ActionSegment {
-    float periodSeconds = 0.0F;     // of one cycle, for the recorded fish
-    bool playsToEnd = false;        // a sharp turn is entered at phase 0 and left at its end; the others anywhere
+    float periodSeconds = 0.0F;  // of one cycle, for the recorded fish
+    bool playsToEnd =
+        false;  // a sharp turn is entered at phase 0 and left at its end; the others anywhere
     std::array<FrameIncrement, kPhases> increments{};  // from phase k to k + 1
     std::array<NodalPose, kPhases> nodes{};            // deformation d at phase k (eq. 8)
-    std::vector<ControlPointPose> controlPoints;       // s at phase k (eq. 9): kPhases of them, or none
+    std::vector<ControlPointPose> controlPoints;  // s at phase k (eq. 9): kPhases of them, or none
 };
 
 struct Repertoire {
@@ -61,8 +64,9 @@ struct Repertoire {
 // The file: "AQREP", version, species, segments, SHA-256 of all that precedes it; little-endian.
 [[nodiscard]] std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire);
 
-// Throws Error, naming `source`, when the bytes are truncated, altered, of another version or out of bounds;
-// sizes are checked before memory is taken.
-[[nodiscard]] Repertoire decodeRepertoire(std::span<const std::byte> bytes, const std::string& source);
+// Throws Error, naming `source`, when the bytes are truncated, altered, of another version or out
+// of bounds; sizes are checked before memory is taken.
+[[nodiscard]] Repertoire decodeRepertoire(std::span<const std::byte> bytes,
+                                          const std::string& source);
 
 }  // namespace aquarama

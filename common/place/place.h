@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place: sea floor, plants and surge as functions of a seed, the same in the master (avoidance) and the nodes (drawing).
+// The place: sea floor, plants and surge as functions of a seed, the same in the master (avoidance)
+// and the nodes (drawing).
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,13 @@
 
 namespace aquarama {
 
-// World frame: metres, Y up. The surface of the sea is the plane y = 0; the reference eye is at kEyePosition, looking along -Z.
+// World frame: metres, Y up. The surface of the sea is the plane y = 0; the reference eye is at
+// kEyePosition, looking along -Z.
 inline constexpr glm::vec3 kEyePosition{0.0F, -6.0F, 0.0F};
 inline constexpr float kMeanFloorDepthMetres = 8.6F;
 
-// Height (y, negative) of the sand at a place. Exact arithmetic only: the master's world depends on it.
+// Height (y, negative) of the sand at a place. Exact arithmetic only: the master's world depends on
+// it.
 [[nodiscard]] float floorHeight(std::uint32_t seed, glm::vec2 xz);
 
 struct Rock {
@@ -31,7 +34,8 @@ struct Plant {
 };
 [[nodiscard]] std::vector<Plant> plantsOf(std::uint32_t seed);
 
-// The water in which the school lives: fish keep inside it. Chosen so that the wall always has them in view.
+// The water in which the school lives: fish keep inside it. Chosen so that the wall always has them
+// in view.
 struct Region {
     glm::vec3 centre{};
     glm::vec3 halfExtent{};

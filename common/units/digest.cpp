@@ -7,11 +7,15 @@ namespace aquarama {
 
 Digest digestOf(std::span<const std::byte> content) {
     Digest digest;
-    SHA256(reinterpret_cast<const unsigned char*>(content.data()), content.size(), digest.bytes.data());
+    SHA256(reinterpret_cast<const unsigned char*>(content.data()),
+           content.size(),
+           digest.bytes.data());
     return digest;
 }
 
-Digest digestOf(std::string_view content) { return digestOf(std::as_bytes(std::span{content.data(), content.size()})); }
+Digest digestOf(std::string_view content) {
+    return digestOf(std::as_bytes(std::span{content.data(), content.size()}));
+}
 
 std::string toHex(const Digest& digest) {
     constexpr std::string_view kDigits = "0123456789abcdef";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The name of a piece of content: its SHA-256. Repertoires and other blobs are fetched, cached and checked by it.
+// The name of a piece of content: its SHA-256. Repertoires and other blobs are fetched, cached and
+// checked by it.
 #pragma once
 
 #include <array>

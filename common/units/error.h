@@ -7,11 +7,13 @@
 
 namespace aquarama {
 
-// Says what is wrong, where, and what to do, in one line: "config/desk.txtpb:12:3: projector "left" ...; move it".
-// Nothing throws inside the frame loop; there a bad packet is an empty optional, and is counted.
+// Says what is wrong, where, and what to do, in one line: "config/desk.txtpb:12:3: projector "left"
+// ...; move it". Nothing throws inside the frame loop; there a bad packet is an empty optional, and
+// is counted.
 class Error : public std::runtime_error {
   public:
-    explicit Error(const std::string& whatWhereAndWhatToDo) : std::runtime_error(whatWhereAndWhatToDo) {}
+    explicit Error(const std::string& whatWhereAndWhatToDo)
+        : std::runtime_error(whatWhereAndWhatToDo) {}
 };
 
 }  // namespace aquarama

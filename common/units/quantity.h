@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that know their unit, for what crosses function boundaries. Hot arrays stay float with the unit in the name.
+// Numbers that know their unit, for what crosses function boundaries. Hot arrays stay float with
+// the unit in the name.
 #pragma once
 
 #include <compare>

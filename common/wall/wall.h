@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From projector pixel to screen point to view ray, and the blend between neighbours: analytic, for a cylinder.
+// From projector pixel to screen point to view ray, and the blend between neighbours: analytic, for
+// a cylinder.
 #pragma once
 
 #include <optional>
@@ -15,38 +16,48 @@
 
 namespace aquarama {
 
-// Where a projector's pixel (continuous, top left corner of the picture is (0, 0), texel centres at +0.5) lights the
-// screen, wall frame; nothing where its ray misses the screen.
-[[nodiscard]] std::optional<glm::dvec3> screenPoint(const Screen& screen, const Channel& channel, glm::dvec2 pixel);
+// Where a projector's pixel (continuous, top left corner of the picture is (0, 0), texel centres at
+// +0.5) lights the screen, wall frame; nothing where its ray misses the screen.
+[[nodiscard]] std::optional<glm::dvec3> screenPoint(const Screen& screen,
+                                                    const Channel& channel,
+                                                    glm::dvec2 pixel);
 // The other way round; nothing where the point is outside the picture or behind the projector.
-[[nodiscard]] std::optional<glm::dvec2> projectorPixel(const Channel& channel, glm::dvec3 screenPointMetres);
+[[nodiscard]] std::optional<glm::dvec2> projectorPixel(const Channel& channel,
+                                                       glm::dvec3 screenPointMetres);
 
-// The unrolled screen: u from its left edge (0) to its right (1), v from its top (0) to its bottom (1).
+// The unrolled screen: u from its left edge (0) to its right (1), v from its top (0) to its bottom
+// (1).
 [[nodiscard]] glm::dvec2 unrolled(const Screen& screen, glm::dvec3 screenPointMetres);
 [[nodiscard]] glm::dvec3 screenPointAt(const Screen& screen, glm::dvec2 unrolledPosition);
 
-// The share of the light at a screen point that a channel gives: smooth, 0 at its picture's border, and the shares of
-// all channels that reach the point sum to one in linear light.
+// The share of the light at a screen point that a channel gives: smooth, 0 at its picture's border,
+// and the shares of all channels that reach the point sum to one in linear light.
 [[nodiscard]] double blendWeight(const Rig& rig, std::size_t channel, glm::dvec3 screenPointMetres);
 
-// The canonical warp of a channel: for each projector pixel, top row first, the point that it lights and its blend weight.
+// The canonical warp of a channel: for each projector pixel, top row first, the point that it
+// lights and its blend weight.
 struct WarpMap {
     glm::ivec2 sizePixels{};
-    std::vector<glm::vec4> pointAndWeight;  // wall frame, metres; weight 0 where the ray misses the screen
+    std::vector<glm::vec4>
+        pointAndWeight;  // wall frame, metres; weight 0 where the ray misses the screen
 };
 [[nodiscard]] WarpMap warpMap(const Rig& rig, std::size_t channel);
 
-// An off-axis frustum from the sweet spot that just holds what the channel lights, enlarged by `marginRadians`.
-// Camera frame: x right, y up, looking along -Z; extents are tangents at distance one.
+// An off-axis frustum from the sweet spot that just holds what the channel lights, enlarged by
+// `marginRadians`. Camera frame: x right, y up, looking along -Z; extents are tangents at distance
+// one.
 struct ChannelFrustum {
     glm::dmat4 cameraFromWall{1.0};
     double left = 0, right = 0, bottom = 0, top = 0;
 };
-[[nodiscard]] ChannelFrustum channelFrustum(const Rig& rig, std::size_t channel, double marginRadians);
+[[nodiscard]] ChannelFrustum channelFrustum(const Rig& rig,
+                                            std::size_t channel,
+                                            double marginRadians);
 // Reversed depth, zero to one, infinite far plane.
 [[nodiscard]] glm::mat4 clipFromCamera(const ChannelFrustum& frustum, float nearMetres);
 
-// Throws Error (with `source`) when a projector misses the screen, the screen is not covered, or neighbours leave a gap.
+// Throws Error (with `source`) when a projector misses the screen, the screen is not covered, or
+// neighbours leave a gap.
 void checkGeometry(const Rig& rig, const std::string& source);
 
 }  // namespace aquarama

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What master and nodes say to each other, as plain data. Protobuf's types stay inside this folder's .cpp files.
+// What master and nodes say to each other, as plain data. Protobuf's types stay inside this
+// folder's .cpp files.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,9 @@ struct Eye {
     glm::quat worldFromWall{1, 0, 0, 0};
 };
 
-// All that a frame shows; nothing before it is needed to draw it. `before` is empty where fraction is 1: the frame shows
-// the tick itself. Else the frame shows the moment between tick - 1 (before) and tick (after).
+// All that a frame shows; nothing before it is needed to draw it. `before` is empty where fraction
+// is 1: the frame shows the tick itself. Else the frame shows the moment between tick - 1 (before)
+// and tick (after).
 struct StateFrame {
     Frame frame;
     Tick tick;
@@ -39,13 +41,13 @@ enum class Pattern : std::uint8_t { World, Grid, Grey };
 
 // What a node needs to take part, sent in answer to its hello.
 struct Welcome {
-    std::string rigText;               // writeRig / parseRig
+    std::string rigText;  // writeRig / parseRig
     std::uint32_t seed = 0;
     Pace pace = Pace::Live;
     Pattern pattern = Pattern::World;
     std::vector<FishTraits> school;
-    Digest species;                    // blob: the species file
-    Digest repertoire;                 // blob: encodeRepertoire
+    Digest species;     // blob: the species file
+    Digest repertoire;  // blob: encodeRepertoire
 };
 
 }  // namespace aquarama

@@ -23,7 +23,9 @@ class Context {
     [[nodiscard]] virtual std::string description() const = 0;  // renderer and version, for the log
 };
 
-// OpenGL 4.5 core. device: auto | nvidia | mesa | surfaceless | device:N. Throws Error: no EGL, no such device, no GL 4.5.
-[[nodiscard]] std::unique_ptr<Context> makeOffscreenContext(const std::string& device, glm::ivec2 sizePixels);
+// OpenGL 4.5 core. device: auto | nvidia | mesa | surfaceless | device:N. Throws Error: no EGL, no
+// such device, no GL 4.5.
+[[nodiscard]] std::unique_ptr<Context> makeOffscreenContext(const std::string& device,
+                                                            glm::ivec2 sizePixels);
 
 }  // namespace aquarama

@@ -29,9 +29,13 @@ bool lists(const char* extensions, std::string_view name) {
 
 std::span<EGLDeviceEXT> devices(std::array<EGLDeviceEXT, 32>& storage) {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (!lists(extensions, "EGL_EXT_device_base") && !lists(extensions, "EGL_EXT_device_enumeration")) return {};
+    if (!lists(extensions, "EGL_EXT_device_base") &&
+        !lists(extensions, "EGL_EXT_device_enumeration"))
+        return {};
     EGLint count = 0;
-    if (eglQueryDevicesEXT(static_cast<EGLint>(storage.size()), storage.data(), &count) == EGL_FALSE) return {};
+    if (eglQueryDevicesEXT(static_cast<EGLint>(storage.size()), storage.data(), &count) ==
+        EGL_FALSE)
+        return {};
     return std::span{storage}.first(static_cast<std::size_t>(count));
 }
 
@@ -45,24 +49,34 @@ std::optional<EGLDeviceEXT> choose(std::span<EGLDeviceEXT> all, const std::strin
         const auto found = std::ranges::find_if(all, suits);
         return found == all.end() ? std::nullopt : std::optional{*found};
     };
-    const auto isNvidia = [](EGLDeviceEXT device) { return deviceHas(device, "EGL_NV_device_cuda"); };
-    const auto isSoftware = [](EGLDeviceEXT device) { return deviceHas(device, "EGL_MESA_device_software"); };
+    const auto isNvidia = [](EGLDeviceEXT device) {
+        return deviceHas(device, "EGL_NV_device_cuda");
+    };
+    const auto isSoftware = [](EGLDeviceEXT device) {
+        return deviceHas(device, "EGL_MESA_device_software");
+    };
     if (wanted == "surfaceless") return std::nullopt;
     if (wanted == "mesa") return first(isSoftware);
     if (wanted == "auto") {
         if (const auto nvidia = first(isNvidia)) return nvidia;
-        if (const auto hardware = first([&](EGLDeviceEXT device) { return !isSoftware(device); })) return hardware;
+        if (const auto hardware = first([&](EGLDeviceEXT device) { return !isSoftware(device); }))
+            return hardware;
         return first(isSoftware);
     }
     if (wanted == "nvidia") {
         if (const auto nvidia = first(isNvidia)) return nvidia;
-        throw Error("device \"nvidia\": no NVIDIA device is offered by EGL; install its driver or use device \"auto\"");
+        throw Error(
+            "device \"nvidia\": no NVIDIA device is offered by EGL; install its driver or use "
+            "device \"auto\"");
     }
     if (wanted.starts_with("device:")) {
         const std::string digits = wanted.substr(std::strlen("device:"));
-        const bool numeric = !digits.empty() && digits.size() < 4 && std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
+        const bool numeric =
+            !digits.empty() && digits.size() < 4 &&
+            std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
         if (numeric && std::stoul(digits) < all.size()) return all[std::stoul(digits)];
-        throw Error("device \"" + wanted + "\": EGL offers " + std::to_string(all.size()) + " devices, numbered from 0");
+        throw Error("device \"" + wanted + "\": EGL offers " + std::to_string(all.size()) +
+                    " devices, numbered from 0");
     }
     throw Error("device \"" + wanted + "\" is none of auto, nvidia, mesa, surfaceless, device:N");
 }
@@ -73,16 +87,26 @@ class OffscreenContext final : public Context {
         std::array<EGLDeviceEXT, 32> storage{};
         const auto chosen = choose(devices(storage), device);
         display_ = chosen ? eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, *chosen, nullptr)
-                          : eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+                          : eglGetPlatformDisplayEXT(
+                                EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) {
-            throw Error("device \"" + device + "\": EGL does not start; install libegl1 and a driver (libgl1-mesa-dri)");
+            throw Error("device \"" + device +
+                        "\": EGL does not start; install libegl1 and a driver (libgl1-mesa-dri)");
         }
         eglBindAPI(EGL_OPENGL_API);
-        constexpr std::array kAttributes{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-        context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes.data());
+        constexpr std::array kAttributes{EGL_CONTEXT_MAJOR_VERSION,
+                                         4,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         5,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_NONE};
+        context_ =
+            eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes.data());
         if (context_ == EGL_NO_CONTEXT) {
-            throw Error("device \"" + device + "\": no OpenGL 4.5 core context; update its driver or choose another device");
+            throw Error(
+                "device \"" + device +
+                "\": no OpenGL 4.5 core context; update its driver or choose another device");
         }
         makeCurrent();
     }
@@ -95,7 +119,8 @@ class OffscreenContext final : public Context {
 
     void makeCurrent() override {
         if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
-            throw Error("EGL refuses to make the context current without a surface; update the driver");
+            throw Error(
+                "EGL refuses to make the context current without a surface; update the driver");
         }
     }
     void swap() override {}

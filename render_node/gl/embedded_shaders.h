@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of render_node/shaders as strings; the definition is generated at build time (cmake/EmbedShaders.cmake).
+// The files of render_node/shaders as strings; the definition is generated at build time
+// (cmake/EmbedShaders.cmake).
 #pragma once
 
 #include <span>

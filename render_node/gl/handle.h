@@ -33,19 +33,35 @@ class Handle {
 };
 
 struct BufferTraits {
-    static unsigned create() { unsigned name = 0; glCreateBuffers(1, &name); return name; }
+    static unsigned create() {
+        unsigned name = 0;
+        glCreateBuffers(1, &name);
+        return name;
+    }
     static void destroy(unsigned name) { glDeleteBuffers(1, &name); }
 };
 struct TextureTraits {
-    static unsigned create(GLenum target) { unsigned name = 0; glCreateTextures(target, 1, &name); return name; }
+    static unsigned create(GLenum target) {
+        unsigned name = 0;
+        glCreateTextures(target, 1, &name);
+        return name;
+    }
     static void destroy(unsigned name) { glDeleteTextures(1, &name); }
 };
 struct FramebufferTraits {
-    static unsigned create() { unsigned name = 0; glCreateFramebuffers(1, &name); return name; }
+    static unsigned create() {
+        unsigned name = 0;
+        glCreateFramebuffers(1, &name);
+        return name;
+    }
     static void destroy(unsigned name) { glDeleteFramebuffers(1, &name); }
 };
 struct VertexArrayTraits {
-    static unsigned create() { unsigned name = 0; glCreateVertexArrays(1, &name); return name; }
+    static unsigned create() {
+        unsigned name = 0;
+        glCreateVertexArrays(1, &name);
+        return name;
+    }
     static void destroy(unsigned name) { glDeleteVertexArrays(1, &name); }
 };
 struct ProgramTraits {

@@ -15,7 +15,8 @@ namespace {
 const EmbeddedShader& embedded(std::string_view name) {
     const auto shaders = embeddedShaders();
     const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
-    if (found == shaders.end()) throw Error("no shader file named \"" + std::string(name) + "\" in render_node/shaders");
+    if (found == shaders.end())
+        throw Error("no shader file named \"" + std::string(name) + "\" in render_node/shaders");
     return *found;
 }
 
@@ -58,7 +59,8 @@ std::string shaderSource(std::string_view name) {
         const std::string_view line = rest.substr(0, end);
         rest.remove_prefix(end);
         if (line.starts_with(kInclude)) {
-            const std::string_view file = line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
+            const std::string_view file =
+                line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
             expanded += shaderSource(file);
         } else {
             expanded += line;

@@ -10,12 +10,13 @@
 
 namespace aquarama::gl {
 
-// The text of a file of render_node/shaders, with its #include "name" lines expanded. Throws Error for an unknown name.
+// The text of a file of render_node/shaders, with its #include "name" lines expanded. Throws Error
+// for an unknown name.
 [[nodiscard]] std::string shaderSource(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> shaderNames();  // every embedded file
 
-// Compiles and links; the stage follows from the ending: .vert .frag .comp. "#version 450 core" is put in front.
-// Throws Error with the driver's log. The first name labels the program.
+// Compiles and links; the stage follows from the ending: .vert .frag .comp. "#version 450 core" is
+// put in front. Throws Error with the driver's log. The first name labels the program.
 [[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles);
 
 }  // namespace aquarama::gl

@@ -24,7 +24,8 @@ struct View {
     glm::ivec2 sizePixels{};
 };
 
-// Everything that a frame shows, the same on every node: a pure function of the shared eye, the tick and the fish.
+// Everything that a frame shows, the same on every node: a pure function of the shared eye, the
+// tick and the fish.
 struct SceneFrame {
     double timeSeconds = 0;
     glm::vec3 eyePositionMetres{};
@@ -34,8 +35,8 @@ struct SceneFrame {
 
 struct SceneOptions {
     std::uint32_t seed = 1;
-    int samples = 4;               // of multisampling, 1 for none
-    bool culling = true;           // off only to measure what it saves
+    int samples = 4;      // of multisampling, 1 for none
+    bool culling = true;  // off only to measure what it saves
     bool levelsOfDetail = true;
 };
 
@@ -47,8 +48,9 @@ class Scene {
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
-    // Draws into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already exposed and toned to display light
-    // (0 black, 1 the projector's full white), and returns its GL name; valid until the next draw.
+    // Draws into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already exposed and toned
+    // to display light (0 black, 1 the projector's full white), and returns its GL name; valid
+    // until the next draw.
     unsigned draw(const SceneFrame& frame, const View& view);
 
   private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node's side of the cluster: hello, welcome, blobs, frames, ready and present, on a net thread of its own.
+// A node's side of the cluster: hello, welcome, blobs, frames, ready and present, on a net thread
+// of its own.
 #pragma once
 
 #include <chrono>
@@ -7,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "common/motion/repertoire.h"
 #include "common/config/rig.h"
+#include "common/motion/repertoire.h"
 #include "common/wire/messages.h"
 
 namespace aquarama {
@@ -17,10 +18,10 @@ enum class NodeInput : std::uint8_t { Quit, TogglePause };
 
 // What became of a frame that was reported ready.
 enum class Release : std::uint8_t {
-    Present,   // swap now: the present instant has come
-    Skip,      // the wall went on without this frame; take the next one
-    Rejoin,    // the master has dropped us or was restarted: join() again
-    Quit,      // the show is over
+    Present,  // swap now: the present instant has come
+    Skip,     // the wall went on without this frame; take the next one
+    Rejoin,   // the master has dropped us or was restarted: join() again
+    Quit,     // the show is over
 };
 
 struct Admission {
@@ -30,26 +31,32 @@ struct Admission {
     Repertoire repertoire;
 };
 
-// Called from the render thread; every wait also ends when stop() was called from a signal handler's thread.
+// Called from the render thread; every wait also ends when stop() was called from a signal
+// handler's thread.
 class Session {
   public:
     virtual ~Session() = default;
-    // Says hello until the master answers, then fetches the blobs it lacks (by digest, checked, cached on disk).
-    // Empty: stopped, or the master ended the show. Throws Error where the master refuses the node, saying why.
+    // Says hello until the master answers, then fetches the blobs it lacks (by digest, checked,
+    // cached on disk). Empty: stopped, or the master ended the show. Throws Error where the master
+    // refuses the node, saying why.
     virtual std::optional<Admission> join() = 0;
-    // All that must be built before the first frame is built: from now on the master waits for this node.
+    // All that must be built before the first frame is built: from now on the master waits for this
+    // node.
     virtual void prepared() = 0;
-    // The next frame to draw: in lockstep every one in order, live the newest. Empty: see `interruption`.
+    // The next frame to draw: in lockstep every one in order, live the newest. Empty: see
+    // `interruption`.
     virtual std::optional<StateFrame> nextFrame() = 0;
     // Why nextFrame() was empty.
     [[nodiscard]] virtual Release interruption() const = 0;
-    // The picture of this frame is finished (its fence has signalled). Blocks until it is released or overtaken.
+    // The picture of this frame is finished (its fence has signalled). Blocks until it is released
+    // or overtaken.
     virtual Release readyThenWait(Frame frame) = 0;
     virtual void send(NodeInput input) = 0;
     virtual void stop() = 0;
 };
 
 // controlAddress as in the rig. name is the channel's.
-[[nodiscard]] std::unique_ptr<Session> connectSession(const std::string& name, const std::string& controlAddress);
+[[nodiscard]] std::unique_ptr<Session> connectSession(const std::string& name,
+                                                      const std::string& controlAddress);
 
 }  // namespace aquarama

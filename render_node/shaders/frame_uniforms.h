@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame's uniform block, included by C++ and by GLSL: one truth for both. std140, so only vec4 and mat4 members.
+// The frame's uniform block, included by C++ and by GLSL: one truth for both. std140, so only vec4
+// and mat4 members.
 #ifdef __cplusplus
 #pragma once
 #include <glm/mat4x4.hpp>
@@ -13,9 +14,10 @@ layout(std140, binding = 0) uniform FrameUniforms {
 #endif
     mat4 clipFromWorld;
     mat4 worldFromClip;
-    vec4 eyeAndTime;        // shared eye in world metres; w: time in seconds
-    vec4 sunAndFilterDepth; // unit vector towards the refracted sun; w: depth of the diver's filter, metres
-    vec4 viewport;          // width, height in pixels, 1/width, 1/height
+    vec4 eyeAndTime;         // shared eye in world metres; w: time in seconds
+    vec4 sunAndFilterDepth;  // unit vector towards the refracted sun; w: depth of the diver's
+                             // filter, metres
+    vec4 viewport;           // width, height in pixels, 1/width, 1/height
 #ifdef __cplusplus
 };
 }  // namespace aquarama

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fish of a school on the GPU: culling, level of detail, control points, limit surface (eq. 13, paper section 6).
+// The fish of a school on the GPU: culling, level of detail, control points, limit surface (eq. 13,
+// paper section 6).
 #pragma once
 
 #include <memory>
@@ -21,22 +22,29 @@ struct SurfaceOptions {
 
 struct SurfaceCounts {  // of the last update
     int visible = 0;
-    int perLevel[3] = {0, 0, 0};  // 0 the control mesh, 1 and 2 the limit surface at that level of refinement
+    int perLevel[3] = {
+        0, 0, 0};  // 0 the control mesh, 1 and 2 the limit surface at that level of refinement
 };
 
 class SchoolSurface {
   public:
-    SchoolSurface(const FishBody& body, const Repertoire& repertoire, const SurfaceOptions& options);
+    SchoolSurface(const FishBody& body,
+                  const Repertoire& repertoire,
+                  const SurfaceOptions& options);
     ~SchoolSurface();
     SchoolSurface(const SchoolSurface&) = delete;
     SchoolSurface& operator=(const SchoolSurface&) = delete;
 
-    // Culls by a single point against the enlarged frustum, chooses each fish's level by the angle it fills at the shared
-    // eye (so that all nodes agree), uploads, and evaluates control points and limit surface in compute shaders.
-    void update(std::span<const PresentedFish> fish, const glm::mat4& clipFromWorld, glm::vec3 sharedEyeMetres);
+    // Culls by a single point against the enlarged frustum, chooses each fish's level by the angle
+    // it fills at the shared eye (so that all nodes agree), uploads, and evaluates control points
+    // and limit surface in compute shaders.
+    void update(std::span<const PresentedFish> fish,
+                const glm::mat4& clipFromWorld,
+                glm::vec3 sharedEyeMetres);
 
-    // Draws the visible fish with their painted skin (fish.vert, fish.frag), lit and seen through the water by light.glsl.
-    // Expects the frame's uniform block to be bound (shaders/frame_uniforms.h).
+    // Draws the visible fish with their painted skin (fish.vert, fish.frag), lit and seen through
+    // the water by light.glsl. Expects the frame's uniform block to be bound
+    // (shaders/frame_uniforms.h).
     void draw() const;
 
     [[nodiscard]] SurfaceCounts counts() const;
