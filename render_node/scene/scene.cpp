@@ -20,7 +20,7 @@ namespace {
 
 // Undoes about the water above the eye, so that near things keep their colours and distance stays
 // blue.
-constexpr float kFilterDepthMetres = 7.2F;
+constexpr float kFilterDepthMetres = 5.0F;
 constexpr int kFlakes = 9000;
 
 FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {

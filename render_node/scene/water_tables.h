@@ -15,7 +15,7 @@ namespace aquarama {
 inline constexpr int kBands = 31;  // 400 to 700 nm by 10
 using Spectrum = std::array<double, kBands>;
 
-// Jerlov's type IB, 1/m.
+// Clear ocean water, Jerlov's type IA, 1/m.
 struct WaterSpectra {
     Spectrum absorption{};     // a
     Spectrum scattering{};     // b

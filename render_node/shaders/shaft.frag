@@ -4,7 +4,7 @@
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 upTo;
 
-const float kGain = 3.2;
+const float kGain = 1.8;
 const int kSteps = 36;
 
 vec3 directionOf(vec2 p) {
@@ -29,7 +29,7 @@ void main() {
         float depth = -place.y;
         if (depth < 0.0) break;
         vec2 tile = (place.xz + sunAndFilterDepth.xz / sunAndFilterDepth.y * depth) / kTileMetres;
-        float light = textureLod(causticTile, tile, 2.2).r - 1.0;
+        float light = textureLod(causticTile, tile, 1.6).r - 1.0;
         light = 1.0 + kGain * light * (1.0 - exp(-0.5 * depth)) * exp(-0.022 * depth);
         float weight = stride * exp(-0.075 * range);
         vec4 within = step(vec4(range), vec4(3.0, 8.0, 18.0, 45.0)) * weight;
