@@ -35,6 +35,7 @@ struct Viewpoint {
     glm::vec3 eyeMetres{};
     bool culling = true;
     bool levelsOfDetail = true;
+    float detail = 1.0F;  // of the picture: 1 for a projector, less for a small window
 
     [[nodiscard]] bool sees(glm::vec3 centre, float radius) const {
         return !culling || frustum.sees(centre, radius);
@@ -43,7 +44,7 @@ struct Viewpoint {
     [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, 2> limits) const {
         if (!levelsOfDetail) return 0;
         const float range = glm::distance(place, eyeMetres);
-        return range < limits[0] ? 0 : range < limits[1] ? 1 : 2;
+        return range < limits[0] * detail ? 0 : range < limits[1] * detail ? 1 : 2;
     }
 };
 

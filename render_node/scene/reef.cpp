@@ -26,8 +26,8 @@ void addCorals(Mesh& mesh, const Rock& rock, int level) {
         const float size =
             (0.16F + 0.34F * share * share) * (0.6F + 0.35F * std::sqrt(rock.radiusMetres));
         const std::uint32_t seed = dice.seed();
-        if (level == 2 && share < 0.45F) continue;  // the small ones are lost in the water
-        addCoral(mesh, spot, size, seed, level == 0 ? 0 : 1);
+        if (level == 2 && share < 0.3F) continue;  // the small ones are lost in the water
+        addCoral(mesh, spot, size, seed, level);
     }
 }
 

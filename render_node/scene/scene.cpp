@@ -23,6 +23,12 @@ namespace {
 constexpr float kFilterDepthMetres = 5.0F;
 constexpr int kFlakes = 9000;
 
+// All channels of a wall are about as large, so neighbours agree.
+float detailOf(glm::ivec2 sizePixels) {
+    constexpr int kSmallWindow = 640;
+    return sizePixels.y < kSmallWindow ? 0.6F : 1.0F;
+}
+
 FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
     FrameUniforms uniforms;
     uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
@@ -111,7 +117,8 @@ unsigned Scene::draw(const SceneFrame& frame, const View& view) {
     const Viewpoint viewpoint{Frustum{uniforms.clipFromWorld},
                               frame.eyePositionMetres,
                               parts.options.culling,
-                              parts.options.levelsOfDetail};
+                              parts.options.levelsOfDetail,
+                              detailOf(view.sizePixels)};
     parts.drawSolids(viewpoint);
     parts.drawWater();
     parts.drawSnow();

@@ -26,8 +26,8 @@ vec3 litUnder(Openness open, vec3 albedo, vec3 place, vec3 normal, float translu
     float sun = share * open.sun * caustic(place, log2(1.0 + footprint));
     float sky = (1.0 - share) * open.sky;
     float up = 0.5 + 0.5 * normal.y;
-    float front = sun * max(towardsSun, 0.0) + sky * mix(0.10, 1.0, up * sqrt(up));
-    float bounce = 0.22 * (1.0 - up) * (sky + 0.6 * open.sky);
+    float front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
+    float bounce = 0.34 * (1.0 - up) * (sky + 0.6 * open.sky);
     float back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
     return albedo * ((front + bounce + back) / kPi);
 }
