@@ -80,8 +80,8 @@ void branch(
              from.radius * 0.78F,
              glm::mix(growth.body, growth.tip, age * age),
              glm::mix(0.55F, 1.0F, age)};
-    if (left == 1) to.radius *= 0.45F;
-    if (growth.sides > 0)
+    if (left == 1) to.radius *= 0.5F;
+    if (growth.sides > 0 && left > 1)
         addTube(mesh, std::array{from, to}, growth.sides, 0.15F);
     else
         addTwig(mesh, from, to, frameAbout(direction, 6.0F * from.centre.x)[0], 0.15F);
@@ -106,7 +106,7 @@ void addBranching(
                   colour * 0.7F,
                   glm::min(colour * 1.5F + 0.10F, glm::vec3{0.9F}),
                   4 - level,
-                  level == 0 ? 4 : 0};
+                  level == 0 ? 3 : 0};
     for (int stem = 0; stem < stems; ++stem) {
         const glm::mat3 frame =
             frameAbout(spot.normal, kTwoPi * static_cast<float>(stem) / static_cast<float>(stems));
@@ -124,8 +124,8 @@ void addBranching(
 
 // A plate on a foot, its rim waved and pale where it grows.
 void addTable(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice dice, int level) {
-    const int around = level == 0 ? 30 : level == 1 ? 16 : 10;
-    const int rings = level == 0 ? 5 : 3;
+    const int around = level == 0 ? 30 : level == 1 ? 16 : 11 - level;
+    const int rings = level == 0 ? 5 : level < 3 ? 3 : 2;
     const std::uint32_t seed = dice.seed();
     const glm::vec3 up =
         glm::normalize(glm::vec3{0, 1, 0} + 0.3F * spot.normal * glm::vec3{1, 0, 1});
@@ -163,8 +163,8 @@ void addTable(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice d
 
 // A low dome; its meanders are the shader's business.
 void addDome(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice dice, int level) {
-    const int around = level == 0 ? 20 : level == 1 ? 12 : 8;
-    const int rings = level == 0 ? 8 : level == 1 ? 5 : 3;
+    const int around = level == 0 ? 20 : level == 1 ? 12 : 10 - level;
+    const int rings = level == 0 ? 8 : level == 1 ? 5 : 5 - level;
     const std::uint32_t seed = dice.seed();
     const glm::mat3 frame = frameAbout(spot.normal, 0.0F);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -219,7 +219,7 @@ void fanBranch(Mesh& mesh,
 void addFan(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice dice, int level) {
     const glm::vec3 up = glm::normalize(spot.normal + glm::vec3{0, 1.2F, 0});
     const glm::mat3 plane = frameAbout(up, dice.between(-0.6F, 0.6F));
-    Growth growth{Dice{dice.seed()}, colour * 0.75F, colour * 1.15F, 6 - level, 0};
+    Growth growth{Dice{dice.seed()}, colour * 0.75F, colour * 1.15F, level < 3 ? 6 - level : 2, 0};
     for (const float angle : {-0.5F, 0.0F, 0.5F})
         fanBranch(mesh,
                   growth,

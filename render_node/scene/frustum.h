@@ -41,10 +41,13 @@ struct Viewpoint {
         return !culling || frustum.sees(centre, radius);
     }
     // 0 the finest; further than limits[i] is level i + 1.
-    [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, 2> limits) const {
+    template <std::size_t Limits>
+    [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, Limits> limits) const {
         if (!levelsOfDetail) return 0;
         const float range = glm::distance(place, eyeMetres);
-        return range < limits[0] * detail ? 0 : range < limits[1] * detail ? 1 : 2;
+        std::size_t level = 0;
+        while (level < Limits && range >= limits[level] * detail) ++level;
+        return level;
     }
 };
 

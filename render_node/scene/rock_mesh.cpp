@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/rock_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -65,10 +66,13 @@ float opennessAt(const Rock& rock, glm::vec3 direction) {
 }  // namespace
 
 void addBoulder(Mesh& mesh, const Rock& rock, int level) {
-    constexpr std::array kColumns{64, 40, 26};
-    constexpr std::array kRows{36, 23, 15};
-    const int columns = kColumns.at(static_cast<std::size_t>(level));
-    const int rows = kRows.at(static_cast<std::size_t>(level));
+    constexpr std::array kColumns{64, 40, 26, 18};
+    constexpr std::array kRows{36, 23, 15, 10};
+    // A pebble needs no more facets than a boulder twice as far.
+    const int step = level + (rock.radiusMetres < 0.6F ? 1 : 0);
+    const auto grid = static_cast<std::size_t>(std::min(step, 3));
+    const int columns = kColumns.at(grid);
+    const int rows = kRows.at(grid);
     constexpr float kLowest = 0.72F;  // of a half turn from the zenith: the rest is in the sand
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
