@@ -46,16 +46,24 @@ void MasterLink::stop() {
 }
 
 void MasterLink::run() {
-    while (!stopped_) {
-        while (const auto wish = wishes_.tryTake()) {
-            std::visit([&](const auto& what) { obey(what); }, *wish);
+    try {
+        while (!stopped_) {
+            turn();
+            channels_->wait(kPing / 2);
         }
-        while (const auto bytes = channels_->receiveControl()) readControl(*bytes);
-        while (const auto bytes = channels_->receiveState()) readState(*bytes);
-        keepTime(monotonicNow());
-        channels_->wait(kPing / 2);
+    } catch (const Error& error) {  // no new connection could be made
+        meeting_.refuse(error.what());
     }
     if (session_ != 0) say(Farewell{});
+}
+
+void MasterLink::turn() {
+    while (const auto wish = wishes_.tryTake()) {
+        std::visit([&](const auto& what) { obey(what); }, *wish);
+    }
+    while (const auto bytes = channels_->receiveControl()) readControl(*bytes);
+    while (const auto bytes = channels_->receiveState()) readState(*bytes);
+    keepTime(monotonicNow());
 }
 
 void MasterLink::say(const Message& message) {
@@ -66,7 +74,7 @@ void MasterLink::say(const Message& message) {
 
 // Every attempt has connections of its own: one that is dead without knowing it is left behind.
 void MasterLink::obey(const Join&) {
-    if (phase_ != Phase::Outside || session_ != 0) {
+    if (std::exchange(connectionUsed_, true)) {
         auto fresh = connect_();
         const std::lock_guard lock(channelsMutex_);
         std::swap(channels_, fresh);
@@ -84,6 +92,7 @@ void MasterLink::obey(const Prepared&) {
 }
 
 void MasterLink::obey(const Finished& finished) {
+    if (phase_ != Phase::Member) return;
     finished_ = finished;
     sayReady();
 }
@@ -221,6 +230,7 @@ void MasterLink::lose(const std::string& why) {
     spdlog::warn("{}: {}; joining again", name_, why);
     const bool isJoining = phase_ == Phase::Fetching;
     phase_ = Phase::Outside;
+    session_ = 0;  // what is still on its way means nothing any more
     if (isJoining) {
         obey(Join{});
     } else {

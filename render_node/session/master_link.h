@@ -38,6 +38,7 @@ class MasterLink {
   private:
     enum class Phase : std::uint8_t { Outside, Greeting, Fetching, Building, Listening, Member };
 
+    void turn();
     void say(const Message& message);
     void obey(const Join& join);
     void obey(const Prepared& prepared);
@@ -75,6 +76,7 @@ class MasterLink {
     BoundedQueue<Wish> wishes_{64};
     std::atomic<bool> stopped_ = false;
 
+    bool connectionUsed_ = false;
     Phase phase_ = Phase::Outside;
     std::uint64_t session_ = 0;
     Admitted admitted_;

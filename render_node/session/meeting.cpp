@@ -43,7 +43,6 @@ void Meeting::release(const ReleaseOrder& order) {
 void Meeting::interrupt(Release why) {
     const std::lock_guard lock(mutex_);
     if (interruption_ != Release::Quit) interruption_ = why;
-    if (why == Release::Quit) join_ = Ended{};
     changed_.notify_all();
 }
 
@@ -59,7 +58,9 @@ void Meeting::expectJoin() {
 
 JoinOutcome Meeting::awaitJoin() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return join_.has_value(); });
+    const auto isOver = [&] { return interruption_ == Release::Quit; };
+    changed_.wait(lock, [&] { return join_ || isOver(); });
+    if (isOver()) return Ended{};
     return *std::exchange(join_, {});
 }
 
