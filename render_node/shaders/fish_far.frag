@@ -10,12 +10,16 @@ layout(location = 6) flat in vec3 dorsal;
 layout(location = 0) out vec4 colour;
 
 void main() {
-    float stripe;
-    vec3 albedo = ground(rest.x, rest.w, id, 0.0, fwidth(rest.w), stripe) * tintOf(id);
-    vec3 n = normalize(normal);
-    vec3 plate = normalize(n - 0.8 * dot(n, dorsal) * dorsal);
+    float s = rest.x, v = rest.w;
+    float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
+    float golden = goldenLine(s, v, fwidth(v));
+    float eye = line(distance(rest.xy, kEye), 0.7 * kEyeRadius, pixel) ;
+    vec3 albedo = groundColour(v, 0.0, golden, id) * tintOf(id) * (1.0 - 0.8 * eye);
+    float silver = silverOf(s, v, golden) * (1.0 - eye);
+
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
-    vec3 mirror = mirrored(reflect(fromEye, plate), place) * (0.55 + 0.75 * albedo);
-    vec3 radiance = mix(lit(albedo, place, n, 0.0), mirror, silverOf(rest.x, rest.w, stripe));
+    vec3 n = normalize(normal);
+    vec3 mirror = silverRadiance(plateletNormal(n, dorsal, -fromEye), fromEye, albedo, place);
+    vec3 radiance = mix(lit(albedo, place, n, 0.0), mirror, silver);
     colour = vec4(seen(radiance, place), 1.0);
 }
