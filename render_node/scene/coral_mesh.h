@@ -9,7 +9,7 @@
 
 namespace aquarama {
 
-// One of the kinds, by the seed and how level the spot is. level 0 is the finest of two.
+// One of the kinds, by the seed and how level the spot is. level 0 is the finest of four.
 void addCoral(Mesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t seed, int level);
 
 }  // namespace aquarama

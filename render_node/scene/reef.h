@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boulders with all that grows on them, at three levels of detail.
+// The boulders with all that grows on them, at four levels of detail.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace aquarama {
 
-inline constexpr int kReefLevels = 3;
+inline constexpr int kReefLevels = 4;
 // One boulder and its corals, shaded by all others.
 [[nodiscard]] Mesh growBoulder(const Rock& rock, std::span<const Rock> all, int level);
 
 class Reef {
   public:
     explicit Reef(std::uint32_t seed);
-    void draw(const Viewpoint& viewpoint) const;
+    void draw(const Viewpoint& viewpoint);
 
   private:
     struct Range {
@@ -37,6 +37,7 @@ class Reef {
         std::array<Range, kReefLevels> levels{};
     };
     std::vector<Boulder> boulders_;
+    std::vector<const Boulder*> inView_;  // of the draw under way
     gl::Buffer vertices_, indices_;
     gl::VertexArray array_;
     gl::ProgramHandle program_;

@@ -3,7 +3,7 @@ layout(binding = 14) uniform sampler2D detail;  // slopes, albedo, crest
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec4 normal;
 layout(location = 2) in vec4 albedo;
-layout(location = 3) in vec2 sunAndTranslucency;
+layout(location = 3) in vec3 sunTranslucencyGlow;
 layout(location = 0) out vec4 radiance;
 const float kTile = 1.1;
 void main() {
@@ -19,6 +19,9 @@ void main() {
     n = normalize(n - 1.8 * rough * (slope - n * dot(slope, n)));
     float crest = mix(1.0, 0.35 + 0.9 * relief.w, rough);
     vec3 colour = albedo.rgb * mix(1.0, 2.0 * relief.z, rough);
-    Openness open = Openness(sunAndTranslucency.x * mix(0.5, 1.0, albedo.w), albedo.w * crest);
-    radiance = vec4(seen(litUnder(open, colour, place, n, sunAndTranslucency.y), place), 1.0);
+    Openness open = Openness(sunTranslucencyGlow.x * mix(0.5, 1.0, albedo.w), albedo.w * crest);
+    vec3 light = litUnder(open, colour, place, n, sunTranslucencyGlow.y);
+    // Many corals turn the blue that is left into their own colour.
+    light += colour * (0.10 * sunTranslucencyGlow.z * albedo.w);
+    radiance = vec4(seen(light, place), 1.0);
 }
