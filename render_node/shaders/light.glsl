@@ -14,6 +14,18 @@ struct Openness {
     float sky;
 };
 
+// The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
+// the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
+const float kLampPower = 4.5;
+const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045);
+vec3 lampLight(vec3 place, vec3 normal) {
+    vec3 way = eyeAndTime.xyz - place;
+    float range2 = dot(way, way), range = sqrt(range2);
+    float facing = 0.15 + 0.85 * max(dot(normal, way) / range, 0.0);
+    return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) *
+           (kLampPower * facing / (range2 + 2.0));
+}
+
 // Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the
 // waves, soft light from above, light from the sand; and, through thin things, light from behind.
 vec3 litUnder(Openness open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
@@ -26,10 +38,10 @@ vec3 litUnder(Openness open, vec3 albedo, vec3 place, vec3 normal, float translu
     float sun = share * open.sun * caustic(place, log2(1.0 + footprint));
     float sky = (1.0 - share) * open.sky;
     float up = 0.5 + 0.5 * normal.y;
-    float front = sun * max(towardsSun, 0.0) + sky * mix(0.10, 1.0, up * sqrt(up));
-    float bounce = 0.22 * (1.0 - up) * (sky + 0.6 * open.sky);
+    float front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
+    float bounce = 0.34 * (1.0 - up) * (sky + 0.6 * open.sky);
     float back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
-    return albedo * ((front + bounce + back) / kPi);
+    return albedo * (vec3(front + bounce + back) + lampLight(place, normal)) / kPi;
 }
 
 vec3 lit(vec3 albedo, vec3 worldPosition, vec3 normal, float translucency) {
