@@ -281,7 +281,7 @@ void addCoral(ReefMesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t 
     const glm::vec3 soft = chosen(kSoft, dice);
     if (kind < 0.36F) return addBranching(mesh.growth, sunk, sizeMetres, hard, dice, level);
     if (kind < 0.52F && spot.normal.y > 0.45F)
-        return addTable(mesh.stone, sunk, sizeMetres * 1.1F, hard, dice, level);
+        return addTable(mesh.growth, sunk, sizeMetres * 1.1F, hard, dice, level);
     if (kind < 0.70F) return addDome(mesh.stone, sunk, sizeMetres * 0.45F, hard, dice, level);
     if (kind < 0.86F) return addFan(mesh.growth, sunk, sizeMetres * 1.2F, soft, dice, level);
     addSponge(mesh.growth, sunk, sizeMetres * 0.8F, soft, dice, level);

@@ -9,7 +9,8 @@
 
 namespace aquarama {
 
-// Broad surfaces, which want fine relief, apart from twigs and tubes, which are too small for it.
+// Closed, broad surfaces, which want fine relief, apart from plates, twigs and tubes, which are too
+// small for it.
 struct ReefMesh {
     Mesh stone;
     Mesh growth;

@@ -91,7 +91,9 @@ void Reef::draw(const Viewpoint& viewpoint) {
     glUseProgram(growthProgram_.name());
     drawPart(viewpoint, &Boulder::growth);
     glUseProgram(stoneProgram_.name());
+    glEnable(GL_CULL_FACE);
     drawPart(viewpoint, &Boulder::stone);
+    glDisable(GL_CULL_FACE);
 }
 
 void Reef::drawPart(const Viewpoint& viewpoint,
