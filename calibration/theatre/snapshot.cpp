@@ -29,10 +29,14 @@ Light readChannel(const Channel& channel, const std::string& folder) {
 
 }  // namespace
 
-void composeSnapshot(const Rig& rig, const std::string& folder, int bits) {
+std::vector<Light> readChannels(const Rig& rig, const std::string& folder) {
     std::vector<Light> channels;
     for (const Channel& channel : rig.channels) channels.push_back(readChannel(channel, folder));
-    const Light panorama = composePanorama(rig, channels);
+    return channels;
+}
+
+void composeSnapshot(const Rig& rig, const std::string& folder, int bits) {
+    const Light panorama = composePanorama(rig, readChannels(rig, folder));
     writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
     writePng(folder + "/hall.png", pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
 }

@@ -3,10 +3,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/config/rig.h"
+#include "common/wall/picture.h"
 
 namespace aquarama {
+
+// folder/channel-NAME.png of every channel, as light. Throws Error when a picture is missing or has not
+// its channel's size.
+[[nodiscard]] std::vector<Light> readChannels(const Rig& rig, const std::string& folder);
 
 // Reads folder/channel-NAME.png of every channel, writes folder/panorama.png and folder/hall.png.
 // Throws Error when a picture is missing or has not its channel's size.
