@@ -5,7 +5,7 @@
 
 namespace aquarama {
 
-Picture projectedPicture(const Rig& rig, std::size_t channel, Pattern pattern, int bits) {
+Light projectedLight(const Rig& rig, std::size_t channel, Pattern pattern) {
     const WarpMap warp = warpMap(rig, channel);
     Light light = darkness(warp.sizePixels);
     for (std::size_t i = 0; i < light.rgb.size(); ++i) {
@@ -14,7 +14,7 @@ Picture projectedPicture(const Rig& rig, std::size_t channel, Pattern pattern, i
         light.rgb[i] =
             glm::vec3(static_cast<float>(lit.w * patternLight(pattern, glm::dvec3(lit))));
     }
-    return pictureOf(light, bits, rig.channels[channel].id);
+    return light;
 }
 
 Light directPanorama(const Rig& rig, Pattern pattern) {

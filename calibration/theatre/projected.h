@@ -9,11 +9,9 @@
 
 namespace aquarama {
 
-// A channel's picture of the pattern: warped, blended, encoded in 8 (dithered) or 16 bits.
-[[nodiscard]] Picture projectedPicture(const Rig& rig,
-                                       std::size_t channel,
-                                       Pattern pattern,
-                                       int bits);
+// A channel's share of the pattern: warped and blended. pictureOf (common/wall/picture.h) encodes
+// it as the channel's picture.
+[[nodiscard]] Light projectedLight(const Rig& rig, std::size_t channel, Pattern pattern);
 
 // The pattern on the unrolled screen, straight from its formula: no projector in between.
 [[nodiscard]] Light directPanorama(const Rig& rig, Pattern pattern);

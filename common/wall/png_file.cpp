@@ -17,7 +17,9 @@ namespace aquarama {
 namespace {
 
 constexpr png_uint_32 kLargest = 16384;
-constexpr int kCompression = 3;  // a snapshot is worth a second of packing, not five
+constexpr png_uint_32 kMostPixels = 1U
+                                    << 26;  // a small file must not claim the memory of a machine
+constexpr int kCompression = 3;             // a snapshot is worth a second of packing, not five
 
 struct Closer {
     void operator()(std::FILE* file) const { (void)std::fclose(file); }
@@ -57,6 +59,9 @@ bool readHeader(Job& job, std::FILE* file, Picture& picture) {
     png_init_io(job.png, file);
     png_set_user_limits(job.png, kLargest, kLargest);
     png_read_info(job.png, job.info);
+    if (png_get_image_width(job.png, job.info) * png_get_image_height(job.png, job.info) >
+        kMostPixels)
+        png_error(job.png, "too many pixels");
     png_set_expand(job.png);
     png_set_gray_to_rgb(job.png);
     png_set_strip_alpha(job.png);

@@ -8,7 +8,8 @@
 
 namespace aquarama {
 
-// Throws Error when the file is no readable picture of 16384 pixels or fewer each way. Grey and
+// Throws Error when the file is no readable picture of 16384 pixels or fewer each way, 64
+// million in all. Grey and
 // palettes come as red green blue, transparency is dropped.
 [[nodiscard]] Picture readPng(const std::string& path);
 void writePng(const std::string& path, const Picture& picture);
