@@ -28,7 +28,7 @@ constexpr std::array kRound{
     Station{{0.0F, -6.1F, -2.7F}, 0.2F, 9 * 60},
     Station{{3.9F, -5.7F, -3.6F}, 0.2F, 7 * 60},
     Station{{4.1F, -6.3F, -6.0F}, 0.4F, 9 * 60},
-    Station{{0.6F, -5.4F, -4.6F}, 0.3F, 12 * 60, true},
+    Station{{0.6F, -5.4F, -4.6F}, 0.3F, 16 * 60, true},
     Station{{-0.2F, -5.5F, -5.2F}, 0.3F, 7 * 60},
 };
 constexpr float kHeightShiftMetres = 0.35F;

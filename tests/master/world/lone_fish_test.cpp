@@ -43,7 +43,7 @@ class LoneFish {
         view_.headingZ[0] = heading.z;
         view_.speed[0] = 2 * view_.length[0];
         grid_.rebuild(view_);
-        Steering{&view_, &grid_, &surroundings_, goal_, 1, tick_, &intentions_}.run(0, 1);
+        Steering{&view_, &grid_, &surroundings_, goal_, 0.3F, 1, tick_, &intentions_}.run(0, 1);
         SecondaryController{
             &gaits_, &view_, &intentions_, &states_, 1, tick_, &commands_, &memory_}
             .run(0, 1);
