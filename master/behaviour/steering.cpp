@@ -15,6 +15,7 @@ namespace {
 // the zones fade into one another, so that the school settles at its spacing instead of dithering
 // at a border.
 constexpr float kSpacing = 0.9F;
+constexpr float kAbreastToFile = 0.65F;
 constexpr float kAlignFully = 2.0F;
 constexpr float kAttractFully = 5.0F;
 
@@ -23,7 +24,7 @@ constexpr float kSeparate = 2.2F;
 constexpr float kAlign = 0.9F;
 constexpr float kCohere = 1.2F;
 constexpr float kFollow = 0.7F;
-constexpr float kWander = 0.12F;
+constexpr float kWander = 0.3F;
 
 constexpr float kSteepest = 0.42F;  // sine of the steepest pitch, 25 degrees
 constexpr float kSlowest = 0.85F;   // body lengths a second
@@ -39,18 +40,21 @@ struct Company {
 Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::size_t fish) {
     Company company;
     const glm::vec3 position = view.position(fish);
+    const glm::vec3 heading = view.heading(fish);
     const float perLength = 1 / view.length[fish];
     for (std::size_t i = 0; i < neighbours.count; ++i) {
         const std::size_t other = neighbours.fish[i];
         const glm::vec3 offset = (view.position(other) - position) * perLength;
         const float distance = lengthOf(offset);
         const glm::vec3 towards = directionOf(offset, {0, 1, 0});
-        const float tooNear = std::max(0.0F, 1 - distance / kSpacing);
+        // Fish are long: in file they need more room than abreast, and part sideways.
+        const glm::vec3 slender = offset - heading * (dot(offset, heading) * (1 - kAbreastToFile));
+        const float tooNear = std::max(0.0F, 1 - lengthOf(slender) / kSpacing);
         const float tooFar =
             std::clamp((distance - kSpacing) / (kAttractFully - kSpacing), 0.0F, 1.0F);
         const float inStep = std::clamp(
             (kAttractFully - distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
-        company.separation -= towards * (tooNear * (1 + tooNear));
+        company.separation -= directionOf(slender, {0, 1, 0}) * (tooNear * (1 + tooNear));
         company.cohesion += towards * tooFar;
         company.alignment += view.heading(other) * inStep;
         company.speed += view.speed[other] * perLength;
@@ -69,7 +73,13 @@ glm::vec3 commonWay(const Goal& goal, glm::vec3 position, float schoolRadiusMetr
     const float outside = lengthOf(towards) - schoolRadiusMetres;
     const float pull = std::clamp(outside / schoolRadiusMetres, 0.0F, 1.5F);
     const glm::vec3 ahead = goal.velocityMetresPerSecond * 2.0F;
-    return directionOf(towards, {}) * pull + ahead;
+    const glm::vec3 follow = directionOf(towards, {}) * pull + ahead;
+    if (goal.mill == 0) return follow;
+    const float turn = goal.mill > 0 ? 1.0F : -1.0F;
+    const glm::vec3 around =
+        directionOf({-towards.z * turn, 0.3F * towards.y, towards.x * turn}, {1, 0, 0});
+    const glm::vec3 circle = around + directionOf(towards, {}) * std::max(pull - 0.2F, -0.2F);
+    return follow + (circle - follow) * std::abs(goal.mill);
 }
 
 // A slow whim of each fish, so that no two hold quite the same course.

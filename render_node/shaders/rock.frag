@@ -21,7 +21,6 @@ void main() {
     vec3 colour = albedo.rgb * mix(1.0, 2.0 * relief.z, rough);
     Openness open = Openness(sunTranslucencyGlow.x * mix(0.5, 1.0, albedo.w), albedo.w * crest);
     vec3 light = litUnder(open, colour, place, n, sunTranslucencyGlow.y);
-    // Many corals turn the blue that is left into their own colour.
-    light += colour * (0.10 * sunTranslucencyGlow.z * albedo.w);
+    light += fluorescent(colour, sunTranslucencyGlow.z * albedo.w);
     radiance = vec4(seen(light, place), 1.0);
 }
