@@ -28,6 +28,11 @@ float depthAxis(float depth) {
     return sqrt(clamp((depth - sunAndFilterDepth.w + 10.0) * (1.0 / 70.0), 0.0, 1.0));
 }
 
+float pixelsARadian() {
+    vec3 row = vec3(clipFromWorld[0].y, clipFromWorld[1].y, clipFromWorld[2].y);
+    return 0.5 * viewport.y * length(row);
+}
+
 // Henyey and Greenstein 1941.
 float lobe(float cosine, float g) {
     float x = 1.0 + g * g - 2.0 * g * cosine;
@@ -48,7 +53,7 @@ vec3 direct(vec3 radiance, float range, float depth) {
 }
 
 // Octahedral map of the directions, the zenith in its middle; one texel of border continues it.
-const float kShaftTexels = 192.0;
+const float kShaftTexels = 128.0;
 vec2 shaftPlace(vec3 direction) {
     vec2 p = direction.xz / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     if (direction.y < 0.0)
