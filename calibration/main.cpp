@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "calibration/theatre/film.h"
 #include "calibration/theatre/snapshot.h"
 #include "calibration/theatre/survey.h"
 #include "common/config/angle.h"
@@ -83,6 +84,12 @@ int run(int argc, char** argv) {
     composeCommand->add_option("DIR", folder, "Folder of the pictures")->required();
     composeCommand->add_flag("--deep", deep, "Write 16 bits instead of 8");
     composeCommand->callback([&] { composeSnapshot(checkedRig(path), folder, deep ? 16 : 8); });
+
+    CLI::App* filmCommand =
+        app.add_subcommand("film", "Make DIR/clip.webp of the frames in DIR/film");
+    filmCommand->add_option("RIG", path, "Rig file that was filmed")->required();
+    filmCommand->add_option("DIR", folder, "Folder of the pictures")->required();
+    filmCommand->callback([&] { composeFilm(checkedRig(path), folder); });
 
     CLI::App* inspectCommand = app.add_subcommand("inspect", "Say what a rig file holds");
     inspectCommand->add_option("FILE", path, "Rig file")->required();
