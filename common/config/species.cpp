@@ -106,7 +106,7 @@ Fins readFins(const TextPlace& at, float tailRoot) {
     return fins;
 }
 
-Eye readEye(const TextPlace& at) {
+FishEye readEye(const TextPlace& at) {
     return {.s = real(at, "s", {0, 0.5}),
             .y = real(at, "y", {-0.4, 0.4}),
             .radius = real(at, "radius", {0.001, 0.2})};

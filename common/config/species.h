@@ -32,7 +32,7 @@ struct Fins {
     Fin firstDorsal, secondDorsal, anal, caudal, pelvic, pectoral;
 };
 
-struct Eye {
+struct FishEye {
     float s = 0.0F;
     float y = 0.0F;
     float radius = 0.0F;
@@ -102,7 +102,7 @@ struct Species {
     SizeRange size;
     BodyProfile profile;
     Fins fins;
-    Eye eye;
+    FishEye eye;
     Skeleton skeleton;
     Tissue tissue;
     Water water;

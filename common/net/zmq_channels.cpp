@@ -33,7 +33,6 @@ zmq::socket_t openSocket(zmq::context_t& context,
                          int queue,
                          std::size_t maxBytes) {
     zmq::socket_t socket(context, type);
-    socket.set(zmq::sockopt::linger, kLingerMs);
     socket.set(zmq::sockopt::sndhwm, queue);
     socket.set(zmq::sockopt::rcvhwm, queue);
     socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(maxBytes));
@@ -128,6 +127,8 @@ class ZmqMasterChannels final : public MasterChannels {
           // Manual: a subscription counts only when we say so, so strangers cannot fill our memory
           // with topics.
           state_(openSocket(context_, zmq::socket_type::xpub, kStateQueue, kSubscriptionBytes)) {
+        control_.set(zmq::sockopt::linger, kMasterLingerMs);
+        state_.set(zmq::sockopt::linger, 0);
         state_.set(zmq::sockopt::xpub_manual, 1);
         bindSocket(control_, controlAddress);
         bindSocket(state_, stateAddress);
@@ -196,6 +197,10 @@ class ZmqNodeChannels final : public NodeChannels {
     ZmqNodeChannels(const std::string& controlAddress, const PacketLimits& limits)
         : maxBytes_(limits.toNode),
           control_(openSocket(context_, zmq::socket_type::dealer, kControlQueue, maxBytes_)) {
+        control_.set(zmq::sockopt::linger, kNodeLingerMs);
+        // What is said while nobody listens is dropped: a master that starts late is not greeted
+        // by a heap of old hellos.
+        control_.set(zmq::sockopt::immediate, true);
         connectSocket(control_, controlAddress);
     }
 

@@ -17,6 +17,8 @@ namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
+constexpr float kFluorescence = 0.6F;
+
 struct Joint {
     glm::vec3 centre{};
     float radius = 0.0F;
@@ -39,11 +41,28 @@ void addTube(Mesh& mesh, std::span<const Joint> joints, int sides, float translu
             addVertex(mesh,
                       here.centre + outward * here.radius,
                       outward,
-                      {here.albedo, 0.25F, translucency},
+                      {here.albedo, 0.25F, translucency, kFluorescence},
                       here.openness);
         }
     }
     joinRows(mesh, first, static_cast<int>(joints.size()), sides + 1);
+}
+
+// A twig seen from afar: two triangles that stand across the line of growth.
+void addTwig(Mesh& mesh, const Joint& from, const Joint& to, glm::vec3 side, float translucency) {
+    const glm::vec3 normal = glm::normalize(glm::cross(side, to.centre - from.centre));
+    std::array<std::uint32_t, 4> corners{};
+    for (int i = 0; i < 4; ++i) {
+        const Joint& joint = i < 2 ? from : to;
+        const float edge = i == 0 || i == 3 ? -1.0F : 1.0F;
+        corners.at(static_cast<std::size_t>(i)) =
+            addVertex(mesh,
+                      joint.centre + side * (edge * joint.radius),
+                      glm::normalize(normal + side * edge),
+                      {joint.albedo, 0.0F, translucency, kFluorescence},
+                      joint.openness);
+    }
+    addQuad(mesh, corners[0], corners[1], corners[2], corners[3]);
 }
 
 struct Growth {
@@ -61,8 +80,11 @@ void branch(
              from.radius * 0.78F,
              glm::mix(growth.body, growth.tip, age * age),
              glm::mix(0.55F, 1.0F, age)};
-    if (left == 1) to.radius *= 0.45F;
-    addTube(mesh, std::array{from, to}, growth.sides, 0.15F);
+    if (left == 1) to.radius *= 0.5F;
+    if (growth.sides > 0 && left > 1)
+        addTube(mesh, std::array{from, to}, growth.sides, 0.15F);
+    else
+        addTwig(mesh, from, to, frameAbout(direction, 6.0F * from.centre.x)[0], 0.15F);
     if (left == 1) return;
     const int children = 2 + (growth.dice.unit() < 0.5F ? 1 : 0);
     const float turn = growth.dice.between(0.0F, kTwoPi);
@@ -83,8 +105,8 @@ void addBranching(
     Growth growth{Dice{dice.seed()},
                   colour * 0.7F,
                   glm::min(colour * 1.5F + 0.10F, glm::vec3{0.9F}),
-                  level == 0 ? 4 : 3,
-                  level == 0 ? 4 : 3};
+                  4 - level,
+                  level == 0 ? 3 : 0};
     for (int stem = 0; stem < stems; ++stem) {
         const glm::mat3 frame =
             frameAbout(spot.normal, kTwoPi * static_cast<float>(stem) / static_cast<float>(stems));
@@ -102,8 +124,8 @@ void addBranching(
 
 // A plate on a foot, its rim waved and pale where it grows.
 void addTable(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice dice, int level) {
-    const int around = level == 0 ? 30 : 16;
-    constexpr int kRings = 5;
+    const int around = level == 0 ? 30 : level == 1 ? 16 : 11 - level;
+    const int rings = level == 0 ? 5 : level < 3 ? 3 : 2;
     const std::uint32_t seed = dice.seed();
     const glm::vec3 up =
         glm::normalize(glm::vec3{0, 1, 0} + 0.3F * spot.normal * glm::vec3{1, 0, 1});
@@ -117,9 +139,9 @@ void addTable(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice d
             0.0F);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
-    for (int ring = 0; ring <= kRings; ++ring)
+    for (int ring = 0; ring <= rings; ++ring)
         for (int i = 0; i <= around; ++i) {
-            const float t = static_cast<float>(ring) / kRings;
+            const float t = static_cast<float>(ring) / static_cast<float>(rings);
             const float turn = kTwoPi * static_cast<float>(i % around) / static_cast<float>(around);
             const glm::vec3 outward{std::cos(turn), 0.0F, std::sin(turn)};
             const float reach = size * t *
@@ -133,7 +155,7 @@ void addTable(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice d
                       {colour * (0.55F + 0.55F * t * t * t), 0.9F, 0.1F},
                       0.6F + 0.4F * t);
         }
-    joinRows(mesh, first, kRings + 1, around + 1);
+    joinRows(mesh, first, rings + 1, around + 1);
     for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3)
         std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     setSmoothNormals(mesh, first, firstIndex);
@@ -141,8 +163,8 @@ void addTable(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice d
 
 // A low dome; its meanders are the shader's business.
 void addDome(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice dice, int level) {
-    const int around = level == 0 ? 20 : 10;
-    const int rings = level == 0 ? 8 : 5;
+    const int around = level == 0 ? 20 : level == 1 ? 12 : 10 - level;
+    const int rings = level == 0 ? 8 : level == 1 ? 5 : 5 - level;
     const std::uint32_t seed = dice.seed();
     const glm::mat3 frame = frameAbout(spot.normal, 0.0F);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -160,7 +182,7 @@ void addDome(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice di
                 mesh,
                 spot.position + frame * (outward * (size * lumps) * glm::vec3{1.0F, 0.75F, 1.0F}),
                 frame * outward,
-                {colour * (1.0F + 0.35F * fine), 1.0F, 0.05F},
+                {colour * (1.0F + 0.35F * fine), 1.0F, 0.05F, kFluorescence},
                 glm::mix(0.4F, 1.0F, glm::smoothstep(-0.3F, 0.6F, outward.y)));
         }
     const std::size_t firstIndex = mesh.indices.size();
@@ -181,7 +203,7 @@ void fanBranch(Mesh& mesh,
                    glm::max(from.radius * 0.74F, 0.0045F),
                    glm::mix(growth.body, growth.tip, 1.0F / static_cast<float>(left)),
                    0.95F};
-    addTube(mesh, std::array{from, to}, 3, 0.35F);
+    addTwig(mesh, from, to, glm::normalize(glm::cross(direction, plane[2])), 0.35F);
     if (left == 1) return;
     for (const float side : {-1.0F, 1.0F})
         fanBranch(mesh,
@@ -197,7 +219,7 @@ void fanBranch(Mesh& mesh,
 void addFan(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice dice, int level) {
     const glm::vec3 up = glm::normalize(spot.normal + glm::vec3{0, 1.2F, 0});
     const glm::mat3 plane = frameAbout(up, dice.between(-0.6F, 0.6F));
-    Growth growth{Dice{dice.seed()}, colour * 0.75F, colour * 1.15F, level == 0 ? 6 : 4, 3};
+    Growth growth{Dice{dice.seed()}, colour * 0.75F, colour * 1.15F, level < 3 ? 6 - level : 2, 0};
     for (const float angle : {-0.5F, 0.0F, 0.5F})
         fanBranch(mesh,
                   growth,
@@ -239,7 +261,7 @@ glm::vec3 chosen(std::span<const glm::vec3> colours, Dice& dice) {
 
 }  // namespace
 
-void addCoral(Mesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t seed, int level) {
+void addCoral(ReefMesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t seed, int level) {
     // Linear albedos: tans and olives of living hard coral, a few lilacs, creams and pinks.
     static constexpr std::array kHard{glm::vec3{0.55F, 0.42F, 0.20F},
                                       glm::vec3{0.36F, 0.25F, 0.46F},
@@ -257,12 +279,12 @@ void addCoral(Mesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t seed
     const float kind = dice.unit();
     const glm::vec3 hard = chosen(kHard, dice);
     const glm::vec3 soft = chosen(kSoft, dice);
-    if (kind < 0.36F) return addBranching(mesh, sunk, sizeMetres, hard, dice, level);
+    if (kind < 0.36F) return addBranching(mesh.growth, sunk, sizeMetres, hard, dice, level);
     if (kind < 0.52F && spot.normal.y > 0.45F)
-        return addTable(mesh, sunk, sizeMetres * 1.1F, hard, dice, level);
-    if (kind < 0.70F) return addDome(mesh, sunk, sizeMetres * 0.45F, hard, dice, level);
-    if (kind < 0.86F) return addFan(mesh, sunk, sizeMetres * 1.2F, soft, dice, level);
-    addSponge(mesh, sunk, sizeMetres * 0.8F, soft, dice, level);
+        return addTable(mesh.growth, sunk, sizeMetres * 1.1F, hard, dice, level);
+    if (kind < 0.70F) return addDome(mesh.stone, sunk, sizeMetres * 0.45F, hard, dice, level);
+    if (kind < 0.86F) return addFan(mesh.growth, sunk, sizeMetres * 1.2F, soft, dice, level);
+    addSponge(mesh.growth, sunk, sizeMetres * 0.8F, soft, dice, level);
 }
 
 }  // namespace aquarama

@@ -40,9 +40,9 @@ struct Relief {
 // Ripples of the swell: 0.26 m apart, 16 mm high, sharp crests and wide troughs; grains and shells.
 Relief sandAt(glm::vec2 uv) {
     const float bent = 0.9F * tiled(1, uv, 3) + 0.45F * tiled(2, uv, 7) + 0.15F * tiled(3, uv, 17);
-    const float crest = 0.5F + 0.5F * std::sin(kTwoPi * (10.0F * uv.x + 4.0F * uv.y) + 2.6F * bent);
+    const float crest = 0.5F + 0.5F * std::sin(kTwoPi * (10.0F * uv.x + 4.0F * uv.y) + 4.6F * bent);
     const float sharp = 1.0F - std::pow(1.0F - crest, 1.6F);
-    const float amount = 0.65F + 0.35F * tiled(4, uv, 4);
+    const float amount = glm::clamp(0.5F + 0.75F * tiled(4, uv, 4), 0.0F, 1.0F);
     const float grains = tiled(5, uv, 110) + 0.7F * tiled(6, uv, 220);
     const float shell = tiled(7, uv, 160) > 0.93F ? 0.55F : 0.0F;
     const float dark = tiled(8, uv, 190) > 0.94F ? 0.4F : 0.0F;

@@ -35,15 +35,19 @@ struct Viewpoint {
     glm::vec3 eyeMetres{};
     bool culling = true;
     bool levelsOfDetail = true;
+    float detail = 1.0F;  // of the picture: 1 for a projector, less for a small window
 
     [[nodiscard]] bool sees(glm::vec3 centre, float radius) const {
         return !culling || frustum.sees(centre, radius);
     }
     // 0 the finest; further than limits[i] is level i + 1.
-    [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, 2> limits) const {
+    template <std::size_t Limits>
+    [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, Limits> limits) const {
         if (!levelsOfDetail) return 0;
         const float range = glm::distance(place, eyeMetres);
-        return range < limits[0] ? 0 : range < limits[1] ? 1 : 2;
+        std::size_t level = 0;
+        while (level < Limits && range >= limits[level] * detail) ++level;
+        return level;
     }
 };
 

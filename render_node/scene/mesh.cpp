@@ -27,7 +27,7 @@ std::uint32_t addVertex(
                      packedUnit(surface.albedo.g),
                      packedUnit(surface.albedo.b),
                      packedUnit(skyOpenness)};
-    vertex.response = {255, packedUnit(surface.translucency), 0, 0};
+    vertex.response = {255, packedUnit(surface.translucency), packedUnit(surface.fluorescence), 0};
     mesh.vertices.push_back(vertex);
     return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }

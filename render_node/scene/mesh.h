@@ -15,7 +15,7 @@ struct SolidVertex {
     glm::vec3 position{};
     glm::i8vec4 normal{};    // w: how rough, 0 smooth to 127 bare rock
     glm::u8vec4 albedo{};    // w: openness to the light from above
-    glm::u8vec4 response{};  // openness to the sun, translucency, unused, unused
+    glm::u8vec4 response{};  // openness to the sun, translucency, fluorescence, unused
 };
 static_assert(sizeof(SolidVertex) == 24);
 
@@ -28,6 +28,7 @@ struct Surface {  // what a thing is made of
     glm::vec3 albedo{0.5F};
     float roughness = 0.0F;
     float translucency = 0.0F;
+    float fluorescence = 0.0F;
 };
 
 std::uint32_t addVertex(

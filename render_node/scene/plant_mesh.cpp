@@ -101,7 +101,7 @@ void addStem(PlantMesh& mesh, int rows, float radius, glm::vec3 albedo) {
 }
 
 PlantMesh growKelp(int level) {
-    constexpr std::array kBlades{34, 20, 12};
+    constexpr std::array kBlades{40, 22, 13};
     constexpr std::array kBladeRows{6, 4, 3};
     constexpr std::array kStemRows{14, 8, 5};
     const auto at = static_cast<std::size_t>(level);
@@ -109,7 +109,7 @@ PlantMesh growKelp(int level) {
     addStem(
         mesh, kStemRows[at], 0.020F + 0.006F * static_cast<float>(level), {0.20F, 0.16F, 0.05F});
     const auto blades = static_cast<float>(kBlades[at]);
-    const float broader = std::sqrt(34.0F / blades);
+    const float broader = std::sqrt(40.0F / blades);
     Dice dice{5};
     for (int i = 0; i < kBlades[at]; ++i) {
         const float share = (static_cast<float>(i) + 1.2F) / (blades + 0.6F);
@@ -122,7 +122,7 @@ PlantMesh growKelp(int level) {
                   out,
                   dice.between(0.45F, 0.8F) * (1.1F - 0.3F * share) * broader,
                   0.075F * broader,
-                  glm::vec3{0.36F, 0.28F, 0.07F} * shade,
+                  glm::vec3{0.62F, 0.31F, 0.05F} * shade,
                   kBladeRows[at]});
     }
     return mesh;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/rock_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -43,10 +44,10 @@ glm::vec3 normalTowards(const Rock& rock, glm::vec3 direction) {
 
 // Turf of algae on what looks up, encrusting pinks and ochres in patches, dark hollows.
 glm::vec3 crustAt(const Rock& rock, glm::vec3 place, glm::vec3 direction) {
-    const glm::vec3 stone{0.20F, 0.185F, 0.165F};
-    const glm::vec3 turf{0.17F, 0.21F, 0.085F};
-    const glm::vec3 pink{0.46F, 0.21F, 0.27F};
-    const glm::vec3 ochre{0.42F, 0.28F, 0.10F};
+    const glm::vec3 stone{0.26F, 0.235F, 0.20F};
+    const glm::vec3 turf{0.22F, 0.25F, 0.09F};
+    const glm::vec3 pink{0.62F, 0.25F, 0.32F};
+    const glm::vec3 ochre{0.60F, 0.36F, 0.11F};
     const float patchA = solidNoise(rock.seed ^ 0x91U, place * 1.9F);
     const float patchB = solidNoise(rock.seed ^ 0x92U, place * 2.6F);
     glm::vec3 colour = glm::mix(stone, turf, glm::smoothstep(-0.1F, 0.7F, direction.y));
@@ -65,10 +66,13 @@ float opennessAt(const Rock& rock, glm::vec3 direction) {
 }  // namespace
 
 void addBoulder(Mesh& mesh, const Rock& rock, int level) {
-    constexpr std::array kColumns{64, 34, 18};
-    constexpr std::array kRows{36, 20, 11};
-    const int columns = kColumns.at(static_cast<std::size_t>(level));
-    const int rows = kRows.at(static_cast<std::size_t>(level));
+    constexpr std::array kColumns{64, 40, 26, 18};
+    constexpr std::array kRows{36, 23, 15, 10};
+    // A pebble needs no more facets than a boulder twice as far.
+    const int step = level + (rock.radiusMetres < 0.6F ? 1 : 0);
+    const auto grid = static_cast<std::size_t>(std::min(step, 3));
+    const int columns = kColumns.at(grid);
+    const int rows = kRows.at(grid);
     constexpr float kLowest = 0.72F;  // of a half turn from the zenith: the rest is in the sand
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();

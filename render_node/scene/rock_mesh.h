@@ -16,7 +16,7 @@ struct Spot {
     glm::vec3 normal{};
 };
 
-// level 0 is the finest of three. The shape is the same at all levels, only coarser.
+// level 0 is the finest of four. The shape is the same at all levels, only coarser.
 void addBoulder(Mesh& mesh, const Rock& rock, int level);
 
 // Where larvae settle: upper, open places, spread by the golden angle. The same at all levels.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/scene.h"
 
+#include <optional>
+
 #include <glm/matrix.hpp>
 
 #include "common/place/place.h"
@@ -13,6 +15,7 @@
 #include "render_node/scene/sea_light.h"
 #include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
+#include "render_node/surface/school_surface.h"
 
 namespace aquarama {
 
@@ -20,8 +23,14 @@ namespace {
 
 // Undoes about the water above the eye, so that near things keep their colours and distance stays
 // blue.
-constexpr float kFilterDepthMetres = 5.0F;
+constexpr float kFilterDepthMetres = 5.6F;
 constexpr int kFlakes = 9000;
+
+// All channels of a wall are about as large, so neighbours agree.
+float detailOf(glm::ivec2 sizePixels) {
+    constexpr int kSmallWindow = 640;
+    return sizePixels.y < kSmallWindow ? 0.6F : 1.0F;
+}
 
 FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
     FrameUniforms uniforms;
@@ -37,7 +46,7 @@ FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
 }  // namespace
 
 struct Scene::Parts {
-    explicit Parts(const SceneOptions& chosen)
+    Parts(const SceneOptions& chosen, const FishBody& body, const Repertoire& repertoire)
         : options{chosen},
           light{chosen.seed, kFilterDepthMetres},
           ground{chosen.seed},
@@ -49,6 +58,8 @@ struct Scene::Parts {
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
+        if (!body.cage.vertices.empty())
+            school.emplace(body, repertoire, SurfaceOptions{chosen.culling, chosen.levelsOfDetail});
     }
 
     void drawSolids(const Viewpoint& viewpoint);
@@ -63,11 +74,13 @@ struct Scene::Parts {
     Reef reef;
     Meadow meadow;
     Picture picture;
+    std::optional<SchoolSurface> school;
     gl::ProgramHandle surface, water, snow;
 };
 
 // Near things first, so that what they hide is never shaded.
 void Scene::Parts::drawSolids(const Viewpoint& viewpoint) {
+    if (school) school->draw();
     meadow.draw(viewpoint);
     reef.draw(viewpoint);
     ground.draw(viewpoint);
@@ -92,10 +105,8 @@ void Scene::Parts::drawSnow() const {
     glDepthMask(GL_TRUE);
 }
 
-Scene::Scene(const SceneOptions& options,
-             const FishBody& /*body*/,
-             const Repertoire& /*repertoire*/)
-    : parts_{std::make_unique<Parts>(options)} {}
+Scene::Scene(const SceneOptions& options, const FishBody& body, const Repertoire& repertoire)
+    : parts_{std::make_unique<Parts>(options, body, repertoire)} {}
 
 Scene::~Scene() = default;
 
@@ -107,11 +118,14 @@ unsigned Scene::draw(const SceneFrame& frame, const View& view) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, parts.frameBlock.name());
     parts.light.update(frame.timeSeconds, frame.eyePositionMetres, uniforms.worldFromClip);
     parts.light.bind();
+    if (parts.school)
+        parts.school->update(frame.fish, uniforms.clipFromWorld, frame.eyePositionMetres);
     parts.picture.begin(view.sizePixels);
     const Viewpoint viewpoint{Frustum{uniforms.clipFromWorld},
                               frame.eyePositionMetres,
                               parts.options.culling,
-                              parts.options.levelsOfDetail};
+                              parts.options.levelsOfDetail,
+                              detailOf(view.sizePixels)};
     parts.drawSolids(viewpoint);
     parts.drawWater();
     parts.drawSnow();

@@ -15,22 +15,25 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kGravity = 9.81;
-constexpr double kHeading = 0.61;  // rad: where the wind blows
-constexpr double kSpread = 1.48;   // rad to both sides, triangular
-constexpr double kLongestMetres = 11.0;
-constexpr double kShortestShare = 0.045;  // of the longest
+// Headings by the golden angle: a short sea from all sides, whose net of light has no grain.
+constexpr double kGoldenAngle = 2.39996;
+constexpr double kLongestMetres = 4.2;
+constexpr double kShortestShare = 0.2;  // of the longest
+
+constexpr double kSteepening = 0.35;  // slopes grow with wavelength to this power
+// Below 0.3 the net of light is faint, above 0.8 it breaks into cords and sheets.
+constexpr double kSharpestNet = 0.44;
 
 }  // namespace
 
 Waves wavesOf(std::uint32_t seed, float focusDepthMetres) {
-    const double steepness = 0.155 / static_cast<double>(focusDepthMetres);
     Waves waves;
     for (std::uint32_t i = 0; i < kWaves; ++i) {
         const auto unit = [&](std::uint32_t n) {
             return static_cast<double>(unitOf(hashOf(hashOf(seed ^ 0x7a5eU, i), n)));
         };
         const double length = kLongestMetres * std::pow(kShortestShare, (i + 0.5) / kWaves);
-        const double heading = kHeading + (unit(0) + unit(1) - 1.0) * kSpread;
+        const double heading = kGoldenAngle * i + 0.6 * (unit(0) - 0.5);
         const auto tile = static_cast<double>(kTileMetres);
         glm::dvec2 onTile =
             glm::round(glm::dvec2{std::cos(heading), std::sin(heading)} * (tile / length));
@@ -38,10 +41,12 @@ Waves wavesOf(std::uint32_t seed, float focusDepthMetres) {
         Wave& wave = waves[i];
         wave.number = onTile * (kTwoPi / tile);
         const double number = glm::length(wave.number);
-        wave.amplitudeMetres = steepness * std::pow(kTwoPi / number / 2.0, 0.35) / number;
-        wave.phase = kTwoPi * unit(2);
+        wave.amplitudeMetres = std::pow(kTwoPi / number / 2.0, kSteepening) / number;
+        wave.phase = kTwoPi * unit(1);
         wave.frequency = std::sqrt(kGravity * number);
     }
+    const double scale = kSharpestNet / focusNumber(waves, static_cast<double>(focusDepthMetres));
+    for (Wave& wave : waves) wave.amplitudeMetres *= scale;
     return waves;
 }
 

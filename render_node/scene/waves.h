@@ -22,8 +22,7 @@ struct Wave {
 };
 using Waves = std::array<Wave, kWaves>;
 
-// Steepness such that the net of light is sharpest on the sand at this depth: focus number
-// 0.25 depth sigma(curvature) near 0.6.
+// As steep as makes the net of light sharpest on sand at this depth: see focusNumber.
 [[nodiscard]] Waves wavesOf(std::uint32_t seed, float focusDepthMetres);
 
 // The block of sea_now.glsl at a time: phases are reduced in double precision, so that months of
