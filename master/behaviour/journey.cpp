@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/journey.h"
 
+#include <algorithm>
 #include <array>
 
 #include "common/place/noise.h"
@@ -13,6 +14,7 @@ struct Station {
     glm::vec3 position;   // metres, before its shift
     float shiftMetres;    // how far a seed may move it along x and z
     std::uint32_t ticks;  // to the next station
+    bool mills = false;   // the school circles on the way there
 };
 
 // One round, as an author would stage it: from far off the school comes along one side into the
@@ -20,14 +22,14 @@ struct Station {
 // withdraws. Legs are swum at 0.3 to 0.5 m/s. A round may be mirrored, so the first and the last
 // station stand near the middle.
 constexpr std::array kRound{
-    Station{{0.0F, -5.7F, -7.9F}, 0.5F, 14 * 60},
-    Station{{-4.2F, -6.2F, -6.2F}, 0.4F, 9 * 60},
-    Station{{-3.9F, -5.9F, -3.6F}, 0.2F, 10 * 60},
+    Station{{0.0F, -5.7F, -7.9F}, 0.5F, 12 * 60},
+    Station{{-4.2F, -6.2F, -6.2F}, 0.4F, 7 * 60},
+    Station{{-3.9F, -5.9F, -3.6F}, 0.2F, 9 * 60},
     Station{{0.0F, -6.1F, -2.7F}, 0.2F, 9 * 60},
-    Station{{3.9F, -5.7F, -3.6F}, 0.2F, 8 * 60},
-    Station{{4.1F, -6.3F, -6.0F}, 0.4F, 11 * 60},
-    Station{{0.6F, -5.4F, -4.6F}, 0.3F, 10 * 60},
-    Station{{-0.6F, -5.5F, -5.4F}, 0.3F, 8 * 60},
+    Station{{3.9F, -5.7F, -3.6F}, 0.2F, 7 * 60},
+    Station{{4.1F, -6.3F, -6.0F}, 0.4F, 9 * 60},
+    Station{{0.6F, -5.4F, -4.6F}, 0.3F, 16 * 60, true},
+    Station{{-0.2F, -5.5F, -5.2F}, 0.3F, 7 * 60},
 };
 constexpr float kHeightShiftMetres = 0.35F;
 
@@ -77,8 +79,14 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
     const glm::vec3 arriving = velocityAt(seed, index + 1) * seconds;
     const glm::vec3 square = step * 3.0F - leaving * 2.0F - arriving;
     const glm::vec3 cube = leaving + arriving - step * 2.0F;
+    const float side = (hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0
+                           ? 1.0F
+                           : -1.0F;
+    const float fade = std::min(1.0F, 12 * u * (1 - u));
+    const float mill = kRound[index % kRound.size()].mills ? side * fade : 0.0F;
     return {from + (leaving + (square + cube * u) * u) * u,
-            (leaving + (square * 2.0F + cube * (3.0F * u)) * u) / seconds};
+            (leaving + (square * 2.0F + cube * (3.0F * u)) * u) / seconds,
+            mill};
 }
 
 }  // namespace aquarama

@@ -14,6 +14,7 @@ namespace aquarama {
 struct Goal {
     glm::vec3 position{};                 // metres
     glm::vec3 velocityMetresPerSecond{};  // of the goal itself
+    float mill = 0;  // 1: circle the goal, left about; -1: right about; 0: follow it
 };
 
 [[nodiscard]] Goal journeyGoal(std::uint32_t seed, Tick tick);

@@ -57,7 +57,7 @@ bool inFieldOfView(glm::vec3 heading, glm::vec3 offset) {
 
 Neighbours nearestVisible(const SchoolView& view, const NeighbourGrid& grid, std::uint32_t fish) {
     Search search{view.position(fish), view.heading(fish), fish, {}};
-    for (const int reach : {1, 2}) {
+    for (const int reach : {1, kCellsInSight}) {
         search.nearest = {};
         grid.visitAround(search.position, reach, [&](const auto& row) { search.look(row); });
         const float certain = static_cast<float>(reach) * grid.cellMetres();

@@ -15,6 +15,8 @@ namespace {
 // the zones fade into one another, so that the school settles at its spacing instead of dithering
 // at a border.
 constexpr float kSpacing = 0.9F;
+constexpr float kAbreastToFile = 0.65F;
+constexpr float kAsideShare = 0.25F;
 constexpr float kAlignFully = 2.0F;
 constexpr float kAttractFully = 5.0F;
 
@@ -23,34 +25,46 @@ constexpr float kSeparate = 2.2F;
 constexpr float kAlign = 0.9F;
 constexpr float kCohere = 1.2F;
 constexpr float kFollow = 0.7F;
-constexpr float kWander = 0.12F;
+constexpr float kWander = 0.3F;
 
 constexpr float kSteepest = 0.42F;  // sine of the steepest pitch, 25 degrees
 constexpr float kSlowest = 0.85F;   // body lengths a second
 constexpr float kFastest = 2.9F;
+constexpr float kMillPace = 1.9F;
 constexpr float kReachSeconds = 2.2F;  // how far ahead the surroundings are felt
 constexpr float kReachMetres = 0.4F;
 
 struct Company {
     glm::vec3 separation{}, alignment{}, cohesion{};
-    float speed = 0;  // mean, body lengths a second
+    float speed = 0;  // mean of theirs, body lengths a second
+    float hurry = 0;  // to close up, body lengths a second
+    float brake = 0;  // for those just ahead, body lengths a second
 };
 
 Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::size_t fish) {
     Company company;
     const glm::vec3 position = view.position(fish);
+    const glm::vec3 heading = view.heading(fish);
     const float perLength = 1 / view.length[fish];
     for (std::size_t i = 0; i < neighbours.count; ++i) {
         const std::size_t other = neighbours.fish[i];
         const glm::vec3 offset = (view.position(other) - position) * perLength;
         const float distance = lengthOf(offset);
         const glm::vec3 towards = directionOf(offset, {0, 1, 0});
-        const float tooNear = std::max(0.0F, 1 - distance / kSpacing);
+        // Fish are long: in file they need more room than abreast; there the one behind brakes and
+        // moves aside.
+        const float ahead = dot(offset, heading);
+        const glm::vec3 aside = offset - heading * ahead;
+        const float room = lengthOf(aside + heading * (ahead * kAbreastToFile));
+        const float tooNear = std::max(0.0F, 1 - room / kSpacing);
+        const float repulsion = tooNear * (1 + tooNear);
         const float tooFar =
             std::clamp((distance - kSpacing) / (kAttractFully - kSpacing), 0.0F, 1.0F);
         const float inStep = std::clamp(
             (kAttractFully - distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
-        company.separation -= towards * (tooNear * (1 + tooNear));
+        company.separation -=
+            directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
+        company.brake += repulsion * std::max(0.0F, dot(towards, heading));
         company.cohesion += towards * tooFar;
         company.alignment += view.heading(other) * inStep;
         company.speed += view.speed[other] * perLength;
@@ -59,17 +73,30 @@ Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::siz
     const float share = 1 / static_cast<float>(neighbours.count);
     company.alignment *= share;
     company.cohesion *= share;
+    company.hurry = dot(company.cohesion, heading);
     company.speed *= share;
     return company;
 }
 
-// Along the common way where one is amid the school, more and more towards it further out.
+// Where the school as a whole goes: along with the goal, and towards it from outside the school.
+glm::vec3 followed(const Goal& goal, glm::vec3 towards, float pull) {
+    return directionOf(towards, {}) * pull + goal.velocityMetresPerSecond * 2.0F;
+}
+
+// Round the goal.
+glm::vec3 circled(const Goal& goal, glm::vec3 towards, float pull) {
+    const float turn = goal.mill > 0 ? 1.0F : -1.0F;
+    const glm::vec3 around{-towards.z * turn, 0, towards.x * turn};
+    return directionOf(around, {1, 0, 0}) * 1.6F + directionOf(towards, {}) * (pull + 0.3F);
+}
+
 glm::vec3 commonWay(const Goal& goal, glm::vec3 position, float schoolRadiusMetres) {
     const glm::vec3 towards = goal.position - position;
     const float outside = lengthOf(towards) - schoolRadiusMetres;
     const float pull = std::clamp(outside / schoolRadiusMetres, 0.0F, 1.5F);
-    const glm::vec3 ahead = goal.velocityMetresPerSecond * 2.0F;
-    return directionOf(towards, {}) * pull + ahead;
+    const glm::vec3 follow = followed(goal, towards, pull);
+    if (goal.mill == 0) return follow;
+    return follow + (circled(goal, towards, pull) - follow) * std::abs(goal.mill);
 }
 
 // A slow whim of each fish, so that no two hold quite the same course.
@@ -89,41 +116,49 @@ glm::vec3 levelled(glm::vec3 direction) {
     return {direction.x * scale, y, direction.z * scale};
 }
 
+// The pace of the goal and of those about, quicker where the school is ahead and slower behind
+// others' tails.
+float wantedSpeed(const Goal& goal, const Company& company, float behind, float perLength) {
+    const float goalPace = lengthOf(goal.velocityMetresPerSecond) * perLength + 0.12F * behind;
+    const float own = goalPace + (kMillPace - goalPace) * std::abs(goal.mill);
+    const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
+    return std::clamp(pace + company.hurry - company.brake, kSlowest, kFastest);
+}
+
 }  // namespace
 
-void Steering::run(std::size_t first, std::size_t last) const {
-    // A ball of the school's fish at its spacing, a little stretched.
+float schoolRadiusMetres(std::size_t fish) {
+    // A ball at one fish in (0.3 m)^3; grown in steps, as there is no exact cube root.
     float radius = 0.3F;
-    while (radius * radius * radius * 40.0F < static_cast<float>(view->size()) * 0.6F)
-        radius *= 1.1F;
-    const float goalSpeed = lengthOf(goal.velocityMetresPerSecond);
-    for (std::size_t fish = first; fish < last; ++fish) {
-        if (!thinksAt(tick, fish)) continue;
-        const glm::vec3 position = view->position(fish);
-        const glm::vec3 heading = view->heading(fish);
-        const float reach = kReachMetres + view->speed[fish] * kReachSeconds;
-        const Neighbours neighbours =
-            nearestVisible(*view, *grid, static_cast<std::uint32_t>(fish));
-        const Company company = companyOf(*view, neighbours, fish);
-        const glm::vec3 way = commonWay(goal, position, radius);
-        const glm::vec3 push = avoidance(*surroundings, position, heading, reach);
-        const glm::vec3 wish = heading * kKeepCourse + company.separation * kSeparate +
-                               company.alignment * kAlign + company.cohesion * kCohere +
-                               way * kFollow + whim(seed, fish, tick) * kWander + push;
-        const glm::vec3 direction = levelled(directionOf(wish, heading));
-        intentions->directionX[fish] = direction.x;
-        intentions->directionY[fish] = direction.y;
-        intentions->directionZ[fish] = direction.z;
-        intentions->urgency[fish] = lengthOf(push);
+    while (radius * radius * radius < static_cast<float>(fish) * 0.015F) radius *= 1.1F;
+    return radius;
+}
 
-        const float perLength = 1 / view->length[fish];
-        const float own = goalSpeed * perLength;
-        const float pace = neighbours.count > 0 ? 0.5F * (own + company.speed) : own;
-        const glm::vec3 gap = company.separation + company.cohesion * 2.0F;
-        const float behind = dot(goal.position - position, heading) * perLength;
-        const float speed = pace + 0.5F * dot(gap, heading) + 0.12F * behind;
-        intentions->speed[fish] = std::clamp(speed, kSlowest, kFastest);
-    }
+void Steering::run(std::size_t first, std::size_t last) const {
+    for (std::size_t fish = first; fish < last; ++fish)
+        if (thinksAt(tick, fish)) think(fish);
+}
+
+void Steering::think(std::size_t fish) const {
+    const glm::vec3 position = view->position(fish);
+    const glm::vec3 heading = view->heading(fish);
+    const Neighbours neighbours = nearestVisible(*view, *grid, static_cast<std::uint32_t>(fish));
+    const Company company = companyOf(*view, neighbours, fish);
+    const float reach = kReachMetres + view->speed[fish] * kReachSeconds;
+    const glm::vec3 push = avoidance(*surroundings, position, heading, reach);
+    const glm::vec3 wish = heading * kKeepCourse + company.separation * kSeparate +
+                           company.alignment * kAlign + company.cohesion * kCohere +
+                           commonWay(goal, position, schoolRadius) * kFollow +
+                           whim(seed, fish, tick) * kWander + push;
+    const glm::vec3 direction = levelled(directionOf(wish, heading));
+    intentions->directionX[fish] = direction.x;
+    intentions->directionY[fish] = direction.y;
+    intentions->directionZ[fish] = direction.z;
+    intentions->urgency[fish] = lengthOf(push);
+
+    const float perLength = 1 / view->length[fish];
+    const float behind = dot(goal.position - position, heading) * perLength;
+    intentions->speed[fish] = wantedSpeed(goal, company, behind, perLength);
 }
 
 }  // namespace aquarama

@@ -35,6 +35,9 @@ struct Intentions {
     }
 };
 
+// How far from its goal a school of so many fish reaches at ease.
+[[nodiscard]] float schoolRadiusMetres(std::size_t fish);
+
 // Forms the intentions of those among fish [first, last) that think at this tick: separation,
 // alignment and cohesion with the nearest seen, the school's common way, and avoidance.
 struct Steering {
@@ -42,11 +45,15 @@ struct Steering {
     const NeighbourGrid* grid = nullptr;
     const Surroundings* surroundings = nullptr;
     Goal goal;
+    float schoolRadius = 0;  // metres
     std::uint32_t seed = 0;
     Tick tick;
     Intentions* intentions = nullptr;
 
     void run(std::size_t first, std::size_t last) const;
+
+  private:
+    void think(std::size_t fish) const;
 };
 
 }  // namespace aquarama

@@ -15,13 +15,13 @@ constexpr float kFloorClearanceMetres = 0.35F;
 constexpr float kSurfaceClearanceMetres = 0.5F;
 constexpr float kRockClearanceMetres = 0.3F;
 constexpr float kRockMarginMetres = 0.6F;
-constexpr float kStrongest = 4.0F;
+constexpr float kStrongest = 6.0F;
 
-// 0 at the margin's beginning, 1 at the limit, growing with the square beyond.
+// 0 at the margin's beginning, 1.5 at the limit, growing with the square beyond.
 float ramp(float beyondMarginMetres, float marginMetres) {
     if (beyondMarginMetres <= 0) return 0;
     const float share = beyondMarginMetres / marginMetres;
-    return std::min(share * share, kStrongest);
+    return std::min(1.5F * share * share, kStrongest);
 }
 
 float borderPush(float fromCentre, float halfExtent, float margin) {

@@ -14,8 +14,8 @@ namespace {
 // Streams of one seed: what a number is drawn for.
 enum Draw : std::uint32_t { kTempo = 101, kPatience, kRecommended, kHold };
 
-constexpr float kGradualFrom = 24.0F * kRadiansPerDegree;  // error at which a turn begins
-constexpr float kGradualTo = 7.0F * kRadiansPerDegree;     // and at which it ends
+constexpr float kGradualFrom = 18.0F * kRadiansPerDegree;  // error at which a turn begins
+constexpr float kGradualTo = 6.0F * kRadiansPerDegree;     // and at which it ends
 constexpr float kSharpFrom = 85.0F * kRadiansPerDegree;
 constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree;
 constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree;  // beyond, either side serves
@@ -25,6 +25,7 @@ constexpr float kMostYaw = 30.0F * kRadiansPerDegree;        // a second: beyond
 constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);        // MotorCommands::yawRate
 constexpr float kUnitsOfPitchSine = 32768.0F;                // MotorCommands::pitch
 constexpr float kRateMargin = 0.15F;                         // of the recorded phase rate
+constexpr float kTempoMargin = 0.08F;                        // about a fish's own tempo
 constexpr float kSpeedHysteresis = 0.12F;                    // body lengths a second
 constexpr std::uint64_t kShortestGaitTicks = 36;
 constexpr float kSpeedMayDiffer = 0.9F;   // of a recommended gait, body lengths a second
@@ -158,8 +159,10 @@ void SecondaryController::decide(std::size_t fish) const {
 
     const std::size_t action = indexOf(chosen);
     const float tempo = tempoOf(seed, fish);
-    const float stretch = isForward(chosen) ? moment.speed / gaits->speed[action] : 1.0F;
-    const float rate = tempo * std::clamp(stretch / tempo, 1 - kRateMargin / 2, 1 + kRateMargin / 2);
+    const float stretch = isForward(chosen) ? moment.speed / gaits->speed[action] : tempo;
+    const float rate = std::clamp(stretch,
+                                  std::max(1 - kRateMargin, tempo - kTempoMargin),
+                                  std::min(1 + kRateMargin, tempo + kTempoMargin));
     commands->segment[fish] = static_cast<std::uint8_t>(chosen);
     commands->phaseRate[fish] =
         static_cast<std::uint16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);

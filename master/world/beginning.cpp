@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
+
 #include "common/place/noise.h"
 #include "master/behaviour/angle.h"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 #include <utility>
 
 #include "common/units/error.h"
@@ -36,6 +37,11 @@ std::uint64_t folded(std::uint64_t hash, const std::vector<Value>& values) {
     return hash;
 }
 
+template <class... Vectors>
+std::size_t bytesIn(const Vectors&... vectors) {
+    return (... + (vectors.size() * sizeof(vectors[0])));
+}
+
 }  // namespace
 
 World::World(const WorldOptions& options, std::shared_ptr<const MotorTables> tables)
@@ -46,6 +52,7 @@ World::World(const WorldOptions& options, std::shared_ptr<const MotorTables> tab
       traits_(traitsOf(options)),
       grid_(surroundings_.water, kCellMetres, options.fishCount),
       goal_(journeyGoal(options.seed, tick_)),
+      schoolRadius_(schoolRadiusMetres(options.fishCount)),
       pool_(options.threads) {
     if (traits_.empty()) throw Error("a world without fish: ask for at least one");
     states_.resize(traits_.size());
@@ -99,7 +106,7 @@ void World::look(std::size_t first, std::size_t last) {
 }
 
 void World::think(std::size_t first, std::size_t last) {
-    Steering{&view_, &grid_, &surroundings_, goal_, seed_, tick_, &intentions_}.run(first, last);
+    Steering{&view_, &grid_, &surroundings_, goal_, schoolRadius_, seed_, tick_, &intentions_}.run(first, last);
     SecondaryController{&gaits_, &view_, &intentions_, &states_, seed_, tick_, &commands_, &memory_}
         .run(first, last);
     MotorStep{tables_.get(), traits_, &commands_, &states_, first, last}.run();
@@ -120,6 +127,19 @@ std::uint64_t World::hash() const {
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
     return folded(hash, memory_.patience);
+}
+
+std::size_t World::bytes() const {
+    const MotionStates& s = states_;
+    const MotorCommands& c = commands_;
+    const Intentions& w = intentions_;
+    const SchoolView& v = view_;
+    return grid_.bytes() + bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
+           bytesIn(s.x, s.y, s.z, s.orientationA, s.orientationB, s.orientationC) +
+           bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
+           bytesIn(s.warpFrame, s.warpLength, c.segment, c.phaseRate, c.pitch, c.yawRate) +
+           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency) +
+           bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length);
 }
 
 void World::records(std::vector<FishRecord>& records) const {

@@ -73,6 +73,7 @@ class World {
     SchoolView view_;
     NeighbourGrid grid_;
     Goal goal_;
+    float schoolRadius_;
     WorkerPool pool_;
 };
 

@@ -261,7 +261,7 @@ glm::vec3 chosen(std::span<const glm::vec3> colours, Dice& dice) {
 
 }  // namespace
 
-void addCoral(Mesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t seed, int level) {
+void addCoral(ReefMesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t seed, int level) {
     // Linear albedos: tans and olives of living hard coral, a few lilacs, creams and pinks.
     static constexpr std::array kHard{glm::vec3{0.55F, 0.42F, 0.20F},
                                       glm::vec3{0.36F, 0.25F, 0.46F},
@@ -279,12 +279,12 @@ void addCoral(Mesh& mesh, const Spot& spot, float sizeMetres, std::uint32_t seed
     const float kind = dice.unit();
     const glm::vec3 hard = chosen(kHard, dice);
     const glm::vec3 soft = chosen(kSoft, dice);
-    if (kind < 0.36F) return addBranching(mesh, sunk, sizeMetres, hard, dice, level);
+    if (kind < 0.36F) return addBranching(mesh.growth, sunk, sizeMetres, hard, dice, level);
     if (kind < 0.52F && spot.normal.y > 0.45F)
-        return addTable(mesh, sunk, sizeMetres * 1.1F, hard, dice, level);
-    if (kind < 0.70F) return addDome(mesh, sunk, sizeMetres * 0.45F, hard, dice, level);
-    if (kind < 0.86F) return addFan(mesh, sunk, sizeMetres * 1.2F, soft, dice, level);
-    addSponge(mesh, sunk, sizeMetres * 0.8F, soft, dice, level);
+        return addTable(mesh.growth, sunk, sizeMetres * 1.1F, hard, dice, level);
+    if (kind < 0.70F) return addDome(mesh.stone, sunk, sizeMetres * 0.45F, hard, dice, level);
+    if (kind < 0.86F) return addFan(mesh.growth, sunk, sizeMetres * 1.2F, soft, dice, level);
+    addSponge(mesh.growth, sunk, sizeMetres * 0.8F, soft, dice, level);
 }
 
 }  // namespace aquarama

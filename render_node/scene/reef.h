@@ -11,14 +11,14 @@
 
 #include "common/place/place.h"
 #include "render_node/gl/handle.h"
+#include "render_node/scene/coral_mesh.h"
 #include "render_node/scene/frustum.h"
-#include "render_node/scene/mesh.h"
 
 namespace aquarama {
 
 inline constexpr int kReefLevels = 4;
 // One boulder and its corals, shaded by all others.
-[[nodiscard]] Mesh growBoulder(const Rock& rock, std::span<const Rock> all, int level);
+[[nodiscard]] ReefMesh growBoulder(const Rock& rock, std::span<const Rock> all, int level);
 
 class Reef {
   public:
@@ -34,13 +34,17 @@ class Reef {
     struct Boulder {
         glm::vec3 centre{};
         float radiusMetres = 0.0F;
-        std::array<Range, kReefLevels> levels{};
+        std::array<Range, kReefLevels> stone{};
+        std::array<Range, kReefLevels> growth{};
     };
     std::vector<Boulder> boulders_;
     std::vector<const Boulder*> inView_;  // of the draw under way
     gl::Buffer vertices_, indices_;
     gl::VertexArray array_;
-    gl::ProgramHandle program_;
+    [[nodiscard]] static Range append(Mesh& all, const Mesh& mesh);
+    void drawPart(const Viewpoint& viewpoint, std::array<Range, kReefLevels> Boulder::*part) const;
+
+    gl::ProgramHandle stoneProgram_, growthProgram_;
     gl::Texture detail_;
 };
 

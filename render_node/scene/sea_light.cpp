@@ -16,11 +16,11 @@ namespace aquarama {
 
 namespace {
 
-constexpr int kWaveTexels = 128;
+constexpr int kWaveTexels = 96;
 constexpr int kCausticTexels = 256;
 constexpr int kTileLevels = 6;
-constexpr int kShaftTexels = 192;  // as in water.glsl
-constexpr int kGridCells = 96;     // of the light front, as in caustic.vert
+constexpr int kShaftTexels = 128;  // as in water.glsl
+constexpr int kGridCells = 72;     // of the light front, as in caustic.vert
 
 // Two triangles a cell.
 std::vector<std::uint16_t> gridIndices() {

@@ -49,9 +49,8 @@ float skyOpenness(std::span<const Rock> rocks, glm::vec3 place, glm::vec3 normal
     return open;
 }
 
-void shade(Mesh& mesh, std::size_t first, std::span<const Rock> others) {
-    for (std::size_t i = first; i < mesh.vertices.size(); ++i) {
-        SolidVertex& vertex = mesh.vertices[i];
+void shade(Mesh& mesh, std::span<const Rock> others) {
+    for (SolidVertex& vertex : mesh.vertices) {
         const glm::vec3 normal = glm::vec3(vertex.normal) / 127.0F;
         const glm::vec3 place = vertex.position + normal * 0.05F;
         const float sky = skyOpenness(others, place, normal);

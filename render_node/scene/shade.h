@@ -19,7 +19,7 @@ namespace aquarama {
 [[nodiscard]] float sunOpenness(std::span<const Rock> rocks, glm::vec3 place);
 [[nodiscard]] float skyOpenness(std::span<const Rock> rocks, glm::vec3 place, glm::vec3 normal);
 
-// For all vertices from `first` on; a boulder's own ball is left to its baked openness.
-void shade(Mesh& mesh, std::size_t first, std::span<const Rock> others);
+// A boulder's own ball is left to its baked openness.
+void shade(Mesh& mesh, std::span<const Rock> others);
 
 }  // namespace aquarama

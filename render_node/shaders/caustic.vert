@@ -3,7 +3,7 @@
 #include "frame_uniforms.h"
 layout(binding = 13) uniform sampler2D waveTile;
 layout(location = 0) out vec2 before;
-const int kCells = 96;       // as in sea_light.cpp
+const int kCells = 72;       // as in sea_light.cpp
 const float kMargin = 0.10;  // of the tile: light that comes in over the edge
 const float kReceiverMetres = 8.6;
 const float kTileMetres = 12.0;

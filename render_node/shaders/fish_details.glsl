@@ -24,24 +24,26 @@ struct Scale {
     vec2 own;      // two numbers of its own, 0 .. 1
 };
 
-// Scales in staggered rows; of those over a point the one nearest the head lies on top.
-Scale scaleAt(vec2 at, float size) {
-    Scale scale = Scale(1.0, vec2(0.0), vec2(0.5));
+// Scales in staggered rows; of those over a point the one nearest the head lies on top. Where they
+// are too fine to be seen nothing is searched.
+Scale scaleAt(vec2 at, float size, bool isSeen) {
+    Scale scale = Scale(0.5, vec2(0.0), vec2(0.5));
     float nearest = 1.0e9;
     float row = floor(at.y / (0.5 * size));
-    for (int dj = -1; dj <= 1; ++dj) {
+    int lastRow = isSeen ? 1 : -2;
+    for (int dj = -1; dj <= lastRow; ++dj) {
         float j = row + float(dj);
         float shift = 0.5 * mod(j, 2.0);
         for (int di = -1; di <= 0; ++di) {
             float i = floor(at.x / size - shift) + float(di);
             uvec2 cell = uvec2(ivec2(int(i), int(j)));
-            float jitter = 0.12 * (hash(cell, 3u) - 0.5);
-            vec2 centre = vec2((i + shift + 0.5 + jitter) * size, (j + 0.5) * 0.5 * size);
+            float own = hash(cell, 0u);
+            vec2 centre = vec2((i + shift + 0.44 + 0.12 * own) * size, (j + 0.5) * 0.5 * size);
             vec2 from = (at - centre) / (size * vec2(0.78, 0.62));
             float r = length(from);
             if (r < 1.0 && centre.x < nearest) {
                 nearest = centre.x;
-                scale = Scale(r, from, vec2(hash(cell, 0u), hash(cell, 5u)));
+                scale = Scale(r, from, vec2(own, fract(own * 61.0)));
             }
         }
     }
@@ -100,7 +102,7 @@ Skin paintBody(float s, float y, float z, float v, uint id, Footprint f) {
     float detail = clamp(0.45 * kPitch / f.pixel - 0.9, 0.0, 1.0) * smoothstep(0.22, 0.28, s);
     // Over the back and the belly rows follow the skin inwards, where y hardly changes.
     float girth = y + sign(y) * (0.04 - abs(z)) * smoothstep(0.45, 0.85, abs(v));
-    Scale scale = scaleAt(vec2(s, girth), kPitch);
+    Scale scale = scaleAt(vec2(s, girth), kPitch, detail > 0.0);
     float golden = goldenLine(s, v, f.pixelV);
 
     Skin skin;

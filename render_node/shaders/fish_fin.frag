@@ -23,7 +23,7 @@ struct Membrane {
 };
 
 Membrane membraneOf(float q) {
-    Membrane m = Membrane(vec3(0.34, 0.36, 0.30), 0.40 + 0.2 * smoothstep(0.4, 0.0, q));
+    Membrane m = Membrane(vec3(0.34, 0.36, 0.30), 0.34 + 0.2 * smoothstep(0.4, 0.0, q));
     if (part == kCaudal) {
         vec3 dusk = vec3(0.055, 0.06, 0.06);
         m = Membrane(mix(vec3(0.34, 0.33, 0.15), dusk, 0.75 * smoothstep(0.55, 1.0, q)), 0.80);
@@ -50,8 +50,8 @@ void main() {
     float p = fin.x, q = fin.y;
     Membrane m = membraneOf(q);
     float ray = rayAt(p, q, kRays[part]);
-    m.albedo *= (0.85 + 0.25 * smoothstep(1.0, 0.0, q)) * (1.0 - 0.30 * ray);
-    m.opacity = min(m.opacity + 0.20 * ray, 1.0);
+    m.albedo *= (0.85 + 0.25 * smoothstep(1.0, 0.0, q)) * (1.0 - 0.45 * ray);
+    m.opacity = min(m.opacity + 0.25 * ray, 1.0);
 
     // At its root a fin is muscle under the skin; those of the paired fins reach further out.
     bool isPaired = part == kPectoral || part == kPelvic;
@@ -65,7 +65,9 @@ void main() {
     vec3 flat_ = normalize(cross(dFdx(place), dFdy(place)));
     flat_ *= -sign(dot(flat_, fromEye));
     vec3 n = normalize(mix(normalize(normal), flat_, grown));
-    vec3 mirror = silverRadiance(plateletNormal(n, dorsal, -fromEye), fromEye, albedo, place);
+    float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
+    vec3 plate = plateletNormal(n, dorsal, -fromEye);
+    vec3 mirror = reflected(plate, fromEye, place) * silverTint(facing, albedo);
     vec3 radiance = mix(lit(albedo, place, n, 0.55 * grown), mirror, silver);
     colour = vec4(seen(radiance, place), mix(1.0, m.opacity, grown));
 }

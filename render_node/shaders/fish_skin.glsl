@@ -54,13 +54,16 @@ vec3 plateletNormal(vec3 skinNormal, vec3 dorsal, vec3 toEye) {
     return normalize(plate - 2.0 * behind * toEye);
 }
 
-// Radiance of the mirror: the water that it shows, lifted a little towards the light as scales lie
-// like tiles, and faintly coloured by the thin film.
-vec3 silverRadiance(vec3 plate, vec3 fromEye, vec3 albedo, vec3 place) {
-    vec3 shown = reflect(fromEye, plate);
-    shown = normalize(shown + vec3(0.0, 0.34, 0.0));
-    float facing = max(-dot(plate, fromEye), 0.0);
+// What a mirror in the skin shows: the water, lifted a little towards the light, as scales lie like
+// tiles; and other fish, who pass on some of the light from above.
+vec3 reflected(vec3 mirrorNormal, vec3 fromEye, vec3 place) {
+    vec3 shown = normalize(reflect(fromEye, mirrorNormal) + vec3(0.0, 0.34, 0.0));
+    return mirrored(shown, place) + max(0.010 + 0.012 * mirrorNormal.y, 0.0);
+}
+
+// Thin films colour the mirror faintly; more would be soap.
+vec3 silverTint(float facing, vec3 albedo) {
     vec3 film = 0.88 + 0.09 * cos(6.2831853 * (vec3(0.0, 0.33, 0.67) + 1.35 * facing));
-    return mirrored(shown, place) * film * (0.55 + 0.75 * albedo);
+    return film * (0.60 + 0.80 * albedo);
 }
 #endif

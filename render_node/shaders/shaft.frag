@@ -5,7 +5,7 @@ layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 upTo;
 
 const float kGain = 1.8;
-const int kSteps = 36;
+const int kSteps = 26;
 
 vec3 directionOf(vec2 p) {
     // Beyond the edge the map goes on at the mirrored place: one texel of border for the filter.

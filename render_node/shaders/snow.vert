@@ -19,9 +19,7 @@ void main() {
     float range = length(away);
     float e = unit(3u);
     float diameter = mix(0.0006, 0.0030, e * e * e * e * e);
-    // Pixels a radian, from the projection.
-    vec3 row = vec3(clipFromWorld[0].y, clipFromWorld[1].y, clipFromWorld[2].y);
-    float perRadian = 0.5 * viewport.y * length(row);
+    float perRadian = pixelsARadian();
     float sharp = diameter / range * perRadian;
     float blur = kLensMetres * abs(1.0 / range - 1.0 / kFocusMetres) * perRadian;
     float size = sqrt(sharp * sharp + blur * blur + 1.4);
