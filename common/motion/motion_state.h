@@ -71,6 +71,10 @@ static_assert(sizeof(FishRecord) == 28);
 [[nodiscard]] FishRecord recordOf(const MotionStates& states, std::size_t fish);
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record);
 
+// Whether the motor and the reconstruction can play it: segments that exist, a warp within its
+// length, no stray bits. A decoder refuses any other.
+[[nodiscard]] bool isPlayable(const FishRecord& record);
+
 // The body frame as floats: position of o in metres, rotation that takes body axes (x anterior, y
 // dorsal, z right) to world.
 struct BodyFrame {

@@ -20,15 +20,23 @@ struct RockGroup {
     int satellites;
 };
 constexpr std::array kRockGroups{
-    RockGroup{{-6.6F, -5.4F}, 1.75F, 3},
-    RockGroup{{-10.5F, -9.5F}, 2.3F, 2},
-    RockGroup{{1.6F, -11.2F}, 1.35F, 3},
-    RockGroup{{6.3F, -6.9F}, 1.35F, 2},
-    RockGroup{{-4.0F, -17.0F}, 2.6F, 2},
-    RockGroup{{12.0F, -15.0F}, 2.8F, 2},
-    RockGroup{{-17.0F, -20.0F}, 3.6F, 1},
-    RockGroup{{4.5F, -25.0F}, 3.2F, 2},
-    RockGroup{{-2.1F, -6.6F}, 0.42F, 2},
+    // Left: a reef that rises from the corner of the wall.
+    RockGroup{{-4.6F, -3.5F}, 1.05F, 4},
+    RockGroup{{-7.3F, -6.2F}, 2.35F, 5},
+    RockGroup{{-11.6F, -10.2F}, 2.9F, 3},
+    // Middle: low heads on open sand, a ridge far behind.
+    RockGroup{{-1.4F, -6.5F}, 0.60F, 4},
+    RockGroup{{1.9F, -11.4F}, 1.45F, 4},
+    RockGroup{{-4.6F, -15.5F}, 2.7F, 3},
+    RockGroup{{3.6F, -22.0F}, 3.4F, 3},
+    // Right: a head before the kelp, a wall behind it.
+    RockGroup{{4.7F, -4.1F}, 0.95F, 4},
+    RockGroup{{7.2F, -7.6F}, 1.75F, 4},
+    RockGroup{{12.6F, -14.4F}, 3.1F, 3},
+    // What is but a shape in the blue.
+    RockGroup{{-16.0F, -21.0F}, 4.4F, 2},
+    RockGroup{{-7.0F, -31.0F}, 4.8F, 2},
+    RockGroup{{14.0F, -29.0F}, 5.0F, 2},
 };
 
 struct Stand {
@@ -38,19 +46,14 @@ struct Stand {
     float heightMetres;
 };
 constexpr std::array kKelpStands{
-    Stand{{10.2F, -6.6F}, 2.6F, 22, 7.0F},
-    Stand{{14.5F, -10.5F}, 3.2F, 20, 7.4F},
-    Stand{{-12.8F, -7.8F}, 2.6F, 14, 6.6F},
-    Stand{{-7.5F, -21.0F}, 3.5F, 16, 7.0F},
-    Stand{{9.0F, -23.0F}, 3.0F, 12, 7.0F},
+    Stand{{8.6F, -6.6F}, 1.9F, 24, 7.0F},   Stand{{12.5F, -9.8F}, 3.0F, 26, 7.4F},
+    Stand{{-11.2F, -8.2F}, 1.9F, 16, 6.8F}, Stand{{-8.5F, -21.5F}, 3.2F, 16, 7.0F},
+    Stand{{9.5F, -22.0F}, 3.0F, 14, 7.0F},
 };
 constexpr std::array kMeadows{
-    Stand{{-3.2F, -7.6F}, 1.9F, 70, 0.42F},
-    Stand{{3.4F, -6.4F}, 1.5F, 46, 0.36F},
-    Stand{{8.2F, -4.6F}, 1.7F, 50, 0.44F},
-    Stand{{-9.0F, -3.6F}, 1.8F, 50, 0.44F},
-    Stand{{-1.5F, -13.0F}, 3.0F, 90, 0.50F},
-    Stand{{6.5F, -13.0F}, 2.6F, 60, 0.50F},
+    Stand{{-3.4F, -8.4F}, 1.8F, 70, 0.46F}, Stand{{3.6F, -7.0F}, 1.5F, 50, 0.40F},
+    Stand{{2.3F, -5.2F}, 0.9F, 24, 0.34F},  Stand{{-6.2F, -3.2F}, 1.2F, 34, 0.44F},
+    Stand{{-1.5F, -13.5F}, 3.0F, 90, 0.52F}, Stand{{6.5F, -13.0F}, 2.6F, 60, 0.50F},
 };
 
 // A point of the disc by rejection: no square root, no angle, evenly spread.
@@ -120,14 +123,14 @@ std::vector<Rock> rocksOf(std::uint32_t seed) {
     for (const RockGroup& group : kRockGroups) {
         next = hashOf(next);
         const glm::vec2 shift = inDisc(next, 0);
-        const glm::vec2 main{group.xz.x + 0.4F * shift.x, group.xz.y + 0.4F * shift.y};
+        const glm::vec2 main{group.xz.x + 0.3F * shift.x, group.xz.y + 0.3F * shift.y};
         const float radius = group.radiusMetres * (0.92F + 0.16F * unitOf(hashOf(next, 1)));
         rocks.push_back(rockAt(seed, main, radius, next));
         for (int i = 0; i < group.satellites; ++i) {
             next = hashOf(next);
             const glm::vec2 away = inDisc(next, 0);
-            const glm::vec2 xz{main.x + away.x * radius * 1.6F, main.y + away.y * radius * 1.6F};
-            const float share = 0.28F + 0.3F * unitOf(hashOf(next, 1));
+            const glm::vec2 xz{main.x + away.x * radius * 1.5F, main.y + away.y * radius * 1.5F};
+            const float share = 0.25F + 0.4F * unitOf(hashOf(next, 1));
             rocks.push_back(rockAt(seed, xz, radius * share, next));
         }
     }

@@ -43,6 +43,7 @@ struct SceneOptions {
 // Owns its GL objects; construct, use and destroy with the same context current.
 class Scene {
   public:
+    // A body without a cage is a sea without fish.
     Scene(const SceneOptions& options, const FishBody& body, const Repertoire& repertoire);
     ~Scene();
     Scene(const Scene&) = delete;

@@ -10,19 +10,13 @@ namespace aquarama {
 
 namespace {
 
-// Jerlov's type IB at 20 wavelengths from 400 to 700 nm, 1/m: scattering b, attenuation c,
-// downwelling Kd. Williamson and Hollins 2022, Appl. Opt. 61(33) 9951,
-// data doi 10.6084/m9.figshare.20290782.
-constexpr int kSamples = 20;
-constexpr std::array<double, kSamples> kScattering{0.144, 0.141, 0.138, 0.135, 0.133, 0.130, 0.129,
-                                                   0.127, 0.124, 0.123, 0.121, 0.120, 0.119, 0.117,
-                                                   0.116, 0.115, 0.114, 0.113, 0.112, 0.111};
-constexpr std::array<double, kSamples> kAttenuation{0.189, 0.184, 0.180, 0.176, 0.171, 0.167, 0.167,
-                                                    0.173, 0.176, 0.182, 0.193, 0.208, 0.257, 0.369,
-                                                    0.402, 0.425, 0.461, 0.525, 0.565, 0.684};
-constexpr std::array<double, kSamples> kDownwelling{0.051, 0.045, 0.040, 0.037, 0.034, 0.034, 0.040,
-                                                    0.047, 0.055, 0.066, 0.080, 0.098, 0.184, 0.260,
-                                                    0.304, 0.343, 0.381, 0.419, 0.488, 0.580};
+// Jerlov's type IA every 25 nm from 400 to 700 nm, 1/m. Downwelling Kd: Jerlov 1976, table XXVII,
+// as updated by Austin and Petzold 1984. Absorption of pure water: Pope and Fry 1997.
+constexpr int kSamples = 13;
+constexpr std::array<double, kSamples> kDownwelling{
+    .0316, .0280, .0257, .0250, .0332, .0545, .0674, .0960, .2437, .3206, .3601, .4410, .6530};
+constexpr std::array<double, kSamples> kPureAbsorption{
+    .00663, .00478, .00922, .0114, .0204, .0417, .0565, .0772, .2224, .2834, .340, .448, .624};
 
 // CIE standard illuminant D65 at the 31 bands.
 constexpr Spectrum kDaylight{82.75,  91.49,  93.43,  86.68,  104.86, 117.01, 117.81, 114.86,
@@ -123,12 +117,20 @@ double beamAttenuation(const WaterSpectra& water, int band) {
 }
 
 WaterSpectra oceanWater() {
+    constexpr double kParticles = 0.045;  // scattering at 550 nm, 1/m, of clear ocean water
+    constexpr double kMeanCosine = 0.9;   // of the light that comes down
     WaterSpectra water;
     for (int band = 0; band < kBands; ++band) {
         const double nm = wavelength(band);
-        water.scattering[band] = sampled(kScattering, nm);
-        water.absorption[band] = sampled(kAttenuation, nm) - water.scattering[band];
-        water.downwelling[band] = sampled(kDownwelling, nm);
+        const double kd = sampled(kDownwelling, nm);
+        // Sea water itself scatters as in Morel 1974, particles as 1/lambda.
+        const double b = 0.0076 * std::pow(400.0 / nm, 4.32) + kParticles * 550.0 / nm;
+        // Kirk: (Kd mu)^2 = a^2 + 0.256 a b, solved for a; never clearer than water.
+        const double half = 0.128 * b;
+        const double a = std::sqrt(half * half + kd * kd * kMeanCosine * kMeanCosine) - half;
+        water.scattering[band] = b;
+        water.absorption[band] = std::max(a, 0.95 * sampled(kPureAbsorption, nm));
+        water.downwelling[band] = kd;
     }
     setWeights(water);
     setReflectances(water);

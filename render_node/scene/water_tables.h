@@ -15,7 +15,7 @@ namespace aquarama {
 inline constexpr int kBands = 31;  // 400 to 700 nm by 10
 using Spectrum = std::array<double, kBands>;
 
-// Jerlov's type IB, 1/m.
+// Clear ocean water, Jerlov's type IA, 1/m.
 struct WaterSpectra {
     Spectrum absorption{};     // a
     Spectrum scattering{};     // b
@@ -29,10 +29,10 @@ struct WaterSpectra {
 // that it stays in the picture.
 [[nodiscard]] double beamAttenuation(const WaterSpectra& water, int band);
 
-inline constexpr float kFarthestMetres = 80.0F;
-inline constexpr float kDeepestMetres = 60.0F;
+inline constexpr double kFarthestMetres = 80.0;
+inline constexpr double kDeepestMetres = 60.0;
 // Depths begin above the surface: the diver's filter may undo more water than there is.
-inline constexpr float kDepthOffsetMetres = 10.0F;
+inline constexpr double kDepthOffsetMetres = 10.0;
 
 struct Table {
     int width = 0, height = 0, layers = 1;

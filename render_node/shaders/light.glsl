@@ -2,57 +2,16 @@
 // fragment shader and write seen(lit(...), place).
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
-#include "water.glsl"
+#include "shading.glsl"
 
-// Effective Kd of the three primaries near the filter's depth, 1/m: only the small difference
-// between a thing's depth and the filter's is undone with it.
-const vec3 kDownwellingKd = vec3(0.19, 0.062, 0.036);
-
-// How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
-struct Openness {
-    float sun;
-    float sky;
-};
-
-// Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the
-// waves, soft light from above, light from the sand; and, through thin things, light from behind.
 vec3 litUnder(Openness open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
-    float depth = max(-place.y, 0.1);
-    float share = unscatteredShare(depth);
-    float towardsSun = dot(normal, sunAndFilterDepth.xyz);
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
     // Geometric mean of the two footprints: the longer one would blur the sand away.
     float footprint = sqrt(sqrt(dot(dx, dx) * dot(dy, dy))) * (256.0 / kTileMetres);
-    float sun = share * open.sun * caustic(place, log2(1.0 + footprint));
-    float sky = (1.0 - share) * open.sky;
-    float up = 0.5 + 0.5 * normal.y;
-    float front = sun * max(towardsSun, 0.0) + sky * mix(0.10, 1.0, up * sqrt(up));
-    float bounce = 0.22 * (1.0 - up) * (sky + 0.6 * open.sky);
-    float back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
-    return albedo * ((front + bounce + back) / kPi);
+    return litAt(log2(1.0 + footprint), open, albedo, place, normal, translucency);
 }
 
 vec3 lit(vec3 albedo, vec3 worldPosition, vec3 normal, float translucency) {
     return litUnder(Openness(1.0, 1.0), albedo, worldPosition, normal, translucency);
-}
-
-// What a mirror shows: the open water, the bright window above, the sun. Water has coloured this
-// light already, so the way down that `seen` will add is taken out beforehand.
-vec3 mirrored(vec3 direction, vec3 worldPosition) {
-    float depth = max(-worldPosition.y, 0.1);
-    float towardsSun = dot(direction, sunAndFilterDepth.xyz) - 1.0;
-    vec3 water = openWater(direction, depth);
-    float window = 0.11 * smoothstep(0.55, 0.85, direction.y);
-    float sun = 6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun);
-    float fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
-    vec3 undone = exp(kDownwellingKd * (depth - sunAndFilterDepth.w));
-    return water * undone + vec3(fromSurface);
-}
-
-// What reaches the shared eye: absorbed on the way, and joined by light scattered into it.
-vec3 seen(vec3 radiance, vec3 worldPosition) {
-    vec3 way = worldPosition - eyeAndTime.xyz;
-    float range = length(way);
-    return direct(radiance, range, max(-worldPosition.y, 0.05)) + inscatter(way / range, range);
 }
 #endif

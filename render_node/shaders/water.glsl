@@ -19,10 +19,18 @@ const vec2 kDirectTexels = vec2(64.0, 32.0);
 const vec2 kInscatterTexels = vec2(64.0, 32.0);
 const vec2 kOpenWaterTexels = vec2(32.0, 32.0);
 vec2 atTexelCentres(vec2 u, vec2 texels) { return (u * (texels - 1.0) + 0.5) / texels; }
-float rangeAxis(float range) { return sqrt(clamp(range * (1.0 / 80.0), 0.0, 1.0)); }
+// Of the water that lies between, this share counts: the reef is seen as from so much nearer, or
+// red would be gone before the wall's nearest sand (5.6 m). 1 is the true sea.
+const float kRangeShare = 0.6;
+float rangeAxis(float range) { return sqrt(clamp(range * (kRangeShare / 80.0), 0.0, 1.0)); }
 // The diver's filter undoes so many metres of the way down: one looks up at a lesser depth.
 float depthAxis(float depth) {
     return sqrt(clamp((depth - sunAndFilterDepth.w + 10.0) * (1.0 / 70.0), 0.0, 1.0));
+}
+
+float pixelsARadian() {
+    vec3 row = vec3(clipFromWorld[0].y, clipFromWorld[1].y, clipFromWorld[2].y);
+    return 0.5 * viewport.y * length(row);
 }
 
 // Henyey and Greenstein 1941.
@@ -45,7 +53,7 @@ vec3 direct(vec3 radiance, float range, float depth) {
 }
 
 // Octahedral map of the directions, the zenith in its middle; one texel of border continues it.
-const float kShaftTexels = 192.0;
+const float kShaftTexels = 128.0;
 vec2 shaftPlace(vec3 direction) {
     vec2 p = direction.xz / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     if (direction.y < 0.0)

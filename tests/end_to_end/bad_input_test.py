@@ -38,12 +38,12 @@ class BadInput(unittest.TestCase):
 
     def test_a_projector_that_misses_the_screen(self):
         rig = Path(self.edited())
-        text = re.sub(r"yaw_degrees: *-?[\d.]+", "yaw_degrees: 170", rig.read_text(), count=1)
+        text = re.sub(r"yaw_deg: *-?[\d.]+", "yaw_deg: 170", rig.read_text(), count=1)
         rig.write_text(text)
         self.refuses(r"desk\.txtpb:\d+:\d+:.*(misses|screen)", "check", rig)
 
     def test_a_window_of_no_size(self):
-        rig = self.edited((r"width_pixels: *480", "width_pixels: 0"))
+        rig = self.edited((r"width_px: *480", "width_px: 0"))
         self.refuses(r"desk\.txtpb:\d+:\d+:", "check", rig)
 
     def test_a_rig_that_is_not_there(self):

@@ -59,7 +59,7 @@ class Faults(unittest.TestCase):
     def test_a_killed_node_is_passed_over_and_returns(self):
         self.show.processes["left"].send_signal(signal.SIGKILL)
         self.show.processes["left"].wait()
-        self.show.wait_for_progress(["centre", "right"])
+        self.show.wait_for_progress(["middle", "right"])
         self.assertIsNone(self.show.processes["master"].poll())
         os.rename(f"{self.folder.name}/left.csv", f"{self.folder.name}/left-before.csv")
         self.show.start_node("left")
@@ -67,7 +67,7 @@ class Faults(unittest.TestCase):
 
     def test_a_frozen_node_is_passed_over_and_returns(self):
         self.show.processes["right"].send_signal(signal.SIGSTOP)
-        self.show.wait_for_progress(["left", "centre"], frames=10)
+        self.show.wait_for_progress(["left", "middle"], frames=10)
         self.show.processes["right"].send_signal(signal.SIGCONT)
         self.back_in_step("right")
 

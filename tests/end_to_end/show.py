@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BIN = Path(os.environ.get("AQUARAMA_BIN", ROOT / "build/dev/bin"))
-CHANNELS = ["left", "centre", "right"]
+CHANNELS = ["left", "middle", "right"]
 
 
 def free_ports(count):

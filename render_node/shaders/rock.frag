@@ -1,0 +1,29 @@
+#include "shading.glsl"
+layout(binding = 14) uniform sampler2D detail;  // slopes, albedo, crest
+layout(location = 0) in vec3 place;
+layout(location = 1) in vec4 normal;
+layout(location = 2) in vec4 albedo;
+layout(location = 3) in vec3 sunTranslucencyGlow;
+layout(location = 0) out vec4 radiance;
+const float kTile = 1.1;
+const float kTexelsARadian = 256.0 / kTile;  // at 1 m
+void main() {
+    vec3 n = normalize(normal.xyz);
+    float rough = normal.w;
+    // Laid on from above or from the side, as the rock faces. The level of blur follows the range,
+    // as across the change of sides there are no derivatives.
+    float range = distance(place, eyeAndTime.xyz);
+    bool above = abs(n.y) > 0.6;
+    vec2 uv = (above ? place.xz : vec2(place.x + place.z, place.y)) / kTile;
+    float lod = log2(max(range * kTexelsARadian / pixelsARadian(), 1.0));
+    vec4 relief = textureLod(detail, uv, lod) - vec4(0.5, 0.5, 0.0, 0.0);
+    vec3 slope = above ? vec3(relief.x, 0.0, relief.y)
+                       : vec3(0.7 * relief.x, relief.y, 0.7 * relief.x);
+    n = normalize(n - 1.8 * rough * (slope - n * dot(slope, n)));
+    float crest = mix(1.0, 0.35 + 0.9 * relief.w, rough);
+    vec3 colour = albedo.rgb * mix(1.0, 2.0 * relief.z, rough);
+    Openness open = Openness(sunTranslucencyGlow.x * mix(0.5, 1.0, albedo.w), albedo.w * crest);
+    vec3 light = litAt(0.3 + 0.5 * lod, open, colour, place, n, sunTranslucencyGlow.y);
+    light += fluorescent(colour, sunTranslucencyGlow.z * albedo.w);
+    radiance = vec4(seen(light, place), 1.0);
+}
