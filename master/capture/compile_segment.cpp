@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -38,10 +37,10 @@ NodeVectors mirrored(const NodeVectors& pose, int (*partner)(int), const glm::dv
             signs * pose.at(static_cast<std::size_t>(partner(i)));
     return image;
 }
-NodeVectors mirroredLeftRight(const NodeVectors& pose) {
+NodeVectors swappedLeftRight(const NodeVectors& pose) {
     return mirrored(pose, mirroredLeftRight, {1, 1, -1});
 }
-NodeVectors mirroredTopBottom(const NodeVectors& pose) {
+NodeVectors swappedTopBottom(const NodeVectors& pose) {
     return mirrored(pose, mirroredTopBottom, {1, -1, 1});
 }
 
@@ -58,7 +57,7 @@ PlanarMotion planarMotionOf(const Recording& recording) {
                         .playsToEnd = recording.playsToEnd};
     for (std::size_t k = 0; k <= kCount; ++k) {
         const NodeVectors pose = inBodyFrame(recording.poses.at(k));
-        motion.poses.at(k) = blended(pose, mirroredTopBottom(pose), 0.5);
+        motion.poses.at(k) = blended(pose, swappedTopBottom(pose), 0.5);
     }
     for (std::size_t k = 0; k < kCount; ++k) {
         const PoseFrame now = frameOf(recording.poses.at(k));
@@ -82,7 +81,7 @@ PlanarMotion straightened(const PlanarMotion& motion) {
         straight.translation.at(k) =
             (motion.translation.at(k) + glm::dvec3(1, 1, -1) * motion.translation.at(half)) / 2.0;
         straight.poses.at(k) =
-            blended(motion.poses.at(k), mirroredLeftRight(motion.poses.at(half)), 0.5);
+            blended(motion.poses.at(k), swappedLeftRight(motion.poses.at(half)), 0.5);
     }
     straight.poses.back() = straight.poses.front();
     return straight;
@@ -113,7 +112,7 @@ PlanarMotion mirroredTurn(const PlanarMotion& motion) {
         const std::size_t from = (k + shift) % kCount;
         mirror.yaw.at(k) = -motion.yaw.at(from);
         mirror.translation.at(k) = glm::dvec3(1, 1, -1) * motion.translation.at(from);
-        mirror.poses.at(k) = mirroredLeftRight(motion.poses.at(from));
+        mirror.poses.at(k) = swappedLeftRight(motion.poses.at(from));
     }
     mirror.poses.back() = mirror.poses.front();
     return mirror;

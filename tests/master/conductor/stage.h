@@ -253,9 +253,23 @@ class StageMaster {
         const auto bytes = std::as_bytes(std::span{std::string_view("name: \"scad\"")});
         return {bytes.begin(), bytes.end()};
     }
+    // Several chunks long.
+    static const ByteVector& repertoire() {
+        static const ByteVector bytes = [] {
+            Repertoire still;
+            still.species = "scad";
+            still.recordedLengthMetres = 0.2F;
+            for (ActionSegment& segment : still.segments) {
+                segment.periodSeconds = 1.0F;
+                segment.controlPoints.resize(kPhases);
+            }
+            return encodeRepertoire(still);
+        }();
+        return bytes;
+    }
     static Blobs blobs() {
         Blobs blobs;
-        for (ByteVector blob : {species(), encodeRepertoire(Repertoire{})}) {
+        for (ByteVector blob : {species(), repertoire()}) {
             const Digest digest = digestOf(blob);
             blobs.emplace(digest, std::move(blob));
         }
@@ -266,7 +280,7 @@ class StageMaster {
         welcome.rigText = writeRig(rig);
         welcome.school = {{1, 200}, {2, 210}, {3, 220}};
         welcome.species = digestOf(species());
-        welcome.repertoire = digestOf(encodeRepertoire(Repertoire{}));
+        welcome.repertoire = digestOf(repertoire());
         return welcome;
     }
 
