@@ -60,8 +60,8 @@ Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::siz
         const float repulsion = tooNear * (1 + 2 * tooNear * tooNear);
         const float tooFar =
             std::clamp((distance - kSpacing) / (kAttractFully - kSpacing), 0.0F, 1.0F);
-        const float inStep = std::clamp(
-            (kAttractFully - distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
+        const float inStep =
+            std::clamp((kAttractFully - distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
         company.separation -=
             directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
         company.brake += repulsion * std::max(0.0F, dot(towards, heading));
