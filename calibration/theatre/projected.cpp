@@ -5,7 +5,7 @@
 
 namespace aquarama {
 
-Light projectedLight(const Rig& rig, std::size_t channel, Pattern pattern) {
+Light projectedLight(const Rig& rig, std::size_t channel, TestPattern pattern) {
     const WarpMap warp = warpMap(rig, channel);
     Light light = darkness(warp.sizePixels);
     for (std::size_t i = 0; i < light.rgb.size(); ++i) {
@@ -17,7 +17,7 @@ Light projectedLight(const Rig& rig, std::size_t channel, Pattern pattern) {
     return light;
 }
 
-Light directPanorama(const Rig& rig, Pattern pattern) {
+Light directPanorama(const Rig& rig, TestPattern pattern) {
     Light light = darkness(rig.panoramaPixels);
     for (int y = 0; y < rig.panoramaPixels.y; ++y)
         for (int x = 0; x < rig.panoramaPixels.x; ++x) {

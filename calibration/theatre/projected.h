@@ -11,9 +11,9 @@ namespace aquarama {
 
 // A channel's share of the pattern: warped and blended. pictureOf (common/wall/picture.h) encodes
 // it as the channel's picture.
-[[nodiscard]] Light projectedLight(const Rig& rig, std::size_t channel, Pattern pattern);
+[[nodiscard]] Light projectedLight(const Rig& rig, std::size_t channel, TestPattern pattern);
 
 // The pattern on the unrolled screen, straight from its formula: no projector in between.
-[[nodiscard]] Light directPanorama(const Rig& rig, Pattern pattern);
+[[nodiscard]] Light directPanorama(const Rig& rig, TestPattern pattern);
 
 }  // namespace aquarama

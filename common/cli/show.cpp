@@ -163,7 +163,7 @@ bool compose(const ShowOptions& options, const std::string& what) {
     std::vector<std::string> arguments{what, options.rigPath, options.snapshotFolder};
     if (options.deep && what == "compose") arguments.emplace_back("--deep");
     Process composer{
-        .name = "compose", .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+        .name = what, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
     composer.launch();
     while (true) {
         for (const Ending& ending : waitForChildren(1s).endings) {

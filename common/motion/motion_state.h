@@ -41,8 +41,10 @@ struct MotionStates {
 // What the mind asks of the body; the motor's only input. It changes at decision instants, not
 // every tick.
 struct MotorCommands {
-    std::vector<std::uint8_t> segment;     // Action to play next
-    std::vector<std::uint16_t> phaseRate;  // 1/65536 of a cycle in a tick
+    std::vector<std::uint8_t> segment;  // Action to play next
+    // Of that action, in 1/65536 of a cycle in a tick; a turn that first plays to its end does so
+    // as recorded.
+    std::vector<std::uint16_t> phaseRate;
     std::vector<std::int16_t> pitch;  // sine of the wanted pitch, in units of 2^-15; up is positive
     std::vector<std::int16_t>
         yawRate;  // extra turn about the world's up, in units of 2^-20 rad a tick; left is positive

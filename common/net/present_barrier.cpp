@@ -68,6 +68,10 @@ bool PresentBarrier::allPrepared() const {
     return std::ranges::all_of(nodes_, &Node::member);
 }
 
+bool PresentBarrier::hasMembers() const {
+    return std::ranges::any_of(nodes_, &Node::member);
+}
+
 PresentBarrier::Decision PresentBarrier::decide(Instant now) {
     return limits_.lockstep ? decideLockstep(now) : decideLive(now);
 }

@@ -16,10 +16,11 @@
 namespace aquarama {
 namespace {
 
-constexpr int kStateQueue = 8;     // states in flight to one node, each way
-constexpr int kControlQueue = 64;  // small messages
-constexpr int kLingerMs = 1000;    // how long a farewell may take to leave
-constexpr int kReconnectMs = 50;   // a master that restarts is found at once
+constexpr int kStateQueue = 8;         // states in flight to one node, each way
+constexpr int kControlQueue = 64;      // small messages
+constexpr int kMasterLingerMs = 1000;  // how long a farewell may take to leave
+constexpr int kNodeLingerMs = 200;
+constexpr int kReconnectMs = 50;  // a master that restarts is found at once
 constexpr int kReconnectMaxMs = 500;
 constexpr std::size_t kSubscriptionBytes = 256;  // the longest that the state channel listens to
 
@@ -45,10 +46,10 @@ void allowIpv6(zmq::socket_t& socket, const std::string& address) {
 }
 
 void bindSocket(zmq::socket_t& socket, const std::string& address) {
-    requireBindAddress(address);
-    allowIpv6(socket, address);
+    const std::string checked = bindAddress(address);
+    allowIpv6(socket, checked);
     try {
-        socket.bind(address);
+        socket.bind(checked);
     } catch (const zmq::error_t& error) {
         const bool occupied = error.num() == EADDRINUSE;
         throw Error("cannot listen at " + address + ": " + error.what() +

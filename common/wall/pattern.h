@@ -9,7 +9,7 @@
 
 namespace aquarama {
 
-enum class Pattern { Grid, Grey };
+enum class TestPattern { Grid, Grey };
 
 inline constexpr double kGreyLight = 0.18;        // linear
 inline constexpr double kGridDegrees = 5;         // between lines
@@ -43,8 +43,8 @@ namespace pattern {
     return std::fmax(pattern::majorAndMinor(azimuth), pattern::majorAndMinor(elevation));
 }
 
-[[nodiscard]] inline double patternLight(Pattern pattern, glm::dvec3 direction) {
-    return pattern == Pattern::Grid ? gridLight(direction) : kGreyLight;
+[[nodiscard]] inline double patternLight(TestPattern pattern, glm::dvec3 direction) {
+    return pattern == TestPattern::Grid ? gridLight(direction) : kGreyLight;
 }
 
 }  // namespace aquarama

@@ -146,15 +146,18 @@ void Steering::think(std::size_t fish) const {
     const Company company = companyOf(*view, neighbours, fish);
     const float reach = kReachMetres + view->speed[fish] * kReachSeconds;
     const glm::vec3 push = avoidance(*surroundings, position, heading, reach);
+    const float urgency = lengthOf(push);
+    // What must be avoided comes before where one would like to go.
+    const float follow = kFollow * std::max(0.0F, 1 - urgency);
     const glm::vec3 wish = heading * kKeepCourse + company.separation * kSeparate +
                            company.alignment * kAlign + company.cohesion * kCohere +
-                           commonWay(goal, position, schoolRadius) * kFollow +
+                           commonWay(goal, position, schoolRadius) * follow +
                            whim(seed, fish, tick) * kWander + push;
     const glm::vec3 direction = levelled(directionOf(wish, heading));
     intentions->directionX[fish] = direction.x;
     intentions->directionY[fish] = direction.y;
     intentions->directionZ[fish] = direction.z;
-    intentions->urgency[fish] = lengthOf(push);
+    intentions->urgency[fish] = urgency;
 
     const float perLength = 1 / view->length[fish];
     const float behind = dot(goal.position - position, heading) * perLength;

@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
 struct Intentions {
     std::vector<float> directionX, directionY, directionZ;  // unit vector
     std::vector<float> speed;                               // body lengths a second
-    std::vector<float> urgency;  // 0 in the open; from 1 on only avoiding matters
+    std::vector<float> urgency;  // 0 in the open; from 1 on to avoid comes before to follow
 
     void resize(std::size_t fish) {
         for (auto* values : {&directionX, &directionY, &directionZ, &speed, &urgency})

@@ -97,7 +97,7 @@ ShowReport Conductor::run() {
     while (!over_ && !stopped_) {
         const Instant now = monotonicNow();
         hear(now);
-        while (auto snapshot = ticker_->take()) timeline_.add(std::move(*snapshot));
+        takeTicks();
         conduct(now);
         if (now - lastPublished_ > kBeacon) {
             channels_->publishState(encode({session_, Beacon{}}));
@@ -109,6 +109,15 @@ ShowReport Conductor::run() {
     ticker_.reset();
     if (!failure_.empty()) throw Error(failure_);
     return report_;
+}
+
+// Lockstep takes a tick when its frame comes up, so that the tick thread waits for the frames.
+void Conductor::takeTicks() {
+    while (!isLockstep() || timeline_.newest() < Tick{unpublished_.value}) {
+        auto snapshot = ticker_->take();
+        if (!snapshot) return;
+        timeline_.add(std::move(*snapshot));
+    }
 }
 
 bool Conductor::isLast(Frame frame) const {
@@ -158,7 +167,7 @@ void Conductor::release(Instant now) {
     }
     if (report_.frames++ > 0) frameTimes_.add(at - lastRelease_);
     lastRelease_ = at;
-    over_ = isLast(next_);
+    over_ = over_ || isLast(next_);
     drawing_ = false;
     ++next_.value;
     if (!over_) beginNext(now);
@@ -167,6 +176,7 @@ void Conductor::release(Instant now) {
 // True where the frame's state has been published, now or earlier.
 bool Conductor::publish(Frame frame, Instant now) {
     if (frame < unpublished_) return true;
+    takeTicks();
     const auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
                                     : timeline_.showing(frame, nextRelease(now) - kShownAge);
     if (!state) return false;

@@ -78,6 +78,7 @@ class Conductor {
     void obey(const Input& input);
     [[nodiscard]] StatusReply status() const;
 
+    void takeTicks();
     void conduct(Instant now);
     void beginNext(Instant now);
     void release(Instant now);

@@ -2,7 +2,6 @@
 #include "master/motor/secondary_controller.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "common/place/noise.h"
 #include "master/behaviour/angle.h"
@@ -62,14 +61,21 @@ Action gaitFor(const Gaits& gaits, float speed, Action present) {
                                                         : Action::ForwardSlow;
 }
 
+}  // namespace
+
 // The situation of one fish at its decision.
-struct Moment {
-    Action present;      // segment that was asked for last
-    float yawError;      // radians, left positive
-    float speed;         // wanted, body lengths a second
-    float urgency;
+struct SecondaryController::Moment {
+    Action present;       // segment that was asked for last
+    Action playing;       // and the one that plays
+    float yawError;       // radians, left positive
+    float speed;          // wanted, body lengths a second
+    float urgency;        // of the surroundings
     std::uint64_t since;  // ticks that the present segment has been pursued
 };
+
+namespace {
+
+using Moment = SecondaryController::Moment;
 
 Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
@@ -82,6 +88,12 @@ Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const Action gait = gaitFor(gaits, moment.speed, moment.present);
     const bool tooSoon = !turning && moment.since < kShortestGaitTicks && moment.urgency < 1;
     return tooSoon ? moment.present : gait;
+}
+
+std::int16_t yawRateFor(float yawError) {
+    const float radiansPerSecond = std::clamp(kYawGain * yawError, -kMostYaw, kMostYaw);
+    return static_cast<std::int16_t>(radiansPerSecond / static_cast<float>(kTicksPerSecond) /
+                                     kRadiansOfYawUnit);
 }
 
 // The intention generator's word on a recommendation.
@@ -124,54 +136,66 @@ void startCommands(const Gaits& gaits,
 
 void SecondaryController::run(std::size_t first, std::size_t last) const {
     for (std::size_t fish = first; fish < last; ++fish)
-        if (thinksAt(tick, fish)) decide(fish);
+        if (thinksAt(tick, fish) || endsSharpTurn(fish)) decide(fish);
+}
+
+bool SecondaryController::endsSharpTurn(std::size_t fish) const {
+    return isSharp(static_cast<Action>(states->segment[fish])) &&
+           states->phase[fish] + commands->phaseRate[fish] > 0xffff;
 }
 
 void SecondaryController::decide(std::size_t fish) const {
-    const auto present = static_cast<Action>(commands->segment[fish]);
-    const glm::vec3 wanted = intentions->direction(fish);
-    Moment moment{present,
-                  yawBetween(view->heading(fish), wanted),
+    const Moment moment = momentOf(fish);
+    const Action chosen = choose(fish, moment);
+    if (chosen != moment.present) memory->chosenAt[fish] = tick.value;
+    commands->segment[fish] = static_cast<std::uint8_t>(chosen);
+    commands->phaseRate[fish] = phaseRateFor(fish, chosen, moment);
+    commands->pitch[fish] =
+        static_cast<std::int16_t>(intentions->directionY[fish] * kUnitsOfPitchSine);
+    commands->yawRate[fish] = isForward(chosen) ? yawRateFor(moment.yawError) : std::int16_t{0};
+}
+
+SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
+    Moment moment{static_cast<Action>(commands->segment[fish]),
+                  static_cast<Action>(states->segment[fish]),
+                  yawBetween(view->heading(fish), intentions->direction(fish)),
                   intentions->speed[fish],
                   intentions->urgency[fish],
                   tick.value - memory->chosenAt[fish]};
-    // A sharp turn that plays now will be played to its end: what is chosen comes after it.
-    const auto playing = static_cast<Action>(states->segment[fish]);
-    if (isSharp(playing)) {
+    // A sharp turn will be played to its end: what is chosen comes after it.
+    if (isSharp(moment.playing)) {
         const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
-        moment.yawError -= gaits->turnOfCycle[indexOf(playing)] * toCome;
+        moment.yawError -= gaits->turnOfCycle[indexOf(moment.playing)] * toCome;
     }
+    return moment;
+}
 
-    Action chosen = turnOrSwim(*gaits, moment);
-    const bool following = tick.value < memory->heldUntil[fish];
-    if (following && moment.urgency < 1 && !isSharp(chosen)) chosen = present;
-    if (!following && moment.since > memory->patience[fish] && chosen == present) {
-        const auto recommended = static_cast<Action>(
-            drawn(seed, fish, kRecommended, tick.value) % static_cast<std::uint32_t>(kActions));
-        if (accepts(*gaits, moment, recommended)) {
-            chosen = recommended;
-            memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, kHold, tick.value) % 46;
-        }
-        memory->chosenAt[fish] = tick.value;
-        memory->patience[fish] = patienceOf(seed, fish, tick.value);
-    }
-    if (chosen != present) memory->chosenAt[fish] = tick.value;
+Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
+    const Action chosen = turnOrSwim(*gaits, moment);
+    if (tick.value < memory->heldUntil[fish])
+        return moment.urgency < 1 && !isSharp(chosen) ? moment.present : chosen;
+    if (chosen != moment.present || moment.since <= memory->patience[fish]) return chosen;
+    memory->chosenAt[fish] = tick.value;
+    memory->patience[fish] = patienceOf(seed, fish, tick.value);
+    const auto recommended = static_cast<Action>(drawn(seed, fish, kRecommended, tick.value) %
+                                                 static_cast<std::uint32_t>(kActions));
+    if (!accepts(*gaits, moment, recommended)) return chosen;
+    memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, kHold, tick.value) % 46;
+    return recommended;
+}
 
-    const std::size_t action = indexOf(chosen);
+std::uint16_t SecondaryController::phaseRateFor(std::size_t fish,
+                                                Action chosen,
+                                                const Moment& moment) const {
+    // The rate is that of what plays: a sharp turn has its own until its last tick.
+    const bool turnsOn = isSharp(moment.playing) && !endsSharpTurn(fish);
+    const std::size_t action = indexOf(turnsOn ? moment.playing : chosen);
     const float tempo = tempoOf(seed, fish);
-    const float stretch = isForward(chosen) ? moment.speed / gaits->speed[action] : tempo;
-    const float rate = std::clamp(stretch,
+    const bool swims = isForward(static_cast<Action>(action));
+    const float rate = std::clamp(swims ? moment.speed / gaits->speed[action] : tempo,
                                   std::max(1 - kRateMargin, tempo - kTempoMargin),
                                   std::min(1 + kRateMargin, tempo + kTempoMargin));
-    commands->segment[fish] = static_cast<std::uint8_t>(chosen);
-    commands->phaseRate[fish] =
-        static_cast<std::uint16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);
-    commands->pitch[fish] = static_cast<std::int16_t>(wanted.y * kUnitsOfPitchSine);
-    const float yaw = isForward(chosen)
-                          ? std::clamp(kYawGain * moment.yawError, -kMostYaw, kMostYaw)
-                          : 0.0F;
-    commands->yawRate[fish] = static_cast<std::int16_t>(
-        yaw / static_cast<float>(kTicksPerSecond) / kRadiansOfYawUnit);
+    return static_cast<std::uint16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);
 }
 
 }  // namespace aquarama

@@ -27,10 +27,10 @@ class Context {
     [[nodiscard]] virtual bool hasWindow() const = 0;
     [[nodiscard]] virtual std::string description() const = 0;  // renderer and version, for the log
 
-    // The main thread's share: waits for window events no longer than this, and handles them.
+    // On the main thread: waits for window events no longer than this, and handles them.
     virtual void pumpEvents(std::chrono::milliseconds atMost) = 0;
-    // The drawing thread's share: keys that were pressed, oldest first: a lower-case letter, ' ' or
-    // kEscapeKey. Closing the window is kEscapeKey.
+    // Keys that were pressed, oldest first: a lower-case letter, ' ' or kEscapeKey. Closing the
+    // window is kEscapeKey.
     [[nodiscard]] virtual std::optional<char> nextKey() = 0;
 };
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <deque>
 #include <span>
 #include <string>
 
@@ -9,7 +10,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "common/net/bounded_queue.h"
 #include "common/units/error.h"
 #include "render_node/context/context.h"
 #include "render_node/context/opengl_version.h"
@@ -20,7 +20,6 @@ namespace {
 
 // GLFW knows whole hertz only: 59.94 is told as 59 or 60.
 constexpr double kRefreshToleranceHertz = 1.0;
-constexpr std::size_t kPendingKeys = 32;
 
 std::string text(glm::ivec2 size) {
     return std::to_string(size.x) + " x " + std::to_string(size.y);
@@ -133,7 +132,12 @@ class WindowContext : public Context {
     void pumpEvents(std::chrono::milliseconds atMost) override {
         glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
     }
-    [[nodiscard]] std::optional<char> nextKey() override { return keys_.tryTake(); }
+    [[nodiscard]] std::optional<char> nextKey() override {
+        if (keys_.empty()) return std::nullopt;
+        const char key = keys_.front();
+        keys_.pop_front();
+        return key;
+    }
 
   private:
     static WindowContext& of(GLFWwindow* source) {
@@ -149,7 +153,7 @@ class WindowContext : public Context {
     glm::ivec2 size_;
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
-    BoundedQueue<char> keys_{kPendingKeys};
+    std::deque<char> keys_;
 };
 
 void WindowContext::open(const std::string& title) {
@@ -206,11 +210,11 @@ void WindowContext::onKey(int key) {
     if (key == GLFW_KEY_F)
         toggleFullscreen();
     else if (key == GLFW_KEY_ESCAPE)
-        keys_.tryPut(kEscapeKey);
+        keys_.push_back(kEscapeKey);
     else if (key == GLFW_KEY_SPACE)
-        keys_.tryPut(' ');
+        keys_.push_back(' ');
     else if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
-        keys_.tryPut(static_cast<char>('a' + (key - GLFW_KEY_A)));
+        keys_.push_back(static_cast<char>('a' + (key - GLFW_KEY_A)));
 }
 
 void WindowContext::toggleFullscreen() {

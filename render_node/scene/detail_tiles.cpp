@@ -60,9 +60,9 @@ Relief rockAt(glm::vec2 uv) {
     const float knobs = 1.0F - 2.0F * std::abs(tiled(14, bent, 15));
     const float grit = tiled(15, uv, 44);
     Relief relief;
-    relief.height = 0.035F * crags + 0.016F * knobs + 0.004F * grit;
+    relief.height = 0.040F * crags + 0.020F * knobs + 0.005F * grit;
     const float crest = 0.5F + 0.32F * crags + 0.22F * knobs;
-    relief.albedo = 0.80F + 0.25F * knobs + 0.18F * grit + 0.20F * tiled(16, uv, 26);
+    relief.albedo = 0.85F + 0.32F * knobs + 0.24F * grit + 0.26F * tiled(16, uv, 26);
     relief.crest = glm::clamp(crest, 0.0F, 1.0F);
     return relief;
 }

@@ -61,7 +61,7 @@ void addBlade(PlantMesh& mesh, const Blade& blade) {
         const float v = static_cast<float>(row) / static_cast<float>(blade.rows - 1);
         const float width = blade.width * std::sin(kPi * (0.08F + 0.9F * std::pow(v, 0.7F)));
         const glm::vec3 centre =
-            blade.out * (blade.length * v) - glm::vec3{0, blade.length * 0.4F * v * v, 0};
+            blade.out * (blade.length * v) - glm::vec3{0, blade.length * 0.6F * v * v, 0};
         const glm::vec3 normal = glm::cross(side, blade.out);
         for (const float edge : {-1.0F, 0.0F, 1.0F}) {
             const float ruffle = 0.35F * width * edge * std::sin(17.0F * v + 2.0F * edge);
@@ -101,15 +101,15 @@ void addStem(PlantMesh& mesh, int rows, float radius, glm::vec3 albedo) {
 }
 
 PlantMesh growKelp(int level) {
-    constexpr std::array kBlades{40, 22, 13};
-    constexpr std::array kBladeRows{6, 4, 3};
+    constexpr std::array kBlades{52, 34, 22};
+    constexpr std::array kBladeRows{6, 4, 4};
     constexpr std::array kStemRows{14, 8, 5};
     const auto at = static_cast<std::size_t>(level);
     PlantMesh mesh;
     addStem(
         mesh, kStemRows[at], 0.020F + 0.006F * static_cast<float>(level), {0.20F, 0.16F, 0.05F});
     const auto blades = static_cast<float>(kBlades[at]);
-    const float broader = std::sqrt(40.0F / blades);
+    const float broader = std::sqrt(52.0F / blades);
     Dice dice{5};
     for (int i = 0; i < kBlades[at]; ++i) {
         const float share = (static_cast<float>(i) + 1.2F) / (blades + 0.6F);

@@ -22,7 +22,7 @@ constexpr float kGrowthShare = 1.45F;  // of the rock's radius: how far its cora
 
 // Cover is what makes rock look alive: about a coral for every hand's breadth of its top.
 void addCorals(ReefMesh& mesh, const Rock& rock, int level) {
-    const auto count = static_cast<int>(5.0F + 34.0F * std::pow(rock.radiusMetres, 1.35F));
+    const auto count = static_cast<int>(6.0F + 46.0F * std::pow(rock.radiusMetres, 1.35F));
     Dice dice{hashOf(rock.seed, 77)};
     for (const Spot& spot : spotsOn(rock, count)) {
         const float share = dice.unit();

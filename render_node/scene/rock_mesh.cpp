@@ -21,9 +21,9 @@ constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 // sea has worn its top.
 float radiusTowards(const Rock& rock, glm::vec3 direction) {
     const glm::vec3 place = direction * 1.35F;
-    const float crags = ridges(rock.seed, place, 4);
+    const float crags = ridges(rock.seed, place, 5);
     const float lumps = billows(rock.seed ^ 0x51U, direction * 3.3F, 3);
-    const float share = 0.62F + 0.26F * crags + 0.20F * lumps;
+    const float share = 0.58F + 0.34F * crags + 0.26F * lumps;
     const float squat = direction.y > 0.0F ? 1.0F - 0.22F * direction.y * direction.y : 1.0F;
     return rock.radiusMetres * glm::clamp(share, 0.35F, 1.0F) * squat;
 }
@@ -66,8 +66,8 @@ float opennessAt(const Rock& rock, glm::vec3 direction) {
 }  // namespace
 
 void addBoulder(Mesh& mesh, const Rock& rock, int level) {
-    constexpr std::array kColumns{64, 40, 26, 18};
-    constexpr std::array kRows{36, 23, 15, 10};
+    constexpr std::array kColumns{88, 48, 28, 18};
+    constexpr std::array kRows{50, 28, 16, 10};
     // A pebble needs no more facets than a boulder twice as far.
     const int step = level + (rock.radiusMetres < 0.6F ? 1 : 0);
     const auto grid = static_cast<std::size_t>(std::min(step, 3));

@@ -23,7 +23,7 @@ namespace {
 
 // Undoes about the water above the eye, so that near things keep their colours and distance stays
 // blue.
-constexpr float kFilterDepthMetres = 5.6F;
+constexpr float kFilterDepthMetres = 5.3F;
 constexpr int kFlakes = 9000;
 
 // All channels of a wall are about as large, so neighbours agree.

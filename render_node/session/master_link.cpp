@@ -14,7 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr Instant kHello = milliseconds(200);
+constexpr Instant kHello = milliseconds(100);
 constexpr Instant kPing = milliseconds(50);       // a fifth of the silence that ends membership
 constexpr Instant kRepeat = seconds(1);           // of what was not answered
 constexpr Instant kMasterSilence = seconds(2);    // after which the master is taken for gone

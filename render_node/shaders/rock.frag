@@ -13,15 +13,18 @@ void main() {
     // Laid on from above or from the side, as the rock faces. The level of blur follows the range,
     // as across the change of sides there are no derivatives.
     float range = distance(place, eyeAndTime.xyz);
-    bool above = abs(n.y) > 0.6;
-    vec2 uv = (above ? place.xz : vec2(place.x + place.z, place.y)) / kTile;
+    bool above = abs(n.y) > 0.62, across = abs(n.x) > abs(n.z);
+    vec2 uv = (above ? place.xz : across ? place.zy : place.xy) / kTile;
     float lod = log2(max(range * kTexelsARadian / pixelsARadian(), 1.0));
     vec4 relief = textureLod(detail, uv, lod) - vec4(0.5, 0.5, 0.0, 0.0);
-    vec3 slope = above ? vec3(relief.x, 0.0, relief.y)
-                       : vec3(0.7 * relief.x, relief.y, 0.7 * relief.x);
-    n = normalize(n - 1.8 * rough * (slope - n * dot(slope, n)));
-    float crest = mix(1.0, 0.35 + 0.9 * relief.w, rough);
-    vec3 colour = albedo.rgb * mix(1.0, 2.0 * relief.z, rough);
+    vec3 slope = above    ? vec3(relief.x, 0.0, relief.y)
+                 : across ? vec3(0.0, relief.y, relief.x)
+                          : vec3(relief.xy, 0.0);
+    n = normalize(n - 2.8 * rough * (slope - n * dot(slope, n)));
+    float crest = mix(1.0, 0.12 + 1.2 * relief.w, rough);
+    // Crusts of other colours on the knobs, turf in the pits.
+    vec3 hue = mix(vec3(0.75, 1.05, 0.70), vec3(1.35, 0.92, 1.05), smoothstep(0.35, 0.6, relief.z));
+    vec3 colour = albedo.rgb * mix(vec3(1.0), 2.0 * relief.z * hue, rough);
     Openness open = Openness(sunTranslucencyGlow.x * mix(0.5, 1.0, albedo.w), albedo.w * crest);
     vec3 light = litAt(0.3 + 0.5 * lod, open, colour, place, n, sunTranslucencyGlow.y);
     light += fluorescent(colour, sunTranslucencyGlow.z * albedo.w);

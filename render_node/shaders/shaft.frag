@@ -4,7 +4,7 @@
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 upTo;
 
-const float kGain = 1.8;
+const float kGain = 2.3;
 const int kSteps = 26;
 
 vec3 directionOf(vec2 p) {

@@ -22,8 +22,8 @@ void main() {
     vec3 w = way / range;
     // Waves, and the same pattern again as ripples on them.
     vec2 turned = vec2(0.83 * place.x - 0.56 * place.z, 0.56 * place.x + 0.83 * place.z);
-    vec2 slope = 2.0 * texture(waveTile, place.xz / kTileMetres).xy +
-                 2.2 * texture(waveTile, turned / 3.7).xy;
+    vec2 slope = 1.6 * texture(waveTile, place.xz / kTileMetres).xy +
+                 1.7 * texture(waveTile, turned / 3.7).xy;
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float inward = max(dot(w, normal), 0.02);
     vec3 up = vec3(0.0);

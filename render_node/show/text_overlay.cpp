@@ -51,8 +51,10 @@ void TextOverlay::draw(std::span<const Label> labels,
                        float dotPixels) {
     if (labels.empty()) return;
     const std::vector<Glyph> glyphs = glyphsOf(labels, dotPixels);
-    glNamedBufferData(glyphs_.name(), static_cast<GLsizeiptr>(glyphs.size() * sizeof(Glyph)),
-                      glyphs.data(), GL_STREAM_DRAW);
+    glNamedBufferData(glyphs_.name(),
+                      static_cast<GLsizeiptr>(glyphs.size() * sizeof(Glyph)),
+                      glyphs.data(),
+                      GL_STREAM_DRAW);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, sizePixels.x, sizePixels.y);
     glDisable(GL_DEPTH_TEST);

@@ -19,7 +19,7 @@ Rig shippedRig(const std::string& name) {
     return readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
 }
 
-std::vector<Light> projected(const Rig& rig, Pattern pattern) {
+std::vector<Light> projected(const Rig& rig, TestPattern pattern) {
     std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         channels.push_back(projectedLight(rig, i, pattern));
@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, OneWall, testing::Values("theatre", "touring",
 
 TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
     const Rig rig = shippedRig(GetParam());
-    const std::vector<Light> channels = projected(rig, Pattern::Grid);
-    const Light direct = directPanorama(rig, Pattern::Grid);
+    const std::vector<Light> channels = projected(rig, TestPattern::Grid);
+    const Light direct = directPanorama(rig, TestPattern::Grid);
     for (const int bits : {16, 8}) {
         const auto offsets = lineOffsets(rig, composed(rig, channels, bits), direct);
         EXPECT_GT(offsets.size(), 5000U);
@@ -56,7 +56,7 @@ TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
 
 TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
     const Rig rig = shippedRig(GetParam());
-    const std::vector<Light> channels = projected(rig, Pattern::Grey);
+    const std::vector<Light> channels = projected(rig, TestPattern::Grey);
     const Light deep = composed(rig, channels, 16);
     EXPECT_LT(unevenness(deep, 1), 0.01);
     EXPECT_LT(unevenness(composed(rig, channels, 8), 16), 0.01);
@@ -68,12 +68,12 @@ TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
 
 TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
     const Rig rig = shippedRig("desk");
-    const std::vector<Light> channels = projected(rig, Pattern::Grid);
+    const std::vector<Light> channels = projected(rig, TestPattern::Grid);
     Rig pushed = rig;
     pushed.channels[0].projector.yawPitchRollRadians.x += radiansOf(0.1);
     // The pictures were made for the rig; the hall has the left projector turned by 0.1 degrees.
     const auto offsets =
-        lineOffsets(rig, composed(pushed, channels, 16), directPanorama(rig, Pattern::Grid));
+        lineOffsets(rig, composed(pushed, channels, 16), directPanorama(rig, TestPattern::Grid));
     EXPECT_GT(largest(offsets), 1);
     for (const LineOffset& line : offsets) {
         if (!line.upright || line.lineDegrees < -15) continue;  // the middle and right thirds
@@ -83,7 +83,7 @@ TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
 
 TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
     const Rig rig = shippedRig("desk");
-    const Light direct = directPanorama(rig, Pattern::Grid);
+    const Light direct = directPanorama(rig, TestPattern::Grid);
     Light shifted = direct;
     for (int y = 0; y < direct.sizePixels.y; ++y)
         for (int x = 0; x < direct.sizePixels.x; ++x)
@@ -97,7 +97,7 @@ TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
 TEST(Measure, aMissingLineIsInfinitelyOff) {
     const Rig rig = shippedRig("desk");
     const auto offsets =
-        lineOffsets(rig, darkness(rig.panoramaPixels), directPanorama(rig, Pattern::Grid));
+        lineOffsets(rig, darkness(rig.panoramaPixels), directPanorama(rig, TestPattern::Grid));
     ASSERT_FALSE(offsets.empty());
     EXPECT_TRUE(std::ranges::all_of(
         offsets, [](const LineOffset& line) { return std::isinf(line.offsetPixels); }));
@@ -105,7 +105,7 @@ TEST(Measure, aMissingLineIsInfinitelyOff) {
 
 TEST(Measure, aSeamOfTwoPerCentIsSeen) {
     const Rig rig = shippedRig("desk");
-    std::vector<Light> channels = projected(rig, Pattern::Grey);
+    std::vector<Light> channels = projected(rig, TestPattern::Grey);
     for (glm::vec3& light : channels[2].rgb) light *= 1.03F;
     EXPECT_GT(unevenness(composed(rig, channels, 8), 16), 0.015);
 }
@@ -113,7 +113,7 @@ TEST(Measure, aSeamOfTwoPerCentIsSeen) {
 // Blending in codes instead of light is the classic mistake: the sum is then too dark.
 TEST(Measure, blendingInCodesInsteadOfLightIsSeen) {
     const Rig rig = shippedRig("desk");
-    std::vector<Light> channels = projected(rig, Pattern::Grey);
+    std::vector<Light> channels = projected(rig, TestPattern::Grey);
     const double greyCode = srgbFromLinear(kGreyLight);
     for (Light& channel : channels)
         for (glm::vec3& light : channel.rgb) {

@@ -83,7 +83,7 @@ TEST_F(Program, composeMakesBothPicturesInTheDepthAskedFor) {
     const Rig rig = readRig(rigPath);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         writePng(folder() + "/channel-" + rig.channels[i].name + ".png",
-                 pictureOf(projectedLight(rig, i, Pattern::Grey), 16, 0));
+                 pictureOf(projectedLight(rig, i, TestPattern::Grey), 16, 0));
     const Outcome outcome = calibrate("compose " + rigPath + " " + folder() + " --deep");
     EXPECT_EQ(outcome.status, 0) << outcome.said;
     const Picture panorama = readPng(folder() + "/panorama.png");
