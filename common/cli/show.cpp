@@ -158,15 +158,16 @@ bool watch(const ShowOptions& options, std::vector<Process>& processes) {
     return true;
 }
 
-bool composePictures(const ShowOptions& options) {
-    std::vector<std::string> arguments{"compose", options.rigPath, options.snapshotFolder};
-    if (options.deep) arguments.emplace_back("--deep");
-    Process compose{
-        .name = "compose", .command = {siblingProgram("calibrate"), arguments}, .started = {}};
-    compose.launch();
+// Lets aquarama-calibrate make one thing of the nodes' pictures.
+bool compose(const ShowOptions& options, const std::string& what) {
+    std::vector<std::string> arguments{what, options.rigPath, options.snapshotFolder};
+    if (options.deep && what == "compose") arguments.emplace_back("--deep");
+    Process composer{
+        .name = what, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+    composer.launch();
     while (true) {
         for (const Ending& ending : waitForChildren(1s).endings) {
-            if (ending.child == compose.child) return ending.clean();
+            if (ending.child == composer.child) return ending.clean();
         }
     }
 }
@@ -195,8 +196,10 @@ int runShow(const ShowOptions& options, const Rig& rig) {
 
     if (!watch(options, processes)) return 1;
     if (options.snapshotFolder.empty()) return 0;
-    if (!composePictures(options)) return 1;
+    if (!compose(options, "compose")) return 1;
+    if (options.filmEvery > 0 && !compose(options, "film")) return 1;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
+    if (options.filmEvery > 0) std::cout << ", clip.webp";
     for (const Channel& channel : rig.channels) std::cout << ", channel-" << channel.name << ".png";
     std::cout << '\n';
     return 0;

@@ -41,8 +41,10 @@ struct MotionStates {
 // What the mind asks of the body; the motor's only input. It changes at decision instants, not
 // every tick.
 struct MotorCommands {
-    std::vector<std::uint8_t> segment;     // Action to play next
-    std::vector<std::uint16_t> phaseRate;  // 1/65536 of a cycle in a tick
+    std::vector<std::uint8_t> segment;  // Action to play next
+    // Of that action, in 1/65536 of a cycle in a tick; a turn that first plays to its end does so
+    // as recorded.
+    std::vector<std::uint16_t> phaseRate;
     std::vector<std::int16_t> pitch;  // sine of the wanted pitch, in units of 2^-15; up is positive
     std::vector<std::int16_t>
         yawRate;  // extra turn about the world's up, in units of 2^-20 rad a tick; left is positive
@@ -70,6 +72,10 @@ static_assert(sizeof(FishRecord) == 28);
 
 [[nodiscard]] FishRecord recordOf(const MotionStates& states, std::size_t fish);
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record);
+
+// Whether the motor and the reconstruction can play it: segments that exist, a warp within its
+// length, no stray bits. A decoder refuses any other.
+[[nodiscard]] bool isPlayable(const FishRecord& record);
 
 // The body frame as floats: position of o in metres, rotation that takes body axes (x anterior, y
 // dorsal, z right) to world.

@@ -61,7 +61,8 @@ struct Repertoire {
     std::array<ActionSegment, kActions> segments{};
 };
 
-// The file: "AQREP", version, species, segments, SHA-256 of all that precedes it; little-endian.
+// The file: "AQREP", version, length, species, segments, SHA-256 of all that precedes it;
+// little-endian.
 [[nodiscard]] std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire);
 
 // Throws Error, naming `source`, when the bytes are truncated, altered, of another version or out

@@ -60,7 +60,7 @@ Endpoint split(const std::string& address) {
 bool isLoopback(const std::string& host) {
     in_addr parsed{};
     if (inet_pton(AF_INET, host.c_str(), &parsed) == 1) return ntohl(parsed.s_addr) >> 24U == 127;
-    return ipv6In(host) == "::1";  // a name may resolve to anything
+    return ipv6In(host) == "::1";
 }
 
 }  // namespace
@@ -69,14 +69,16 @@ void requireConnectAddress(const std::string& address) {
     if (!isPort(split(address).port)) refusePort(address);
 }
 
-void requireBindAddress(const std::string& address) {
-    const Endpoint endpoint = split(address);
+std::string bindAddress(const std::string& address) {
+    Endpoint endpoint = split(address);
+    if (endpoint.host == "localhost") endpoint.host = "127.0.0.1";
     if (endpoint.port != "*" && !isPort(endpoint.port)) refusePort(address);
     if (!isLoopback(endpoint.host)) {
         throw Error("\"" + address +
                     "\" reaches past this machine, and without keys anybody there could take part; "
                     "use tcp://127.0.0.1:PORT");
     }
+    return std::string(kTcp) + endpoint.host + ":" + endpoint.port;
 }
 
 }  // namespace aquarama

@@ -8,7 +8,8 @@ namespace aquarama {
 
 // Throws Error where the address is malformed; port "*" (any free one) only where one binds.
 void requireConnectAddress(const std::string& address);
-// Also where it reaches past this machine: nothing is encrypted or authenticated yet.
-void requireBindAddress(const std::string& address);
+// Also where it reaches past this machine: nothing is encrypted or authenticated yet. Gives the
+// address to bind: "localhost" may mean anything to a resolver, here it is 127.0.0.1.
+[[nodiscard]] std::string bindAddress(const std::string& address);
 
 }  // namespace aquarama

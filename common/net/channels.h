@@ -50,7 +50,7 @@ class MasterChannels {
     [[nodiscard]] virtual std::string stateAddress() const = 0;
 };
 
-// A node's end; as above.
+// A node's end; as above. What is said before the connection stands is lost.
 class NodeChannels {
   public:
     virtual ~NodeChannels() = default;

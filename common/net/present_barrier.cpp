@@ -58,8 +58,18 @@ bool PresentBarrier::isWaitedFor(std::size_t node) const {
     return n.member && !n.late && frame_ && n.first <= *frame_;
 }
 
+bool PresentBarrier::hasNewcomer() const {
+    return std::ranges::any_of(nodes_, [&](const Node& node) {
+        return node.member && !node.late && (!frame_ || *frame_ < node.first);
+    });
+}
+
 bool PresentBarrier::allPrepared() const {
     return std::ranges::all_of(nodes_, &Node::member);
+}
+
+bool PresentBarrier::hasMembers() const {
+    return std::ranges::any_of(nodes_, &Node::member);
 }
 
 PresentBarrier::Decision PresentBarrier::decide(Instant now) {

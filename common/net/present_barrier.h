@@ -60,6 +60,9 @@ class PresentBarrier {
     [[nodiscard]] bool isMember(std::size_t node) const { return nodes_[node].member; }
     [[nodiscard]] bool isWaitedFor(std::size_t node) const;
     [[nodiscard]] bool allPrepared() const;
+    [[nodiscard]] bool hasMembers() const;
+    // A member that is waited for from a later frame on than the one that is drawn now.
+    [[nodiscard]] bool hasNewcomer() const;
     // Somebody is ready for the frame that is drawn now.
     [[nodiscard]] bool anyReady() const { return firstReady_.has_value(); }
     [[nodiscard]] std::uint64_t timesLate(std::size_t node) const { return nodes_[node].timesLate; }

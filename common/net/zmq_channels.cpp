@@ -16,10 +16,11 @@
 namespace aquarama {
 namespace {
 
-constexpr int kStateQueue = 8;     // states in flight to one node, each way
-constexpr int kControlQueue = 64;  // small messages
-constexpr int kLingerMs = 1000;    // how long a farewell may take to leave
-constexpr int kReconnectMs = 50;   // a master that restarts is found at once
+constexpr int kStateQueue = 8;         // states in flight to one node, each way
+constexpr int kControlQueue = 64;      // small messages
+constexpr int kMasterLingerMs = 1000;  // how long a farewell may take to leave
+constexpr int kNodeLingerMs = 200;
+constexpr int kReconnectMs = 50;  // a master that restarts is found at once
 constexpr int kReconnectMaxMs = 500;
 constexpr std::size_t kSubscriptionBytes = 256;  // the longest that the state channel listens to
 
@@ -33,7 +34,6 @@ zmq::socket_t openSocket(zmq::context_t& context,
                          int queue,
                          std::size_t maxBytes) {
     zmq::socket_t socket(context, type);
-    socket.set(zmq::sockopt::linger, kLingerMs);
     socket.set(zmq::sockopt::sndhwm, queue);
     socket.set(zmq::sockopt::rcvhwm, queue);
     socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(maxBytes));
@@ -46,10 +46,10 @@ void allowIpv6(zmq::socket_t& socket, const std::string& address) {
 }
 
 void bindSocket(zmq::socket_t& socket, const std::string& address) {
-    requireBindAddress(address);
-    allowIpv6(socket, address);
+    const std::string checked = bindAddress(address);
+    allowIpv6(socket, checked);
     try {
-        socket.bind(address);
+        socket.bind(checked);
     } catch (const zmq::error_t& error) {
         const bool occupied = error.num() == EADDRINUSE;
         throw Error("cannot listen at " + address + ": " + error.what() +
@@ -128,6 +128,8 @@ class ZmqMasterChannels final : public MasterChannels {
           // Manual: a subscription counts only when we say so, so strangers cannot fill our memory
           // with topics.
           state_(openSocket(context_, zmq::socket_type::xpub, kStateQueue, kSubscriptionBytes)) {
+        control_.set(zmq::sockopt::linger, kMasterLingerMs);
+        state_.set(zmq::sockopt::linger, 0);
         state_.set(zmq::sockopt::xpub_manual, 1);
         bindSocket(control_, controlAddress);
         bindSocket(state_, stateAddress);
@@ -196,6 +198,10 @@ class ZmqNodeChannels final : public NodeChannels {
     ZmqNodeChannels(const std::string& controlAddress, const PacketLimits& limits)
         : maxBytes_(limits.toNode),
           control_(openSocket(context_, zmq::socket_type::dealer, kControlQueue, maxBytes_)) {
+        control_.set(zmq::sockopt::linger, kNodeLingerMs);
+        // What is said while nobody listens is dropped: a master that starts late is not greeted
+        // by a heap of old hellos.
+        control_.set(zmq::sockopt::immediate, true);
         connectSocket(control_, controlAddress);
     }
 

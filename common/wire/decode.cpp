@@ -5,7 +5,7 @@
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/wire_format_lite.h>
 
-#include "aquarama.pb.h"
+#include "common/wire/aquarama.pb.h"
 #include "common/wire/envelope.h"
 #include "common/wire/state_codec.h"
 
@@ -126,6 +126,11 @@ std::optional<Message> read(const v1::BlobChunk& message) {
     return BlobChunk{*digest, message.offset(), message.total(), {first, first + content.size()}};
 }
 
+std::optional<Message> read(const v1::Joined& message) {
+    if (!message.has_first_frame()) return std::nullopt;
+    return Joined{{message.first_frame()}};
+}
+
 std::optional<Message> read(const v1::State& message) {
     return readState(message);
 }
@@ -214,6 +219,8 @@ std::optional<Message> read(const v1::Envelope& envelope) {
             return read(envelope.blob_chunk());
         case v1::Envelope::kPrepared:
             return Prepared{};
+        case v1::Envelope::kJoined:
+            return read(envelope.joined());
         case v1::Envelope::kState:
             return read(envelope.state());
         case v1::Envelope::kBeacon:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cassert>
 
-#include "aquarama.pb.h"
+#include "common/wire/aquarama.pb.h"
 #include "common/wire/envelope.h"
 #include "common/wire/state_codec.h"
 
@@ -85,6 +85,10 @@ void write(const BlobChunk& chunk, v1::Envelope& envelope) {
 
 void write(const Prepared&, v1::Envelope& envelope) {
     envelope.mutable_prepared();
+}
+
+void write(const Joined& joined, v1::Envelope& envelope) {
+    envelope.mutable_joined()->set_first_frame(joined.first.value);
 }
 
 void write(const StateFrame& state, v1::Envelope& envelope) {

@@ -55,6 +55,11 @@ struct BlobChunk {
 // The node has built all that it needs and hears the state channel.
 struct Prepared {};
 
+// The answer to Prepared: from this frame on the node is waited for.
+struct Joined {
+    Frame first;
+};
+
 // Tells a fresh subscriber that it hears the state channel.
 struct Beacon {};
 
@@ -123,6 +128,7 @@ using Message = std::variant<Hello,
                              BlobRequest,
                              BlobChunk,
                              Prepared,
+                             Joined,
                              StateFrame,
                              Beacon,
                              Ready,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "aquarama.pb.h"
+#include "common/wire/aquarama.pb.h"
 #include "common/wire/envelope.h"
 
 namespace aquarama {

@@ -10,12 +10,25 @@ layout(location = 6) flat in vec3 dorsal;
 layout(location = 0) out vec4 colour;
 
 void main() {
-    float stripe;
-    vec3 albedo = ground(rest.x, rest.w, id, 0.0, fwidth(rest.w), stripe) * tintOf(id);
-    vec3 n = normalize(normal);
-    vec3 plate = normalize(n - 0.8 * dot(n, dorsal) * dorsal);
+    float s = rest.x, v = rest.w;
+    float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
+    float golden = goldenLine(s, v, fwidth(v));
+    vec3 albedo = groundColour(v, 0.0, golden, id) * tintOf(id);
+    float silver = silverOf(s, v, golden);
+
+    // Of the head's details, the two that still show: the big eye, and the gill cover's edge.
+    float ring = line(distance(rest.xy, kEye), 0.9 * kEyeRadius, pixel);
+    float pupil = line(distance(rest.xy, kEye), 0.5 * kEyeRadius, pixel);
+    float gill = line(s - 0.245 + 0.024 * v * v, 0.004, pixel) * smoothstep(0.86, 0.60, abs(v));
+    albedo = mix(albedo, vec3(0.60, 0.58, 0.48), 0.7 * ring) * (1.0 - 0.95 * pupil) * (1.0 - 0.6 * gill);
+    silver *= (1.0 - ring) * (1.0 - 0.6 * gill);
+
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
-    vec3 mirror = mirrored(reflect(fromEye, plate), place) * (0.55 + 0.75 * albedo);
-    vec3 radiance = mix(lit(albedo, place, n, 0.0), mirror, silverOf(rest.x, rest.w, stripe));
+    vec3 n = normalize(normal);
+    vec3 plate = plateletNormal(n, dorsal, -fromEye);
+    float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
+    silver *= smoothstep(0.0, 0.25, facing);
+    vec3 mirror = reflected(plate, fromEye, place) * silverTint(facing, albedo);
+    vec3 radiance = mix(lit(albedo, place, n, 0.0), mirror, silver);
     colour = vec4(seen(radiance, place), 1.0);
 }

@@ -10,9 +10,9 @@ namespace aquarama {
 
 namespace {
 
-// Radians. A projector of the theatre shows 0.16 as some 300 pixels, 0.045 as 80.
-constexpr float kLevel1Angle = 0.045F;
-constexpr float kLevel2Angle = 0.16F;
+// Radians. A projector of the theatre shows 0.09 as some 160 pixels: six for a quad of the control mesh.
+constexpr float kLevel1Angle = 0.09F;
+constexpr float kLevel2Angle = 0.28F;
 
 }  // namespace
 

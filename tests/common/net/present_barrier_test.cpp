@@ -175,12 +175,15 @@ TEST(PresentBarrier, aNewcomerIsWaitedForFromTheFirstFrameThatItSees) {
     PresentBarrier barrier(3, limits(false), at(0));
     barrier.join(kLeft, {0});
     barrier.begin({0});
+    EXPECT_FALSE(barrier.hasNewcomer());
     barrier.join(kRight, {2});
     EXPECT_FALSE(barrier.isWaitedFor(kRight));
+    EXPECT_TRUE(barrier.hasNewcomer());
     barrier.begin({1});
     EXPECT_FALSE(barrier.isWaitedFor(kRight));
     barrier.begin({2});
     EXPECT_TRUE(barrier.isWaitedFor(kRight));
+    EXPECT_FALSE(barrier.hasNewcomer());
 }
 
 TEST(PresentBarrier, anEmptyWallIsIdle) {

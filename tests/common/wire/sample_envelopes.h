@@ -69,6 +69,7 @@ inline std::vector<Envelope> sampleEnvelopes() {
                                      BlobRequest{digestOf("x"), 1U << 18U},
                                      BlobChunk{digestOf("x"), 50, 200, chunk},
                                      Prepared{},
+                                     Joined{{65}},
                                      sampleState(5),
                                      Beacon{},
                                      Ready{{12}, ReleaseReport{{11}, -5}},

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/gait_path.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::size_t kCycle = kPhases;
+
+void integrate(const ActionSegment& segment, GaitPath& path) {
+    path.rotation[0] = glm::dquat(1, 0, 0, 0);
+    for (std::size_t k = 0; k + 1 < kPathSamples; ++k) {
+        const FrameIncrement& step = segment.increments[k % kCycle];
+        const glm::dquat turn(step.rotation);
+        path.translation[k + 1] =
+            path.translation[k] + path.rotation[k] * glm::dvec3(step.translation);
+        // The nearer of the two quaternions of a rotation, so that the path may be interpolated.
+        path.rotation[k + 1] = glm::normalize(path.rotation[k] * (turn.w < 0 ? turn * -1.0 : turn));
+    }
+}
+
+// The path with the cycle repeated before and after it.
+glm::dquat rotationAt(const GaitPath& path, int phase) {
+    if (phase >= 0) return path.rotation[static_cast<std::size_t>(phase)];
+    return glm::conjugate(path.rotation[kCycle]) *
+           path.rotation[static_cast<std::size_t>(phase + kPhases)];
+}
+
+// The mean of the frames within half a cycle of `phase`.
+glm::dquat meanAt(const GaitPath& path, int phase) {
+    constexpr int kHalf = kPhases / 2;
+    glm::dquat sum = (rotationAt(path, phase - kHalf) + rotationAt(path, phase + kHalf)) * 0.5;
+    for (int near = phase - kHalf + 1; near < phase + kHalf; ++near) {
+        sum = sum + rotationAt(path, near);
+    }
+    return glm::normalize(sum);
+}
+
+// A turn that plays to its end is no cycle, and has no mean over one: its body frame is its mean.
+std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsToEnd) {
+    std::array<glm::dquat, kCycleSamples> means{};
+    for (std::size_t k = 0; k < kCycleSamples; ++k) {
+        means[k] = playsToEnd ? path.rotation[k] : meanAt(path, static_cast<int>(k));
+    }
+    return means;
+}
+
+// Central difference of the body frame's origin, taken in the second cycle, which has a first
+// before it; seen in mean axes.
+double forwardAt(const GaitPath& path, std::size_t k) {
+    const std::size_t at = kCycle + k % kCycle;
+    const glm::dvec3 step = (path.translation[at + 1] - path.translation[at - 1]) * 0.5;
+    const glm::dvec3 inBody = glm::conjugate(path.rotation[at]) * step;
+    return (glm::conjugate(path.bodyFromMean[k]) * inBody).x;
+}
+
+}  // namespace
+
+GaitPath pathOf(const ActionSegment& segment) {
+    GaitPath path;
+    integrate(segment, path);
+    const auto means = meansOf(path, segment.playsToEnd);
+    for (std::size_t k = 0; k < kCycleSamples; ++k) {
+        path.bodyFromMean[k] = glm::conjugate(path.rotation[k]) * means[k];
+    }
+    for (std::size_t k = 0; k < kCycleSamples; ++k) {
+        const std::size_t now = k % kCycle;
+        const glm::dquat turn = glm::conjugate(means[now]) * means[now + 1];
+        path.mean[k] = {glm::dvec3(turn.x, turn.y, turn.z) / turn.w, forwardAt(path, k)};
+    }
+    return path;
+}
+
+}  // namespace aquarama

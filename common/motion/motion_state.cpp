@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/motion_state.h"
+
+#include "common/motion/orientation.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::uint64_t kMask20 = 0xFFFFF;
+
+std::uint64_t low20(std::int32_t value) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)) & kMask20;
+}
+
+std::int32_t signed20(std::uint64_t bits) {
+    const auto value = static_cast<std::int32_t>(bits & kMask20);
+    return value >= 0x80000 ? value - 0x100000 : value;
+}
+
+// The finaliser of MurmurHash3: every bit in changes half the bits out.
+std::uint64_t mix(std::uint64_t h) {
+    h = (h ^ h >> 33U) * 0xFF51AFD7ED558CCDU;
+    h = (h ^ h >> 33U) * 0xC4CEB9FE1A85EC53U;
+    return h ^ h >> 33U;
+}
+
+std::uint64_t pair(std::int32_t low, std::int32_t high) {
+    return static_cast<std::uint32_t>(low) |
+           static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32U;
+}
+
+PackedOrientation orientationOf(const MotionStates& s, std::size_t fish) {
+    return {{s.orientationA[fish], s.orientationB[fish], s.orientationC[fish]},
+            s.orientationLargest[fish]};
+}
+
+BodyFrame frameOf(std::int32_t x, std::int32_t y, std::int32_t z, const PackedOrientation& packed) {
+    const Quaternion q = unpack(packed);
+    return {glm::vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) *
+                kPositionUnitMetres,
+            glm::quat(q.w, q.x, q.y, q.z)};
+}
+
+std::int32_t positionUnits(float metres) {
+    constexpr double kFar = 2147483647.0;
+    const double units = static_cast<double>(metres) / static_cast<double>(kPositionUnitMetres);
+    const double bounded = units < -kFar ? -kFar : units > kFar ? kFar : units;
+    return static_cast<std::int32_t>(roundToEven(bounded));
+}
+
+}  // namespace
+
+void MotionStates::resize(std::size_t fish) {
+    for (auto* column : {&x, &y, &z, &orientationA, &orientationB, &orientationC}) {
+        column->resize(fish);
+    }
+    for (auto* column : {&phase, &fromPhase}) column->resize(fish);
+    for (auto* column : {&orientationLargest, &segment, &fromSegment, &warpFrame, &warpLength}) {
+        column->resize(fish);
+    }
+}
+
+void MotorCommands::resize(std::size_t fish) {
+    segment.resize(fish);
+    phaseRate.resize(fish);
+    pitch.resize(fish);
+    yawRate.resize(fish);
+}
+
+FishRecord recordOf(const MotionStates& states, std::size_t fish) {
+    const std::uint64_t orientation =
+        low20(states.orientationA[fish]) | low20(states.orientationB[fish]) << 20U |
+        low20(states.orientationC[fish]) << 40U |
+        static_cast<std::uint64_t>(states.orientationLargest[fish] & 3U) << 60U;
+    return {.x = states.x[fish],
+            .y = states.y[fish],
+            .z = states.z[fish],
+            .orientationLow = static_cast<std::uint32_t>(orientation),
+            .orientationHigh = static_cast<std::uint32_t>(orientation >> 32U),
+            .phase = states.phase[fish],
+            .fromPhase = states.fromPhase[fish],
+            .segment = states.segment[fish],
+            .fromSegment = states.fromSegment[fish],
+            .warpFrame = states.warpFrame[fish],
+            .warpLength = states.warpLength[fish]};
+}
+
+PackedOrientation orientationOf(const FishRecord& record) {
+    const std::uint64_t bits =
+        record.orientationLow | static_cast<std::uint64_t>(record.orientationHigh) << 32U;
+    return {{signed20(bits), signed20(bits >> 20U), signed20(bits >> 40U)},
+            static_cast<std::uint8_t>(bits >> 60U & 3U)};
+}
+
+void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record) {
+    const PackedOrientation orientation = orientationOf(record);
+    states.x[fish] = record.x;
+    states.y[fish] = record.y;
+    states.z[fish] = record.z;
+    states.orientationA[fish] = orientation.abc[0];
+    states.orientationB[fish] = orientation.abc[1];
+    states.orientationC[fish] = orientation.abc[2];
+    states.orientationLargest[fish] = orientation.largest;
+    states.phase[fish] = record.phase;
+    states.fromPhase[fish] = record.fromPhase;
+    states.segment[fish] = record.segment;
+    states.fromSegment[fish] = record.fromSegment;
+    states.warpFrame[fish] = record.warpFrame;
+    states.warpLength[fish] = record.warpLength;
+}
+
+bool isPlayable(const FishRecord& record) {
+    return record.segment < kActions && record.fromSegment < kActions &&
+           record.warpFrame <= record.warpLength && record.orientationHigh >> 30U == 0;
+}
+
+BodyFrame bodyFrameOf(const FishRecord& record) {
+    return frameOf(record.x, record.y, record.z, orientationOf(record));
+}
+
+BodyFrame bodyFrameOf(const MotionStates& states, std::size_t fish) {
+    return frameOf(states.x[fish], states.y[fish], states.z[fish], orientationOf(states, fish));
+}
+
+void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame) {
+    const glm::quat& q = frame.rotation;
+    const PackedOrientation packed = pack(normalised({q.w, q.x, q.y, q.z}));
+    states.x[fish] = positionUnits(frame.position.x);
+    states.y[fish] = positionUnits(frame.position.y);
+    states.z[fish] = positionUnits(frame.position.z);
+    states.orientationA[fish] = packed.abc[0];
+    states.orientationB[fish] = packed.abc[1];
+    states.orientationC[fish] = packed.abc[2];
+    states.orientationLargest[fish] = packed.largest;
+}
+
+std::uint64_t hashOf(const MotionStates& states) {
+    std::uint64_t hash = mix(states.size());
+    for (std::size_t fish = 0; fish < states.size(); ++fish) {
+        const FishRecord r = recordOf(states, fish);
+        // Four independent words a fish, so that only the last line waits for the fish before.
+        const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, r.phase));
+        const std::uint64_t turn =
+            mix(r.orientationLow | static_cast<std::uint64_t>(r.orientationHigh) << 32U);
+        const std::uint64_t warp = r.segment | r.fromSegment << 8U | r.warpFrame << 16U |
+                                   static_cast<std::uint64_t>(r.warpLength) << 24U |
+                                   static_cast<std::uint64_t>(r.fromPhase) << 32U;
+        hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
+    }
+    return mix(hash);
+}
+
+}  // namespace aquarama

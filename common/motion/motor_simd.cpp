@@ -1,0 +1,6 @@
+#include "common/motion/motor.h"
+namespace aquarama {
+void MotorStep::run() const {
+    runReference();
+}
+}  // namespace aquarama

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/reconstruct.h"
+
+#include <algorithm>
+
+namespace aquarama {
+namespace {
+
+constexpr float kPhaseUnit = 1.0F / 65536.0F;
+
+// Where between two samples of the cycle a phase lies.
+struct Sample {
+    std::size_t before = 0, after = 0;
+    float share = 0.0F;  // of `after`
+};
+
+Sample sampleAt(float phase) {
+    const float at = std::clamp(phase, 0.0F, 1.0F) * kPhases;
+    const auto before = static_cast<std::size_t>(at);
+    return {before % kPhases, (before + 1) % kPhases, at - static_cast<float>(before)};
+}
+
+const ActionSegment& segmentOf(const Repertoire& repertoire, std::uint32_t segment) {
+    return repertoire.segments[std::min<std::size_t>(segment, kActions - 1)];
+}
+
+glm::vec3 lengthsOf(const std::array<std::int16_t, 3>& point) {
+    return glm::vec3(point[0], point[1], point[2]) * kPoseUnit;
+}
+
+// Point i of a cycle of poses at a phase, body lengths.
+template <class Poses>
+glm::vec3 pointAt(const Poses& poses, const Sample& sample, std::size_t i) {
+    return glm::mix(
+        lengthsOf(poses[sample.before][i]), lengthsOf(poses[sample.after][i]), sample.share);
+}
+
+// The deformation of eq. 12 or 13: of the segment, or on the way to it from the one before.
+// posesOf(segment) picks nodes or control points.
+template <class PosesOf>
+void deform(const Repertoire& repertoire,
+            const PresentedFish& fish,
+            PosesOf posesOf,
+            std::span<glm::vec3> points) {
+    const auto& to = posesOf(segmentOf(repertoire, fish.segment));
+    const auto& from = posesOf(segmentOf(repertoire, fish.fromSegment));
+    const Sample toSample = sampleAt(fish.phase);
+    const Sample fromSample = sampleAt(fish.fromPhase);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i] = pointAt(to, toSample, i);
+        if (fish.warpWeight < 1.0F) {
+            points[i] = glm::mix(pointAt(from, fromSample, i), points[i], fish.warpWeight);
+        }
+    }
+}
+
+// n = o + R (alpha d).
+void placeInWorld(const PresentedFish& fish, std::span<glm::vec3> points) {
+    const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
+    for (glm::vec3& point : points) {
+        point = fish.positionMetres + rotation * (fish.lengthMetres * point);
+    }
+}
+
+float weightOf(const FishRecord& record) {
+    return static_cast<float>(record.warpFrame + 1) / static_cast<float>(record.warpLength + 1);
+}
+
+float metres(std::int32_t before, std::int32_t after, float fraction) {
+    const auto step = static_cast<float>(static_cast<std::int64_t>(after) - before);
+    return (static_cast<float>(before) + fraction * step) * kPositionUnitMetres;
+}
+
+float presentedPhase(std::uint16_t before, std::uint16_t after, float fraction) {
+    const auto played = static_cast<std::uint16_t>(after - before);
+    const float phase = static_cast<float>(before) + fraction * static_cast<float>(played);
+    return (phase < 65536.0F ? phase : phase - 65536.0F) * kPhaseUnit;
+}
+
+// A fish that left its segment in this tick glides from the pose in which it was last seen.
+bool hasJustLeft(const FishRecord& before, const FishRecord& after) {
+    return after.warpFrame == 0 && before.segment == after.fromSegment &&
+           before.phase == after.fromPhase && before.segment != after.segment &&
+           before.warpFrame == before.warpLength;
+}
+
+void pose(const FishRecord& before, const FishRecord& after, float fraction, PresentedFish& fish) {
+    fish.segment = after.segment;
+    fish.fromSegment = after.fromSegment;
+    fish.fromPhase = static_cast<float>(after.fromPhase) * kPhaseUnit;
+    fish.phase = static_cast<float>(after.phase) * kPhaseUnit;
+    fish.warpWeight = weightOf(after);
+    if (hasJustLeft(before, after)) {
+        fish.warpWeight *= fraction;
+    } else if (before.segment == after.segment) {
+        fish.phase = presentedPhase(before.phase, after.phase, fraction);
+        fish.warpWeight = glm::mix(weightOf(before), weightOf(after), fraction);
+    }
+}
+
+glm::vec4 presentedRotation(const glm::quat& before, const glm::quat& after, float fraction) {
+    const glm::quat near = glm::dot(before, after) < 0.0F ? -after : after;
+    const glm::quat q = glm::normalize(before * (1.0F - fraction) + near * fraction);
+    return {q.x, q.y, q.z, q.w};
+}
+
+}  // namespace
+
+PresentedFish present(const FishRecord& before,
+                      const FishRecord& after,
+                      float fraction,
+                      const FishTraits& traits) {
+    PresentedFish fish;
+    fish.positionMetres = {metres(before.x, after.x, fraction),
+                           metres(before.y, after.y, fraction),
+                           metres(before.z, after.z, fraction)};
+    fish.lengthMetres = static_cast<float>(traits.lengthMillimetres) * 0.001F;
+    fish.rotation =
+        presentedRotation(bodyFrameOf(before).rotation, bodyFrameOf(after).rotation, fraction);
+    fish.id = traits.id;
+    pose(before, after, fraction, fish);
+    return fish;
+}
+
+void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes) {
+    const auto nodesOf = [](const ActionSegment& s) -> const auto& {
+        return s.nodes;
+    };
+    deform(repertoire, fish, nodesOf, nodes);
+}
+
+void nodalPoints(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes) {
+    nodalPose(repertoire, fish, nodes);
+    placeInWorld(fish, nodes);
+}
+
+void controlPoints(const Repertoire& repertoire,
+                   const PresentedFish& fish,
+                   std::span<glm::vec3> points) {
+    const auto controlPointsOf = [](const ActionSegment& s) -> const auto& {
+        return s.controlPoints;
+    };
+    deform(repertoire, fish, controlPointsOf, points.first(kControlPoints));
+    placeInWorld(fish, points.first(kControlPoints));
+}
+
+}  // namespace aquarama

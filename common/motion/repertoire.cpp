@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/repertoire.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "common/motion/byte_stream.h"
+#include "common/units/digest.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::string_view kMagic = "AQREP";
+constexpr std::uint16_t kVersion = 1;
+constexpr std::size_t kLongestSpecies = 64;
+constexpr std::size_t kHeadBytes = 11;  // name, version, length of the whole file
+constexpr std::size_t kDigestBytes = 32;
+constexpr float kLongestFishMetres = 60.0F;
+constexpr float kShortestPeriodSeconds = 0.02F;  // a beat of 50 Hz; no fish is near it
+constexpr float kLongestPeriodSeconds = 60.0F;
+constexpr float kLongestStepBodyLengths = 1.0F;  // in 1/64 of a cycle; a burst is near 0.02
+
+template <class Pose>
+void writePose(ByteWriter& out, const Pose& pose) {
+    for (const auto& point : pose) {
+        for (const std::int16_t component : point) out.int16(component);
+    }
+}
+
+template <class Pose>
+void readPose(ByteReader& in, Pose& pose) {
+    for (auto& point : pose) {
+        for (std::int16_t& component : point) component = in.int16();
+    }
+}
+
+void writeSegment(ByteWriter& out, const ActionSegment& segment) {
+    out.float32(segment.periodSeconds);
+    out.unsignedNumber<std::uint8_t>(segment.playsToEnd ? 1 : 0);
+    for (const FrameIncrement& step : segment.increments) {
+        const auto& [rotation, translation] = step;
+        for (const float number : {rotation.w,
+                                   rotation.x,
+                                   rotation.y,
+                                   rotation.z,
+                                   translation.x,
+                                   translation.y,
+                                   translation.z}) {
+            out.float32(number);
+        }
+    }
+    for (const NodalPose& pose : segment.nodes) writePose(out, pose);
+    for (const ControlPointPose& pose : segment.controlPoints) writePose(out, pose);
+}
+
+FrameIncrement readIncrement(ByteReader& in) {
+    FrameIncrement step;
+    for (float* number : {&step.rotation.w,
+                          &step.rotation.x,
+                          &step.rotation.y,
+                          &step.rotation.z,
+                          &step.translation.x,
+                          &step.translation.y,
+                          &step.translation.z}) {
+        *number = in.float32();
+    }
+    return step;
+}
+
+constexpr std::size_t bytesOfSegment(bool withControlPoints) {
+    const std::size_t points = kNodalPoints + (withControlPoints ? kControlPoints : 0);
+    return sizeof(float) + 1 + kPhases * (7 * sizeof(float) + points * 3 * sizeof(std::int16_t));
+}
+
+// Written so that a NaN is not in bounds.
+bool inBounds(const FrameIncrement& step) {
+    const auto& q = step.rotation;
+    const float squared = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    const auto near = [](float t) { return std::abs(t) <= kLongestStepBodyLengths; };
+    return std::abs(squared - 1.0F) <= 1e-3F && near(step.translation.x) &&
+           near(step.translation.y) && near(step.translation.z);
+}
+
+// What is wrong with a segment, or nothing.
+std::optional<std::string> faultOf(const ActionSegment& segment) {
+    if (!(segment.periodSeconds >= kShortestPeriodSeconds &&
+          segment.periodSeconds <= kLongestPeriodSeconds)) {
+        return "has a period outside 0.02 to 60 s";
+    }
+    if (!segment.controlPoints.empty() && segment.controlPoints.size() != kPhases) {
+        return "has control points for some phases only";
+    }
+    if (!std::ranges::all_of(segment.increments, inBounds)) {
+        return "moves the body frame by more than a body length, or by no rotation, in 1/64 cycle";
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> faultOf(const Repertoire& repertoire) {
+    const auto printable = [](char c) { return c > ' ' && c <= '~'; };
+    if (repertoire.species.empty() || repertoire.species.size() > kLongestSpecies ||
+        !std::ranges::all_of(repertoire.species, printable)) {
+        return "has a species name that is not 1 to 64 printable characters";
+    }
+    if (!(repertoire.recordedLengthMetres > 0 &&
+          repertoire.recordedLengthMetres <= kLongestFishMetres)) {
+        return "has a recorded length outside 0 to 60 m";
+    }
+    for (int action = 0; action < kActions; ++action) {
+        if (const auto fault = faultOf(repertoire.segments[static_cast<std::size_t>(action)])) {
+            return std::string("segment ") + nameOf(static_cast<Action>(action)) + " " + *fault;
+        }
+    }
+    return std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::string& source, const std::string& fault) {
+    throw Error(source + ": repertoire " + fault + "; capture the species again");
+}
+
+// Bit a: segment a has control points.
+unsigned segmentsWithControlPoints(const Repertoire& repertoire) {
+    unsigned bits = 0;
+    for (unsigned action = 0; action < kActions; ++action) {
+        if (!repertoire.segments[action].controlPoints.empty()) bits |= 1U << action;
+    }
+    return bits;
+}
+
+std::size_t bytesOfSegments(unsigned withControlPoints) {
+    std::size_t bytes = 0;
+    for (unsigned action = 0; action < kActions; ++action) {
+        bytes += bytesOfSegment((withControlPoints >> action & 1U) != 0);
+    }
+    return bytes;
+}
+
+// The content between length and digest, once its digest is known to be right.
+Repertoire readContent(ByteReader& in, const std::string& source) {
+    Repertoire repertoire;
+    repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());
+    repertoire.recordedLengthMetres = in.float32();
+    const unsigned withControlPoints = in.unsignedNumber<std::uint8_t>();
+    if (!in.ok() || withControlPoints >> kActions != 0 ||
+        in.remaining() != bytesOfSegments(withControlPoints)) {
+        refuse(source, "is not as long as its head says");
+    }
+    for (unsigned action = 0; action < kActions; ++action) {
+        ActionSegment& segment = repertoire.segments[action];
+        segment.periodSeconds = in.float32();
+        const auto playsToEnd = in.unsignedNumber<std::uint8_t>();
+        if (playsToEnd > 1) refuse(source, "has a mark that is neither 0 nor 1");
+        segment.playsToEnd = playsToEnd == 1;
+        for (FrameIncrement& step : segment.increments) step = readIncrement(in);
+        for (NodalPose& pose : segment.nodes) readPose(in, pose);
+        segment.controlPoints.resize((withControlPoints >> action & 1U) != 0 ? kPhases : 0);
+        for (ControlPointPose& pose : segment.controlPoints) readPose(in, pose);
+    }
+    return repertoire;
+}
+
+}  // namespace
+
+const char* nameOf(Action action) {
+    constexpr std::array<const char*, kActions> kNames{"forward_slow",
+                                                       "forward_medium",
+                                                       "forward_fast",
+                                                       "turn_left_gradual",
+                                                       "turn_left_sharp",
+                                                       "turn_right_gradual",
+                                                       "turn_right_sharp"};
+    return kNames.at(static_cast<std::size_t>(action));
+}
+
+std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire) {
+    if (const auto fault = faultOf(repertoire)) refuse(repertoire.species, *fault);
+    const unsigned withControlPoints = segmentsWithControlPoints(repertoire);
+    ByteWriter out;
+    out.characters(kMagic);
+    out.unsignedNumber(kVersion);
+    out.unsignedNumber(
+        static_cast<std::uint32_t>(kHeadBytes + 1 + repertoire.species.size() + sizeof(float) + 1 +
+                                   bytesOfSegments(withControlPoints) + kDigestBytes));
+    out.unsignedNumber(static_cast<std::uint8_t>(repertoire.species.size()));
+    out.characters(repertoire.species);
+    out.float32(repertoire.recordedLengthMetres);
+    out.unsignedNumber(static_cast<std::uint8_t>(withControlPoints));
+    for (const ActionSegment& segment : repertoire.segments) writeSegment(out, segment);
+    out.characters(digestOf(out.written()).bytes);
+    return std::move(out).take();
+}
+
+Repertoire decodeRepertoire(std::span<const std::byte> bytes, const std::string& source) {
+    ByteReader head(bytes);
+    if (head.characters(kMagic.size()) != kMagic) refuse(source, "does not begin with AQREP");
+    const auto version = head.unsignedNumber<std::uint16_t>();
+    const auto length = head.unsignedNumber<std::uint32_t>();
+    if (head.ok() && version != kVersion) {
+        refuse(source,
+               "is of version " + std::to_string(version) + ", this program reads version " +
+                   std::to_string(kVersion));
+    }
+    if (length != bytes.size() || head.remaining() < kDigestBytes) {
+        refuse(source, "is truncated or has bytes after its end");
+    }
+    const auto content = bytes.first(bytes.size() - kDigestBytes);
+    const Digest digest = digestOf(content);
+    if (!std::ranges::equal(std::as_bytes(std::span(digest.bytes)), bytes.last(kDigestBytes))) {
+        refuse(source, "is altered: its SHA-256 does not match");
+    }
+    ByteReader in(content.subspan(kHeadBytes));
+    Repertoire repertoire = readContent(in, source);
+    if (const auto fault = faultOf(repertoire)) refuse(source, *fault);
+    return repertoire;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/motion_state.h"
+
+#include <cmath>
+#include <random>
+
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+namespace aquarama {
+namespace {
+
+glm::quat randomRotation(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    return glm::normalize(
+        glm::quat(normal(random), normal(random), normal(random), normal(random)));
+}
+
+// Angle between two rotations; the sine keeps its precision near zero.
+float angleBetween(const glm::quat& a, const glm::quat& b) {
+    const glm::quat d = glm::conjugate(a) * b;
+    return 2 * std::asin(std::min(1.0F, std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z)));
+}
+
+MotionStates randomStates(std::size_t fish, unsigned seed) {
+    std::mt19937 random(seed);
+    MotionStates states;
+    states.resize(fish);
+    for (std::size_t i = 0; i < fish; ++i) {
+        setBodyFrame(states, i, {glm::vec3(0), randomRotation(random)});
+        states.x[i] = static_cast<std::int32_t>(random());
+        states.y[i] = static_cast<std::int32_t>(random());
+        states.z[i] = static_cast<std::int32_t>(random());
+        states.phase[i] = static_cast<std::uint16_t>(random());
+        states.fromPhase[i] = static_cast<std::uint16_t>(random());
+        states.segment[i] = static_cast<std::uint8_t>(random() % kActions);
+        states.fromSegment[i] = static_cast<std::uint8_t>(random() % kActions);
+        states.warpLength[i] = static_cast<std::uint8_t>(random());
+        states.warpFrame[i] = static_cast<std::uint8_t>(random() % (states.warpLength[i] + 1U));
+    }
+    return states;
+}
+
+TEST(MotionState, aRecordHoldsEveryBit) {
+    const MotionStates states = randomStates(5000, 1);
+    MotionStates copy;
+    copy.resize(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const FishRecord record = recordOf(states, i);
+        EXPECT_TRUE(isPlayable(record));
+        setFromRecord(copy, i, record);
+        EXPECT_EQ(recordOf(copy, i), record);
+    }
+    EXPECT_EQ(hashOf(copy), hashOf(states));
+}
+
+TEST(MotionState, anOrientationSurvivesToAFewMillionthsOfARadian) {
+    std::mt19937 random(2);
+    MotionStates states;
+    states.resize(1);
+    float worst = 0;
+    for (int trial = 0; trial < 100000; ++trial) {
+        const glm::quat rotation = randomRotation(random);
+        setBodyFrame(states, 0, {glm::vec3(0), rotation});
+        worst = std::max(worst, angleBetween(bodyFrameOf(states, 0).rotation, rotation));
+    }
+    // Half a unit of 2^-19 / sqrt 2 in each of three components, doubled where the largest
+    // component makes up for them.
+    EXPECT_LT(worst, 4 * 1.35e-6F);
+}
+
+TEST(MotionState, theLargestComponentIsLeftOutInEveryDirection) {
+    MotionStates states;
+    states.resize(1);
+    const float half = std::sqrt(0.5F);
+    for (const glm::quat& rotation : {glm::quat(1, 0, 0, 0),
+                                      glm::quat(0, 1, 0, 0),
+                                      glm::quat(0, 0, 1, 0),
+                                      glm::quat(0, 0, 0, -1),
+                                      glm::quat(half, half, 0, 0),
+                                      glm::quat(half, 0, -half, 0),
+                                      glm::quat(0, 0, -half, half),
+                                      glm::quat(0.5F, -0.5F, 0.5F, -0.5F)}) {
+        setBodyFrame(states, 0, {glm::vec3(0), rotation});
+        const FishRecord record = recordOf(states, 0);
+        EXPECT_LT(angleBetween(bodyFrameOf(record).rotation, rotation), 4e-6F);
+        EXPECT_EQ(bodyFrameOf(record).rotation, bodyFrameOf(states, 0).rotation);
+    }
+}
+
+TEST(MotionState, positionsRoundToTheNearestUnitAndHalvesToTheEvenOne) {
+    MotionStates states;
+    states.resize(1);
+    const auto unitsOf = [&](float units) {
+        setBodyFrame(states, 0, {glm::vec3(units * kPositionUnitMetres, 0, 0), {1, 0, 0, 0}});
+        return states.x[0];
+    };
+    EXPECT_EQ(unitsOf(2.4F), 2);
+    EXPECT_EQ(unitsOf(2.5F), 2);
+    EXPECT_EQ(unitsOf(3.5F), 4);
+    EXPECT_EQ(unitsOf(-2.5F), -2);
+    EXPECT_EQ(unitsOf(-2.6F), -3);
+    EXPECT_EQ(unitsOf(1e12F), 2147483647);  // kept in the world rather than wrapped
+}
+
+TEST(MotionState, theHashSeesEveryBitOfEveryFish) {
+    const MotionStates states = randomStates(3, 4);
+    const std::uint64_t hash = hashOf(states);
+    for (std::size_t fish = 0; fish < states.size(); ++fish) {
+        for (unsigned bit = 0; bit < 8 * sizeof(FishRecord); ++bit) {
+            if (bit == 159 || bit == 158) continue;  // the two spare bits of the orientation
+            FishRecord record = recordOf(states, fish);
+            reinterpret_cast<unsigned char*>(&record)[bit / 8] ^=
+                static_cast<unsigned char>(1U << bit % 8);
+            MotionStates altered = states;
+            setFromRecord(altered, fish, record);
+            EXPECT_NE(hashOf(altered), hash) << "fish " << fish << " bit " << bit;
+        }
+    }
+    MotionStates swapped = states;
+    setFromRecord(swapped, 0, recordOf(states, 1));
+    setFromRecord(swapped, 1, recordOf(states, 0));
+    EXPECT_NE(hashOf(swapped), hash);
+}
+
+TEST(MotionState, anImpossibleRecordIsNotPlayable) {
+    const FishRecord good = recordOf(randomStates(1, 5), 0);
+    const auto with = [&](auto&& damage) {
+        FishRecord record = good;
+        damage(record);
+        return isPlayable(record);
+    };
+    EXPECT_TRUE(with([](auto&) {}));
+    EXPECT_FALSE(with([](auto& r) { r.segment = kActions; }));
+    EXPECT_FALSE(with([](auto& r) { r.fromSegment = 255; }));
+    EXPECT_FALSE(with([](auto& r) { r.warpLength = 3, r.warpFrame = 4; }));
+    EXPECT_FALSE(with([](auto& r) { r.orientationHigh |= 1U << 31U; }));
+}
+
+}  // namespace
+}  // namespace aquarama

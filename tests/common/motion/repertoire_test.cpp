@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/repertoire.h"
+
+#include <cstring>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/units/digest.h"
+#include "common/units/error.h"
+#include "tests/support/synthetic_repertoire.h"
+
+namespace aquarama {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+const Bytes& smallFile() {
+    static const Bytes kFile = encodeRepertoire(syntheticRepertoire(false));
+    return kFile;
+}
+
+bool isRefused(std::span<const std::byte> bytes) {
+    try {
+        (void)decodeRepertoire(bytes, "trout.rep");
+    } catch (const Error& error) {
+        return std::string(error.what()).starts_with("trout.rep: ");
+    }
+    return false;
+}
+
+// Gives altered content its right SHA-256, so that the reader behind it is reached.
+Bytes resigned(Bytes file) {
+    const auto content = std::span(file).first(file.size() - 32);
+    const Digest digest = digestOf(content);
+    std::ranges::copy(std::as_bytes(std::span(digest.bytes)), file.end() - 32);
+    return file;
+}
+
+TEST(Repertoire, isReadAsItWasWritten) {
+    const Repertoire written = syntheticRepertoire(true);
+    const Bytes file = encodeRepertoire(written);
+    const Repertoire read = decodeRepertoire(file, "file");
+    EXPECT_EQ(read.species, "synthetic");
+    EXPECT_EQ(read.recordedLengthMetres, written.recordedLengthMetres);
+    for (std::size_t action = 0; action < kActions; ++action) {
+        EXPECT_EQ(read.segments[action].nodes, written.segments[action].nodes);
+        EXPECT_EQ(read.segments[action].controlPoints, written.segments[action].controlPoints);
+        EXPECT_EQ(read.segments[action].playsToEnd, written.segments[action].playsToEnd);
+        EXPECT_EQ(read.segments[action].increments[9].rotation,
+                  written.segments[action].increments[9].rotation);
+    }
+    EXPECT_EQ(encodeRepertoire(read), file);
+}
+
+TEST(Repertoire, beginsWithItsNameAndEndsWithItsSha256) {
+    const auto text = reinterpret_cast<const char*>(smallFile().data());
+    EXPECT_EQ(std::string(text, 5), "AQREP");
+    EXPECT_EQ(resigned(smallFile()), smallFile());
+}
+
+TEST(Repertoire, anyAlteredByteIsRefused) {
+    Bytes file = smallFile();
+    std::size_t accepted = 0;
+    for (std::size_t at = 0; at < file.size(); ++at) {
+        file[at] ^= static_cast<std::byte>(1U << at % 8);
+        accepted += isRefused(file) ? 0 : 1;
+        file[at] = smallFile()[at];
+    }
+    EXPECT_EQ(accepted, 0U);
+}
+
+TEST(Repertoire, anyTruncationIsRefused) {
+    std::size_t accepted = 0;
+    for (std::size_t length = 0; length < smallFile().size(); ++length) {
+        accepted += isRefused(std::span(smallFile()).first(length)) ? 0 : 1;
+    }
+    EXPECT_EQ(accepted, 0U);
+}
+
+TEST(Repertoire, trailingBytesAreRefusedEvenWhenSigned) {
+    Bytes file = smallFile();
+    file.insert(file.end() - 32, std::byte{0});
+    EXPECT_TRUE(isRefused(resigned(file)));
+    const auto length = static_cast<std::uint32_t>(file.size());
+    std::memcpy(&file[7], &length, sizeof(length));  // even with the right length in its head
+    EXPECT_TRUE(isRefused(resigned(file)));
+}
+
+TEST(Repertoire, anotherVersionIsRefusedByName) {
+    Bytes file = smallFile();
+    file[5] = std::byte{9};
+    try {
+        (void)decodeRepertoire(resigned(file), "trout.rep");
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("version 9"));
+    }
+}
+
+// Behind a right SHA-256 a file is refused, or means exactly what it says.
+TEST(Repertoire, anAlteredFileThatIsSignedIsRefusedOrReadWhole) {
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 3000; ++trial) {
+        Bytes file = smallFile();
+        const std::size_t reach = trial % 2 == 0 ? 40 : file.size() - 32;  // the head, or anywhere
+        file[random() % reach] = static_cast<std::byte>(random());
+        file = resigned(file);
+        if (isRefused(file)) continue;
+        EXPECT_EQ(encodeRepertoire(decodeRepertoire(file, "file")), file);
+    }
+}
+
+TEST(Repertoire, randomBytesAreRefused) {
+    std::mt19937 random(2);
+    for (int trial = 0; trial < 2000; ++trial) {
+        Bytes noise(random() % 300);
+        for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
+        EXPECT_TRUE(isRefused(noise));
+        Bytes headed = smallFile();
+        headed.resize(7 + noise.size());
+        std::ranges::copy(noise, headed.begin() + 7);
+        EXPECT_TRUE(isRefused(headed));
+        headed.resize(std::max<std::size_t>(headed.size(), 32));
+        EXPECT_TRUE(isRefused(resigned(headed)));
+    }
+}
+
+TEST(Repertoire, isNotWrittenWithValuesOutOfBounds) {
+    const Repertoire good = syntheticRepertoire(false);
+    const auto broken = [&](auto&& damage) {
+        Repertoire repertoire = good;
+        damage(repertoire);
+        return repertoire;
+    };
+    const float nan = std::nanf("");
+    EXPECT_THROW((void)encodeRepertoire(broken([](auto& r) { r.species = ""; })), Error);
+    EXPECT_THROW((void)encodeRepertoire(broken([&](auto& r) { r.recordedLengthMetres = nan; })),
+                 Error);
+    EXPECT_THROW((void)encodeRepertoire(broken([](auto& r) { r.segments[2].periodSeconds = 0; })),
+                 Error);
+    EXPECT_THROW(
+        (void)encodeRepertoire(broken([](auto& r) { r.segments[2].controlPoints.resize(3); })),
+        Error);
+    EXPECT_THROW((void)encodeRepertoire(
+                     broken([&](auto& r) { r.segments[6].increments[3].translation.y = nan; })),
+                 Error);
+    EXPECT_THROW((void)encodeRepertoire(broken([](auto& r) {
+                     r.segments[0].increments[0].rotation = glm::quat(0, 0, 0, 0);
+                 })),
+                 Error);
+}
+
+TEST(Repertoire, namesItsSegments) {
+    EXPECT_STREQ(nameOf(Action::ForwardSlow), "forward_slow");
+    EXPECT_STREQ(nameOf(Action::TurnRightSharp), "turn_right_sharp");
+}
+
+}  // namespace
+}  // namespace aquarama
