@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vectorised step: the arithmetic of motor.cpp, operation for operation, on as many fish as the
 // processor has lanes. Elementwise only, and no fused multiply-add: so every width gives its bits.
+#include <algorithm>
+
 #include "common/motion/motor.h"
 #include "common/motion/motor_tick.h"
+
+#ifndef AQUARAMA_MOTOR_WIDEST_LANES
+#define AQUARAMA_MOTOR_WIDEST_LANES
+namespace aquarama {
+// A range is stepped in whole vectors of this many fish on every machine, and what is left plainly.
+inline constexpr std::size_t kWidestLanes = 16;
+}  // namespace aquarama
+#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "common/motion/motor_simd.cpp"
@@ -15,9 +25,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kBlockFish = 16;
+// Large enough that one vector's arithmetic hides the latency of another's.
+constexpr std::size_t kBlockFish = 64;
 
-using Floats = hn::CappedTag<float, kBlockFish>;
+using Floats = hn::CappedTag<float, kWidestLanes>;
 using Ints = hn::RebindToSigned<Floats>;
 using Lanes = hn::Vec<Floats>;
 using IntLanes = hn::Vec<Ints>;
@@ -91,8 +102,9 @@ HWY_INLINE void storePlayed(const SegmentTables& tables,
 HWY_INLINE void travelBlock(const MotorStep& step,
                             const MotorColumns& columns,
                             std::size_t first,
+                            std::size_t count,
                             Block& block) {
-    for (std::size_t i = 0; i < kBlockFish; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const std::size_t fish = first + i;
         const Playing playing = advanceSegment(*step.tables, columns, fish);
         if (playing.glides) {
@@ -132,10 +144,10 @@ HWY_INLINE QuaternionLanes conjugateOf(const QuaternionLanes& q) {
     return {q.w, hn::Neg(q.x), hn::Neg(q.y), hn::Neg(q.z)};
 }
 
-HWY_INLINE QuaternionLanes normalisedLanes(const QuaternionLanes& q) {
+HWY_INLINE QuaternionLanes renormalisedLanes(const QuaternionLanes& q) {
     const Lanes squared =
         hn::Add(sumOfProducts(q.w, q.w, q.x, q.x), sumOfProducts(q.y, q.y, q.z, q.z));
-    const Lanes inverse = hn::Div(hn::Set(kFloats, 1.0F), hn::Sqrt(squared));
+    const Lanes inverse = hn::Sub(hn::Set(kFloats, 1.5F), hn::Mul(hn::Set(kFloats, 0.5F), squared));
     return {
         hn::Mul(q.w, inverse), hn::Mul(q.x, inverse), hn::Mul(q.y, inverse), hn::Mul(q.z, inverse)};
 }
@@ -261,7 +273,7 @@ HWY_INLINE void stepLanes(const MotorStep& step,
     hn::LoadInterleaved4(
         kFloats, block.translation + 4 * lane, travel.x, travel.y, travel.z, padding);
     const QuaternionLanes seenFrom =
-        normalisedLanes(product(orientationOf(s, fish), conjugateOf(start)));
+        renormalisedLanes(product(orientationOf(s, fish), conjugateOf(start)));
     const VectorLanes moves = rotated(seenFrom, travel);
     const Lanes units = hn::Load(kFloats, block.unitsPerBodyLength + lane);
     move(s.x, fish, hn::Mul(moves.x, units));
@@ -272,18 +284,19 @@ HWY_INLINE void stepLanes(const MotorStep& step,
                                               commanded(step.commands->pitch, fish, kPitchUnit),
                                               commanded(step.commands->yawRate, fish, kYawUnit));
     const QuaternionLanes turn{hn::Set(kFloats, 1.0F), steering.x, steering.y, steering.z};
-    setOrientation(normalisedLanes(product(turn, swum)), s, fish);
+    setOrientation(renormalisedLanes(product(turn, swum)), s, fish);
 }
 
 }  // namespace
 
-// Whole blocks only.
-void stepBlocks(const MotorStep& step) {
+// A multiple of kWidestLanes fish.
+void stepVectors(const MotorStep& step) {
     const MotorColumns columns = columnsOf(*step.commands, *step.states);
     Block block;
     for (std::size_t fish = step.first; fish < step.last; fish += kBlockFish) {
-        travelBlock(step, columns, fish, block);
-        for (std::size_t lane = 0; lane < kBlockFish; lane += hn::Lanes(kFloats)) {
+        const std::size_t count = std::min(kBlockFish, step.last - fish);
+        travelBlock(step, columns, fish, count, block);
+        for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kFloats)) {
             stepLanes(step, block, lane, fish + lane);
         }
     }
@@ -295,15 +308,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace aquarama {
 
-HWY_EXPORT(stepBlocks);
+HWY_EXPORT(stepVectors);
 
 void MotorStep::run() const {
-    constexpr std::size_t kBlockFish = 16;
-    MotorStep blocks = *this;
-    blocks.last = last - (last - first) % kBlockFish;
-    HWY_DYNAMIC_DISPATCH(stepBlocks)(blocks);
+    MotorStep vectors = *this;
+    vectors.last = last - (last - first) % kWidestLanes;
+    HWY_DYNAMIC_DISPATCH(stepVectors)(vectors);
     MotorStep rest = *this;
-    rest.first = blocks.last;
+    rest.first = vectors.last;
     rest.runReference();
 }
 
