@@ -55,16 +55,18 @@ void main() {
 
     // At its root a fin is muscle under the skin; those of the paired fins reach further out.
     bool isPaired = part == kPectoral || part == kPelvic;
-    float grown = isPaired ? smoothstep(0.14, 0.42, q) : smoothstep(0.0, part == kCaudal ? 0.22 : 0.12, q);
+    float root = isPaired ? 0.14 : 0.0;
+    float reach = isPaired ? 0.42 : (part == kCaudal ? 0.22 : 0.12);
+    float grown = smoothstep(root, reach, q);
     float golden = goldenLine(rest.x, rest.w, fwidth(rest.w));
     vec3 skin = groundColour(rest.w, 0.0, golden, id);
     vec3 albedo = mix(skin, m.albedo, grown) * tintOf(id);
     float silver = silverOf(rest.x, rest.w, golden) * (1.0 - grown);
 
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
-    vec3 flat_ = normalize(cross(dFdx(place), dFdy(place)));
-    flat_ *= -sign(dot(flat_, fromEye));
-    vec3 n = normalize(mix(normalize(normal), flat_, grown));
+    vec3 facet = normalize(cross(dFdx(place), dFdy(place)));
+    facet *= -sign(dot(facet, fromEye));
+    vec3 n = normalize(mix(normalize(normal), facet, grown));
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
     vec3 plate = plateletNormal(n, dorsal, -fromEye);
     FishLight light = fishLight(place, fromEye);

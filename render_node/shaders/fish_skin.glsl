@@ -25,7 +25,8 @@ float line(float x, float width, float pixel) {
 
 // What makes each fish its own: a tint, and how golden its line is.
 vec3 tintOf(uint id) {
-    return 0.94 + 0.12 * vec3(hash(uvec2(id, 1u), 7u), hash(uvec2(id, 2u), 7u), hash(uvec2(id, 3u), 7u));
+    return 0.94 + 0.12 * vec3(hash(uvec2(id, 1u), 7u), hash(uvec2(id, 2u), 7u),
+                              hash(uvec2(id, 3u), 7u));
 }
 float goldOf(uint id) { return mix(0.75, 1.20, hash(uvec2(id, 4u), 7u)); }
 
@@ -62,8 +63,8 @@ vec3 reflected(vec3 mirrorNormal, vec3 fromEye, vec3 place) {
 }
 
 // The floodlight is strong enough for the reef. What swims before it would be burnt white, so near
-// fish take less of all light: their shading and their colours stay. White is what a white card that
-// faces the eye would send back.
+// fish take less of all light: their shading and their colours stay. White is what a white card
+// that faces the eye would then send back.
 struct FishLight {
     float eased;
     float white;
