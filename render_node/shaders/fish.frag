@@ -23,8 +23,8 @@ void main() {
     skin.tilt *= outline;
     skin.flicker *= outline;
     // Directions on the skin: towards the tail, and upwards.
-    vec3 tailwards = normalize(cross(skinNormal, dorsal)) * (rest.z < 0.0 ? -1.0 : 1.0);
-    vec3 upwards = normalize(dorsal - dot(dorsal, skinNormal) * skinNormal);
+    vec3 tailwards = normalize(cross(skinNormal, dorsal) + 1.0e-6) * (rest.z < 0.0 ? -1.0 : 1.0);
+    vec3 upwards = normalize(dorsal - dot(dorsal, skinNormal) * skinNormal + 1.0e-6);
     vec3 n = normalize(skinNormal + skin.tilt.x * tailwards + skin.tilt.y * upwards);
     vec3 flickering = n + 0.07 * (skin.flicker.x * tailwards + skin.flicker.y * upwards);
     vec3 plate = plateletNormal(flickering, dorsal, -fromEye);
