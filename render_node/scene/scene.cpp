@@ -29,7 +29,7 @@ constexpr int kFlakes = 9000;
 // All channels of a wall are about as large, so neighbours agree.
 float detailOf(glm::ivec2 sizePixels) {
     constexpr int kSmallWindow = 640;
-    return sizePixels.y < kSmallWindow ? 0.6F : 1.0F;
+    return sizePixels.y < kSmallWindow ? 0.4F : 1.0F;
 }
 
 FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
