@@ -23,6 +23,8 @@ void main() {
     vec2 turned = vec2(0.83 * place.x - 0.56 * place.z, 0.56 * place.x + 0.83 * place.z);
     vec2 slope = 1.6 * texture(waveTile, place.xz / kTileMetres).xy +
                  1.7 * texture(waveTile, turned / 3.7).xy;
+    // Steep facets would tear holes of sky into the mirror: waves break before.
+    slope *= inversesqrt(1.0 + 8.0 * dot(slope, slope));
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float inward = max(dot(w, normal), 0.02);
     vec3 up = vec3(0.0);
