@@ -145,3 +145,8 @@ void controlPoints(const Repertoire& repertoire,
 }
 
 }  // namespace aquarama
+namespace aquarama {
+void nodalPoints(const Repertoire& r, std::span<const PresentedFish> f, std::span<NodalPoints> n) {
+    for (size_t i = 0; i < f.size(); ++i) nodalPoints(r, f[i], n[i]);
+}
+}  // namespace aquarama

@@ -31,10 +31,11 @@ void main() {
 
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
     vec3 film = 1.0 + 0.9 * skin.iridescence * cos(6.2831853 * (1.1 * facing + vec3(0.0, 0.33, 0.67)));
-    vec3 matte = lit(skin.albedo * film, place, n, 0.0);
+    FishLight light = fishLight(place, fromEye);
+    vec3 matte = lit(skin.albedo * film, place, n, 0.0) * light.eased;
     // One look into the mirror serves the platelets where there are some, and the wet skin elsewhere.
     vec3 shown = reflected(normalize(mix(n, plate, skin.silver)), fromEye, place);
-    vec3 silver = shown * silverTint(facing, skin.albedo);
+    vec3 silver = (shown + light.white * flash(plate, fromEye)) * silverTint(facing, skin.albedo);
     float grazing = (1.0 - facing) * (1.0 - facing);
     float wet = skin.gloss * (0.03 + 0.30 * grazing * grazing) + 0.05 * eye;
     // A glint of the sun narrower than a pixel would flicker.
@@ -42,8 +43,7 @@ void main() {
     // The catch light of the eye, up and to the front, where the bright surface is mirrored.
     vec2 glintAt = kEye + vec2(-0.30, 0.36) * kEyeRadius;
     float glint = eye * line(distance(rest.xy, glintAt), 0.16 * kEyeRadius, f.pixel);
-    vec3 catchLight = lit(vec3(0.9), place, vec3(0.0, 1.0, 0.0), 0.0) * glint;
 
     vec3 radiance = mix(matte, silver, skin.silver * smoothstep(0.0, 0.25, facing));
-    colour = vec4(seen(radiance + sheen + catchLight, place), 1.0);
+    colour = vec4(seen(radiance + sheen + 0.25 * glint, place), 1.0);
 }

@@ -28,7 +28,9 @@ void main() {
     vec3 plate = plateletNormal(n, dorsal, -fromEye);
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
     silver *= smoothstep(0.0, 0.25, facing);
-    vec3 mirror = reflected(plate, fromEye, place) * silverTint(facing, albedo);
-    vec3 radiance = mix(lit(albedo, place, n, 0.0), mirror, silver);
+    FishLight light = fishLight(place, fromEye);
+    vec3 shown = reflected(plate, fromEye, place) + light.white * flash(plate, fromEye);
+    vec3 matte = lit(albedo, place, n, 0.0) * light.eased;
+    vec3 radiance = mix(matte, shown * silverTint(facing, albedo), silver);
     colour = vec4(seen(radiance, place), 1.0);
 }

@@ -67,7 +67,9 @@ void main() {
     vec3 n = normalize(mix(normalize(normal), flat_, grown));
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
     vec3 plate = plateletNormal(n, dorsal, -fromEye);
-    vec3 mirror = reflected(plate, fromEye, place) * silverTint(facing, albedo);
-    vec3 radiance = mix(lit(albedo, place, n, 0.55 * grown), mirror, silver);
+    FishLight light = fishLight(place, fromEye);
+    vec3 shown = reflected(plate, fromEye, place) + light.white * flash(plate, fromEye);
+    vec3 matte = lit(albedo, place, n, 0.55 * grown) * light.eased;
+    vec3 radiance = mix(matte, shown * silverTint(facing, albedo), silver);
     colour = vec4(seen(radiance, place), mix(1.0, m.opacity, grown));
 }

@@ -45,8 +45,8 @@ struct Diary {
     float nearestToSand = 99;
     float nearestToSurface = 99;
     float nearestToEye = 99;
-    double nearestNeighbour = 0;  // body lengths, mean over fish and ticks
-    double polarised = 0;         // share of ticks with a polarisation above 0.6
+    double nearestNeighbour = 0;   // body lengths, mean over fish and ticks
+    double polarised = 0;          // share of ticks with a polarisation above 0.6
     double tailBeatSynchrony = 0;  // mean resultant length of the phases
     double inView = 0;             // share of fish that the wall shows
     double nearPasses = 0;         // share of ticks with the school's middle within 3.2 m
@@ -91,8 +91,7 @@ class Watch {
         const glm::vec3 out = glm::abs(position - water.centre) - water.halfExtent;
         const float floor = floorHeight(seed_, {position.x, position.z});
         const glm::vec3 fromEye = position - kEyePosition;
-        diary_.farthestOutOfWater =
-            std::max({diary_.farthestOutOfWater, out.x, out.y, out.z});
+        diary_.farthestOutOfWater = std::max({diary_.farthestOutOfWater, out.x, out.y, out.z});
         diary_.nearestToSand = std::min(diary_.nearestToSand, position.y - floor);
         diary_.nearestToSurface = std::min(diary_.nearestToSurface, -position.y);
         diary_.nearestToEye = std::min(diary_.nearestToEye, glm::length(fromEye));
@@ -115,7 +114,7 @@ class Watch {
                 nearest = std::min(nearest, distance);
                 if (j > i) noteOverlap(i, j, distance);
             }
-            diary_.nearestNeighbour += nearest / kMeanLength / kFish;
+            diary_.nearestNeighbour += double{nearest / kMeanLength} / kFish;
         }
         const float range = glm::distance(middle, kEyePosition);
         diary_.polarised += glm::length(heading) / kFish > 0.6F ? 1 : 0;

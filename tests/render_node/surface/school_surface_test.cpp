@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/surface/school_surface.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <random>
 #include <vector>
@@ -139,7 +139,9 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
         surface.update({&fish, 1}, clipFromWorld, glm::vec3{0});
         inSight += isInSight ? 1 : 0;
         culled += 1 - surface.counts().visible;
-        if (isInSight) ASSERT_EQ(surface.counts().visible, 1) << "trial " << trial;
+        if (isInSight) {
+            ASSERT_EQ(surface.counts().visible, 1) << "trial " << trial;
+        }
     }
     EXPECT_GT(inSight, 200);  // else the test would have proved nothing
     EXPECT_GT(culled, 200);
