@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "master/conductor/status.h"
-#include "tests/master/conductor/stage.h"
+#include "tests/support/stage.h"
 
 namespace aquarama {
 namespace {
