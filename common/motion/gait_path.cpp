@@ -21,8 +21,8 @@ void integrate(const ActionSegment& segment, GaitPath& path) {
 // The path with the cycle repeated before and after it.
 glm::dquat rotationAt(const GaitPath& path, int phase) {
     if (phase >= 0) return path.rotation[static_cast<std::size_t>(phase)];
-    return glm::conjugate(path.rotation[kCycle]) *
-           path.rotation[static_cast<std::size_t>(phase + kPhases)];
+    const int inCycle = phase + kPhases;
+    return glm::conjugate(path.rotation[kCycle]) * path.rotation[static_cast<std::size_t>(inCycle)];
 }
 
 // The mean of the frames within half a cycle of `phase`.
