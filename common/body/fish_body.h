@@ -69,6 +69,9 @@ struct FishBody {
     ControlCage cage;
 };
 
+struct Species;
+[[nodiscard]] FishBody makeBody(const Species& species);
+
 // The cage moved by the nodal points: cubic spine through nose, ring centres and tail, lateral axis
 // from the rings. nodes and the result are in one and the same frame (body or world), body lengths.
 // The rest nodes give the rest cage.

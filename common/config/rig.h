@@ -13,6 +13,14 @@
 
 namespace aquarama {
 
+inline constexpr std::uint32_t kMostFish = 100'000;
+
+// Where something stands in the rig's file, counted from 1, for messages; 0 when built in code.
+struct SourcePlace {
+    int line = 0;
+    int column = 0;
+};
+
 // A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin at
 // the sweet spot, which is on the cylinder's axis at the screen's mid-height; the screen's middle
 // is at (0, 0, -radius).
@@ -20,6 +28,7 @@ struct Screen {
     double radiusMetres = 0;
     double arcRadians = 0;
     double heightMetres = 0;
+    SourcePlace place;
 };
 
 // A pinhole: x right, y up, looking along -Z of its own frame.
@@ -47,6 +56,7 @@ struct Channel {
     glm::ivec2 sizePixels{};  // of the projector's picture
     Projector projector;
     Display display;
+    SourcePlace place;
 };
 
 struct Timing {

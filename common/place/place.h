@@ -20,6 +20,7 @@ inline constexpr float kMeanFloorDepthMetres = 8.6F;
 // it.
 [[nodiscard]] float floorHeight(std::uint32_t seed, glm::vec2 xz);
 
+// A boulder, half sunk in the sand; everything that grows on it is within the radius.
 struct Rock {
     glm::vec3 centre{};
     float radiusMetres = 0.0F;
@@ -27,8 +28,11 @@ struct Rock {
 };
 [[nodiscard]] std::vector<Rock> rocksOf(std::uint32_t seed);
 
+enum class PlantKind : std::uint8_t { Kelp, Seagrass };
+
 struct Plant {
-    glm::vec3 root{};
+    PlantKind kind = PlantKind::Kelp;
+    glm::vec3 root{};  // on the sand
     float heightMetres = 0.0F;
     std::uint32_t seed = 0;
 };

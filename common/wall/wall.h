@@ -34,12 +34,16 @@ namespace aquarama {
 // and the shares of all channels that reach the point sum to one in linear light.
 [[nodiscard]] double blendWeight(const Rig& rig, std::size_t channel, glm::dvec3 screenPointMetres);
 
+// Light runs over the screen's edges by this much, a few pixels, and is cut off by its frame:
+// otherwise the pixels whose centres lie just past an edge would leave a dark line along it.
+inline constexpr double kSpillMetres = 0.015;
+
 // The canonical warp of a channel: for each projector pixel, top row first, the point that it
 // lights and its blend weight.
 struct WarpMap {
     glm::ivec2 sizePixels{};
     std::vector<glm::vec4>
-        pointAndWeight;  // wall frame, metres; weight 0 where the ray misses the screen
+        pointAndWeight;  // wall frame, metres; 0 where the ray passes the screen and its spill
 };
 [[nodiscard]] WarpMap warpMap(const Rig& rig, std::size_t channel);
 
@@ -55,6 +59,9 @@ struct ChannelFrustum {
                                             double marginRadians);
 // Reversed depth, zero to one, infinite far plane.
 [[nodiscard]] glm::mat4 clipFromCamera(const ChannelFrustum& frustum, float nearMetres);
+
+// This share of the screen's width and height may stay dark at each of its edges.
+inline constexpr double kDarkBorder = 0.005;
 
 // Throws Error (with `source`) when a projector misses the screen, the screen is not covered, or
 // neighbours leave a gap.

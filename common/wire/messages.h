@@ -41,7 +41,8 @@ enum class Pattern : std::uint8_t { World, Grid, Grey };
 
 // What a node needs to take part, sent in answer to its hello.
 struct Welcome {
-    std::string rigText;  // writeRig / parseRig
+    std::string rigText;       // writeRig / parseRig
+    std::string stateAddress;  // where the states are published
     std::uint32_t seed = 0;
     Pace pace = Pace::Live;
     Pattern pattern = Pattern::World;

@@ -2,7 +2,9 @@
 // Where a node draws: a GLFW window, or EGL without any display. One interface for both.
 #pragma once
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -11,21 +13,39 @@
 
 namespace aquarama {
 
+// Made, pumped and destroyed by the main thread; current on the thread that draws, which releases
+// it before the main thread destroys it.
 class Context {
   public:
     virtual ~Context() = default;
     virtual void makeCurrent() = 0;
+    virtual void release() = 0;
     // Puts the finished default framebuffer on the display; does nothing without one.
     virtual void swap() = 0;
     [[nodiscard]] virtual glm::ivec2 framebufferPixels() const = 0;
     // True where framebuffer 0 is a window's; false where there is none.
     [[nodiscard]] virtual bool hasWindow() const = 0;
     [[nodiscard]] virtual std::string description() const = 0;  // renderer and version, for the log
+
+    // On the main thread: waits for window events no longer than this, and handles them.
+    virtual void pumpEvents(std::chrono::milliseconds atMost) = 0;
+    // Keys that were pressed, oldest first: a lower-case letter, ' ' or kEscapeKey. Closing the
+    // window is kEscapeKey.
+    [[nodiscard]] virtual std::optional<char> nextKey() = 0;
 };
 
-// OpenGL 4.5 core. device: auto | nvidia | mesa | surfaceless | device:N. Throws Error: no EGL, no
-// such device, no GL 4.5.
+inline constexpr char kEscapeKey = '\x1b';
+inline constexpr char kFullscreenKey = 'f';  // handled by the window itself
+
+// OpenGL 4.5 core, current on this thread. device: auto | nvidia | mesa | surfaceless | device:N.
+// Throws Error: no EGL, no such device, no GL 4.5.
 [[nodiscard]] std::unique_ptr<Context> makeOffscreenContext(const std::string& device,
                                                             glm::ivec2 sizePixels);
+
+// OpenGL 4.5 core in a window, current on no thread. Throws Error: no display, no such monitor, a
+// framebuffer or refresh rate that is not the channel's, no GL 4.5.
+[[nodiscard]] std::unique_ptr<Context> makeWindowContext(const Display& display,
+                                                         const std::string& title,
+                                                         glm::ivec2 sizePixels);
 
 }  // namespace aquarama

@@ -5,12 +5,14 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <thread>
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include "common/units/error.h"
 #include "render_node/context/context.h"
+#include "render_node/context/opengl_version.h"
 
 namespace aquarama {
 
@@ -81,10 +83,18 @@ std::optional<EGLDeviceEXT> choose(std::span<EGLDeviceEXT> all, const std::strin
     throw Error("device \"" + wanted + "\" is none of auto, nvidia, mesa, surfaceless, device:N");
 }
 
+void requireEgl() {
+    const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (!lists(extensions, "EGL_EXT_platform_device") &&
+        !lists(extensions, "EGL_MESA_platform_surfaceless"))
+        throw Error("EGL offers no device without a display; install a driver (libegl-mesa0)");
+}
+
 class OffscreenContext final : public Context {
   public:
     OffscreenContext(const std::string& device, glm::ivec2 sizePixels) : sizePixels_{sizePixels} {
         std::array<EGLDeviceEXT, 32> storage{};
+        requireEgl();
         const auto chosen = choose(devices(storage), device);
         display_ = chosen ? eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, *chosen, nullptr)
                           : eglGetPlatformDisplayEXT(
@@ -109,9 +119,10 @@ class OffscreenContext final : public Context {
                 "\": no OpenGL 4.5 core context; update its driver or choose another device");
         }
         makeCurrent();
+        requireOpenGl45("device \"" + device + "\"");
     }
     ~OffscreenContext() override {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        release();
         eglDestroyContext(display_, context_);
     }
     OffscreenContext(const OffscreenContext&) = delete;
@@ -123,13 +134,19 @@ class OffscreenContext final : public Context {
                 "EGL refuses to make the context current without a surface; update the driver");
         }
     }
+    void release() override {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
     void swap() override {}
     [[nodiscard]] glm::ivec2 framebufferPixels() const override { return sizePixels_; }
     [[nodiscard]] bool hasWindow() const override { return false; }
     [[nodiscard]] std::string description() const override {
-        return std::string(reinterpret_cast<const char*>(glGetString(GL_RENDERER))) + ", OpenGL " +
-               reinterpret_cast<const char*>(glGetString(GL_VERSION)) + ", EGL without display";
+        return rendererAndVersion() + ", EGL without display";
     }
+    void pumpEvents(std::chrono::milliseconds atMost) override {
+        std::this_thread::sleep_for(atMost);
+    }
+    [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
 
   private:
     glm::ivec2 sizePixels_;

@@ -64,6 +64,14 @@ struct VertexArrayTraits {
     }
     static void destroy(unsigned name) { glDeleteVertexArrays(1, &name); }
 };
+struct SamplerTraits {
+    static unsigned create() {
+        unsigned name = 0;
+        glCreateSamplers(1, &name);
+        return name;
+    }
+    static void destroy(unsigned name) { glDeleteSamplers(1, &name); }
+};
 struct ProgramTraits {
     static unsigned create() { return glCreateProgram(); }
     static void destroy(unsigned name) { glDeleteProgram(name); }
@@ -71,6 +79,7 @@ struct ProgramTraits {
 
 using Buffer = Handle<BufferTraits>;
 using Texture = Handle<TextureTraits>;
+using Sampler = Handle<SamplerTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using VertexArray = Handle<VertexArrayTraits>;
 using ProgramHandle = Handle<ProgramTraits>;

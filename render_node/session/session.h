@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,8 @@ class Session {
     // The next frame to draw: in lockstep every one in order, live the newest. Empty: see
     // `interruption`.
     virtual std::optional<StateFrame> nextFrame() = 0;
+    // When the state of the frame that nextFrame() gave had arrived, on CLOCK_MONOTONIC.
+    [[nodiscard]] virtual std::chrono::nanoseconds stateArrival() const = 0;
     // Why nextFrame() was empty.
     [[nodiscard]] virtual Release interruption() const = 0;
     // The picture of this frame is finished (its fence has signalled). Blocks until it is released
@@ -55,8 +58,12 @@ class Session {
     virtual void stop() = 0;
 };
 
-// controlAddress as in the rig. name is the channel's.
+// controlAddress as in the rig. name is the channel's. Blobs are kept in the user's cache unless
+// another directory is given. Throws Error where the address is malformed.
 [[nodiscard]] std::unique_ptr<Session> connectSession(const std::string& name,
                                                       const std::string& controlAddress);
+[[nodiscard]] std::unique_ptr<Session> connectSession(const std::string& name,
+                                                      const std::string& controlAddress,
+                                                      const std::filesystem::path& blobDirectory);
 
 }  // namespace aquarama

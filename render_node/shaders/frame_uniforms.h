@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame's uniform block, included by C++ and by GLSL: one truth for both. std140, so only vec4
 // and mat4 members.
+#ifndef AQUARAMA_FRAME_UNIFORMS_H
+#define AQUARAMA_FRAME_UNIFORMS_H
 #ifdef __cplusplus
-#pragma once
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 namespace aquarama {
@@ -23,4 +24,5 @@ layout(std140, binding = 0) uniform FrameUniforms {
 }  // namespace aquarama
 #else
 };
+#endif
 #endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama-calibrate: checks a rig, says what it does, and composes what its projectors show.
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "calibration/theatre/film.h"
+#include "calibration/theatre/snapshot.h"
+#include "calibration/theatre/survey.h"
+#include "common/config/angle.h"
+#include "common/units/error.h"
+#include "common/wall/wall.h"
+
+namespace aquarama {
+namespace {
+
+Rig checkedRig(const std::string& path) {
+    Rig rig = readRig(path);
+    checkGeometry(rig, path);
+    return rig;
+}
+
+void check(const std::string& path) {
+    const Rig rig = checkedRig(path);
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        std::printf("%s\n", oneLine(surveyChannel(rig, i)).c_str());
+    const double worst = worstBlendSum(rig);
+    if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
+    std::printf(
+        "%s: good; the channels' shares of light sum to one within %.0e\n", path.c_str(), worst);
+}
+
+void inspect(const std::string& path) {
+    const Rig rig = checkedRig(path);
+    std::printf("rig \"%s\": %zu channels, %u fish of %s\n",
+                rig.name.c_str(),
+                rig.channels.size(),
+                rig.fish,
+                rig.species.c_str());
+    std::printf("screen: radius %.3f m, %.1f degrees (%.3f m of arc), %.3f m high\n",
+                rig.screen.radiusMetres,
+                rig.screen.arcRadians / kRadiansPerDegree,
+                rig.screen.arcRadians * rig.screen.radiusMetres,
+                rig.screen.heightMetres);
+    std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
+    std::printf(
+        "addresses: control %s, state %s\n", rig.controlAddress.c_str(), rig.stateAddress.c_str());
+    std::printf("timing: %g Hz, present deadline %g s, membership %g s\n",
+                rig.timing.refreshHertz,
+                rig.timing.presentDeadlineSeconds,
+                rig.timing.membershipSeconds);
+    for (const Channel& channel : rig.channels) {
+        const bool window = channel.display.mode == DisplayMode::Window;
+        const std::string place =
+            window ? "window at " + std::to_string(channel.display.windowPosition.x) + ", " +
+                         std::to_string(channel.display.windowPosition.y)
+                   : "fullscreen on monitor " + std::to_string(channel.display.monitor);
+        std::printf("channel %u \"%s\": %d x %d pixels, %s, device %s\n",
+                    channel.id,
+                    channel.name.c_str(),
+                    channel.sizePixels.x,
+                    channel.sizePixels.y,
+                    place.c_str(),
+                    channel.display.device.c_str());
+    }
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Checks a rig and composes what its projectors show.", "aquarama-calibrate");
+    app.require_subcommand(1);
+    std::string path;
+    std::string folder;
+    bool deep = false;
+
+    CLI::App* checkCommand =
+        app.add_subcommand("check", "Validate a rig and say what its projectors light");
+    checkCommand->add_option("RIG", path, "Rig file, such as config/desk.txtpb")->required();
+    checkCommand->callback([&] { check(path); });
+
+    CLI::App* composeCommand = app.add_subcommand(
+        "compose", "Make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png");
+    composeCommand->add_option("RIG", path, "Rig file that the pictures were taken with")
+        ->required();
+    composeCommand->add_option("DIR", folder, "Folder of the pictures")->required();
+    composeCommand->add_flag("--deep", deep, "Write 16 bits instead of 8");
+    composeCommand->callback([&] { composeSnapshot(checkedRig(path), folder, deep ? 16 : 8); });
+
+    CLI::App* filmCommand =
+        app.add_subcommand("film", "Make DIR/clip.webp of the frames in DIR/film");
+    filmCommand->add_option("RIG", path, "Rig file that was filmed")->required();
+    filmCommand->add_option("DIR", folder, "Folder of the pictures")->required();
+    filmCommand->callback([&] { composeFilm(checkedRig(path), folder); });
+
+    CLI::App* inspectCommand = app.add_subcommand("inspect", "Say what a rig file holds");
+    inspectCommand->add_option("FILE", path, "Rig file")->required();
+    inspectCommand->callback([&] { inspect(path); });
+
+    CLI11_PARSE(app, argc, argv);
+    return 0;
+}
+
+}  // namespace
+}  // namespace aquarama
+
+int main(int argc, char** argv) {
+    try {
+        return aquarama::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "calibration/theatre/compose.h"
+#include "calibration/theatre/room.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr double kEyeBackRadii = 1.15;  // behind the sweet spot, so that the whole arc is in view
+constexpr double kEyeUpMetres = 0.35;   // standing, behind people who sit
+constexpr double kMargin = 1.09;        // of the screen's width
+constexpr double kShareAbove = 0.3;     // of the free height; the floor gets the rest
+constexpr int kSamplesPerSide = 2;      // of a pixel
+
+// An eye that looks level, so that upright edges stay upright; its picture is shifted, not tilted.
+struct Eye {
+    glm::dvec3 position;
+    double left, top, tangentPerPixel;
+
+    [[nodiscard]] Ray ray(glm::dvec2 pixel) const {
+        return {position,
+                glm::normalize(glm::dvec3(
+                    left + pixel.x * tangentPerPixel, top - pixel.y * tangentPerPixel, -1))};
+    }
+};
+
+Eye eyeAtTheBack(const Screen& screen, glm::dvec2 sizePixels) {
+    Eye eye{};
+    eye.position = {0, kEyeUpMetres, kEyeBackRadii * screen.radiusMetres};
+    const double halfArc = screen.arcRadians / 2;
+    const double toEdge = eye.position.z + screen.radiusMetres * std::cos(halfArc);
+    const double halfWidth = screen.radiusMetres * std::sin(halfArc) / toEdge;
+    const double height = screen.heightMetres / toEdge;
+    const double width = std::max(2 * halfWidth, height * sizePixels.x / sizePixels.y);
+    eye.tangentPerPixel = kMargin * width / sizePixels.x;
+    eye.left = -kMargin * width / 2;
+    const double free = eye.tangentPerPixel * sizePixels.y - height;
+    eye.top = (screen.heightMetres / 2 - eye.position.y) / toEdge + kShareAbove * free;
+    return eye;
+}
+
+}  // namespace
+
+Light composeHall(const Rig& rig, const Light& panorama, glm::ivec2 sizePixels) {
+    const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
+    const Room room(rig.screen, panorama, eye.position);
+    Light hall = darkness(sizePixels);
+    constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
+    for (int y = 0; y < sizePixels.y; ++y)
+        for (int x = 0; x < sizePixels.x; ++x)
+            for (int i = 0; i < kSamples; ++i) {
+                const glm::dvec2 offset(i % kSamplesPerSide, i / kSamplesPerSide);
+                const glm::dvec2 pixel =
+                    glm::dvec2(x, y) + (offset + 0.5) / double{kSamplesPerSide};
+                hall.at(x, y) += room.seen(eye.ray(pixel)) / float{kSamples};
+            }
+    return hall;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What render nodes would project of a test pattern, and what the wall ought to show: the truth
+// that real nodes are measured against, without GL.
+#pragma once
+
+#include "common/config/rig.h"
+#include "common/wall/pattern.h"
+#include "common/wall/picture.h"
+
+namespace aquarama {
+
+// A channel's share of the pattern: warped and blended. pictureOf (common/wall/picture.h) encodes
+// it as the channel's picture.
+[[nodiscard]] Light projectedLight(const Rig& rig, std::size_t channel, TestPattern pattern);
+
+// The pattern on the unrolled screen, straight from its formula: no projector in between.
+[[nodiscard]] Light directPanorama(const Rig& rig, TestPattern pattern);
+
+}  // namespace aquarama

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dark hall round the wall: floor, ceiling, walls and a row of people, lit by nothing but the
+// screen.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "common/config/rig.h"
+#include "common/wall/picture.h"
+#include "common/wall/pinhole.h"
+
+namespace aquarama {
+
+// The screen as a coarse grid of lamps, for what it throws on the room.
+class ScreenGlow {
+  public:
+    ScreenGlow(const Screen& screen, const Light& panorama);
+    // Light that a white matt surface would send back.
+    [[nodiscard]] glm::vec3 on(glm::dvec3 point, glm::dvec3 normal) const;
+    // The screen out of focus, as a dull floor mirrors it; unrolled coordinates.
+    [[nodiscard]] const glm::vec3& mean() const { return mean_; }
+    [[nodiscard]] glm::vec3 blurred(glm::dvec2 unrolledPosition) const;
+
+  private:
+    struct Lamp {
+        glm::dvec3 centre, facing;
+        double squareMetres;
+        glm::vec3 light;
+    };
+    std::vector<Lamp> lamps_;
+    Light coarse_;
+    glm::vec3 mean_{};
+};
+
+struct Capsule {
+    glm::dvec3 from, to;  // a segment
+    double radius;        // and all that is this near to it, metres
+};
+
+struct Person {
+    std::vector<Capsule> body;
+    glm::dvec3 centre;  // of a ball that holds the body
+    double reach;
+};
+
+class Room {
+  public:
+    Room(const Screen& screen, const Light& panorama, glm::dvec3 eye);
+    // What comes along a ray (of length-one direction) to an eye in the room.
+    [[nodiscard]] glm::vec3 seen(const Ray& ray) const;
+
+  private:
+    [[nodiscard]] std::optional<glm::vec3> person(const Ray& ray) const;
+    [[nodiscard]] glm::vec3 walls(const Ray& ray) const;
+
+    Screen screen_;
+    const Light& panorama_;
+    ScreenGlow glow_;
+    std::vector<Person> audience_;
+    glm::dvec3 low_, high_;  // corners
+};
+
+}  // namespace aquarama

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/body/cage_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace aquarama {
+
+namespace {
+
+constexpr float kGrow = 1.045F;  // a Catmull-Clark limit surface is smaller than its cage by this
+constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly that fins grow from
+constexpr float kNoseStation = 0.004F;     // of ring 0
+constexpr float kDegree = std::numbers::pi_v<float> / 180;
+
+// Where a column is on its ring: how far down from back (0) over flank (1) to belly (2), at what
+// angle above the horizontal, on which side, and which ray of the tail fin it becomes.
+struct ColumnPlace {
+    float down;
+    float angle;
+    float side;  // +1 right
+    float ray;
+};
+
+ColumnPlace placeOf(int column) {
+    constexpr std::array<float, 6> kDown{0, 0.35F, 0.8F, 1.2F, 1.65F, 2};
+    constexpr std::array<float, 6> kAngle{0, 58, 20, -20, -58, 0};
+    const bool isRight = column >= 1 && column <= 6;
+    const int fromBack = isRight ? column - 1 : (kTubeColumns - column) % kTubeColumns;
+    const auto k = static_cast<std::size_t>(fromBack);
+    return {kDown[k], kAngle[k] * kDegree, isRight ? 1.0F : -1.0F, static_cast<float>(k) / 5};
+}
+
+bool isRidge(int column) {
+    return column <= 1 || column == 6 || column == 7;
+}
+
+// A membrane thins from root to edge.
+float finHalfThickness(float q) {
+    return 0.0045F * (1 - q) + 0.0008F;
+}
+
+float between(float from, float to, int step, int steps) {
+    return glm::mix(from, to, static_cast<float>(step) / static_cast<float>(steps));
+}
+
+// Rings crowd towards the nose, where the head curves most.
+float headStation(int ring, float firstFin) {
+    return glm::mix(kNoseStation, firstFin, std::pow(static_cast<float>(ring) / 6, 1.35F));
+}
+
+bool isPectoralRoot(int ring, int column) {
+    return (ring == 5 || ring == 6) && !isRidge(column) && column != 2 && column != 11;
+}
+
+// Columns 3-5 and 10-8 are the front, the middle and the rear ray of a pectoral fin.
+float pectoralRay(int column) {
+    return static_cast<float>(column < 6 ? column - 3 : 10 - column) / 2;
+}
+
+}  // namespace
+
+CageShape::CageShape(const Species& species)
+    : dorsal_(species.profile.stations, species.profile.dorsal),
+      ventral_(species.profile.stations, species.profile.ventral),
+      halfWidth_(species.profile.stations, species.profile.halfWidth),
+      firstDorsal_(species.fins.firstDorsal),
+      secondDorsal_(species.fins.secondDorsal),
+      anal_(species.fins.anal),
+      caudal_(species.fins.caudal),
+      pelvic_(species.fins.pelvic),
+      pectoral_(species.fins.pectoral) {
+    const float end = species.profile.stations.back();
+    const auto fill = [](RingStations& rings, int first, int last, float from, float to) {
+        for (int r = first; r <= last; ++r)
+            rings.at(static_cast<std::size_t>(r)) = between(from, to, r - first, last - first);
+    };
+    fill(back_, 6, 13, firstDorsal_.baseFront().x, firstDorsal_.baseRear().x);
+    fill(back_, 14, 20, secondDorsal_.baseFront().x, secondDorsal_.baseRear().x);
+    fill(belly_, 7, 15, pelvic_.baseRear().x, anal_.baseFront().x);
+    fill(belly_, 15, 20, anal_.baseFront().x, anal_.baseRear().x);
+    belly_[6] = pelvic_.baseFront().x;
+    for (std::size_t r = 0; r < 6; ++r) {
+        back_.at(r) = headStation(static_cast<int>(r), back_[6]);
+        belly_.at(r) = headStation(static_cast<int>(r), belly_[6]);
+    }
+    back_[kBodyEndRing] = belly_[kBodyEndRing] = end;
+
+    for (std::size_t r = 0; r < flank_.size(); ++r) flank_.at(r) = (back_.at(r) + belly_.at(r)) / 2;
+    float root = 0;  // mean station of the pectoral's root, which rings 5 and 6 embrace
+    for (const glm::vec2& point : species.fins.pectoral.base)
+        root += point.x / static_cast<float>(species.fins.pectoral.base.size());
+    flank_[5] = root - 0.012F;
+    flank_[6] = root + 0.012F;
+    for (std::size_t r = 1; r < flank_.size(); ++r)
+        flank_.at(r) = std::max(flank_.at(r), flank_.at(r - 1));
+}
+
+CageVertex CageShape::place(const CageSite& site) const {
+    switch (site.kind) {
+        case CageSiteKind::Nose:
+            return {.rest = onNose(site.ring, site.column)};
+        case CageSiteKind::Tube:
+            if (site.ring > kBodyEndRing) return onCaudal(site.ring, site.column);
+            return {.rest = onBody(site.ring, site.column)};
+        case CageSiteKind::Flap:
+            break;
+    }
+    const bool isPaired = site.part == CagePart::Pelvic || site.part == CagePart::Pectoral;
+    return isPaired ? onPairedFin(site) : onMedianFin(site);
+}
+
+CageShape::Section CageShape::sectionAt(float s) const {
+    return {dorsal_.at(s), ventral_.at(s), halfWidth_.at(s)};
+}
+
+glm::vec3 CageShape::onNose(int row, int column) const {
+    const Section section = sectionAt(kNoseStation);
+    return {0,
+            row == 0 ? 0.4F * section.dorsal : -0.4F * section.ventral,
+            (column == 0 ? -0.4F : 0.4F) * section.halfWidth};
+}
+
+glm::vec3 CageShape::onBody(int ring, int column) const {
+    const auto r = static_cast<std::size_t>(ring);
+    const ColumnPlace at = placeOf(column);
+    const float s = at.down < 1 ? glm::mix(back_.at(r), flank_.at(r), at.down)
+                                : glm::mix(flank_.at(r), belly_.at(r), at.down - 1);
+    const Section section = sectionAt(s);
+    const float height = at.down < 1 ? section.dorsal : section.ventral;
+    if (isRidge(column))
+        return {s,
+                at.down < 1 ? section.dorsal : -section.ventral,
+                at.side * std::min(kRidgeHalfWidth, 0.45F * section.halfWidth)};
+    if (!isPectoralRoot(ring, column))
+        return {s,
+                height * std::sin(at.angle) * kGrow,
+                at.side * section.halfWidth * std::cos(at.angle) * kGrow};
+    const float y = pectoral_.at(pectoralRay(column), 0).y;
+    const float relative = y / (y > 0 ? section.dorsal : section.ventral);
+    return {
+        s, y, at.side * section.halfWidth * std::sqrt(std::max(0.05F, 1 - relative * relative))};
+}
+
+CageVertex CageShape::onCaudal(int ring, int column) const {
+    const ColumnPlace at = placeOf(column);
+    const float q = static_cast<float>(ring - kBodyEndRing) / (kTubeRings - 1 - kBodyEndRing);
+    return {.rest = {caudal_.at(at.ray, q), at.side * finHalfThickness(q)},
+            .part = CagePart::Caudal,
+            .fin = {at.ray, q}};
+}
+
+CageVertex CageShape::onMedianFin(const CageSite& site) const {
+    const bool isAnal = site.part == CagePart::Anal;
+    const FinPatch& fin = isAnal                               ? anal_
+                          : site.part == CagePart::FirstDorsal ? firstDorsal_
+                                                               : secondDorsal_;
+    const float s = (isAnal ? belly_ : back_).at(static_cast<std::size_t>(site.ring));
+    const float p = fin.rayAtStation(s);
+    const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
+    return {.rest = {fin.at(p, q), placeOf(site.column).side * finHalfThickness(q)},
+            .part = site.part,
+            .fin = {p, q}};
+}
+
+// A paired fin stands off the flank by its angle, in a plane that holds its rays.
+CageVertex CageShape::onPairedFin(const CageSite& site) const {
+    const bool isPelvic = site.part == CagePart::Pelvic;
+    const FinPatch& fin = isPelvic ? pelvic_ : pectoral_;
+    const float p = isPelvic ? static_cast<float>(site.ring - 6) : pectoralRay(site.column);
+    const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
+    const bool isOuter = isPelvic ? site.column == 5 || site.column == 8 : site.ring == 5;
+    const glm::vec2 base = fin.at(p, 0);
+    const glm::vec2 tip = fin.at(p, q);
+    const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(base.x).halfWidth;
+    const float off = glm::distance(tip, base) * std::sin(fin.angleRadians());
+    const float thickness = (isOuter ? 0.002F : -0.002F) * (1 - 0.7F * q);
+    return {.rest = {base.x + (tip.x - base.x) * std::cos(fin.angleRadians()),
+                     tip.y,
+                     placeOf(site.column).side * (root + off + thickness)},
+            .part = site.part,
+            .fin = {p, q}};
+}
+
+}  // namespace aquarama

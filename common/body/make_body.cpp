@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/body/cage_shape.h"
+#include "common/body/cage_topology.h"
+#include "common/body/fish_body.h"
+#include "common/config/species.h"
+
+namespace aquarama {
+
+namespace {
+
+NodalPoints restNodesOf(const Skeleton& skeleton) {
+    NodalPoints nodes{};
+    std::size_t next = 1;
+    for (const SkeletonRing& ring : skeleton.rings) {
+        const auto x = static_cast<float>(-ring.s);
+        const auto y = static_cast<float>(ring.halfHeight);
+        const auto z = static_cast<float>(ring.halfWidth);
+        nodes.at(next++) = {x, y, -z};
+        nodes.at(next++) = {x, y, z};
+        nodes.at(next++) = {x, -y, z};
+        nodes.at(next++) = {x, -y, -z};
+    }
+    const auto span = static_cast<float>(skeleton.tailHalfSpan);
+    nodes[21] = {-1, span, 0};
+    nodes[22] = {-1, -span, 0};
+    return nodes;
+}
+
+ControlCage makeCage(const Species& species) {
+    CageTopology topology = makeCageTopology();
+    const CageShape shape(species);
+    ControlCage cage;
+    for (const CageSite& site : topology.sites) cage.vertices.push_back(shape.place(site));
+    cage.faces = std::move(topology.faces);
+    cage.creases = std::move(topology.creases);
+    return cage;
+}
+
+}  // namespace
+
+FishBody makeBody(const Species& species) {
+    FishBody body;
+    body.species = species.name;
+    body.typicalLengthMetres = static_cast<float>(species.size.meanMetres);
+    body.restNodes = restNodesOf(species.skeleton);
+    for (std::size_t r = 0; r < 5; ++r)
+        body.ringStations.at(r) = static_cast<float>(species.skeleton.rings.at(r).s);
+    body.profileStations = species.profile.stations;
+    body.profileDorsal = species.profile.dorsal;
+    body.profileVentral = species.profile.ventral;
+    body.profileHalfWidth = species.profile.halfWidth;
+    body.eye = {species.eye.s, species.eye.y, species.eye.radius};
+    body.cage = makeCage(species);
+    return body;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command `aquarama`: runs a show, or hands over to the program that does what was asked.
+#include <array>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "common/cli/children.h"
+#include "common/cli/show.h"
+#include "common/cli/siblings.h"
+#include "common/config/rig.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+// A subcommand that another program does: `aquarama check RIG` is `aquarama-calibrate check RIG`.
+struct Delegation {
+    std::string_view command;
+    std::string_view program;
+    std::string_view subcommand;  // empty: the program itself
+    std::string_view what;
+};
+
+constexpr std::array kDelegations{
+    Delegation{"master", "master", "", "the master of a rig, alone: aquarama master RIG"},
+    Delegation{"node", "node", "", "one render node: aquarama node NAME --master ADDRESS"},
+    Delegation{"capture",
+               "capture",
+               "",
+               "simulate the biomechanical fish and compile repertoires: --out DIR"},
+    Delegation{"check", "calibrate", "check", "validate a rig: aquarama check RIG"},
+    Delegation{"status", "master", "status", "what the running wall is doing"},
+};
+
+// A repertoire is told by its first bytes; every other file that we know is about walls.
+std::string_view inspectorOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 5> magic{};
+    file.read(magic.data(), magic.size());
+    return std::string_view(magic.data(), magic.size()) == "AQREP" ? "capture" : "calibrate";
+}
+
+[[noreturn]] void delegate(std::string_view program,
+                           std::string_view subcommand,
+                           std::span<char*> rest) {
+    Command command{siblingProgram(std::string(program)), {}};
+    if (!subcommand.empty()) command.arguments.emplace_back(subcommand);
+    command.arguments.insert(command.arguments.end(), rest.begin(), rest.end());
+    become(command);
+}
+
+void describeRun(CLI::App& run, ShowOptions& options) {
+    run.add_option("RIG", options.rigPath, "the rig's file")->default_val("config/desk.txtpb");
+    run.add_flag("--headless", options.headless, "without a display; implies lockstep");
+    run.add_option("--frames", options.frames, "end after so many frames; implies lockstep");
+    run.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
+    run.add_option("--fish", options.fish, "how many, instead of the rig's number")
+        ->check(CLI::Range(1, 100000));
+    run.add_option("--snapshot",
+                   options.snapshotFolder,
+                   "folder for pictures of the last frame; implies lockstep");
+    run.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones");
+    run.add_option(
+           "--film-every", options.filmEvery, "with --snapshot: a picture every so many frames too")
+        ->check(CLI::Range(1, 10000));
+    run.add_option(
+        "--trace", options.traceFolder, "folder for a line of times a frame and process");
+    run.add_option("--pattern", options.pattern, "show this instead of the world")
+        ->check(CLI::IsMember({"world", "grid", "grey"}));
+    run.add_flag("--live", options.live, "keep to the clock where lockstep would be implied");
+}
+
+int dispatch(int count, char** arguments) {
+    const std::span all{arguments, static_cast<std::size_t>(count)};
+    const std::string first = count > 1 ? all[1] : "";
+    for (const Delegation& delegation : kDelegations) {
+        if (first == delegation.command)
+            delegate(delegation.program, delegation.subcommand, all.subspan(2));
+    }
+    if (first == "inspect") {
+        const std::string file = count > 2 ? all[2] : "";
+        delegate(inspectorOf(file), "inspect", all.subspan(2));
+    }
+
+    CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors"};
+    app.require_subcommand(1);
+    ShowOptions options;
+    CLI::App& run = *app.add_subcommand("run", "the master and all nodes of a rig on this machine");
+    describeRun(run, options);
+    for (const Delegation& delegation : kDelegations) {
+        app.add_subcommand(std::string(delegation.command), std::string(delegation.what));
+    }
+    app.add_subcommand("inspect",
+                       "what a repertoire or a wall's file holds: aquarama inspect FILE");
+    try {
+        app.parse(count, arguments);
+    } catch (const CLI::ParseError& wrong) {
+        return app.exit(wrong) == 0 ? 0 : 2;
+    }
+    return runShow(options, readRig(options.rigPath));
+}
+
+}  // namespace
+
+}  // namespace aquarama
+
+int main(int count, char** arguments) {
+    try {
+        return aquarama::dispatch(count, arguments);
+    } catch (const std::exception& error) {
+        std::cerr << "aquarama: " << error.what() << '\n';
+        return 1;
+    }
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/cli/show.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+#include <vector>
+
+#include <signal.h>
+
+#include "common/cli/children.h"
+#include "common/cli/siblings.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kGoodbye = 5s;   // how long a process may take to end after it was asked to
+constexpr auto kTooShort = 5s;  // one that dies sooner would only die again
+
+struct Process {
+    std::string name;
+    Command command;
+    pid_t child = 0;
+    Clock::time_point started;
+
+    void launch() {
+        child = start(command);
+        started = Clock::now();
+    }
+    [[nodiscard]] bool running() const { return child != 0; }
+};
+
+void append(std::vector<std::string>& arguments,
+            const std::string& name,
+            const std::string& value) {
+    if (value.empty()) return;
+    arguments.push_back(name);
+    arguments.push_back(value);
+}
+
+Process masterProcess(const ShowOptions& options) {
+    std::vector<std::string> arguments{options.rigPath};
+    if (options.lockstep()) arguments.emplace_back("--lockstep");
+    if (options.frames) append(arguments, "--frames", std::to_string(*options.frames));
+    if (options.seed) append(arguments, "--seed", std::to_string(*options.seed));
+    if (options.fish) append(arguments, "--fish", std::to_string(*options.fish));
+    append(arguments, "--pattern", options.pattern);
+    append(arguments, "--trace", options.traceFolder);
+    return {.name = "master", .command = {siblingProgram("master"), arguments}, .started = {}};
+}
+
+Process nodeProcess(const ShowOptions& options, const Rig& rig, const Channel& channel) {
+    std::vector<std::string> arguments{channel.name, "--master", rig.controlAddress};
+    if (options.headless) arguments.emplace_back("--headless");
+    append(arguments, "--snapshot", options.snapshotFolder);
+    if (options.deep) arguments.emplace_back("--deep");
+    if (options.filmEvery > 0) append(arguments, "--film-every", std::to_string(options.filmEvery));
+    append(arguments, "--trace", options.traceFolder);
+    return {.name = "node " + channel.name,
+            .command = {siblingProgram("node"), arguments},
+            .started = {}};
+}
+
+// Software OpenGL takes every core for each process; several nodes on one machine share them better
+// with one each.
+void shareCores(const Rig& rig) {
+    const auto perNode =
+        std::thread::hardware_concurrency() / std::max<std::size_t>(rig.channels.size(), 1);
+    setenv("LP_NUM_THREADS",
+           std::to_string(std::max<std::size_t>(perNode, 1)).c_str(),
+           /*overwrite=*/0);
+}
+
+bool anyRunning(const std::vector<Process>& processes) {
+    return std::ranges::any_of(processes, &Process::running);
+}
+
+void signalAll(const std::vector<Process>& processes, int signal) {
+    for (const Process& process : processes) {
+        if (process.running()) kill(process.child, signal);
+    }
+}
+
+// Asks all to end, and makes sure of it.
+void endAll(std::vector<Process>& processes) {
+    signalAll(processes, SIGTERM);
+    const auto deadline = Clock::now() + kGoodbye;
+    while (anyRunning(processes)) {
+        for (const Ending& ending : waitForChildren(100ms).endings) {
+            for (Process& process : processes) {
+                if (process.child == ending.child) process.child = 0;
+            }
+        }
+        if (Clock::now() > deadline) signalAll(processes, SIGKILL);
+    }
+}
+
+std::string described(const Ending& ending) {
+    return ending.signal != 0 ? "was killed by signal " + std::to_string(ending.signal)
+                              : "ended with status " + std::to_string(ending.exitCode);
+}
+
+// What the death of one process means for the show.
+enum class Verdict { GoesOn, Over, Failed };
+
+Verdict judge(const ShowOptions& options, Process& process, const Ending& ending) {
+    const bool early = Clock::now() - process.started < kTooShort;
+    process.child = 0;
+    if (ending.clean()) return process.name == "master" ? Verdict::Over : Verdict::GoesOn;
+    std::cerr << "aquarama: " << process.name << ' ' << described(ending);
+    if (options.lockstep() || (early && ending.signal == 0)) {
+        std::cerr << "; the show ends\n";
+        return Verdict::Failed;
+    }
+    std::cerr << "; starting it again\n";
+    process.launch();
+    return Verdict::GoesOn;
+}
+
+// Watches until the master has ended and every node with it, or something failed. True: the show
+// ended as it should.
+bool watch(const ShowOptions& options, std::vector<Process>& processes) {
+    bool over = false;
+    auto farewell = Clock::time_point::max();
+    while (anyRunning(processes)) {
+        const Heard heard = waitForChildren(200ms);
+        if (heard.interrupted) {
+            endAll(processes);
+            return true;
+        }
+        for (const Ending& ending : heard.endings) {
+            const auto process = std::ranges::find(processes, ending.child, &Process::child);
+            if (process == processes.end()) continue;
+            const Verdict verdict = judge(options, *process, ending);
+            if (verdict == Verdict::Failed) {
+                endAll(processes);
+                return false;
+            }
+            if (verdict == Verdict::Over && !over) {
+                over = true;
+                farewell = Clock::now() + 30s;  // nodes may still be writing their pictures
+            }
+        }
+        if (Clock::now() > farewell) {
+            std::cerr << "aquarama: a node did not end with the show; ending it\n";
+            endAll(processes);
+            return false;
+        }
+    }
+    return true;
+}
+
+// Lets aquarama-calibrate make one thing of the nodes' pictures.
+bool compose(const ShowOptions& options, const std::string& what) {
+    std::vector<std::string> arguments{what, options.rigPath, options.snapshotFolder};
+    if (options.deep && what == "compose") arguments.emplace_back("--deep");
+    Process composer{
+        .name = what, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+    composer.launch();
+    while (true) {
+        for (const Ending& ending : waitForChildren(1s).endings) {
+            if (ending.child == composer.child) return ending.clean();
+        }
+    }
+}
+
+void makeFolder(const std::string& folder) {
+    if (folder.empty()) return;
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) throw Error("cannot make the folder " + folder + ": " + failure.message());
+}
+
+}  // namespace
+
+int runShow(const ShowOptions& options, const Rig& rig) {
+    makeFolder(options.snapshotFolder);
+    makeFolder(options.traceFolder);
+    shareCores(rig);
+    listenForSignals();
+
+    std::vector<Process> processes{masterProcess(options)};
+    for (const Channel& channel : rig.channels)
+        processes.push_back(nodeProcess(options, rig, channel));
+    std::cerr << "aquarama: starting the master and " << rig.channels.size() << " nodes of "
+              << options.rigPath << '\n';
+    for (Process& process : processes) process.launch();
+
+    if (!watch(options, processes)) return 1;
+    if (options.snapshotFolder.empty()) return 0;
+    if (!compose(options, "compose")) return 1;
+    if (options.filmEvery > 0 && !compose(options, "film")) return 1;
+    std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
+    if (options.filmEvery > 0) std::cout << ", clip.webp";
+    for (const Channel& channel : rig.channels) std::cout << ", channel-" << channel.name << ".png";
+    std::cout << '\n';
+    return 0;
+}
+
+}  // namespace aquarama

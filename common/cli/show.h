@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama run`: the master and all nodes of a rig on this machine, as separate processes, watched
+// over.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/config/rig.h"
+
+namespace aquarama {
+
+struct ShowOptions {
+    std::string rigPath;
+    bool headless = false;
+    bool live =
+        false;  // keeps the clock even where --headless, --frames or --snapshot imply lockstep
+    std::optional<std::uint64_t> frames;
+    std::optional<std::uint32_t> seed;
+    std::optional<std::uint32_t> fish;
+    std::string pattern;         // empty: the world
+    std::string snapshotFolder;  // empty: no pictures
+    bool deep = false;           // 16-bit pictures
+    int filmEvery = 0;  // with a snapshot folder: also every so many frames, composed into a clip
+    std::string traceFolder;
+
+    [[nodiscard]] bool lockstep() const {
+        return !live && (headless || frames.has_value() || !snapshotFolder.empty());
+    }
+};
+
+// Returns the exit status. Live, a process that dies is started again; in lockstep its death ends
+// the show with an error.
+[[nodiscard]] int runShow(const ShowOptions& options, const Rig& rig);
+
+}  // namespace aquarama

@@ -1,0 +1,2 @@
+set(SPECIES_PROTOS species.proto)
+set(SPECIES_SOURCES species.cpp)

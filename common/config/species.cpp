@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/config/species.h"
+
+#include "common/config/angle.h"
+#include "common/config/species.pb.h"
+#include "common/config/text_reader.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr Range kStation{0, 1.2};
+constexpr Range kHeight{-1, 1};
+constexpr Range kExtent{0.0005, 0.5};  // body lengths; thinner would fold the springs or the skin
+constexpr Range kShare{0, 1};
+constexpr Range kStrength{0.001, 1e6};
+constexpr Range kMetres{0.005, 20};
+constexpr Range kBodyLengths{0.01, 100};
+constexpr Range kDepth{0, 1000};
+
+float real(const TextPlace& at, const std::string& field, Range range) {
+    return static_cast<float>(at.number(field, range));
+}
+
+SizeRange readSize(const TextPlace& at) {
+    SizeRange size;
+    size.meanMetres = at.number("mean_m", kMetres);
+    size.deviationMetres = at.number("deviation_m", {0, 10});
+    size.leastMetres = at.number("least_m", kMetres);
+    size.mostMetres = at.number("most_m", kMetres);
+    if (size.leastMetres > size.meanMetres)
+        at.refuse("least_m", "least_m is more than mean_m: exchange them");
+    if (size.mostMetres < size.meanMetres)
+        at.refuse("most_m", "most_m is less than mean_m: exchange them");
+    return size;
+}
+
+BodyProfile readProfile(const TextPlace& root) {
+    BodyProfile profile;
+    const int count = root.count("profile");
+    if (count < 4 || count > 64)
+        root.refuse("the file has " + std::to_string(count) + " profile stations: give 4 to 64");
+    for (int i = 0; i < count; ++i) {
+        const TextPlace at = root.in("profile", i);
+        const float s = real(at, "s", {0, 0.95});
+        if (i == 0 ? s != 0.0F : s <= profile.stations.back())
+            at.refuse("s", "profile stations must begin at s: 0 and rise: sort them");
+        profile.stations.push_back(s);
+        profile.dorsal.push_back(real(at, "up", kExtent));
+        profile.ventral.push_back(real(at, "down", kExtent));
+        profile.halfWidth.push_back(real(at, "half_width", kExtent));
+    }
+    return profile;
+}
+
+std::vector<glm::vec2> readPolyline(const TextPlace& fin, const std::string& field) {
+    const int count = fin.count(field);
+    if (count < 2 || count > 32) fin.refuse(field, field + " needs 2 to 32 points");
+    std::vector<glm::vec2> points;
+    for (int i = 0; i < count; ++i) {
+        const TextPlace at = fin.in(field, i);
+        points.emplace_back(real(at, "s", kStation), real(at, "y", kHeight));
+    }
+    return points;
+}
+
+Fin readFin(const TextPlace& fins, const std::string& field) {
+    const TextPlace at = fins.in(field);
+    return {.base = readPolyline(at, "base"),
+            .edge = readPolyline(at, "edge"),
+            .angleRadians = static_cast<float>(radiansOf(at.numberOr("angle_deg", {0, 90}, 0)))};
+}
+
+// A fin along the back or the belly: the skin's rings follow its base, so that must run tailwards.
+Fin readMedianFin(const TextPlace& fins, const std::string& field) {
+    Fin fin = readFin(fins, field);
+    for (std::size_t i = 1; i < fin.base.size(); ++i)
+        if (fin.base[i].x <= fin.base[i - 1].x)
+            fins.in(field).refuse("base",
+                                  "the base of " + field + " must run from head to tail: sort it",
+                                  static_cast<int>(i));
+    return fin;
+}
+
+// Along back and belly the bases of the fins come one after the other, before the root of the tail.
+void checkOrder(const TextPlace& fins, const Fins& read, float tailRoot) {
+    if (read.secondDorsal.base.front().x <= read.firstDorsal.base.back().x)
+        fins.refuse("second_dorsal", "second_dorsal begins before first_dorsal ends: move it back");
+    if (read.secondDorsal.base.back().x >= tailRoot)
+        fins.refuse("second_dorsal",
+                    "second_dorsal ends behind the last profile station: shorten it");
+    if (read.anal.base.front().x <= read.pelvic.base.back().x)
+        fins.refuse("anal", "anal begins before pelvic ends: move it back");
+    if (read.anal.base.back().x >= tailRoot)
+        fins.refuse("anal", "anal ends behind the last profile station: shorten it");
+}
+
+Fins readFins(const TextPlace& at, float tailRoot) {
+    Fins fins{.firstDorsal = readMedianFin(at, "first_dorsal"),
+              .secondDorsal = readMedianFin(at, "second_dorsal"),
+              .anal = readMedianFin(at, "anal"),
+              .caudal = readFin(at, "caudal"),
+              .pelvic = readMedianFin(at, "pelvic"),
+              .pectoral = readFin(at, "pectoral")};
+    checkOrder(at, fins, tailRoot);
+    return fins;
+}
+
+FishEye readEye(const TextPlace& at) {
+    return {.s = real(at, "s", {0, 0.5}),
+            .y = real(at, "y", {-0.4, 0.4}),
+            .radius = real(at, "radius", {0.001, 0.2})};
+}
+
+Skeleton readSkeleton(const TextPlace& at) {
+    Skeleton skeleton;
+    if (at.count("rings") != 5) at.refuse("a skeleton has five rings: give five");
+    double before = 0;
+    for (std::size_t i = 0; i < 5; ++i) {
+        const TextPlace in = at.in("rings", static_cast<int>(i));
+        SkeletonRing& ring = skeleton.rings.at(i);
+        ring.s = in.number("s", {0.05, 0.95});
+        if (ring.s < before + 0.02)
+            in.refuse("s", "rings must stand 0.02 body lengths apart or more: move this one back");
+        before = ring.s;
+        ring.halfHeight = in.number("half_height", {0.005, 0.5});
+        ring.halfWidth = in.number("half_width", {0.005, 0.5});
+        ring.nodeMass = in.number("node_mass", kStrength);
+    }
+    skeleton.tailHalfSpan = at.number("tail_half_span", {0.005, 0.5});
+    skeleton.noseMass = at.number("nose_mass", kStrength);
+    skeleton.tailTipMass = at.number("tail_tip_mass", kStrength);
+    return skeleton;
+}
+
+Tissue readTissue(const TextPlace& at) {
+    return {.timeScale = at.number("time_scale", {0.1, 10}),
+            .stiffness = at.number("stiffness", kStrength),
+            .crossStiffness = at.number("cross_stiffness", kStrength),
+            .muscleStiffness = at.number("muscle_stiffness", kStrength),
+            .tailStiffening = at.number("tail_stiffening", {0.1, 10}),
+            .damping = at.number("damping", {0, 1000}),
+            .muscleContraction = at.number("muscle_contraction", {0, 0.6})};
+}
+
+Gait readGait(const TextPlace& at) {
+    return {.beatHertz = at.number("beat_hz", {0.1, 20}), .gain = at.number("gain", {0, 2})};
+}
+
+Swim readSwim(const TextPlace& at) {
+    return {.middleDrive = at.number("middle_drive", kShare),
+            .backDrive = at.number("back_drive", kShare),
+            .backLagRadians = radiansOf(at.number("back_lag_deg", {0, 360})),
+            .slow = readGait(at.in("slow")),
+            .medium = readGait(at.in("medium")),
+            .fast = readGait(at.in("fast"))};
+}
+
+Turn readTurn(const TextPlace& at) {
+    return {.frontBias = at.number("front_bias", kShare),
+            .middleBias = at.number("middle_bias", kShare),
+            .bend = at.number("bend", kShare)};
+}
+
+SchoolHabits readSchool(const TextPlace& at) {
+    return {.neighbours = static_cast<std::uint32_t>(at.number("neighbours", {1, 7})),
+            .repelBodyLengths = at.number("repel_bl", kBodyLengths),
+            .alignBodyLengths = at.number("align_bl", kBodyLengths),
+            .attractBodyLengths = at.number("attract_bl", kBodyLengths),
+            .blindRadians = radiansOf(at.number("blind_deg", {0, 180})),
+            .leastDepthMetres = at.number("least_depth_m", kDepth),
+            .bestDepthMetres = at.number("best_depth_m", kDepth),
+            .mostDepthMetres = at.number("most_depth_m", kDepth)};
+}
+
+std::vector<Paint> readPalette(const TextPlace& root) {
+    std::vector<Paint> palette;
+    for (int i = 0; i < root.count("palette"); ++i) {
+        const TextPlace at = root.in("palette", i);
+        palette.push_back(
+            {at.text("part"),
+             {real(at, "red", kShare), real(at, "green", kShare), real(at, "blue", kShare)}});
+    }
+    return palette;
+}
+
+// The name becomes the name of the repertoire's file.
+std::string readName(const TextPlace& root) {
+    std::string name = root.text("name");
+    if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+        root.refuse("name", "name \"" + name + "\" may hold a-z, 0-9 and _ only: rename it");
+    return name;
+}
+
+}  // namespace
+
+Species parseSpecies(const std::string& text, const std::string& source) {
+    v1::Species message;
+    const TextReader reader(text, source, message);
+    const TextPlace root = reader.root();
+    Species species;
+    species.name = readName(root);
+    species.size = readSize(root.in("size"));
+    species.profile = readProfile(root);
+    species.fins = readFins(root.in("fins"), species.profile.stations.back());
+    species.eye = readEye(root.in("eye"));
+    species.skeleton = readSkeleton(root.in("skeleton"));
+    species.tissue = readTissue(root.in("tissue"));
+    species.water = {.drag = root.in("water").number("drag", {0, 1e5}),
+                     .frontFactor = root.in("water").number("front_factor", kShare)};
+    species.swim = readSwim(root.in("swim"));
+    species.turn = readTurn(root.in("turn"));
+    species.school = readSchool(root.in("school"));
+    species.palette = readPalette(root);
+    return species;
+}
+
+Species readSpecies(const std::string& path) {
+    return parseSpecies(readTextFile(path), path);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// A species of fish as its file describes it: shape, biomechanics, gaits, habits and colours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace aquarama {
+
+// On the animal lengths are body lengths: s from 0 at the nose to 1 at the tip of the tail, y up.
+// Columns of equal length, ascending s.
+struct BodyProfile {
+    std::vector<float> stations;
+    std::vector<float> dorsal;
+    std::vector<float> ventral;  // positive
+    std::vector<float> halfWidth;
+};
+
+// A ruled patch of points (s, y): ray by ray from the base on the body to the edge.
+struct Fin {
+    std::vector<glm::vec2> base;
+    std::vector<glm::vec2> edge;
+    float angleRadians = 0.0F;  // paired fins: how far it stands off the flank
+};
+
+struct Fins {
+    Fin firstDorsal, secondDorsal, anal, caudal, pelvic, pectoral;
+};
+
+struct FishEye {
+    float s = 0.0F;
+    float y = 0.0F;
+    float radius = 0.0F;
+};
+
+struct SkeletonRing {
+    double s = 0, halfHeight = 0, halfWidth = 0;
+    double nodeMass = 0;
+};
+
+// The nodal points at rest; masses count relative to each other.
+struct Skeleton {
+    std::array<SkeletonRing, 5> rings;
+    double tailHalfSpan = 0;
+    double noseMass = 0;
+    double tailTipMass = 0;
+};
+
+// Units: body lengths, the animal's mass, and its own seconds, of which timeScale make one of ours.
+struct Tissue {
+    double timeScale = 1;
+    double stiffness = 0, crossStiffness = 0, muscleStiffness = 0;
+    double tailStiffening = 1;  // factor on all units behind ring 3
+    double damping = 0;
+    double muscleContraction = 0;  // share of its length lost at full contraction
+};
+
+struct Water {
+    double drag = 0;         // mu: force on an advancing face = mu * area * (normal speed)^2
+    double frontFactor = 1;  // share of that on the head
+};
+
+struct Gait {
+    double beatHertz = 0;
+    double gain = 1;
+};
+
+struct Swim {
+    double middleDrive = 0, backDrive = 0;  // contraction, 0 to 1
+    double backLagRadians = 0;
+    Gait slow, medium, fast;
+};
+
+struct Turn {
+    double frontBias = 0, middleBias = 0;  // gradual: one side always drawn in by this much
+    double bend = 0;                       // sharp: strength of the bend, 0 to 1
+};
+
+struct SizeRange {
+    double meanMetres = 0, deviationMetres = 0, leastMetres = 0, mostMetres = 0;
+};
+
+struct SchoolHabits {
+    std::uint32_t neighbours = 0;
+    double repelBodyLengths = 0, alignBodyLengths = 0, attractBodyLengths = 0;
+    double blindRadians = 0;
+    double leastDepthMetres = 0, bestDepthMetres = 0, mostDepthMetres = 0;
+};
+
+struct Paint {
+    std::string part;
+    glm::vec3 linear{};  // Rec. 709
+};
+
+struct Species {
+    std::string name;
+    SizeRange size;
+    BodyProfile profile;
+    Fins fins;
+    FishEye eye;
+    Skeleton skeleton;
+    Tissue tissue;
+    Water water;
+    Swim swim;
+    Turn turn;
+    SchoolHabits school;
+    std::vector<Paint> palette;
+};
+
+// Throws Error with file:line:column for whatever the schema or the animal cannot have.
+[[nodiscard]] Species readSpecies(const std::string& path);
+[[nodiscard]] Species parseSpecies(const std::string& text, const std::string& source);
+
+}  // namespace aquarama

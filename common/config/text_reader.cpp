@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/config/text_reader.h"
+
+#include <cassert>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <google/protobuf/io/tokenizer.h>
+
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace pb = google::protobuf;
+
+namespace {
+
+constexpr std::streamoff kMostBytes = 4 << 20;  // a large rig or species takes some 10 KB
+
+// Protobuf counts lines and columns from 0, editors from 1.
+std::string placed(const std::string& source, int line, int column, const std::string& why) {
+    return source + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + why;
+}
+
+class FirstError : public pb::io::ErrorCollector {
+  public:
+    explicit FirstError(const std::string& source) : source_(source) {}
+    void AddError(int line, int column, const std::string& why) override {
+        if (!text_.empty()) return;
+        text_ = placed(source_, line + 1, column + 1, why);
+        if (text_.back() == '.') text_.pop_back();
+    }
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+  private:
+    std::string source_;
+    std::string text_;
+};
+
+std::string shown(double value) {
+    std::ostringstream out;
+    out.precision(10);
+    out << value;
+    return out.str();
+}
+
+// The numeric value of a field of any numeric type.
+double numberIn(const pb::Message& message, const pb::FieldDescriptor& field, int index) {
+    const pb::Reflection& get = *message.GetReflection();
+    const bool many = field.is_repeated();
+    switch (field.cpp_type()) {
+        case pb::FieldDescriptor::CPPTYPE_DOUBLE:
+            return many ? get.GetRepeatedDouble(message, &field, index)
+                        : get.GetDouble(message, &field);
+        case pb::FieldDescriptor::CPPTYPE_FLOAT:
+            return static_cast<double>(many ? get.GetRepeatedFloat(message, &field, index)
+                                            : get.GetFloat(message, &field));
+        case pb::FieldDescriptor::CPPTYPE_INT32:
+            return many ? get.GetRepeatedInt32(message, &field, index)
+                        : get.GetInt32(message, &field);
+        default:
+            assert(field.cpp_type() == pb::FieldDescriptor::CPPTYPE_UINT32);
+            return many ? get.GetRepeatedUInt32(message, &field, index)
+                        : get.GetUInt32(message, &field);
+    }
+}
+
+}  // namespace
+
+std::string readTextFile(const std::string& path) {
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+    if (size < 0 || size > kMostBytes)
+        throw Error(path + ": cannot be read as a text file; check the path");
+    std::string text(static_cast<std::size_t>(size), '\0');
+    in.seekg(0);
+    if (!in.read(text.data(), size))
+        throw Error(path + ": reading failed; check that it is a file");
+    return text;
+}
+
+TextReader::TextReader(const std::string& text, std::string source, pb::Message& message)
+    : source_(std::move(source)), message_(&message) {
+    FirstError error(source_);
+    pb::TextFormat::Parser parser;
+    parser.RecordErrorsTo(&error);
+    parser.WriteLocationsTo(&tree_);
+    if (!parser.ParseFromString(text, &message)) throw Error(error.text());
+}
+
+TextPlace TextReader::root() const {
+    TextPlace place;
+    place.message_ = message_;
+    place.tree_ = &tree_;
+    place.source_ = &source_;
+    place.name_ = "the file";
+    return place;
+}
+
+const TextPlace::Field& TextPlace::fieldNamed(const std::string& name) const {
+    const Field* field = message_->GetDescriptor()->FindFieldByName(name);
+    assert(field != nullptr && "the code asks for a field that the schema lacks");
+    return *field;
+}
+
+const TextPlace::Field& TextPlace::present(const std::string& name, int index) const {
+    const Field& field = fieldNamed(name);
+    assert(field.is_repeated() == (index != kSingle));
+    const bool there = field.is_repeated() ? index < count(name) : has(name);
+    if (!there) refuse(name_ + " lacks " + name + ": add it");
+    return field;
+}
+
+bool TextPlace::has(const std::string& field) const {
+    return message_->GetReflection()->HasField(*message_, &fieldNamed(field));
+}
+
+int TextPlace::count(const std::string& field) const {
+    return message_->GetReflection()->FieldSize(*message_, &fieldNamed(field));
+}
+
+TextPlace TextPlace::in(const std::string& name, int index) const {
+    const Field& field = present(name, index);
+    const pb::Reflection& get = *message_->GetReflection();
+    TextPlace inner;
+    inner.message_ = field.is_repeated() ? &get.GetRepeatedMessage(*message_, &field, index)
+                                         : &get.GetMessage(*message_, &field);
+    inner.tree_ = tree_->GetTreeForNested(&field, index);
+    inner.source_ = source_;
+    inner.name_ = name;
+    const auto at = tree_->GetLocation(&field, index);
+    inner.line_ = at.line + 1;
+    inner.column_ = at.column + 1;
+    return inner;
+}
+
+double TextPlace::number(const std::string& name, Range range, int index) const {
+    const double value = numberIn(*message_, present(name, index), index);
+    if (!(value >= range.low && value <= range.high))  // also refuses nan
+        refuse(name,
+               name + " is " + shown(value) + ": it must be from " + shown(range.low) + " to " +
+                   shown(range.high),
+               index);
+    return value;
+}
+
+double TextPlace::numberOr(const std::string& name, Range range, double fallback) const {
+    return has(name) ? number(name, range) : fallback;
+}
+
+std::string TextPlace::text(const std::string& name, int index) const {
+    const Field& field = present(name, index);
+    const pb::Reflection& get = *message_->GetReflection();
+    std::string value = field.is_repeated() ? get.GetRepeatedString(*message_, &field, index)
+                                            : get.GetString(*message_, &field);
+    if (value.empty()) refuse(name, name + " is empty: fill it in", index);
+    return value;
+}
+
+std::string TextPlace::choice(const std::string& name) const {
+    return message_->GetReflection()->GetEnum(*message_, &present(name, kSingle))->name();
+}
+
+void TextPlace::refuse(const std::string& name, const std::string& why, int index) const {
+    const bool there = index == kSingle ? has(name) : index < count(name);
+    if (!there) refuse(why);
+    const auto at = tree_->GetLocation(&fieldNamed(name), index);
+    throw Error(placed(*source_, at.line + 1, at.column + 1, why));
+}
+
+void TextPlace::refuse(const std::string& why) const {
+    throw Error(placed(*source_, line_, column_, why));
+}
+
+}  // namespace aquarama

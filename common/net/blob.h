@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Blobs named by their SHA-256: cut into chunks, put together again, checked and kept on disk.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/units/digest.h"
+
+namespace aquarama {
+
+// The part of a blob that starts at `offset`, at most `chunkBytes` of it; empty past its end.
+[[nodiscard]] std::span<const std::byte> chunkAt(std::span<const std::byte> blob,
+                                                 std::uint64_t offset,
+                                                 std::size_t chunkBytes);
+
+// Takes chunks in order until the blob is whole. Memory grows with what has arrived, not with what
+// was announced.
+class BlobAssembly {
+  public:
+    explicit BlobAssembly(const Digest& digest) : digest_(digest) {}
+
+    // False: not the chunk that comes next, or another total than before; it is not taken.
+    bool take(std::uint64_t offset, std::uint64_t total, std::span<const std::byte> content);
+    [[nodiscard]] const Digest& digest() const { return digest_; }
+    [[nodiscard]] std::uint64_t nextOffset() const { return bytes_.size(); }
+    [[nodiscard]] bool whole() const { return total_ && bytes_.size() == *total_; }
+    // The blob, where it is whole and has the digest that was asked for; starts afresh.
+    [[nodiscard]] std::optional<std::vector<std::byte>> checked();
+
+  private:
+    Digest digest_;
+    std::optional<std::uint64_t> total_;
+    std::vector<std::byte> bytes_;
+};
+
+// A directory of blobs. What it cannot write it does without: a cache only saves time.
+class BlobCache {
+  public:
+    explicit BlobCache(std::filesystem::path directory) : directory_(std::move(directory)) {}
+
+    // Empty where there is none, or what is there is not what its name says.
+    [[nodiscard]] std::optional<std::vector<std::byte>> find(const Digest& digest) const;
+    // Appears under its name whole or not at all, whoever else writes the same.
+    void keep(const Digest& digest, std::span<const std::byte> blob) const;
+
+  private:
+    [[nodiscard]] std::filesystem::path pathOf(const Digest& digest) const;
+    std::filesystem::path directory_;
+};
+
+// $XDG_CACHE_HOME/aquarama/blobs, or ~/.cache/aquarama/blobs.
+[[nodiscard]] std::filesystem::path defaultBlobDirectory();
+
+}  // namespace aquarama

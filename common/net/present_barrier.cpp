@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/net/present_barrier.h"
+
+#include <algorithm>
+
+namespace aquarama {
+
+PresentBarrier::PresentBarrier(std::size_t nodes, const BarrierLimits& limits, Instant start)
+    : limits_(limits), nodes_(nodes) {
+    for (Node& node : nodes_) node.lastHeard = start;
+}
+
+void PresentBarrier::heard(std::size_t node, Instant now) {
+    nodes_[node].lastHeard = now;
+}
+
+void PresentBarrier::join(std::size_t node, Frame first) {
+    Node& joining = nodes_[node];
+    joining.member = true;
+    joining.late = joining.ready = false;
+    joining.first = first;
+}
+
+void PresentBarrier::leave(std::size_t node) {
+    nodes_[node].member = nodes_[node].ready = false;
+}
+
+std::vector<std::size_t> PresentBarrier::expelSilent(Instant now) {
+    std::vector<std::size_t> expelled;
+    if (limits_.lockstep) return expelled;
+    for (std::size_t node = 0; node < nodes_.size(); ++node) {
+        if (!isMember(node) || now - nodes_[node].lastHeard <= limits_.membership) continue;
+        leave(node);
+        expelled.push_back(node);
+    }
+    return expelled;
+}
+
+void PresentBarrier::begin(Frame frame) {
+    frame_ = frame;
+    firstReady_.reset();
+    for (Node& node : nodes_) node.ready = false;
+}
+
+void PresentBarrier::ready(std::size_t node, Frame frame, Instant now) {
+    Node& speaker = nodes_[node];
+    if (!frame_ || !speaker.member) return;
+    const bool onlyJustLate = frame.value + 1 == frame_->value;
+    if (frame == *frame_ || onlyJustLate) speaker.late = false;
+    if (frame != *frame_) return;
+    speaker.first = std::min(speaker.first, frame);  // it evidently saw that state
+    speaker.ready = true;
+    if (!firstReady_) firstReady_ = now;
+}
+
+bool PresentBarrier::isWaitedFor(std::size_t node) const {
+    const Node& n = nodes_[node];
+    return n.member && !n.late && frame_ && n.first <= *frame_;
+}
+
+bool PresentBarrier::hasNewcomer() const {
+    return std::ranges::any_of(nodes_, [&](const Node& node) {
+        return node.member && !node.late && (!frame_ || *frame_ < node.first);
+    });
+}
+
+bool PresentBarrier::allPrepared() const {
+    return std::ranges::all_of(nodes_, &Node::member);
+}
+
+bool PresentBarrier::hasMembers() const {
+    return std::ranges::any_of(nodes_, &Node::member);
+}
+
+PresentBarrier::Decision PresentBarrier::decide(Instant now) {
+    return limits_.lockstep ? decideLockstep(now) : decideLive(now);
+}
+
+PresentBarrier::Decision PresentBarrier::decideLive(Instant now) {
+    std::size_t waitedFor = 0;
+    std::size_t missing = 0;
+    for (std::size_t node = 0; node < nodes_.size(); ++node) {
+        if (!isWaitedFor(node)) continue;
+        ++waitedFor;
+        if (!nodes_[node].ready) ++missing;
+    }
+    if (waitedFor == 0) return {};
+    if (missing == 0) return {Verdict::Present, {}, 0};
+    if (!firstReady_ || missing == waitedFor) return {Verdict::Wait, {}, 0};
+    const Instant deadline = *firstReady_ + limits_.deadline;
+    if (now < deadline) return {Verdict::Wait, deadline, 0};
+    for (std::size_t node = 0; node < nodes_.size(); ++node) {
+        if (!isWaitedFor(node) || nodes_[node].ready) continue;
+        nodes_[node].late = true;
+        ++nodes_[node].timesLate;
+    }
+    return {Verdict::Present, {}, 0};
+}
+
+PresentBarrier::Decision PresentBarrier::decideLockstep(Instant now) const {
+    const auto quietest = std::ranges::min_element(nodes_, {}, &Node::lastHeard);
+    if (quietest == nodes_.end()) return {};
+    const Instant end = quietest->lastHeard + limits_.patience;
+    const auto name = static_cast<std::size_t>(quietest - nodes_.begin());
+    const bool allReady =
+        std::ranges::all_of(nodes_, [](const Node& node) { return node.member && node.ready; });
+    if (allReady && frame_) return {Verdict::Present, {}, 0};
+    if (now >= end) return {Verdict::Silent, {}, name};
+    return {Verdict::Wait, end, name};
+}
+
+}  // namespace aquarama

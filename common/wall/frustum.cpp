@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/wall/outline.h"
+#include "common/wall/pinhole.h"
+#include "common/wall/wall.h"
+
+namespace aquarama {
+
+namespace {
+
+// Level, towards azimuth (right positive): upright things stay upright in every channel.
+glm::dmat4 levelCamera(double azimuth) {
+    const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
+    const glm::dvec3 back(-std::sin(azimuth), 0, std::cos(azimuth));
+    const glm::dmat3 wallFromCamera(right, glm::dvec3(0, 1, 0), back);
+    return glm::dmat4(glm::transpose(wallFromCamera));
+}
+
+double widened(double tangent, double byRadians) {
+    return std::tan(std::atan(tangent) + byRadians);
+}
+
+}  // namespace
+
+ChannelFrustum channelFrustum(const Rig& rig, std::size_t channel, double marginRadians) {
+    const std::vector<glm::dvec3> lit =
+        litOutline(rig.screen, Pinhole(rig.channels[channel]), kSpillMetres);
+    const auto [leftmost, rightmost] =
+        std::ranges::minmax(lit, {}, [](glm::dvec3 point) { return azimuthOf(point); });
+    ChannelFrustum frustum;
+    frustum.cameraFromWall = levelCamera((azimuthOf(leftmost) + azimuthOf(rightmost)) / 2);
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    glm::dvec2 low(kInfinity);
+    glm::dvec2 high(-kInfinity);
+    for (const glm::dvec3& point : lit) {
+        const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(point, 1);
+        const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
+        low = glm::min(low, tangent);
+        high = glm::max(high, tangent);
+    }
+    frustum.left = widened(low.x, -marginRadians);
+    frustum.bottom = widened(low.y, -marginRadians);
+    frustum.right = widened(high.x, marginRadians);
+    frustum.top = widened(high.y, marginRadians);
+    return frustum;
+}
+
+glm::mat4 clipFromCamera(const ChannelFrustum& f, float nearMetres) {
+    const double width = f.right - f.left;
+    const double height = f.top - f.bottom;
+    glm::mat4 clip(0.0F);
+    clip[0][0] = static_cast<float>(2 / width);
+    clip[1][1] = static_cast<float>(2 / height);
+    clip[2][0] = static_cast<float>((f.right + f.left) / width);
+    clip[2][1] = static_cast<float>((f.top + f.bottom) / height);
+    clip[2][3] = -1;
+    clip[3][2] = nearMetres;  // depth = near / distance
+    return clip;
+}
+
+}  // namespace aquarama

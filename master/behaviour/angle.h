@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Angles and sizes of vectors by exact arithmetic: two machines' libm do not agree to the bit.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/vec3.hpp>
+
+namespace aquarama {
+
+inline constexpr float kPi = 3.14159265F;
+inline constexpr float kRadiansPerDegree = kPi / 180.0F;
+
+// Angle of (x, y) from the x axis, -pi to pi, within 2e-5 rad (Abramowitz & Stegun 4.4.49).
+[[nodiscard]] constexpr float angleOf(float y, float x) {
+    const float absX = x < 0 ? -x : x;
+    const float absY = y < 0 ? -y : y;
+    const float larger = std::max(absX, absY);
+    if (larger <= 0) return 0;
+    const float t = std::min(absX, absY) / larger;
+    const float s = t * t;
+    const float tail = -0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F));
+    float angle = t * (0.9998660F + s * tail);
+    if (absY > absX) angle = kPi / 2 - angle;
+    if (x < 0) angle = kPi - angle;
+    return y < 0 ? -angle : angle;
+}
+
+[[nodiscard]] inline float dot(glm::vec3 a, glm::vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+[[nodiscard]] inline float lengthOf(glm::vec3 v) {
+    return std::sqrt(dot(v, v));
+}
+
+// The direction of v; `otherwise` where v has none.
+[[nodiscard]] inline glm::vec3 directionOf(glm::vec3 v, glm::vec3 otherwise) {
+    const float length = lengthOf(v);
+    return length > 1.0e-6F ? v / length : otherwise;
+}
+
+// The turn about the world's up that brings the course of `from` to that of `to`, left positive.
+[[nodiscard]] inline float yawBetween(glm::vec3 from, glm::vec3 to) {
+    return angleOf(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame loop. Who comes and goes is in reception.cpp.
+#include "master/conductor/conductor.h"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "common/units/error.h"
+
+namespace aquarama {
+namespace {
+
+using std::chrono::milliseconds;
+
+// Time for the word to reach every node: ten times the median of a busy machine's loopback.
+constexpr Instant kLead = milliseconds(2);
+// A frame shows the world two ticks before it is released: both are simulated by then.
+constexpr Instant kShownAge = 2 * kTickPeriod;
+constexpr Instant kBeacon = milliseconds(50);
+constexpr Instant kRepeat = std::chrono::seconds(1);
+constexpr Instant kLongestWait = milliseconds(10);
+
+Instant fromSeconds(double seconds) {
+    return std::chrono::duration_cast<Instant>(std::chrono::duration<double>(seconds));
+}
+
+BarrierLimits limitsOf(const Timing& timing, const ConductorOptions& options) {
+    const double deadline = timing.presentDeadlineSeconds > 0 ? timing.presentDeadlineSeconds
+                                                              : 1.0 / timing.refreshHertz;
+    return {options.pace == Pace::Lockstep,
+            fromSeconds(deadline),
+            fromSeconds(timing.membershipSeconds),
+            options.patience};
+}
+
+std::vector<std::string> namesOf(const Rig& rig, const ConductorOptions& options) {
+    if (!options.expected.empty()) return options.expected;
+    std::vector<std::string> names;
+    for (const Channel& channel : rig.channels) names.push_back(channel.name);
+    return names;
+}
+
+// Two runs must not be taken for one another, so this is no matter for a seed.
+std::uint64_t freshSession() {
+    std::random_device device;
+    const std::uint64_t high = device();
+    return (high << 32U | device()) | 1U;  // never 0
+}
+
+std::ofstream openTrace(const std::filesystem::path& directory) {
+    if (directory.empty()) return {};
+    const auto path = directory / "master.csv";
+    std::ofstream trace(path);
+    trace << "frame,state_ns,ready_ns,present_ns\n";
+    if (!trace.flush()) throw Error("cannot write " + path.string() + "; create the directory");
+    return trace;
+}
+
+}  // namespace
+
+Conductor::Conductor(const Rig& rig,
+                     ConductorOptions options,
+                     Simulation& simulation,
+                     Welcome welcome,
+                     Blobs blobs,
+                     std::unique_ptr<MasterChannels> channels)
+    : options_(std::move(options)),
+      simulation_(simulation),
+      welcome_(std::move(welcome)),
+      blobs_(std::move(blobs)),
+      channels_(std::move(channels)),
+      session_(freshSession()),
+      barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), monotonicNow()),
+      refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
+      trace_(openTrace(options_.traceDirectory)) {
+    for (const std::string& name : namesOf(rig, options_)) seats_.emplace_back().name = name;
+    welcome_.stateAddress = channels_->stateAddress();
+    welcome_.seed = options_.seed;
+    welcome_.pace = options_.pace;
+    welcome_.pattern = options_.pattern;
+}
+
+void Conductor::stop() {
+    stopped_ = true;
+    channels_->wake();
+}
+
+ShowReport Conductor::run() {
+    std::optional<Tick> lastTick;
+    if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
+    over_ = options_.frames == 0U;
+    ticker_ = std::make_unique<Ticker>(
+        simulation_, options_.pace, lastTick, [this] { channels_->wake(); });
+    while (!over_ && !stopped_) {
+        const Instant now = monotonicNow();
+        hear(now);
+        takeTicks();
+        conduct(now);
+        if (now - lastPublished_ > kBeacon) {
+            channels_->publishState(encode({session_, Beacon{}}));
+            lastPublished_ = now;
+        }
+        channels_->wait(kLongestWait);
+    }
+    ticker_.reset();
+    sayFarewell();
+    if (!failure_.empty()) throw Error(failure_);
+    return report_;
+}
+
+// Until every node has answered, or long enough: closing a connection on what a node still says to
+// us would throw away what we said last.
+void Conductor::sayFarewell() {
+    constexpr Instant kLongest = std::chrono::seconds(2);
+    constexpr Instant kRepeat = std::chrono::milliseconds(100);
+    const Instant begin = monotonicNow();
+    Instant lastSaid = begin - kRepeat;
+    while (std::ranges::any_of(seats_, [](const Seat& seat) { return !seat.peer.empty(); })) {
+        const Instant now = monotonicNow();
+        if (now - begin > kLongest) return;
+        if (now - lastSaid >= kRepeat) {
+            sayToAll(Farewell{});
+            lastSaid = now;
+        }
+        channels_->wait(kRepeat / 4);
+        hear(monotonicNow());
+    }
+}
+
+// Lockstep takes a tick when its frame comes up, so that the tick thread waits for the frames.
+void Conductor::takeTicks() {
+    while (!isLockstep() || timeline_.newest() < Tick{unpublished_.value}) {
+        auto snapshot = ticker_->take();
+        if (!snapshot) return;
+        timeline_.add(std::move(*snapshot));
+    }
+}
+
+bool Conductor::isLast(Frame frame) const {
+    return options_.frames && frame.value + 1 >= *options_.frames;
+}
+
+void Conductor::conduct(Instant now) {
+    for (const std::size_t node : barrier_.expelSilent(now)) {
+        ++seats_[node].dropped;
+        vacate(node, "you were silent for too long");
+    }
+    const auto decision = barrier_.decide(now);
+    if (decision.verdict == PresentBarrier::Verdict::Silent) {
+        failure_ = "node \"" + seats_[decision.node].name + "\" has been silent for " +
+                   std::to_string(options_.patience / std::chrono::seconds(1)) +
+                   " s; see its own output, and start the show again";
+        over_ = true;
+        return;
+    }
+    if (!drawing_) return beginNext(now);
+    // As late as possible, so that what it shows is fresh; early enough to be there on time.
+    if (barrier_.anyReady() && !isLast(next_)) publish({next_.value + 1}, now);
+    if (decision.verdict == PresentBarrier::Verdict::Present) return release(now);
+    if (decision.verdict == PresentBarrier::Verdict::Idle && barrier_.hasNewcomer()) {
+        next_ = unpublished_;
+        beginNext(now);
+    }
+    if (isLockstep() && now - lastRepeat_ > kRepeat) publishAgain(now);
+}
+
+void Conductor::beginNext(Instant now) {
+    const bool mayBegin = isLockstep() ? barrier_.allPrepared() : barrier_.hasMembers();
+    drawing_ = mayBegin && publish(next_, now);
+    if (drawing_) barrier_.begin(next_);
+}
+
+Instant Conductor::nextRelease(Instant now) const {
+    return std::max(now + kLead, lastRelease_ + refresh_);
+}
+
+void Conductor::release(Instant now) {
+    lastPresent_ = Present{next_, 0};
+    const Instant at = nextRelease(now);
+    if (!isLockstep()) lastPresent_->atNs = at.count();
+    for (const Seat& seat : seats_) {
+        if (seat.prepared) say(seat.peer, *lastPresent_);
+    }
+    if (report_.frames++ > 0) frameTimes_.add(at - lastRelease_);
+    lastRelease_ = at;
+    over_ = over_ || isLast(next_);
+    drawing_ = false;
+    ++next_.value;
+    if (!over_) beginNext(now);
+}
+
+// True where the frame's state has been published, now or earlier.
+bool Conductor::publish(Frame frame, Instant now) {
+    if (frame < unpublished_) return true;
+    takeTicks();
+    const auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
+                                    : timeline_.showing(frame, nextRelease(now) - kShownAge);
+    if (!state) return false;
+    const Packet& packet = published_[frame] = encodeState(session_, *state);
+    channels_->publishState(packet);
+    lastPublished_ = lastRepeat_ = monotonicNow();
+    if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
+    if (published_.size() > 2) published_.erase(published_.begin());
+    unpublished_ = {frame.value + 1};
+    report_.tick = state->tick;
+    report_.worldHash = state->worldHash;
+    return true;
+}
+
+// Lockstep passes nobody over, so a state that was lost on its way must come again.
+void Conductor::publishAgain(Instant now) {
+    for (const auto& [frame, packet] : published_) channels_->publishState(packet);
+    lastRepeat_ = now;
+}
+
+void Conductor::say(const PeerId& peer, const Message& message) {
+    channels_->sendControl(peer, encode({session_, message}));
+}
+
+void Conductor::sayToAll(const Message& message) {
+    for (const Seat& seat : seats_) {
+        if (!seat.peer.empty()) say(seat.peer, message);
+    }
+}
+
+}  // namespace aquarama

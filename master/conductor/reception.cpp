@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who comes, who goes, and what they want.
+#include <algorithm>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "common/net/blob.h"
+#include "master/conductor/conductor.h"
+
+namespace aquarama {
+namespace {
+
+// Of one turn of the loop: a flood of packets never stops the frames.
+constexpr int kMostPackets = 256;
+// A node whose name comes up again is taken for dead after so much silence.
+constexpr Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+NodeCondition conditionOf(bool present, bool prepared, bool waitedFor) {
+    if (!present) return NodeCondition::Absent;
+    if (!prepared) return NodeCondition::Preparing;
+    return waitedFor ? NodeCondition::InStep : NodeCondition::Late;
+}
+
+}  // namespace
+
+std::optional<std::size_t> Conductor::seatNamed(const std::string& name) const {
+    const auto seat = std::ranges::find(seats_, name, &Seat::name);
+    if (seat == seats_.end()) return std::nullopt;
+    return static_cast<std::size_t>(seat - seats_.begin());
+}
+
+std::optional<std::size_t> Conductor::seatOf(const PeerId& peer) const {
+    const auto seat = std::ranges::find(seats_, peer, &Seat::peer);
+    if (seat == seats_.end()) return std::nullopt;
+    return static_cast<std::size_t>(seat - seats_.begin());
+}
+
+void Conductor::hear(Instant now) {
+    report_.refusedPackets += channels_->discardNoise();
+    for (int packet = 0; packet < kMostPackets; ++packet) {
+        const auto from = channels_->receiveControl();
+        if (!from) return;
+        const auto envelope = decode(from->bytes);
+        if (!envelope || from->peer.empty()) {
+            ++report_.refusedPackets;
+        } else if (const auto* hello = std::get_if<Hello>(&envelope->message)) {
+            greet(from->peer, *hello, now);
+        } else if (std::holds_alternative<StatusRequest>(envelope->message)) {
+            say(from->peer, status());
+        } else if (const auto node = seatOf(from->peer); node && envelope->session == session_) {
+            seats_[*node].lastHeard = now;
+            barrier_.heard(*node, now);
+            heed(*node, envelope->message, now);
+        } else {
+            ++report_.refusedPackets;
+            say(from->peer, Dismissed{"the master does not know this connection"});
+        }
+    }
+}
+
+void Conductor::greet(const PeerId& peer, const Hello& hello, Instant now) {
+    const auto refuse = [&](const std::string& reason) {
+        ++report_.refusedPackets;
+        spdlog::warn("refused node {}: {}", hello.channel, reason);
+        say(peer, Refusal{reason});
+    };
+    if (hello.major != kProtocolMajor) {
+        return refuse("it speaks protocol " + std::to_string(hello.major) + " (build " +
+                      hello.build + "), the master " + std::to_string(kProtocolMajor) +
+                      "; install the same version on both");
+    }
+    const auto node = seatNamed(hello.channel);
+    if (!node) {
+        std::vector<std::string> names;
+        for (const Seat& seat : seats_) names.push_back(seat.name);
+        return refuse("the rig has no such channel, only " + listed(names));
+    }
+    Seat& seat = seats_[*node];
+    const bool another = !seat.peer.empty() && seat.peer != peer;
+    if (another && now - seat.lastHeard < kSilenceOfTheDead) {
+        return say(peer, Dismissed{"another node of this name takes part already"});
+    }
+    if (seat.peer != peer) spdlog::info("welcomed node {}", seat.name);
+    barrier_.leave(*node);
+    barrier_.heard(*node, now);
+    seat.peer = peer;
+    seat.prepared = false;
+    seat.lastHeard = now;
+    say(peer, welcome_);
+}
+
+void Conductor::heed(std::size_t node, const Message& message, Instant now) {
+    const PeerId& peer = seats_[node].peer;
+    if (const auto* ping = std::get_if<Ping>(&message)) {
+        say(peer, Pong{ping->sentNs, monotonicNow().count()});
+    } else if (const auto* ready = std::get_if<Ready>(&message)) {
+        heed(node, *ready, now);
+    } else if (const auto* request = std::get_if<BlobRequest>(&message)) {
+        giveChunk(peer, *request);
+    } else if (std::holds_alternative<Prepared>(message)) {
+        admit(node);
+    } else if (const auto* input = std::get_if<Input>(&message)) {
+        obey(*input);
+    } else if (std::holds_alternative<Farewell>(message)) {
+        barrier_.leave(node);
+        seats_[node].peer.clear();
+        seats_[node].prepared = false;
+        spdlog::info("node {} has left", seats_[node].name);
+    } else {
+        ++report_.refusedPackets;
+    }
+}
+
+void Conductor::heed(std::size_t node, const Ready& ready, Instant now) {
+    barrier_.ready(node, ready.frame, now);
+    if (ready.released) skew_.add(*ready.released);
+    // It asks again for a release that never came.
+    if (lastPresent_ && ready.frame <= lastPresent_->frame) say(seats_[node].peer, *lastPresent_);
+}
+
+// Lockstep: it takes part in the frame that is drawn now. Live: in the first that it surely sees.
+void Conductor::admit(std::size_t node) {
+    if (seats_[node].prepared) return;
+    const Frame first = isLockstep() ? next_ : unpublished_;
+    seats_[node].prepared = true;
+    barrier_.join(node, first);
+    say(seats_[node].peer, Joined{first});
+    if (isLockstep()) publishAgain(monotonicNow());
+    spdlog::info("node {} takes part from frame {}", seats_[node].name, first.value);
+}
+
+void Conductor::giveChunk(const PeerId& peer, const BlobRequest& request) {
+    const auto blob = blobs_.find(request.digest);
+    if (blob == blobs_.end() || request.offset > blob->second.size()) {
+        ++report_.refusedPackets;
+        return;
+    }
+    const auto chunk = chunkAt(blob->second, request.offset, kBlobChunkBytes);
+    say(peer,
+        BlobChunk{
+            request.digest, request.offset, blob->second.size(), {chunk.begin(), chunk.end()}});
+}
+
+void Conductor::vacate(std::size_t node, const std::string& why) {
+    Seat& seat = seats_[node];
+    spdlog::warn("node {} is not counted any more: silent", seat.name);
+    say(seat.peer, Dismissed{why});
+    seat.peer.clear();
+    seat.prepared = false;
+}
+
+void Conductor::obey(const Input& input) {
+    if (input.kind == InputKind::Quit) {
+        over_ = true;
+    } else if (!isLockstep()) {
+        ticker_->togglePause();
+    }
+}
+
+StatusReply Conductor::status() const {
+    StatusReply reply;
+    reply.pace = options_.pace;
+    reply.paused = ticker_ && ticker_->paused();
+    reply.frame = next_;
+    reply.tick = report_.tick;
+    reply.frameMedianMs = frameTimes_.quantileMs(0.5);
+    reply.frameP99Ms = frameTimes_.quantileMs(0.99);
+    reply.skewMedianMs = skew_.skews().quantileMs(0.5);
+    reply.skewP99Ms = skew_.skews().quantileMs(0.99);
+    reply.refusedPackets = report_.refusedPackets;
+    for (std::size_t node = 0; node < seats_.size(); ++node) {
+        const Seat& seat = seats_[node];
+        reply.nodes.push_back(
+            {seat.name,
+             conditionOf(!seat.peer.empty(), seat.prepared, barrier_.isWaitedFor(node)),
+             barrier_.timesLate(node),
+             seat.dropped});
+    }
+    return reply;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that the conductor knows of the world.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/motion/motion_state.h"
+#include "common/units/ids.h"
+#include "common/wire/messages.h"
+
+namespace aquarama {
+
+// Called from the tick thread only.
+class Simulation {
+  public:
+    virtual ~Simulation() = default;
+    virtual void advance() = 0;  // by one tick
+    [[nodiscard]] virtual Tick tick() const = 0;
+    virtual void records(std::vector<FishRecord>& fish) const = 0;
+    [[nodiscard]] virtual Eye eye() const = 0;
+    [[nodiscard]] virtual std::uint64_t hash() const = 0;
+};
+
+}  // namespace aquarama

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The running wall in the terminal.
+#pragma once
+
+#include <string>
+
+#include "common/wire/envelope.h"
+
+namespace aquarama {
+
+[[nodiscard]] std::string statusText(const StatusReply& status);
+
+// Asks the master at this control address. Throws Error where none answers.
+[[nodiscard]] std::string runStatus(const std::string& controlAddress);
+
+}  // namespace aquarama

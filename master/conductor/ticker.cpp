@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/ticker.h"
+
+#include <chrono>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+namespace aquarama {
+namespace {
+
+// Ticks that are overdue by less are simulated at once, one after the other; beyond it the world
+// has lost time for good, and we say so.
+constexpr Instant kMostCatchUp = 15 * kTickPeriod;
+
+}  // namespace
+
+Ticker::Ticker(Simulation& simulation,
+               Pace pace,
+               std::optional<Tick> lastTick,
+               std::function<void()> onTick)
+    : simulation_(simulation),
+      lastTick_(lastTick),
+      onTick_(std::move(onTick)),
+      thread_([this, pace] { pace == Pace::Live ? runLive() : runLockstep(); }) {}
+
+Ticker::~Ticker() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+    }
+    changed_.notify_all();
+    snapshots_.close();
+    thread_.join();
+}
+
+void Ticker::togglePause() {
+    {
+        const std::lock_guard lock(mutex_);
+        paused_ = !paused_;
+    }
+    changed_.notify_all();
+}
+
+bool Ticker::paused() const {
+    const std::lock_guard lock(mutex_);
+    return paused_;
+}
+
+bool Ticker::put(Instant due) {
+    Snapshot snapshot{simulation_.tick(), due, simulation_.hash(), simulation_.eye(), {}};
+    simulation_.records(snapshot.fish);
+    const bool taken = snapshots_.put(std::move(snapshot));
+    onTick_();
+    return taken;
+}
+
+void Ticker::runLockstep() {
+    while (put(Instant{})) {
+        if (lastTick_ && simulation_.tick() >= *lastTick_) return;
+        simulation_.advance();
+    }
+}
+
+bool Ticker::sleepUntil(Instant due, Instant& pausedFor) {
+    std::unique_lock lock(mutex_);
+    const auto when = std::chrono::steady_clock::time_point(due);
+    changed_.wait_until(lock, when, [&] { return stopped_ || paused_; });
+    const Instant pause = monotonicNow();
+    const bool wasPaused = paused_;
+    changed_.wait(lock, [&] { return stopped_ || !paused_; });
+    pausedFor = wasPaused ? monotonicNow() - pause : Instant{};
+    return !stopped_;
+}
+
+// Tick k is due at start + k / 60 s, not counting pauses and what could not be caught up.
+void Ticker::runLive() {
+    Instant due = monotonicNow();
+    while (put(due)) {
+        due += kTickPeriod;
+        Instant pausedFor{};
+        if (!sleepUntil(due, pausedFor)) return;
+        due += pausedFor;
+        const Instant overdue = monotonicNow() - due;
+        if (overdue > kMostCatchUp) {
+            spdlog::warn("the world is {} ms behind and goes on from here",
+                         std::chrono::duration_cast<std::chrono::milliseconds>(overdue).count());
+            due += overdue;
+        }
+        simulation_.advance();
+    }
+}
+
+}  // namespace aquarama

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tick thread: advances the world, in lockstep as fast as its frames are taken, live by the
+// clock.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "common/net/bounded_queue.h"
+#include "master/conductor/simulation.h"
+#include "master/conductor/timeline.h"
+
+namespace aquarama {
+
+class Ticker {
+  public:
+    // onTick is called from the tick thread after every tick. lastTick: lockstep simulates no
+    // further.
+    Ticker(Simulation& simulation,
+           Pace pace,
+           std::optional<Tick> lastTick,
+           std::function<void()> onTick);
+    ~Ticker();
+    Ticker(const Ticker&) = delete;
+    Ticker& operator=(const Ticker&) = delete;
+
+    [[nodiscard]] std::optional<Snapshot> take() { return snapshots_.tryTake(); }
+    // Live only: a lockstep show is the same every time.
+    void togglePause();
+    [[nodiscard]] bool paused() const;
+
+  private:
+    void runLive();
+    void runLockstep();
+    bool put(Instant due);
+    // False: stopped. True: the instant has come, and `pausedFor` it came later than planned.
+    bool sleepUntil(Instant due, Instant& pausedFor);
+
+    Simulation& simulation_;
+    std::optional<Tick> lastTick_;
+    std::function<void()> onTick_;
+    // Less than a timeline keeps, so that lockstep finds every tick there.
+    BoundedQueue<Snapshot> snapshots_{Timeline::kKept / 2};
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    bool paused_ = false;
+    bool stopped_ = false;
+    std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace aquarama

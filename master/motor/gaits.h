@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a repertoire can do, in the numbers by which the secondary controller chooses.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/motion/motor.h"
+
+namespace aquarama {
+
+// Indexed by Action.
+struct Gaits {
+    std::array<std::uint16_t, kActions> phaseRate{};  // as recorded, 1/65536 of a cycle in a tick
+    std::array<float, kActions> speed{};              // body lengths a second
+    std::array<float, kActions> turnOfCycle{};        // radians in one cycle, left positive
+};
+[[nodiscard]] Gaits gaitsOf(const MotorTables& tables);
+
+[[nodiscard]] constexpr std::size_t indexOf(Action action) {
+    return static_cast<std::size_t>(action);
+}
+[[nodiscard]] constexpr bool isForward(Action action) {
+    return action <= Action::ForwardFast;
+}
+// Sharp turns are played from their first phase to their last.
+[[nodiscard]] constexpr bool isSharp(Action action) {
+    return action == Action::TurnLeftSharp || action == Action::TurnRightSharp;
+}
+[[nodiscard]] constexpr bool isLeft(Action action) {
+    return action == Action::TurnLeftGradual || action == Action::TurnLeftSharp;
+}
+
+}  // namespace aquarama

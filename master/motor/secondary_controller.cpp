@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/motor/secondary_controller.h"
+
+#include <algorithm>
+
+#include "common/place/noise.h"
+#include "master/behaviour/angle.h"
+
+namespace aquarama {
+
+namespace {
+
+// Streams of one seed: what a number is drawn for.
+enum Draw : std::uint32_t { kTempo = 101, kPatience, kRecommended, kHold };
+
+constexpr float kGradualFrom = 18.0F * kRadiansPerDegree;  // error at which a turn begins
+constexpr float kGradualTo = 6.0F * kRadiansPerDegree;     // and at which it ends
+constexpr float kSharpFrom = 85.0F * kRadiansPerDegree;
+constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree;
+constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree;  // beyond, either side serves
+
+constexpr float kYawGain = 1.6F;                       // radians a second for a radian
+constexpr float kMostYaw = 30.0F * kRadiansPerDegree;  // a second: beyond, a turn is played
+constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);  // MotorCommands::yawRate
+constexpr float kUnitsOfPitchSine = 32768.0F;          // MotorCommands::pitch
+constexpr float kRateMargin = 0.15F;                   // of the recorded phase rate
+constexpr float kTempoMargin = 0.08F;                  // about a fish's own tempo
+constexpr float kSpeedHysteresis = 0.12F;              // body lengths a second
+constexpr std::uint64_t kShortestGaitTicks = 36;
+constexpr float kSpeedMayDiffer = 0.9F;  // of a recommended gait, body lengths a second
+constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree;
+constexpr float kCalm = 0.15F;  // urgency up to which a recommendation is considered
+
+std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Draw draw, std::uint64_t tick) {
+    return hashOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(fish)), draw),
+                  static_cast<std::uint32_t>(tick));
+}
+
+// U(4, 10) seconds.
+std::uint16_t patienceOf(std::uint32_t seed, std::size_t fish, std::uint64_t tick) {
+    return static_cast<std::uint16_t>(240 + drawn(seed, fish, kPatience, tick) % 361);
+}
+
+Action gradual(bool left) {
+    return left ? Action::TurnLeftGradual : Action::TurnRightGradual;
+}
+
+Action sharp(bool left) {
+    return left ? Action::TurnLeftSharp : Action::TurnRightSharp;
+}
+
+Action gaitFor(const Gaits& gaits, float speed, Action present) {
+    const float slowToMedium = 0.5F * (gaits.speed[0] + gaits.speed[1]);
+    const float mediumToFast = 0.5F * (gaits.speed[1] + gaits.speed[2]);
+    const auto isAbove = [&](float border, Action upper) {
+        const bool isUpper = isForward(present) && present >= upper;
+        return speed > border + (isUpper ? -kSpeedHysteresis : kSpeedHysteresis);
+    };
+    if (isAbove(mediumToFast, Action::ForwardFast)) return Action::ForwardFast;
+    return isAbove(slowToMedium, Action::ForwardMedium) ? Action::ForwardMedium
+                                                        : Action::ForwardSlow;
+}
+
+}  // namespace
+
+// The situation of one fish at its decision.
+struct SecondaryController::Moment {
+    Action present;       // segment that was asked for last
+    Action playing;       // and the one that plays
+    float yawError;       // radians, left positive
+    float speed;          // wanted, body lengths a second
+    float urgency;        // of the surroundings
+    std::uint64_t since;  // ticks that the present segment has been pursued
+};
+
+namespace {
+
+using Moment = SecondaryController::Moment;
+
+Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
+    const float error = std::abs(moment.yawError);
+    const bool turning = !isForward(moment.present);
+    const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
+    if (error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
+    const bool sameTurn = turning && isLeft(moment.present) == left;
+    if (error > (sameTurn ? kGradualTo : kGradualFrom)) return gradual(left);
+    const Action gait = gaitFor(gaits, moment.speed, moment.present);
+    const bool tooSoon = !turning && moment.since < kShortestGaitTicks && moment.urgency < 1;
+    return tooSoon ? moment.present : gait;
+}
+
+std::int16_t yawRateFor(float yawError) {
+    const float radiansPerSecond = std::clamp(kYawGain * yawError, -kMostYaw, kMostYaw);
+    return static_cast<std::int16_t>(radiansPerSecond / static_cast<float>(kTicksPerSecond) /
+                                     kRadiansOfYawUnit);
+}
+
+// The intention generator's word on a recommendation.
+bool accepts(const Gaits& gaits, const Moment& moment, Action recommended) {
+    if (moment.urgency > kCalm || isSharp(recommended)) return false;
+    if (isForward(recommended))
+        return std::abs(moment.yawError) < kGradualFrom &&
+               std::abs(gaits.speed[indexOf(recommended)] - moment.speed) < kSpeedMayDiffer;
+    const float left = isLeft(recommended) ? 1.0F : -1.0F;
+    const float after = moment.yawError - left * 0.5F * kCourseMayDiffer;
+    return std::abs(after) < kCourseMayDiffer;
+}
+
+}  // namespace
+
+void ControllerMemory::resize(std::size_t fish) {
+    chosenAt.resize(fish);
+    heldUntil.resize(fish);
+    patience.resize(fish);
+}
+
+float tempoOf(std::uint32_t seed, std::size_t fish) {
+    return 1 + 0.1F * signedUnitOf(drawn(seed, fish, kTempo, 0));
+}
+
+void startCommands(const Gaits& gaits,
+                   std::uint32_t seed,
+                   MotorCommands& commands,
+                   ControllerMemory& memory) {
+    for (std::size_t fish = 0; fish < commands.segment.size(); ++fish) {
+        commands.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
+        commands.phaseRate[fish] = gaits.phaseRate[indexOf(Action::ForwardMedium)];
+        commands.pitch[fish] = 0;
+        commands.yawRate[fish] = 0;
+        memory.chosenAt[fish] = 0;
+        memory.heldUntil[fish] = 0;
+        memory.patience[fish] = patienceOf(seed, fish, 0);
+    }
+}
+
+void SecondaryController::run(std::size_t first, std::size_t last) const {
+    for (std::size_t fish = first; fish < last; ++fish)
+        if (thinksAt(tick, fish) || endsSharpTurn(fish)) decide(fish);
+}
+
+bool SecondaryController::endsSharpTurn(std::size_t fish) const {
+    return isSharp(static_cast<Action>(states->segment[fish])) &&
+           states->phase[fish] + commands->phaseRate[fish] > 0xffff;
+}
+
+void SecondaryController::decide(std::size_t fish) const {
+    const Moment moment = momentOf(fish);
+    const Action chosen = choose(fish, moment);
+    if (chosen != moment.present) memory->chosenAt[fish] = tick.value;
+    commands->segment[fish] = static_cast<std::uint8_t>(chosen);
+    commands->phaseRate[fish] = phaseRateFor(fish, chosen, moment);
+    commands->pitch[fish] =
+        static_cast<std::int16_t>(intentions->directionY[fish] * kUnitsOfPitchSine);
+    commands->yawRate[fish] = isForward(chosen) ? yawRateFor(moment.yawError) : std::int16_t{0};
+}
+
+SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
+    Moment moment{static_cast<Action>(commands->segment[fish]),
+                  static_cast<Action>(states->segment[fish]),
+                  yawBetween(view->heading(fish), intentions->direction(fish)),
+                  intentions->speed[fish],
+                  intentions->urgency[fish],
+                  tick.value - memory->chosenAt[fish]};
+    // A sharp turn will be played to its end: what is chosen comes after it.
+    if (isSharp(moment.playing)) {
+        const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
+        moment.yawError -= gaits->turnOfCycle[indexOf(moment.playing)] * toCome;
+    }
+    return moment;
+}
+
+Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
+    const Action chosen = turnOrSwim(*gaits, moment);
+    if (tick.value < memory->heldUntil[fish])
+        return moment.urgency < 1 && !isSharp(chosen) ? moment.present : chosen;
+    if (chosen != moment.present || moment.since <= memory->patience[fish]) return chosen;
+    memory->chosenAt[fish] = tick.value;
+    memory->patience[fish] = patienceOf(seed, fish, tick.value);
+    const auto recommended = static_cast<Action>(drawn(seed, fish, kRecommended, tick.value) %
+                                                 static_cast<std::uint32_t>(kActions));
+    if (!accepts(*gaits, moment, recommended)) return chosen;
+    memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, kHold, tick.value) % 46;
+    return recommended;
+}
+
+std::uint16_t SecondaryController::phaseRateFor(std::size_t fish,
+                                                Action chosen,
+                                                const Moment& moment) const {
+    // The rate is that of what plays: a sharp turn has its own until its last tick.
+    const bool turnsOn = isSharp(moment.playing) && !endsSharpTurn(fish);
+    const std::size_t action = indexOf(turnsOn ? moment.playing : chosen);
+    const float tempo = tempoOf(seed, fish);
+    const bool swims = isForward(static_cast<Action>(action));
+    const float rate = std::clamp(swims ? moment.speed / gaits->speed[action] : tempo,
+                                  std::max(1 - kRateMargin, tempo - kTempoMargin),
+                                  std::min(1 + kRateMargin, tempo + kTempoMargin));
+    return static_cast<std::uint16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);
+}
+
+}  // namespace aquarama

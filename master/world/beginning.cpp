@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/world/beginning.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+
+#include "common/place/noise.h"
+#include "master/behaviour/angle.h"
+
+namespace aquarama {
+
+namespace {
+
+// Streams of one seed: what a number is drawn for.
+enum Draw : std::uint32_t { kLength = 201, kPlace, kPhase };
+
+// Irwin-Hall: four uniform numbers make a bell curve of deviation 1 / sqrt(3), without libm.
+float bell(std::uint32_t hash) {
+    float sum = 0;
+    for (std::uint32_t i = 0; i < 4; ++i) sum += unitOf(hashOf(hash, i));
+    return (sum - 2) * 1.7320508F;
+}
+
+// The rotation about the world's up that lets x look along `course` (half-angle by square roots).
+glm::quat facing(glm::vec3 course) {
+    const glm::vec3 level = directionOf({course.x, 0, course.z}, {1, 0, 0});
+    const float cosine = std::sqrt(std::max(0.0F, 0.5F * (1 + level.x)));
+    const float sine = std::sqrt(std::max(0.0F, 0.5F * (1 - level.x)));
+    return {cosine, 0, level.z > 0 ? -sine : sine, 0};
+}
+
+// A block of cells, twice as long as wide and high, that holds the school.
+struct Block {
+    std::uint32_t across = 1;
+    [[nodiscard]] std::uint32_t along() const { return 2 * across; }
+    [[nodiscard]] glm::vec3 offset(std::uint32_t fish) const {
+        const std::uint32_t x = fish % along();
+        const std::uint32_t y = fish / along() % across;
+        const std::uint32_t z = fish / along() / across;
+        const auto centred = [](std::uint32_t i, std::uint32_t n) {
+            return static_cast<float>(i) - 0.5F * static_cast<float>(n - 1);
+        };
+        return {centred(x, along()), centred(y, across), centred(z, across)};
+    }
+};
+
+Block blockFor(std::size_t fish) {
+    Block block;
+    while (std::size_t{block.along()} * block.across * block.across < fish) ++block.across;
+    return block;
+}
+
+}  // namespace
+
+std::vector<FishTraits> traitsOf(const WorldOptions& options) {
+    std::vector<FishTraits> traits(options.fishCount);
+    const FishLengths& lengths = options.lengths;
+    for (std::uint32_t id = 0; id < options.fishCount; ++id) {
+        const float own = bell(hashOf(hashOf(options.seed, kLength), id));
+        const float metres = std::clamp(lengths.meanMetres + lengths.deviationMetres * own,
+                                        lengths.leastMetres,
+                                        lengths.mostMetres);
+        traits[id] = {id, static_cast<std::uint16_t>(metres * 1000 + 0.5F)};
+    }
+    return traits;
+}
+
+void placeSchool(std::uint32_t seed,
+                 const Goal& goal,
+                 const Region& water,
+                 float spacingMetres,
+                 MotionStates& states) {
+    const Block block = blockFor(states.size());
+    const glm::quat rotation = facing(goal.velocityMetresPerSecond);
+    // A school too large for the water is packed more densely.
+    const glm::vec3 room = water.halfExtent * 0.85F;
+    for (std::size_t fish = 0; fish < states.size(); ++fish) {
+        const std::uint32_t own = hashOf(hashOf(seed, kPlace), static_cast<std::uint32_t>(fish));
+        const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
+                               signedUnitOf(hashOf(own, 1)),
+                               signedUnitOf(hashOf(own, 2))};
+        const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(fish)) + jitter * 0.25F;
+        const auto half = static_cast<float>(block.across) * 0.5F;
+        const float fit = std::min({1.0F,
+                                    room.y / (half * spacingMetres),
+                                    room.z / (half * spacingMetres),
+                                    room.x / (2 * half * spacingMetres)});
+        const glm::vec3 spread = rotation * (cell * (spacingMetres * fit));
+        const glm::vec3 place =
+            glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
+        setBodyFrame(states, fish, {place, rotation});
+        const std::uint32_t phase =
+            hashOf(hashOf(seed, kPhase), static_cast<std::uint32_t>(fish)) >> 16U;
+        states.phase[fish] = static_cast<std::uint16_t>(phase);
+        states.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
+        states.fromPhase[fish] = states.phase[fish];
+        states.fromSegment[fish] = states.segment[fish];
+        states.warpFrame[fish] = 0;
+        states.warpLength[fish] = 0;
+    }
+}
+
+}  // namespace aquarama

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/world/worker_pool.h"
+
+namespace aquarama {
+
+WorkerPool::WorkerPool(unsigned threads) {
+    for (unsigned i = 1; i < threads; ++i) workers_.emplace_back([this] { serve(); });
+}
+
+WorkerPool::~WorkerPool() {
+    stopping_ = true;
+    ++jobs_;
+    jobs_.notify_all();
+}
+
+void WorkerPool::share(std::size_t chunks, const void* job, Call call) {
+    chunks_ = chunks;
+    job_ = job;
+    call_ = call;
+    nextChunk_ = 0;
+    if (workers_.empty() || chunks <= 1) return work();  // not worth waking anyone
+    busy_ = static_cast<std::uint32_t>(workers_.size());
+    ++jobs_;
+    jobs_.notify_all();
+    work();
+    for (std::uint32_t busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
+}
+
+void WorkerPool::work() {
+    for (std::size_t chunk = nextChunk_++; chunk < chunks_; chunk = nextChunk_++)
+        call_(job_, chunk);
+}
+
+void WorkerPool::serve() {
+    // Every worker takes part in every job, so it counts them itself: read anew, the counter might
+    // already stand at the next one.
+    for (std::uint32_t seen = 0;; ++seen) {
+        jobs_.wait(seen);
+        if (stopping_) return;
+        work();
+        if (--busy_ == 0) busy_.notify_all();
+    }
+}
+
+}  // namespace aquarama

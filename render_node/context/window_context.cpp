@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <deque>
+#include <span>
+#include <string>
+
+#include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "common/units/error.h"
+#include "render_node/context/context.h"
+#include "render_node/context/opengl_version.h"
+
+namespace aquarama {
+
+namespace {
+
+// GLFW knows whole hertz only: 59.94 is told as 59 or 60.
+constexpr double kRefreshToleranceHertz = 1.0;
+
+std::string text(glm::ivec2 size) {
+    return std::to_string(size.x) + " x " + std::to_string(size.y);
+}
+
+std::string lastGlfwError() {
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description != nullptr ? description : "no reason given";
+}
+
+// GLFW is one for the process; it ends with the last who uses it.
+class GlfwLibrary {
+  public:
+    GlfwLibrary() {
+        if (glfwInit() == GLFW_FALSE) {
+            throw Error("no window can be opened (" + lastGlfwError() +
+                        "); set DISPLAY to an X display, or use --headless");
+        }
+    }
+    ~GlfwLibrary() { glfwTerminate(); }
+    GlfwLibrary(const GlfwLibrary&) = delete;
+    GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+};
+
+GLFWmonitor* monitorAt(int index) {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    if (index < 0 || index >= count) {
+        throw Error("display: there is no monitor " + std::to_string(index) +
+                    "; this machine has " + std::to_string(count) + ", numbered from 0");
+    }
+    return monitors[index];
+}
+
+bool refreshDiffers(const Display& display, const GLFWvidmode& mode) {
+    return display.refreshHertz &&
+           std::abs(*display.refreshHertz - mode.refreshRate) >= kRefreshToleranceHertz;
+}
+
+std::string described(const GLFWvidmode& mode) {
+    return text({mode.width, mode.height}) + " at " + std::to_string(mode.refreshRate) + " Hz";
+}
+
+// The monitor's mode that is the channel's, to the pixel.
+GLFWvidmode modeFor(const Display& display, glm::ivec2 size, GLFWmonitor* monitor) {
+    int count = 0;
+    const GLFWvidmode* modes = glfwGetVideoModes(monitor, &count);
+    for (const GLFWvidmode& mode : std::span{modes, static_cast<std::size_t>(count)})
+        if (glm::ivec2(mode.width, mode.height) == size && !refreshDiffers(display, mode))
+            return mode;
+    const std::string wanted =
+        text(size) + (display.refreshHertz
+                          ? " at " + std::to_string(std::lround(*display.refreshHertz)) + " Hz"
+                          : "");
+    throw Error("display: monitor " + std::to_string(display.monitor) + " (" +
+                glfwGetMonitorName(monitor) + ") cannot show the channel's " + wanted +
+                ", it is at " + described(*glfwGetVideoMode(monitor)) +
+                "; correct the channel's size or refresh rate, or the cable's monitor");
+}
+
+// The monitor on which a window at this place begins; the first where it is on none.
+int monitorUnder(glm::ivec2 place) {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        glm::ivec2 corner{};
+        glfwGetMonitorPos(monitors[i], &corner.x, &corner.y);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        const glm::ivec2 inside = place - corner;
+        if (inside.x >= 0 && inside.y >= 0 && inside.x < mode->width && inside.y < mode->height)
+            return i;
+    }
+    return 0;
+}
+
+struct DestroyWindow {
+    void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+
+class WindowContext : public Context {
+  public:
+    WindowContext(const Display& display, const std::string& title, glm::ivec2 sizePixels)
+        : display_{display}, size_{sizePixels} {
+        open(title);
+        GLFWwindow* window = window_.get();
+        glfwSetWindowUserPointer(window, this);
+        glfwSetKeyCallback(window, [](GLFWwindow* source, int key, int, int action, int) {
+            if (action == GLFW_PRESS) of(source).onKey(key);
+        });
+        glfwSetWindowCloseCallback(window,
+                                   [](GLFWwindow* source) { of(source).onKey(GLFW_KEY_ESCAPE); });
+        glfwSetFramebufferSizeCallback(window, [](GLFWwindow* source, int width, int height) {
+            of(source).framebuffer_ = glm::ivec2(width, height);
+        });
+        check();
+    }
+    void makeCurrent() override {
+        glfwMakeContextCurrent(window_.get());
+        glfwSwapInterval(1);
+        requireOpenGl45("window");
+    }
+    void release() override { glfwMakeContextCurrent(nullptr); }
+    void swap() override { glfwSwapBuffers(window_.get()); }
+    [[nodiscard]] glm::ivec2 framebufferPixels() const override { return framebuffer_; }
+    [[nodiscard]] bool hasWindow() const override { return true; }
+    [[nodiscard]] std::string description() const override {
+        return rendererAndVersion() + ", in a window";
+    }
+    void pumpEvents(std::chrono::milliseconds atMost) override {
+        glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
+    }
+    [[nodiscard]] std::optional<char> nextKey() override {
+        if (keys_.empty()) return std::nullopt;
+        const char key = keys_.front();
+        keys_.pop_front();
+        return key;
+    }
+
+  private:
+    static WindowContext& of(GLFWwindow* source) {
+        return *static_cast<WindowContext*>(glfwGetWindowUserPointer(source));
+    }
+    void open(const std::string& title);
+    void check();
+    void onKey(int key);
+    void toggleFullscreen();
+
+    GlfwLibrary library_;
+    Display display_;
+    glm::ivec2 size_;
+    std::unique_ptr<GLFWwindow, DestroyWindow> window_;
+    std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
+    std::deque<char> keys_;
+};
+
+void WindowContext::open(const std::string& title) {
+    constexpr std::array<std::array<int, 2>, 9> kHints{{
+        {GLFW_CONTEXT_VERSION_MAJOR, 4},
+        {GLFW_CONTEXT_VERSION_MINOR, 5},
+        {GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE},
+        {GLFW_DECORATED, GLFW_FALSE},  // windows side by side are one wall
+        {GLFW_RESIZABLE, GLFW_FALSE},
+        {GLFW_AUTO_ICONIFY, GLFW_FALSE},  // one projector keeps showing when another is clicked
+        {GLFW_VISIBLE, GLFW_FALSE},       // until it is in its place
+        {GLFW_DEPTH_BITS, 0},             // the scene has a depth buffer of its own
+        {GLFW_STENCIL_BITS, 0},
+    }};
+    for (const auto& [hint, value] : kHints) glfwWindowHint(hint, value);
+    GLFWmonitor* monitor = nullptr;
+    if (display_.mode == DisplayMode::Fullscreen) {
+        monitor = monitorAt(display_.monitor);
+        glfwWindowHint(GLFW_REFRESH_RATE, modeFor(display_, size_, monitor).refreshRate);
+    }
+    window_.reset(glfwCreateWindow(size_.x, size_.y, title.c_str(), monitor, nullptr));
+    if (!window_) {
+        throw Error("no window with OpenGL 4.5 core (" + lastGlfwError() +
+                    "); update the graphics driver, or use --headless");
+    }
+    if (monitor == nullptr)
+        glfwSetWindowPos(window_.get(), display_.windowPosition.x, display_.windowPosition.y);
+    glfwShowWindow(window_.get());
+    glfwPollEvents();
+}
+
+// A wall whose pixels are not the projector's own has a wrong warp: better no picture than that
+// one.
+void WindowContext::check() {
+    glm::ivec2 actual{};
+    glfwGetFramebufferSize(window_.get(), &actual.x, &actual.y);
+    framebuffer_ = actual;
+    if (actual != size_) {
+        throw Error("display: the window has " + text(actual) + " pixels, the channel " +
+                    text(size_) + "; choose a monitor, scale or place where it fits");
+    }
+    const int index = display_.mode == DisplayMode::Fullscreen
+                          ? display_.monitor
+                          : monitorUnder(display_.windowPosition);
+    const GLFWvidmode mode = *glfwGetVideoMode(monitorAt(index));
+    if (refreshDiffers(display_, mode)) {
+        throw Error("display: monitor " + std::to_string(index) + " runs " + described(mode) +
+                    ", the channel wants " + std::to_string(*display_.refreshHertz) +
+                    " Hz; set the monitor or the channel's refresh rate");
+    }
+}
+
+void WindowContext::onKey(int key) {
+    if (key == GLFW_KEY_F)
+        toggleFullscreen();
+    else if (key == GLFW_KEY_ESCAPE)
+        keys_.push_back(kEscapeKey);
+    else if (key == GLFW_KEY_SPACE)
+        keys_.push_back(' ');
+    else if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
+        keys_.push_back(static_cast<char>('a' + (key - GLFW_KEY_A)));
+}
+
+void WindowContext::toggleFullscreen() {
+    if (glfwGetWindowMonitor(window_.get()) != nullptr) {
+        const glm::ivec2 place = display_.windowPosition;
+        glfwSetWindowMonitor(
+            window_.get(), nullptr, place.x, place.y, size_.x, size_.y, GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* monitor =
+        monitorAt(display_.mode == DisplayMode::Fullscreen ? display_.monitor
+                                                           : monitorUnder(display_.windowPosition));
+    const GLFWvidmode mode = *glfwGetVideoMode(monitor);
+    glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode.width, mode.height, mode.refreshRate);
+}
+
+}  // namespace
+
+std::unique_ptr<Context> makeWindowContext(const Display& display,
+                                           const std::string& title,
+                                           glm::ivec2 sizePixels) {
+    return std::make_unique<WindowContext>(display, title, sizePixels);
+}
+
+}  // namespace aquarama

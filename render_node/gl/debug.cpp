@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/gl/debug.h"
+
+#include <epoxy/gl.h>
+#include <spdlog/spdlog.h>
+
+namespace aquarama::gl {
+
+namespace {
+
+void APIENTRY onMessage(GLenum /*source*/,
+                        GLenum type,
+                        GLuint /*id*/,
+                        GLenum severity,
+                        GLsizei length,
+                        const GLchar* message,
+                        const void* /*user*/) {
+    const std::string_view text{message, static_cast<std::size_t>(length)};
+    if (type == GL_DEBUG_TYPE_ERROR)
+        spdlog::error("OpenGL: {}", text);
+    else if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
+        spdlog::warn("OpenGL: {}", text);
+}
+
+}  // namespace
+
+void logMessages() {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(onMessage, nullptr);
+}
+
+}  // namespace aquarama::gl

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama-node: one process for each projector.
+#include <exception>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "render_node/show/node_options.h"
+#include "render_node/show/run_node.h"
+
+namespace {
+
+constexpr const char* kFooter =
+    "Keys in its window: q or Escape ends the show, p or space pauses it, f fullscreen, w grid on "
+    "the wall,\nb blend mask, i fish ids, h lists them.\n"
+    "Software OpenGL draws with as many threads as LP_NUM_THREADS says; where several nodes share "
+    "a "
+    "machine,\nits cores divided by the nodes is best.";
+
+void describe(CLI::App& app, aquarama::NodeOptions& options) {
+    app.add_option("NAME", options.channel, "the channel of the rig that this node shows")
+        ->required();
+    app.add_option(
+           "--master", options.masterAddress, "the master's control address, tcp://HOST:PORT")
+        ->required();
+    app.add_flag("--headless", options.headless, "draw without a display");
+    app.add_option(
+           "--device",
+           options.device,
+           "with --headless: auto, nvidia, mesa, surfaceless or device:N, instead of the rig's")
+        ->needs("--headless");
+    app.add_option("--snapshot",
+                   options.snapshotFolder,
+                   "folder for channel-NAME.png, the last frame that was shown");
+    app.add_flag("--deep", options.deep, "16 bits in the snapshot instead of 8 dithered ones")
+        ->needs("--snapshot");
+    app.add_option("--film-every",
+                   options.filmEvery,
+                   "also a snapshot every so many frames, each in a folder of its own below film/")
+        ->needs("--snapshot")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--trace", options.traceFolder, "folder for NAME.csv, a line of times a frame");
+    app.footer(kFooter);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    aquarama::NodeOptions options;
+    CLI::App app("Shows one channel of a wall, in step with all others.", "aquarama-node");
+    describe(app, options);
+    CLI11_PARSE(app, count, arguments);
+    try {
+        spdlog::set_default_logger(spdlog::stderr_color_mt("node " + options.channel));
+        aquarama::runNode(options);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "aquarama-node " << options.channel << ": " << error.what() << '\n';
+        return 1;
+    }
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/project/pattern_pass.h"
+
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "common/wall/pattern.h"
+#include "render_node/gl/program.h"
+
+namespace aquarama {
+
+namespace {
+
+// Places in pattern.frag.
+constexpr GLint kWallFromCamera = 0;
+constexpr GLint kExtents = 3;
+constexpr GLint kGreyLightPlace = 4;
+constexpr GLint kGridLines = 5;
+
+constexpr float kNoGrey = -1;  // the grid instead
+
+}  // namespace
+
+PatternPass::PatternPass(const ChannelFrustum& frustum)
+    : frustum_{frustum}, program_{gl::makeProgram({"quad.vert", "pattern.frag"})} {}
+
+void PatternPass::drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
+    draw(framebuffer, sizePixels, kNoGrey);
+}
+
+void PatternPass::drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const {
+    draw(framebuffer, sizePixels, static_cast<float>(kGreyLight));
+}
+
+void PatternPass::addGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    draw(framebuffer, sizePixels, kNoGrey);
+    glDisable(GL_BLEND);
+}
+
+void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const {
+    const glm::mat3 wallFromCamera(glm::transpose(glm::dmat3(frustum_.cameraFromWall)));
+    const glm::vec4 extents(frustum_.left, frustum_.bottom, frustum_.right, frustum_.top);
+    const glm::vec4 gridLines(kGridDegrees, kGridMajorDegrees, kGridMinorLight, kGridSigmaDegrees);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, sizePixels.x, sizePixels.y);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glUseProgram(program_.name());
+    glUniformMatrix3fv(kWallFromCamera, 1, GL_FALSE, glm::value_ptr(wallFromCamera));
+    glUniform4fv(kExtents, 1, glm::value_ptr(extents));
+    glUniform1f(kGreyLightPlace, greyLight);
+    glUniform4fv(kGridLines, 1, glm::value_ptr(gridLines));
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace aquarama

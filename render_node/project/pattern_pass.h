@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Test patterns of the world in the picture of a channel's frustum.
+#pragma once
+
+#include "common/wall/wall.h"
+#include "render_node/gl/handle.h"
+
+namespace aquarama {
+
+// Owns its GL objects; construct, use and destroy with the same context current.
+class PatternPass {
+  public:
+    explicit PatternPass(const ChannelFrustum& frustum);
+
+    void drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const;
+    void drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const;
+    // Lays the grid's light over what is there.
+    void addGrid(unsigned framebuffer, glm::ivec2 sizePixels) const;
+
+  private:
+    void draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const;
+
+    ChannelFrustum frustum_;
+    gl::ProgramHandle program_;
+    gl::VertexArray noVertices_;
+};
+
+}  // namespace aquarama

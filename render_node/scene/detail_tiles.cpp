@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/scene/detail_tiles.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+
+#include "common/place/noise.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
+
+// Value noise with so many lattice cells on the tile; uv in tiles.
+float tiled(std::uint32_t seed, glm::vec2 uv, int cells) {
+    const glm::vec2 place = uv * static_cast<float>(cells);
+    const glm::vec2 cell = glm::floor(place);
+    const glm::vec2 t = place - cell;
+    const glm::vec2 s = t * t * (3.0F - 2.0F * t);
+    const auto corner = [&](int x, int y) {
+        const int column = ((static_cast<int>(cell.x) + x) % cells + cells) % cells;
+        const int row = ((static_cast<int>(cell.y) + y) % cells + cells) % cells;
+        return signedUnitOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(column)),
+                                   static_cast<std::uint32_t>(row)));
+    };
+    return glm::mix(
+        glm::mix(corner(0, 0), corner(1, 0), s.x), glm::mix(corner(0, 1), corner(1, 1), s.x), s.y);
+}
+
+struct Relief {
+    float height = 0.0F;  // metres
+    float albedo = 1.0F;
+    float crest = 0.5F;
+};
+
+// Ripples of the swell: 0.26 m apart, 16 mm high, sharp crests and wide troughs; grains and shells.
+Relief sandAt(glm::vec2 uv) {
+    const float bent = 0.9F * tiled(1, uv, 3) + 0.45F * tiled(2, uv, 7) + 0.15F * tiled(3, uv, 17);
+    const float crest = 0.5F + 0.5F * std::sin(kTwoPi * (10.0F * uv.x + 4.0F * uv.y) + 4.6F * bent);
+    const float sharp = 1.0F - std::pow(1.0F - crest, 1.6F);
+    const float amount = glm::clamp(0.5F + 0.75F * tiled(4, uv, 4), 0.0F, 1.0F);
+    const float grains = tiled(5, uv, 110) + 0.7F * tiled(6, uv, 220);
+    const float shell = tiled(7, uv, 160) > 0.93F ? 0.55F : 0.0F;
+    const float dark = tiled(8, uv, 190) > 0.94F ? 0.4F : 0.0F;
+    Relief relief;
+    relief.height = 0.016F * amount * sharp + 0.0012F * grains;
+    relief.albedo = 0.90F + 0.09F * sharp + 0.05F * grains + 0.06F * tiled(9, uv, 9) + shell - dark;
+    relief.crest = sharp;
+    return relief;
+}
+
+// Pits, knobs and cracks at three scales.
+Relief rockAt(glm::vec2 uv) {
+    const glm::vec2 bent = uv + 0.03F * glm::vec2{tiled(11, uv, 5), tiled(12, uv, 5)};
+    const float crags = 1.0F - 2.0F * std::abs(tiled(13, bent, 6));
+    const float knobs = 1.0F - 2.0F * std::abs(tiled(14, bent, 15));
+    const float grit = tiled(15, uv, 44);
+    Relief relief;
+    relief.height = 0.040F * crags + 0.020F * knobs + 0.005F * grit;
+    const float crest = 0.5F + 0.32F * crags + 0.22F * knobs;
+    relief.albedo = 0.85F + 0.32F * knobs + 0.24F * grit + 0.26F * tiled(16, uv, 26);
+    relief.crest = glm::clamp(crest, 0.0F, 1.0F);
+    return relief;
+}
+
+glm::u8 packed(float x) {
+    return static_cast<glm::u8>(glm::clamp(x, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
+
+template <class ReliefAt>
+Tile tileOf(int texels, float sideMetres, ReliefAt reliefAt) {
+    const auto count = static_cast<std::size_t>(texels * texels);
+    std::vector<Relief> reliefs;
+    reliefs.reserve(count);
+    for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < texels; ++x)
+            reliefs.push_back(reliefAt((glm::vec2{x, y} + 0.5F) / static_cast<float>(texels)));
+    const auto heightAt = [&](int x, int y) {
+        const int column = (x + texels) % texels;
+        const int row = (y + texels) % texels;
+        return reliefs[static_cast<std::size_t>(row * texels + column)].height;
+    };
+    const float twoTexels = 2.0F * sideMetres / static_cast<float>(texels);
+    Tile tile{texels, {}};
+    for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < texels; ++x) {
+            const float slopeX = (heightAt(x + 1, y) - heightAt(x - 1, y)) / twoTexels;
+            const float slopeZ = (heightAt(x, y + 1) - heightAt(x, y - 1)) / twoTexels;
+            const Relief& relief = reliefs[static_cast<std::size_t>(y * texels + x)];
+            // Slopes from -1 to 1, albedos up to twice the mean.
+            tile.values.emplace_back(packed(0.5F + 0.5F * slopeX),
+                                     packed(0.5F + 0.5F * slopeZ),
+                                     packed(0.5F * relief.albedo),
+                                     packed(relief.crest));
+        }
+    return tile;
+}
+
+}  // namespace
+
+Tile sandTile() {
+    return tileOf(512, kSandTileMetres, sandAt);
+}
+Tile rockTile() {
+    return tileOf(256, kRockTileMetres, rockAt);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/scene/mesh.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace aquarama {
+
+namespace {
+
+glm::i8vec3 packedNormal(glm::vec3 normal) {
+    return glm::i8vec3(glm::round(normal * 127.0F));
+}
+
+glm::u8 packedUnit(float x) {
+    return static_cast<glm::u8>(glm::clamp(x, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
+
+}  // namespace
+
+std::uint32_t addVertex(
+    Mesh& mesh, glm::vec3 position, glm::vec3 normal, const Surface& surface, float skyOpenness) {
+    SolidVertex vertex;
+    vertex.position = position;
+    vertex.normal = glm::i8vec4(packedNormal(normal), glm::i8(surface.roughness * 127.0F));
+    vertex.albedo = {packedUnit(surface.albedo.r),
+                     packedUnit(surface.albedo.g),
+                     packedUnit(surface.albedo.b),
+                     packedUnit(skyOpenness)};
+    vertex.response = {255, packedUnit(surface.translucency), packedUnit(surface.fluorescence), 0};
+    mesh.vertices.push_back(vertex);
+    return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+}
+
+void addQuad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+}
+
+void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns) {
+    const auto width = static_cast<std::uint32_t>(columns);
+    for (int row = 0; row + 1 < rows; ++row)
+        for (int column = 0; column + 1 < columns; ++column) {
+            const std::uint32_t a = first + static_cast<std::uint32_t>(row) * width +
+                                    static_cast<std::uint32_t>(column);
+            addQuad(mesh, a, a + width, a + width + 1, a + 1);
+        }
+}
+
+void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
+    std::vector<glm::vec3> sums(mesh.vertices.size() - first, glm::vec3{0.0F});
+    for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3) {
+        const std::uint32_t* corner = &mesh.indices[i];
+        const glm::vec3 a = mesh.vertices[corner[0]].position;
+        const glm::vec3 area = glm::cross(mesh.vertices[corner[1]].position - a,
+                                          mesh.vertices[corner[2]].position - a);
+        for (int k = 0; k < 3; ++k) sums[corner[k] - first] += area;
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (glm::dot(sums[i], sums[i]) == 0.0F) continue;  // a pole, which keeps its own
+        SolidVertex& vertex = mesh.vertices[first + i];
+        vertex.normal = glm::i8vec4(packedNormal(glm::normalize(sums[i])), vertex.normal.w);
+    }
+}
+
+}  // namespace aquarama

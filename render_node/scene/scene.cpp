@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/scene/scene.h"
+
+#include <optional>
+
+#include <glm/matrix.hpp>
+
+#include "common/place/place.h"
+#include "render_node/gl/program.h"
+#include "render_node/scene/frustum.h"
+#include "render_node/scene/ground.h"
+#include "render_node/scene/meadow.h"
+#include "render_node/scene/picture.h"
+#include "render_node/scene/reef.h"
+#include "render_node/scene/sea_light.h"
+#include "render_node/scene/shade.h"
+#include "render_node/shaders/frame_uniforms.h"
+#include "render_node/surface/school_surface.h"
+
+namespace aquarama {
+
+namespace {
+
+// Undoes about the water above the eye, so that near things keep their colours and distance stays
+// blue.
+constexpr float kFilterDepthMetres = 4.9F;
+constexpr int kFlakes = 9000;
+
+// All channels of a wall are about as large, so neighbours agree.
+float detailOf(glm::ivec2 sizePixels) {
+    constexpr int kSmallWindow = 640;
+    return sizePixels.y < kSmallWindow ? 0.5F : 1.0F;
+}
+
+FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
+    FrameUniforms uniforms;
+    uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+    uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
+    uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, static_cast<float>(frame.timeSeconds));
+    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
+    const glm::vec2 size(view.sizePixels);
+    uniforms.viewport = glm::vec4(size, 1.0F / size);
+    return uniforms;
+}
+
+}  // namespace
+
+struct Scene::Parts {
+    Parts(const SceneOptions& chosen, const FishBody& body, const Repertoire& repertoire)
+        : options{chosen},
+          light{chosen.seed, kFilterDepthMetres},
+          ground{chosen.seed},
+          reef{chosen.seed},
+          meadow{chosen.seed},
+          picture{chosen.samples},
+          surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
+          water{gl::makeProgram({"quad.vert", "water.frag"})},
+          snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
+        glNamedBufferStorage(
+            frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
+        if (!body.cage.vertices.empty())
+            school.emplace(body, repertoire, SurfaceOptions{chosen.culling, chosen.levelsOfDetail});
+    }
+
+    void drawSolids(const Viewpoint& viewpoint);
+    void drawWater() const;
+    void drawSnow() const;
+
+    SceneOptions options;
+    gl::Buffer frameBlock;
+    gl::VertexArray empty;
+    SeaLight light;
+    Ground ground;
+    Reef reef;
+    Meadow meadow;
+    Picture picture;
+    std::optional<SchoolSurface> school;
+    gl::ProgramHandle surface, water, snow;
+};
+
+// Near things first, so that what they hide is never shaded.
+void Scene::Parts::drawSolids(const Viewpoint& viewpoint) {
+    if (school) school->draw();
+    meadow.draw(viewpoint);
+    reef.draw(viewpoint);
+    ground.draw(viewpoint);
+}
+
+void Scene::Parts::drawWater() const {
+    glBindVertexArray(empty.name());
+    glUseProgram(surface.name());
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glUseProgram(water.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Scene::Parts::drawSnow() const {
+    glUseProgram(snow.name());
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glDrawArrays(GL_POINTS, 0, kFlakes);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+}
+
+Scene::Scene(const SceneOptions& options, const FishBody& body, const Repertoire& repertoire)
+    : parts_{std::make_unique<Parts>(options, body, repertoire)} {}
+
+Scene::~Scene() = default;
+
+unsigned Scene::draw(const SceneFrame& frame, const View& view) {
+    Parts& parts = *parts_;
+    const FrameUniforms uniforms = uniformsOf(frame, view);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glNamedBufferSubData(parts.frameBlock.name(), 0, sizeof(uniforms), &uniforms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, parts.frameBlock.name());
+    parts.light.update(frame.timeSeconds, frame.eyePositionMetres, uniforms.worldFromClip);
+    parts.light.bind();
+    if (parts.school)
+        parts.school->update(frame.fish, uniforms.clipFromWorld, frame.eyePositionMetres);
+    parts.picture.begin(view.sizePixels);
+    const Viewpoint viewpoint{Frustum{uniforms.clipFromWorld},
+                              frame.eyePositionMetres,
+                              parts.options.culling,
+                              parts.options.levelsOfDetail,
+                              detailOf(view.sizePixels)};
+    parts.drawSolids(viewpoint);
+    parts.drawWater();
+    parts.drawSnow();
+    return parts.picture.finish();
+}
+
+}  // namespace aquarama

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light in the sea at one instant: the tables of the water, the waves, their caustics on the
+// sand and the shafts in the water. The same textures on every node.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "render_node/gl/handle.h"
+#include "render_node/scene/water_tables.h"
+#include "render_node/scene/waves.h"
+
+namespace aquarama {
+
+class SeaLight {
+  public:
+    // filterDepthMetres: how much of the way down the diver's filter undoes.
+    SeaLight(std::uint32_t seed, float filterDepthMetres);
+
+    // Expects the frame's uniform block to be bound. Shafts are computed only where the view looks.
+    void update(double timeSeconds, glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
+    void bind() const;  // to the units that water.glsl names
+
+    [[nodiscard]] const gl::Texture& causticTile() const { return causticTile_; }
+    [[nodiscard]] const gl::Texture& shaftMap() const { return shaftMap_; }
+
+  private:
+    void drawWaves();
+    void drawCaustics();
+    void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
+
+    float filterDepthMetres_;
+    Waves waves_;
+    Inscatter inscatter_;
+    float tableDepthMetres_;
+    gl::Texture direct_, inscatterTable_, openWater_;
+    gl::Texture waveTile_, causticTile_, shaftMap_;
+    gl::Framebuffer waveTarget_, causticTarget_, shaftTarget_;
+    gl::ProgramHandle waveProgram_, causticProgram_, shaftProgram_;
+    gl::Buffer seaBlock_, causticIndices_;
+    gl::VertexArray empty_, causticGrid_;
+    int causticIndexCount_ = 0;
+};
+
+}  // namespace aquarama

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// How SolidVertex lies in a vertex array, and detail tiles in textures.
+#pragma once
+
+#include "render_node/gl/handle.h"
+#include "render_node/scene/detail_tiles.h"
+#include "render_node/scene/mesh.h"
+
+namespace aquarama {
+
+// Fills the two buffers and names them in the array.
+void setSolids(const gl::VertexArray& array,
+               const gl::Buffer& vertices,
+               const gl::Buffer& indices,
+               const Mesh& mesh);
+[[nodiscard]] gl::Texture makeTexture(const Tile& tile);
+
+}  // namespace aquarama

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/session/master_link.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "common/units/error.h"
+
+namespace aquarama {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr Instant kHello = milliseconds(100);
+constexpr Instant kPing = milliseconds(50);       // a fifth of the silence that ends membership
+constexpr Instant kRepeat = seconds(1);           // of what was not answered
+constexpr Instant kMasterSilence = seconds(2);    // after which the master is taken for gone
+constexpr Instant kComplaint = seconds(3);        // between two lines that say we are still waiting
+constexpr Instant kFarthest = milliseconds(250);  // a release further ahead is a clock gone wrong
+constexpr int kSpoiltBlobs = 3;  // deliveries of a blob that fail before we give up
+
+}  // namespace
+
+MasterLink::MasterLink(std::string name, Connect connect, BlobCache cache, Meeting& meeting)
+    : name_(std::move(name)),
+      connect_(std::move(connect)),
+      cache_(std::move(cache)),
+      meeting_(meeting),
+      channels_(connect_()) {}
+
+void MasterLink::wish(const Wish& wish) {
+    wishes_.put(wish);
+    const std::lock_guard lock(channelsMutex_);
+    channels_->wake();
+}
+
+void MasterLink::stop() {
+    stopped_ = true;
+    wishes_.close();
+    meeting_.interrupt(Release::Quit);
+    const std::lock_guard lock(channelsMutex_);
+    channels_->wake();
+}
+
+void MasterLink::run() {
+    try {
+        while (!stopped_) {
+            turn();
+            channels_->wait(kPing / 2);
+        }
+    } catch (const Error& error) {  // no new connection could be made
+        meeting_.refuse(error.what());
+    }
+    if (session_ != 0) say(Farewell{});
+}
+
+void MasterLink::turn() {
+    while (const auto wish = wishes_.tryTake()) {
+        std::visit([&](const auto& what) { obey(what); }, *wish);
+    }
+    while (const auto bytes = channels_->receiveControl()) readControl(*bytes);
+    while (const auto bytes = channels_->receiveState()) readState(*bytes);
+    keepTime(monotonicNow());
+}
+
+void MasterLink::say(const Message& message) {
+    channels_->sendControl(encode({session_, message}));
+}
+
+// --- what the render thread wishes
+
+// Every attempt has connections of its own: one that is dead without knowing it is left behind.
+void MasterLink::obey(const Join&) {
+    if (std::exchange(connectionUsed_, true)) {
+        auto fresh = connect_();
+        const std::lock_guard lock(channelsMutex_);
+        std::swap(channels_, fresh);
+    }
+    phase_ = Phase::Greeting;
+    session_ = 0;
+    hearsStates_ = false;
+    finished_.reset();
+    lastHello_ = Instant{};
+    lastComplaint_ = monotonicNow();
+}
+
+void MasterLink::obey(const Prepared&) {
+    if (phase_ == Phase::Building) phase_ = Phase::Listening;
+}
+
+void MasterLink::obey(const Finished& finished) {
+    if (phase_ != Phase::Member) return;
+    finished_ = finished;
+    sayReady();
+}
+
+void MasterLink::obey(const Input& input) {
+    say(input);
+}
+
+void MasterLink::sayReady() {
+    Ready ready{finished_->frame, finished_->released};
+    if (ready.released) ready.released->atNs += clock_.offset().value_or(Instant{}).count();
+    say(ready);
+    lastReady_ = monotonicNow();
+}
+
+// --- what the master says
+
+void MasterLink::readControl(const ByteVector& bytes) {
+    const auto envelope = decode(bytes);
+    if (!envelope) return;
+    lastHeard_ = monotonicNow();
+    if (const auto* welcome = std::get_if<Welcome>(&envelope->message)) {
+        if (phase_ == Phase::Greeting) beWelcomed(envelope->session, *welcome);
+    } else if (const auto* refusal = std::get_if<Refusal>(&envelope->message)) {
+        if (phase_ == Phase::Greeting) meeting_.refuse(refusal->reason);
+    } else if (const auto* dismissed = std::get_if<Dismissed>(&envelope->message)) {
+        take(*dismissed);  // also from another run of the master: it does not know us
+    } else if (session_ != 0 && envelope->session == session_) {
+        std::visit([&](const auto& message) { take(message); }, envelope->message);
+    }
+}
+
+void MasterLink::readState(const ByteVector& bytes) {
+    auto envelope = decode(bytes);
+    if (!envelope || session_ == 0) return;
+    if (envelope->session != session_) return lose("the master was started again");
+    hearsStates_ = true;
+    lastHeard_ = monotonicNow();
+    if (auto* state = std::get_if<StateFrame>(&envelope->message)) {
+        meeting_.put({std::move(*state), lastHeard_});
+    }
+}
+
+void MasterLink::beWelcomed(std::uint64_t session, const Welcome& welcome) {
+    session_ = session;
+    phase_ = Phase::Fetching;
+    admitted_ = {welcome, {}, {}};
+    assembly_.reset();
+    clock_ = {};
+    try {
+        channels_->subscribeState(welcome.stateAddress);
+    } catch (const Error& error) {
+        return meeting_.refuse(error.what());
+    }
+    fetchNext();
+}
+
+// Takes from the cache what is there, and asks for the first that is not.
+void MasterLink::fetchNext() {
+    const std::pair<const Digest*, ByteVector*> wanted[] = {
+        {&admitted_.welcome.species, &admitted_.species},
+        {&admitted_.welcome.repertoire, &admitted_.repertoire}};
+    for (const auto& [digest, blob] : wanted) {
+        if (!blob->empty()) continue;
+        auto cached = cache_.find(*digest);
+        if (!cached) {
+            assembly_.emplace(*digest);
+            return requestChunk();
+        }
+        *blob = std::move(*cached);
+    }
+    admit();
+}
+
+void MasterLink::requestChunk() {
+    say(BlobRequest{assembly_->digest(), assembly_->nextOffset()});
+    lastRequest_ = monotonicNow();
+}
+
+void MasterLink::take(const BlobChunk& chunk) {
+    if (phase_ != Phase::Fetching || !assembly_ || chunk.digest != assembly_->digest()) return;
+    if (!assembly_->take(chunk.offset, chunk.total, chunk.content)) return;
+    if (!assembly_->whole()) return requestChunk();
+    const auto blob = assembly_->checked();
+    if (!blob) {
+        if (++spoiltBlobs_ < kSpoiltBlobs) return requestChunk();
+        return meeting_.refuse("the master sends other bytes for blob " + toHex(chunk.digest) +
+                               " than its name says; restart the master");
+    }
+    cache_.keep(chunk.digest, *blob);
+    auto& welcome = admitted_.welcome;
+    if (chunk.digest == welcome.species) admitted_.species = *blob;
+    if (chunk.digest == welcome.repertoire) admitted_.repertoire = *blob;
+    fetchNext();
+}
+
+void MasterLink::admit() {
+    phase_ = Phase::Building;
+    meeting_.admit(admitted_);
+}
+
+void MasterLink::take(const Pong& pong) {
+    clock_.add(Instant{pong.sentNs}, Instant{pong.masterNs}, monotonicNow());
+}
+
+void MasterLink::take(const Joined& joined) {
+    meeting_.start(admitted_.welcome.pace, joined.first);
+}
+
+void MasterLink::take(const Present& present) {
+    const Instant now = monotonicNow();
+    Instant at = now;
+    if (present.atNs != 0 && clock_.offset()) at = Instant{present.atNs} - *clock_.offset();
+    if (at > now + kFarthest) at = now;
+    if (finished_ && finished_->frame <= present.frame) finished_.reset();
+    meeting_.release({present.frame, at});
+}
+
+void MasterLink::take(const Dismissed& dismissed) {
+    if (phase_ == Phase::Greeting) {
+        lastDismissal_ = dismissed.reason;
+    } else if (phase_ != Phase::Outside) {
+        lose(dismissed.reason);
+    }
+}
+
+// Answered, so that the master knows that we have heard it.
+void MasterLink::take(const Farewell&) {
+    say(Farewell{});
+    phase_ = Phase::Outside;
+    session_ = 0;
+    meeting_.interrupt(Release::Quit);
+}
+
+// A render thread that is still in join() is not told: it goes on waiting while we say hello again.
+void MasterLink::lose(const std::string& why) {
+    spdlog::warn("{}: {}; joining again", name_, why);
+    const bool isJoining = phase_ == Phase::Fetching;
+    phase_ = Phase::Outside;
+    session_ = 0;  // what is still on its way means nothing any more
+    if (isJoining) {
+        obey(Join{});
+    } else {
+        meeting_.interrupt(Release::Rejoin);
+    }
+}
+
+// --- what the time asks for
+
+void MasterLink::keepTime(Instant now) {
+    if (phase_ == Phase::Outside) return;
+    if (phase_ == Phase::Greeting) return greet(now);
+    if (now - lastHeard_ > kMasterSilence) return lose("the master has fallen silent");
+    if (now - lastPing_ >= kPing) {
+        say(Ping{now.count()});
+        lastPing_ = now;
+    }
+    if (phase_ == Phase::Fetching && now - lastRequest_ > kRepeat) requestChunk();
+    if (phase_ == Phase::Listening && hearsStates_) {
+        say(Prepared{});
+        phase_ = Phase::Member;
+    }
+    if (finished_ && now - lastReady_ > kRepeat) sayReady();
+}
+
+void MasterLink::greet(Instant now) {
+    if (now - lastHello_ >= kHello) {
+        say(Hello{name_, kProtocolMajor, AQUARAMA_VERSION});
+        lastHello_ = now;
+    }
+    if (now - lastComplaint_ < kComplaint) return;
+    lastComplaint_ = now;
+    spdlog::warn("{}: {}; still trying",
+                 name_,
+                 lastDismissal_.empty() ? "no master answers" : std::exchange(lastDismissal_, {}));
+}
+
+}  // namespace aquarama

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/session/meeting.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace aquarama {
+
+void Meeting::admit(Admitted admitted) {
+    const std::lock_guard lock(mutex_);
+    if (!join_) join_ = std::move(admitted);
+    changed_.notify_all();
+}
+
+void Meeting::refuse(const std::string& reason) {
+    const std::lock_guard lock(mutex_);
+    if (!join_) join_ = Refused{reason};
+    changed_.notify_all();
+}
+
+void Meeting::start(Pace pace, Frame first) {
+    const std::lock_guard lock(mutex_);
+    pace_ = pace;
+    next_ = first;
+    changed_.notify_all();
+}
+
+void Meeting::put(ArrivedState arrived) {
+    const std::lock_guard lock(mutex_);
+    const auto isSame = [&](const ArrivedState& s) { return s.state.frame == arrived.state.frame; };
+    if (std::ranges::any_of(states_, isSame)) return;  // sent again for somebody else
+    if (states_.size() == kStates) states_.pop_front();
+    states_.push_back(std::move(arrived));
+    changed_.notify_all();
+}
+
+void Meeting::release(const ReleaseOrder& order) {
+    const std::lock_guard lock(mutex_);
+    if (!release_ || release_->frame < order.frame) release_ = order;
+    changed_.notify_all();
+}
+
+void Meeting::interrupt(Release why) {
+    const std::lock_guard lock(mutex_);
+    if (interruption_ != Release::Quit) interruption_ = why;
+    changed_.notify_all();
+}
+
+void Meeting::expectJoin() {
+    const std::lock_guard lock(mutex_);
+    if (interruption_ == Release::Quit) return;
+    join_.reset();
+    interruption_.reset();
+    pace_.reset();
+    states_.clear();
+    release_.reset();
+}
+
+JoinOutcome Meeting::awaitJoin() {
+    std::unique_lock lock(mutex_);
+    const auto isOver = [&] { return interruption_ == Release::Quit; };
+    changed_.wait(lock, [&] { return join_ || isOver(); });
+    if (isOver()) return Ended{};
+    return *std::exchange(join_, {});
+}
+
+// Lockstep: every frame in order. Live: the newest.
+std::optional<ArrivedState> Meeting::takeNext() {
+    std::erase_if(states_, [&](const ArrivedState& s) { return s.state.frame < next_; });
+    if (!pace_ || states_.empty()) return std::nullopt;
+    const auto frameOf = [](const ArrivedState& s) { return s.state.frame; };
+    auto chosen = *pace_ == Pace::Live ? std::ranges::max_element(states_, {}, frameOf)
+                                       : std::ranges::find(states_, next_, frameOf);
+    if (chosen == states_.end()) return std::nullopt;
+    ArrivedState taken = std::move(*chosen);
+    states_.erase(chosen);
+    next_ = {taken.state.frame.value + 1};
+    return taken;
+}
+
+std::optional<ArrivedState> Meeting::takeState() {
+    std::unique_lock lock(mutex_);
+    std::optional<ArrivedState> taken;
+    changed_.wait(lock, [&] { return interruption_ || (taken = takeNext()); });
+    return taken;
+}
+
+std::optional<ReleaseOrder> Meeting::awaitRelease(Frame frame) {
+    std::unique_lock lock(mutex_);
+    const auto isReleased = [&] { return release_ && release_->frame >= frame; };
+    changed_.wait(lock, [&] { return isReleased() || interruption_; });
+    return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
+}
+
+Release Meeting::interruption() const {
+    const std::lock_guard lock(mutex_);
+    return interruption_.value_or(Release::Quit);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a node's net thread and its render thread meet: states and releases one way, bounded, and
+// the end of either. The lock is held for a move only.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "common/net/channels.h"
+#include "render_node/session/session.h"
+
+namespace aquarama {
+
+struct ArrivedState {
+    StateFrame state;
+    Instant arrival{};
+};
+
+struct ReleaseOrder {
+    Frame frame;
+    Instant at{};  // on this machine's clock; past instants mean at once
+};
+
+// What the master gave to a node that it welcomed.
+struct Admitted {
+    Welcome welcome;
+    ByteVector species;
+    ByteVector repertoire;
+};
+struct Refused {
+    std::string reason;
+};
+struct Ended {};  // the show, or this process
+using JoinOutcome = std::variant<Admitted, Refused, Ended>;
+
+class Meeting {
+  public:
+    // The net thread's side.
+    void admit(Admitted admitted);
+    void refuse(const std::string& reason);
+    void start(Pace pace, Frame first);  // frames are taken from this one on
+    void put(ArrivedState arrived);
+    void release(const ReleaseOrder& order);
+    void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
+
+    // The render thread's side. Each blocks until there is an answer.
+    void expectJoin();  // forgets everything that came before
+    [[nodiscard]] JoinOutcome awaitJoin();
+    [[nodiscard]] std::optional<ArrivedState> takeState();  // empty: interrupted
+    // The newest release, of this frame or a later one; empty: interrupted.
+    [[nodiscard]] std::optional<ReleaseOrder> awaitRelease(Frame frame);
+    [[nodiscard]] Release interruption() const;
+
+  private:
+    [[nodiscard]] std::optional<ArrivedState> takeNext();
+
+    static constexpr std::size_t kStates = 8;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<JoinOutcome> join_;
+    std::optional<Release> interruption_;
+    std::optional<Pace> pace_;  // set once frames are expected
+    Frame next_;
+    std::deque<ArrivedState> states_;
+    std::optional<ReleaseOrder> release_;
+};
+
+}  // namespace aquarama

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/session/session.h"
+
+#include <thread>
+#include <utility>
+
+#include "common/net/channels.h"
+#include "common/units/error.h"
+#include "render_node/session/link_session.h"
+#include "render_node/session/master_link.h"
+#include "render_node/session/meeting.h"
+
+namespace aquarama {
+namespace {
+
+std::string textOf(const ByteVector& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+class LinkSession final : public Session {
+  public:
+    LinkSession(const std::string& name, Connect connect, const std::filesystem::path& blobs)
+        : name_(name),
+          link_(name, std::move(connect), BlobCache(blobs), meeting_),
+          netThread_([this] { link_.run(); }) {}
+
+    ~LinkSession() override {
+        link_.stop();
+        netThread_.join();
+    }
+    LinkSession(const LinkSession&) = delete;
+    LinkSession& operator=(const LinkSession&) = delete;
+
+    std::optional<Admission> join() override {
+        released_.reset();
+        meeting_.expectJoin();
+        link_.wish(MasterLink::Join{});
+        JoinOutcome outcome = meeting_.awaitJoin();
+        if (const auto* refused = std::get_if<Refused>(&outcome)) {
+            throw Error("the master refuses node \"" + name_ + "\": " + refused->reason);
+        }
+        auto* admitted = std::get_if<Admitted>(&outcome);
+        if (admitted == nullptr) return std::nullopt;
+        return Admission{admitted->welcome,
+                         parseRig(admitted->welcome.rigText, "the master's rig"),
+                         textOf(admitted->species),
+                         decodeRepertoire(admitted->repertoire, "the master's repertoire")};
+    }
+
+    void prepared() override { link_.wish(Prepared{}); }
+
+    std::optional<StateFrame> nextFrame() override {
+        auto arrived = meeting_.takeState();
+        if (!arrived) return std::nullopt;
+        stateArrival_ = arrived->arrival;
+        return std::move(arrived->state);
+    }
+
+    Release interruption() const override { return meeting_.interruption(); }
+    std::chrono::nanoseconds stateArrival() const override { return stateArrival_; }
+
+    Release readyThenWait(Frame frame) override {
+        link_.wish(MasterLink::Finished{frame, std::exchange(released_, {})});
+        const auto order = meeting_.awaitRelease(frame);
+        if (!order) return meeting_.interruption();
+        if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
+        // A node that is always late shows its late pictures: better than none.
+        skipped_ = false;
+        std::this_thread::sleep_until(std::chrono::steady_clock::time_point(order->at));
+        released_ = ReleaseReport{frame, monotonicNow().count()};
+        return Release::Present;
+    }
+
+    void send(NodeInput input) override {
+        link_.wish(Input{input == NodeInput::Quit ? InputKind::Quit : InputKind::TogglePause});
+    }
+
+    void stop() override { link_.stop(); }
+
+  private:
+    std::string name_;
+    Meeting meeting_;
+    MasterLink link_;
+    std::optional<ReleaseReport> released_;
+    bool skipped_ = false;
+    std::chrono::nanoseconds stateArrival_{};
+    std::thread netThread_;  // last: it uses all of the above
+};
+
+}  // namespace
+
+std::unique_ptr<Session> makeSession(const std::string& name,
+                                     Connect connect,
+                                     const std::filesystem::path& blobDirectory) {
+    return std::make_unique<LinkSession>(name, std::move(connect), blobDirectory);
+}
+
+std::unique_ptr<Session> connectSession(const std::string& name,
+                                        const std::string& controlAddress) {
+    return connectSession(name, controlAddress, defaultBlobDirectory());
+}
+
+std::unique_ptr<Session> connectSession(const std::string& name,
+                                        const std::string& controlAddress,
+                                        const std::filesystem::path& blobDirectory) {
+    return makeSession(
+        name, [controlAddress] { return connectNode(controlAddress); }, blobDirectory);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,66 @@
+// The light that falls on things and what of theirs reaches the shared eye, for any stage.
+#ifndef SHADING_GLSL
+#define SHADING_GLSL
+#include "water.glsl"
+
+// Effective Kd of the three primaries near the filter's depth, 1/m: only the small difference
+// between a thing's depth and the filter's is undone with it.
+const vec3 kDownwellingKd = vec3(0.19, 0.062, 0.036);
+
+// How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
+struct Openness {
+    float sun;
+    float sky;
+};
+
+// The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
+// the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
+const float kLampPower = 8.0;
+const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045) * kRangeShare;
+vec3 lampLight(vec3 place, vec3 normal) {
+    vec3 way = eyeAndTime.xyz - place;
+    float range2 = dot(way, way), range = sqrt(range2);
+    float facing = 0.15 + 0.85 * max(dot(normal, way) / range, 0.0);
+    return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) *
+           (kLampPower * facing / (range2 + 2.0));
+}
+
+// Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the
+// waves, soft light from above, light from the sand; and, through thin things, light from behind.
+// lod: of the caustics, by how much of the sand a pixel covers.
+vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
+    float depth = max(-place.y, 0.1);
+    float share = unscatteredShare(depth);
+    float towardsSun = dot(normal, sunAndFilterDepth.xyz);
+    float sun = share * open.sun * caustic(place, lod);
+    float sky = (1.0 - share) * open.sky;
+    float up = 0.5 + 0.5 * normal.y;
+    float front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
+    float bounce = 0.34 * (1.0 - up) * (sky + 0.6 * open.sky);
+    float back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
+    return albedo * (vec3(front + bounce + back) + lampLight(place, normal)) / kPi;
+}
+
+// Many corals turn the blue that is left into their own colour.
+vec3 fluorescent(vec3 albedo, float amount) { return albedo * (0.10 * amount); }
+
+// What a mirror shows: the open water, the bright window above, the sun. Water has coloured this
+// light already, so the way down that `seen` will add is taken out beforehand.
+vec3 mirrored(vec3 direction, vec3 worldPosition) {
+    float depth = max(-worldPosition.y, 0.1);
+    float towardsSun = dot(direction, sunAndFilterDepth.xyz) - 1.0;
+    vec3 water = openWater(direction, depth);
+    float window = 0.11 * smoothstep(0.55, 0.85, direction.y);
+    float sun = 6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun);
+    float fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
+    vec3 undone = exp(kDownwellingKd * (depth - sunAndFilterDepth.w));
+    return water * undone + vec3(fromSurface);
+}
+
+// What reaches the shared eye: absorbed on the way, and joined by light scattered into it.
+vec3 seen(vec3 radiance, vec3 worldPosition) {
+    vec3 way = worldPosition - eyeAndTime.xyz;
+    float range = length(way);
+    return direct(radiance, range, max(-worldPosition.y, 0.05)) + inscatter(way / range, range);
+}
+#endif

@@ -1,0 +1,33 @@
+// Marine snow: specks in a box round the shared eye that wraps in the world.
+#include "water.glsl"
+#include "sea_now.glsl"
+layout(location = 0) out vec3 light;
+const float kBoxMetres = 9.0;
+const float kLensMetres = 0.0035, kFocusMetres = 6.0;  // a little out of focus when near
+uint mixed(uint x) {
+    x ^= x >> 16; x *= 0x7feb352du; x ^= x >> 15; x *= 0x846ca68bu; return x ^ (x >> 16);
+}
+float unit(uint n) { return float(mixed(uint(gl_VertexID) * 4u + n) >> 8) / 16777216.0; }
+void main() {
+    vec3 home = vec3(unit(0u), unit(1u), unit(2u));
+    vec2 carried = 0.25 * surge(home * 9.0 - vec3(0.0, 9.0, 0.0));
+    vec3 sinking = vec3(0.05, -0.012, 0.03) * eyeAndTime.w;
+    vec3 eye = eyeAndTime.xyz;
+    vec3 away = (fract(home + (sinking + vec3(carried.x, 0.0, carried.y) - eye) / kBoxMetres) - 0.5) *
+                kBoxMetres;
+    vec3 place = eye + away;
+    float range = length(away);
+    float e = unit(3u);
+    float diameter = mix(0.0006, 0.0030, e * e * e * e * e);
+    float perRadian = pixelsARadian();
+    float sharp = diameter / range * perRadian;
+    float blur = kLensMetres * abs(1.0 / range - 1.0 / kFocusMetres) * perRadian;
+    float size = sqrt(sharp * sharp + blur * blur + 1.4);
+    float fade = smoothstep(0.5, 1.1, range) * smoothstep(0.5, 0.36, range / kBoxMetres);
+    float phase = 1.4 * lobe(dot(away / range, sunAndFilterDepth.xyz), 0.75) + 0.12;
+    float lit = unscatteredShare(-place.y) * caustic(place, 1.0) + 0.35;
+    light = direct(vec3(0.95, 0.97, 1.0) * (phase * lit / kPi), range, max(-place.y, 0.1)) *
+            (0.5 * fade * sharp * sharp / (size * size));
+    gl_Position = place.y < -0.1 ? clipFromWorld * vec4(place, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    gl_PointSize = min(2.0 * size, 0.012 * viewport.y);
+}

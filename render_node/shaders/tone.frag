@@ -1,0 +1,33 @@
+// From the light of the scene to the light of the display, both linear. The same everywhere on the
+// wall and at all times: no histogram, or neighbours would differ.
+layout(binding = 0) uniform sampler2D scene;
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 display;
+const float kExposure = 8.2;
+const float kSaturation = 1.02;
+
+// Water is bluer than the display can show (red below 0): a soft floor at 3.5 % of the brightest
+// channel, which keeps the ratio of green to blue.
+vec3 intoGamut(vec3 c) {
+    float top = max(c.r, max(c.g, c.b));
+    vec3 above = c - 0.035 * top;
+    float knee = 0.06 * top + 1.0e-6;
+    return 0.035 * top + 0.5 * (above + sqrt(above * above + knee * knee));
+}
+
+// x^a / (b x^a + c) through .18 -> .19 and 9 -> 1: a toe that keeps 2.5 stops of blue above a
+// projector's black, a shoulder of 4 stops.
+vec3 curve(vec3 x) {
+    vec3 power = pow(max(x, 0.0), vec3(1.46));
+    return power / (0.9859 * power + 0.3499);
+}
+
+void main() {
+    vec3 c = intoGamut(texelFetch(scene, ivec2(gl_FragCoord.xy), 0).rgb) * kExposure;
+    c = mix(vec3(dot(c, vec3(0.2126, 0.7152, 0.0722))), c, kSaturation);
+    // Bright blue goes to white through its neighbours, not to a flat cyan.
+    c = mat3(0.86, 0.07, 0.07, 0.07, 0.86, 0.07, 0.06, 0.06, 0.88) * c;
+    c = curve(c);
+    c = mat3(1.130, -0.065, -0.065, -0.065, 1.130, -0.065, -0.055, -0.055, 1.110) * c;
+    display = vec4(clamp(c, 0.0, 1.0), 1.0);
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/channel_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "common/body/fish_body.h"
+#include "common/config/species.h"
+#include "common/units/error.h"
+#include "render_node/show/presented.h"
+
+namespace aquarama {
+
+namespace {
+
+// Beyond what the projector lights, so that filters which read neighbours have some: 1 degree.
+constexpr double kMarginRadians = 0.0175;
+constexpr float kNearMetres = 0.05F;
+
+// Dots large enough to be read from the sweet spot.
+float dotPixels(glm::ivec2 pictureSize) {
+    return std::max(1.0F, std::round(static_cast<float>(pictureSize.y) / 400.0F));
+}
+
+std::vector<Label> helpLabels(float dot) {
+    std::vector<Label> labels;
+    std::size_t widest = 0;
+    for (const std::string_view line : kKeyHelp) widest = std::max(widest, line.size());
+    const float lineHeight = extentInDots("").y * dot;
+    for (const std::string_view line : kKeyHelp) {
+        std::string padded(line);
+        padded.resize(widest, ' ');
+        const float top = lineHeight * static_cast<float>(labels.size() + 1);
+        labels.push_back({{lineHeight, top}, padded});
+    }
+    return labels;
+}
+
+}  // namespace
+
+std::size_t channelIndex(const Rig& rig, const std::string& name) {
+    const auto found = std::ranges::find(rig.channels, name, &Channel::name);
+    if (found == rig.channels.end())
+        throw Error("rig \"" + rig.name + "\" has no channel \"" + name +
+                    "\"; name one that it has");
+    return static_cast<std::size_t>(found - rig.channels.begin());
+}
+
+ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
+    : pattern_{admission.welcome.pattern},
+      school_{admission.welcome.school},
+      frustum_{channelFrustum(admission.rig, channel, kMarginRadians)},
+      map_{projectionMap(warpMap(admission.rig, channel), frustum_)},
+      sceneSize_{scenePictureSize(map_)},
+      patternPass_{frustum_},
+      projection_{map_, admission.rig.channels[channel].id} {
+    if (pattern_ == Pattern::World) {
+        const Species species = parseSpecies(admission.speciesText, "the master's species file");
+        scene_.emplace(
+            SceneOptions{.seed = admission.welcome.seed}, makeBody(species), admission.repertoire);
+    } else {
+        patternPicture_.emplace(GL_RGBA16F, sceneSize_);
+    }
+}
+
+void ChannelPicture::drawScene(const StateFrame& frame, const Overlays& overlays) {
+    frame_ = frame.frame;
+    if (scene_)
+        drawWorld(frame);
+    else
+        drawPattern();
+    glNamedFramebufferTexture(onScene_.name(), GL_COLOR_ATTACHMENT0, sceneTexture_, 0);
+    if (overlays.warpGrid) patternPass_.addGrid(onScene_.name(), sceneSize_);
+    if (overlays.fishIds) drawFishIds(frame);
+}
+
+void ChannelPicture::drawWorld(const StateFrame& frame) {
+    fish_ = presentedFish(frame, school_);
+    const SceneFrame scene{.timeSeconds = presentedSeconds(frame),
+                           .eyePositionMetres = frame.eye.positionMetres,
+                           .worldFromWall = frame.eye.worldFromWall,
+                           .fish = fish_};
+    sceneTexture_ = scene_->draw(scene, viewOf(frame.eye));
+}
+
+void ChannelPicture::drawPattern() {
+    sceneTexture_ = patternPicture_->texture();
+    if (pattern_ == Pattern::Grid)
+        patternPass_.drawGrid(patternPicture_->framebuffer(), sceneSize_);
+    else
+        patternPass_.drawGrey(patternPicture_->framebuffer(), sceneSize_);
+}
+
+// Each number stands on its fish's body frame.
+void ChannelPicture::drawFishIds(const StateFrame& frame) {
+    const View view = viewOf(frame.eye);
+    const glm::mat4 clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+    const float dot = dotPixels(sceneSize_);
+    std::vector<Label> labels;
+    for (const PresentedFish& fish : fish_) {
+        const glm::vec4 clip = clipFromWorld * glm::vec4(fish.positionMetres, 1);
+        if (clip.w <= 0) continue;
+        const glm::vec2 place =
+            (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * glm::vec2(sceneSize_);
+        const std::string text = std::to_string(fish.id);
+        labels.push_back({place - extentInDots(text) * dot / 2.0F, text});
+    }
+    text_.draw(labels, onScene_.name(), sceneSize_, dot);
+}
+
+void ChannelPicture::project(unsigned framebuffer, Encoding encoding, const Overlays& overlays) {
+    projection_.draw({.sceneTexture = sceneTexture_,
+                      .framebuffer = framebuffer,
+                      .frame = frame_,
+                      .encoding = encoding,
+                      .blendMask = overlays.blendMask});
+    if (!overlays.help) return;
+    const float dot = dotPixels(sizePixels());
+    text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
+}
+
+View ChannelPicture::viewOf(const Eye& eye) const {
+    return {.clipFromCamera = clipFromCamera(frustum_, kNearMetres),
+            .cameraFromWorld = glm::mat4(frustum_.cameraFromWall * wallFromWorld(eye)),
+            .sizePixels = sceneSize_};
+}
+
+}  // namespace aquarama

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frames of one channel, from the master's state to light: the drawing thread of a node.
+#pragma once
+
+#include <optional>
+
+#include "render_node/context/context.h"
+#include "render_node/gl/target.h"
+#include "render_node/session/session.h"
+#include "render_node/show/channel_picture.h"
+#include "render_node/show/controls.h"
+#include "render_node/show/node_options.h"
+#include "render_node/show/trace.h"
+
+namespace aquarama {
+
+// Owns GL objects; construct, use and destroy with the context current.
+class ChannelShow {
+  public:
+    ChannelShow(Session& session,
+                Context& context,
+                const Controls& controls,
+                const NodeOptions& options);
+
+    // From the first admission to the end of the show, through every time the master is lost and
+    // found again; then the snapshot.
+    void run(Admission admission);
+
+  private:
+    void build(const Admission& admission);
+    [[nodiscard]] Release play();
+    void draw(const StateFrame& frame);
+    void film(Frame frame);
+
+    Session& session_;
+    Context& context_;
+    const Controls& controls_;
+    NodeOptions options_;
+    Trace trace_;
+    std::optional<Welcome> built_;  // what picture_ was built for
+    std::optional<ChannelPicture> picture_;
+    std::optional<gl::Target> offscreen_;  // where there is no window of the channel's size
+    bool shown_ = false;
+};
+
+}  // namespace aquarama

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/run_node.h"
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "render_node/context/context.h"
+#include "render_node/gl/debug.h"
+#include "render_node/session/session.h"
+#include "render_node/show/channel_show.h"
+#include "render_node/show/controls.h"
+#include "render_node/show/signals.h"
+
+namespace aquarama {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kPatience = 20ms;  // how late the end of the drawing thread may be noticed
+
+std::unique_ptr<Context> openContext(const NodeOptions& options, const Channel& channel) {
+    if (!options.headless)
+        return makeWindowContext(channel.display, "Aquarama " + channel.name, channel.sizePixels);
+    const std::string& device = options.device.empty() ? channel.display.device : options.device;
+    auto context = makeOffscreenContext(device, channel.sizePixels);
+    context->release();
+    return context;
+}
+
+class CurrentContext {
+  public:
+    explicit CurrentContext(Context& context) : context_{context} { context_.makeCurrent(); }
+    ~CurrentContext() { context_.release(); }
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    Context& context_;
+};
+
+// The drawing thread.
+void show(Session& session,
+          Context& context,
+          const Controls& controls,
+          const NodeOptions& options,
+          Admission admission) {
+    const CurrentContext current(context);
+#ifndef NDEBUG
+    gl::logMessages();
+#endif
+    ChannelShow(session, context, controls, options).run(std::move(admission));
+}
+
+}  // namespace
+
+void runNode(const NodeOptions& options) {
+    holdSignals();
+    const std::unique_ptr<Session> session = connectSession(options.channel, options.masterAddress);
+    const SignalWatch watch([&] { session->stop(); });
+    std::optional<Admission> admission = session->join();
+    if (!admission) return;
+    const std::size_t channel = channelIndex(admission->rig, options.channel);
+    const std::unique_ptr<Context> context = openContext(options, admission->rig.channels[channel]);
+    Controls controls(*session);
+    std::future<void> drawing = std::async(std::launch::async, [&] {
+        show(*session, *context, controls, options, std::move(*admission));
+    });
+    while (drawing.wait_for(0s) != std::future_status::ready) {
+        context->pumpEvents(kPatience);
+        while (const std::optional<char> key = context->nextKey()) controls.press(*key);
+    }
+    drawing.get();
+}
+
+}  // namespace aquarama

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/snapshot.h"
+
+#include <filesystem>
+
+#include "common/units/error.h"
+#include "common/wall/png_file.h"
+
+namespace aquarama {
+
+namespace {
+
+template <class Sample>
+Picture takePicture(ChannelPicture& picture, GLenum format, Encoding encoding) {
+    const gl::Target target(format, picture.sizePixels());
+    picture.project(target.framebuffer(), encoding, Overlays{});
+    const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
+    return {
+        picture.sizePixels(), 8 * static_cast<int>(sizeof(Sample)), {pixels.begin(), pixels.end()}};
+}
+
+}  // namespace
+
+void writeSnapshot(const std::string& folder,
+                   const std::string& channel,
+                   ChannelPicture& picture,
+                   PictureBits bits) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure)
+        throw Error(folder + ": cannot be made (" + failure.message() +
+                    "); choose another folder for --snapshot");
+    writePng(folder + "/channel-" + channel + ".png",
+             bits == PictureBits::Deep16
+                 ? takePicture<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain)
+                 : takePicture<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8));
+}
+
+std::string filmFolder(const std::string& folder, Frame frame) {
+    std::string number = std::to_string(frame.value);
+    number.insert(0, std::max<std::size_t>(6, number.size()) - number.size(), '0');
+    return folder + "/film/" + number;
+}
+
+}  // namespace aquarama

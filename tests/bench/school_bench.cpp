@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a tick of the school costs: everything that World::advance does, on one thread.
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "tests/master/world/school_of_synthetic_fish.h"
+
+namespace aquarama {
+namespace {
+
+void schoolTick(benchmark::State& state) {
+    using Clock = std::chrono::steady_clock;
+    const auto fish = static_cast<std::uint32_t>(state.range(0));
+    World world = syntheticWorld(1, fish);
+    for (int i = 0; i < 120; ++i) world.advance();
+    std::vector<double> nanoseconds;
+    for ([[maybe_unused]] auto _ : state) {
+        const auto start = Clock::now();
+        world.advance();
+        const std::chrono::duration<double, std::nano> took = Clock::now() - start;
+        nanoseconds.push_back(took.count());
+    }
+    std::sort(nanoseconds.begin(), nanoseconds.end());
+    double sum = 0;
+    for (const double tick : nanoseconds) sum += tick;
+    const auto ticks = static_cast<double>(nanoseconds.size());
+    state.counters["ns_per_fish"] = sum / ticks / fish;
+    state.counters["p99_us"] = nanoseconds[nanoseconds.size() * 99 / 100] / 1000;
+    state.counters["bytes_per_fish"] = static_cast<double>(world.bytes()) / fish;
+}
+BENCHMARK(schoolTick)->Name("school_tick")->ArgName("fish")->Arg(51)->Arg(1000)->Arg(10000);
+
+}  // namespace
+}  // namespace aquarama

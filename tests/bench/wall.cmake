@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES wall_bench.cpp LINK aquarama_theatre)

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What three projectors throw adds up to one wall: the grid's lines are where a direct render has
+// them, and grey is flat, overlaps included.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "calibration/theatre/compose.h"
+#include "calibration/theatre/measure.h"
+#include "calibration/theatre/projected.h"
+#include "common/config/angle.h"
+#include "common/config/rig.h"
+
+namespace aquarama {
+namespace {
+
+Rig shippedRig(const std::string& name) {
+    return readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
+}
+
+// The large rigs with half as many pixels each way: the same geometry in a quarter of the time.
+Rig testRig(const std::string& name) {
+    Rig rig = shippedRig(name);
+    if (name == "desk") return rig;
+    rig.panoramaPixels /= 2;
+    for (Channel& channel : rig.channels) {
+        channel.sizePixels /= 2;
+        channel.projector.focalPixels /= 2;
+        channel.projector.principalPixels /= 2;
+    }
+    return rig;
+}
+
+std::vector<Light> projected(const Rig& rig, TestPattern pattern) {
+    std::vector<Light> channels;
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        channels.push_back(projectedLight(rig, i, pattern));
+    return channels;
+}
+
+// Through the codes that the channels' pictures are stored in.
+Light composed(const Rig& rig, const std::vector<Light>& projected, int bits) {
+    std::vector<Light> channels;
+    for (std::size_t i = 0; i < projected.size(); ++i)
+        channels.push_back(lightOf(pictureOf(projected[i], bits, static_cast<std::uint32_t>(i))));
+    return composePanorama(rig, channels);
+}
+
+double largest(const std::vector<LineOffset>& offsets) {
+    double worst = 0;
+    for (const LineOffset& line : offsets) worst = std::max(worst, std::abs(line.offsetPixels));
+    return worst;
+}
+
+class OneWall : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Shipped, OneWall, testing::Values("theatre", "touring", "desk"));
+
+TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
+    const Rig rig = testRig(GetParam());
+    const std::vector<Light> channels = projected(rig, TestPattern::Grid);
+    const Light direct = directPanorama(rig, TestPattern::Grid);
+    for (const int bits : {16, 8}) {
+        const auto offsets = lineOffsets(rig, composed(rig, channels, bits), direct);
+        EXPECT_GT(offsets.size(), 5000U);
+        EXPECT_LT(largest(offsets), 0.5) << bits << " bits";
+    }
+}
+
+TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
+    const Rig rig = testRig(GetParam());
+    const std::vector<Light> channels = projected(rig, TestPattern::Grey);
+    const Light deep = composed(rig, channels, 16);
+    EXPECT_LT(unevenness(deep, 1), 0.01);
+    EXPECT_LT(unevenness(composed(rig, channels, 8), 16), 0.01);
+    const glm::ivec2 middle = rig.panoramaPixels / 2;
+    EXPECT_NEAR(static_cast<double>(deep.at(middle.x, middle.y).y), kGreyLight, 1e-4);
+}
+
+// The measures must see what they are there to refuse.
+
+TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
+    const Rig rig = shippedRig("desk");
+    const std::vector<Light> channels = projected(rig, TestPattern::Grid);
+    Rig pushed = rig;
+    pushed.channels[0].projector.yawPitchRollRadians.x += radiansOf(0.1);
+    // The pictures were made for the rig; the hall has the left projector turned by 0.1 degrees.
+    const auto offsets =
+        lineOffsets(rig, composed(pushed, channels, 16), directPanorama(rig, TestPattern::Grid));
+    EXPECT_GT(largest(offsets), 1);
+    for (const LineOffset& line : offsets) {
+        if (!line.upright || line.lineDegrees < -15) continue;  // the middle and right thirds
+        EXPECT_LT(std::abs(line.offsetPixels), 0.1) << line.lineDegrees;
+    }
+}
+
+TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
+    const Rig rig = shippedRig("desk");
+    const Light direct = directPanorama(rig, TestPattern::Grid);
+    Light shifted = direct;
+    for (int y = 0; y < direct.sizePixels.y; ++y)
+        for (int x = 0; x < direct.sizePixels.x; ++x)
+            shifted.at(x, y) = bilinear(direct, {x + 0.5 - 0.75, y + 0.5 + 0.25});
+    const auto offsets = lineOffsets(rig, shifted, direct);
+    ASSERT_FALSE(offsets.empty());
+    for (const LineOffset& line : offsets)
+        EXPECT_NEAR(line.offsetPixels, line.upright ? 0.75 : -0.25, 0.02);
+}
+
+TEST(Measure, aMissingLineIsInfinitelyOff) {
+    const Rig rig = shippedRig("desk");
+    const auto offsets =
+        lineOffsets(rig, darkness(rig.panoramaPixels), directPanorama(rig, TestPattern::Grid));
+    ASSERT_FALSE(offsets.empty());
+    EXPECT_TRUE(std::ranges::all_of(
+        offsets, [](const LineOffset& line) { return std::isinf(line.offsetPixels); }));
+}
+
+TEST(Measure, aSeamOfTwoPerCentIsSeen) {
+    const Rig rig = shippedRig("desk");
+    std::vector<Light> channels = projected(rig, TestPattern::Grey);
+    for (glm::vec3& light : channels[2].rgb) light *= 1.03F;
+    EXPECT_GT(unevenness(composed(rig, channels, 8), 16), 0.015);
+}
+
+// Blending in codes instead of light is the classic mistake: the sum is then too dark.
+TEST(Measure, blendingInCodesInsteadOfLightIsSeen) {
+    const Rig rig = shippedRig("desk");
+    std::vector<Light> channels = projected(rig, TestPattern::Grey);
+    const double greyCode = srgbFromLinear(kGreyLight);
+    for (Light& channel : channels)
+        for (glm::vec3& light : channel.rgb) {
+            const double share = static_cast<double>(light.x) / kGreyLight;
+            light = glm::vec3(static_cast<float>(linearFromSrgb(greyCode * share)));
+        }
+    EXPECT_GT(unevenness(composed(rig, channels, 16), 1), 0.2);
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rig's file is read as written, written as read, and refused at the place of its first mistake.
+#include "common/config/rig.h"
+
+#include <algorithm>
+#include <numbers>
+#include <ostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/config/angle.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+namespace {
+
+const std::string kRig = R"(# A small rig.
+name: "small"
+screen { radius_m: 2 arc_deg: 90 height_m: 1 }
+panorama { width_px: 640 height_px: 200 }
+network {
+  control: "tcp://127.0.0.1:7400"
+  state: "tcp://127.0.0.1:7401"
+}
+timing { refresh_hz: 50 membership_s: 0.5 }
+species: "fish.txtpb"
+fish: 12
+channels {
+  id: 4
+  name: "left"
+  width_px: 320
+  height_px: 240
+  projector { position { x_m: 0.5 y_m: 1 z_m: 0.25 } yaw_deg: 20 pitch_deg: -3 roll_deg: 1.5 focal_x_px: 300 focal_y_px: 310 principal_x_px: 150 principal_y_px: -20 }
+  display { mode: FULLSCREEN monitor: 1 device: "device:2" refresh_hz: 50 }
+}
+channels {
+  id: 5
+  name: "right"
+  width_px: 321
+  height_px: 241
+  projector { position { x_m: -0.5 y_m: 1 z_m: 0.25 } focal_x_px: 300 focal_y_px: 300 }
+  display { mode: WINDOW window_x_px: -10 window_y_px: 30 }
+}
+)";
+
+TEST(Rig, everyValueArrivesInItsPlace) {
+    const Rig rig = parseRig(kRig, "small.txtpb");
+    EXPECT_EQ(rig.name, "small");
+    EXPECT_EQ(rig.screen.radiusMetres, 2);
+    EXPECT_DOUBLE_EQ(rig.screen.arcRadians, std::numbers::pi / 2);
+    EXPECT_EQ(rig.screen.heightMetres, 1);
+    EXPECT_EQ(rig.panoramaPixels, glm::ivec2(640, 200));
+    EXPECT_EQ(rig.controlAddress, "tcp://127.0.0.1:7400");
+    EXPECT_EQ(rig.stateAddress, "tcp://127.0.0.1:7401");
+    EXPECT_EQ(rig.timing.refreshHertz, 50);
+    EXPECT_EQ(rig.timing.membershipSeconds, 0.5);
+    EXPECT_EQ(rig.species, "fish.txtpb");
+    EXPECT_EQ(rig.fish, 12U);
+    ASSERT_EQ(rig.channels.size(), 2U);
+
+    const Channel& left = rig.channels[0];
+    EXPECT_EQ(left.id, 4U);
+    EXPECT_EQ(left.name, "left");
+    EXPECT_EQ(left.sizePixels, glm::ivec2(320, 240));
+    EXPECT_EQ(left.projector.positionMetres, glm::dvec3(0.5, 1, 0.25));
+    EXPECT_EQ(left.projector.yawPitchRollRadians,
+              glm::dvec3(radiansOf(20), radiansOf(-3), radiansOf(1.5)));
+    EXPECT_EQ(left.projector.focalPixels, glm::dvec2(300, 310));
+    EXPECT_EQ(left.projector.principalPixels, glm::dvec2(150, -20));
+    EXPECT_EQ(left.display.mode, DisplayMode::Fullscreen);
+    EXPECT_EQ(left.display.monitor, 1);
+    EXPECT_EQ(left.display.device, "device:2");
+    EXPECT_EQ(left.display.refreshHertz, 50);
+    EXPECT_EQ(left.place.line, 12);
+    EXPECT_EQ(rig.channels[1].display.mode, DisplayMode::Window);
+    EXPECT_EQ(rig.channels[1].display.windowPosition, glm::ivec2(-10, 30));
+}
+
+TEST(Rig, whatIsLeftOutGetsItsDocumentedDefault) {
+    const Rig rig = parseRig(kRig, "small.txtpb");
+    EXPECT_EQ(rig.timing.presentDeadlineSeconds, 1.0 / 50);  // one refresh
+    const Channel& right = rig.channels[1];
+    EXPECT_EQ(right.projector.yawPitchRollRadians, glm::dvec3(0));
+    EXPECT_EQ(right.projector.principalPixels, glm::dvec2(160.5, 120.5));
+    EXPECT_EQ(right.display.device, "auto");
+    EXPECT_FALSE(right.display.refreshHertz.has_value());
+}
+
+TEST(Rig, writtenTextIsReadBackToTheSameBits) {
+    Rig rig = parseRig(kRig, "small.txtpb");
+    for (int tenths = -1799; tenths < 1800; tenths += 7) {  // angles lose bits most easily
+        rig.channels[0].projector.yawPitchRollRadians.x = radiansOf(tenths / 10.0);
+        rig.channels[0].projector.yawPitchRollRadians.y = radiansOf(tenths / 30.0);
+        const Rig back = parseRig(writeRig(rig), "back");
+        ASSERT_EQ(back.channels[0].projector.yawPitchRollRadians,
+                  rig.channels[0].projector.yawPitchRollRadians);
+    }
+    const Rig back = parseRig(writeRig(rig), "back");
+    EXPECT_EQ(writeRig(back), writeRig(rig));
+    EXPECT_EQ(back.screen.arcRadians, rig.screen.arcRadians);
+    EXPECT_EQ(back.timing.presentDeadlineSeconds, rig.timing.presentDeadlineSeconds);
+    EXPECT_EQ(back.channels[1].projector.principalPixels,
+              rig.channels[1].projector.principalPixels);
+}
+
+TEST(Rig, aRoundAngleIsWrittenRound) {
+    for (int tenths = -1800; tenths <= 1800; ++tenths)
+        EXPECT_EQ(degreesOf(radiansOf(tenths / 10.0)), tenths / 10.0);
+}
+
+TEST(Rig, theRigsThatComeWithAquaramaAreValid) {
+    for (const std::string name : {"theatre", "touring", "desk"}) {
+        const Rig rig = readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
+        EXPECT_EQ(rig.name, name);
+        EXPECT_EQ(rig.channels.size(), 3U);
+    }
+}
+
+struct Mistake {
+    std::string name;
+    std::string good, bad;  // `good` is replaced by `bad` in kRig
+    std::string at;   // the error points to the first of this in the mistake's line or after it
+    std::string why;  // and says this
+};
+
+std::ostream& operator<<(std::ostream& out, const Mistake& mistake) {
+    return out << mistake.name;
+}
+
+// file:line:column of a position in a text, by counting: nothing of the parser is used.
+std::string placeOf(const std::string& text, std::size_t position) {
+    const auto line =
+        std::count(text.begin(), text.begin() + static_cast<long>(position), '\n') + 1;
+    const std::size_t before = position == 0 ? std::string::npos : text.rfind('\n', position - 1);
+    const std::size_t start = before == std::string::npos ? 0 : before + 1;
+    return "bad.txtpb:" + std::to_string(line) + ":" + std::to_string(position - start + 1) + ": ";
+}
+
+class BadRig : public testing::TestWithParam<Mistake> {};
+
+TEST_P(BadRig, isRefusedInOneLineThatNamesThePlace) {
+    const Mistake& mistake = GetParam();
+    const std::size_t start = kRig.find(mistake.good);
+    ASSERT_NE(start, std::string::npos);
+    std::string text = kRig;
+    text.replace(start, mistake.good.size(), mistake.bad);
+    const std::size_t wrong =
+        mistake.at.empty() ? 0 : text.find(mistake.at, kRig.rfind('\n', start) + 1);
+    ASSERT_NE(wrong, std::string::npos);
+    try {
+        (void)parseRig(text, "bad.txtpb");
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        const std::string said = error.what();
+        EXPECT_THAT(said, testing::StartsWith(placeOf(text, wrong)));
+        EXPECT_THAT(said, testing::HasSubstr(mistake.why));
+        EXPECT_EQ(said.find('\n'), std::string::npos);
+    }
+}
+
+// `at` empty: the whole file, 1:1.
+INSTANTIATE_TEST_SUITE_P(
+    Rig,
+    BadRig,
+    testing::Values(
+        Mistake{"unknownField", "radius_m: 2", "radius_m: 2 colour: 3", ": 3", "colour"},
+        Mistake{"brokenText", "panorama {", "panorama {{", "{ width", "Expected"},
+        Mistake{"unclosedBrace",
+                "7401\"\n}",
+                "7401\"",
+                "{ refresh_hz: 50 m",
+                "no field named \"timing\""},
+        Mistake{"wrongType", "radius_m: 2", "radius_m: \"2\"", "\"2\"", "Expected"},
+        Mistake{"fieldTwice", "fish: 12", "fish: 12 fish: 13", ": 13", "multiple times"},
+        Mistake{"missingName", "name: \"small\"", "", "", "lacks name"},
+        Mistake{"missingScreen",
+                "screen { radius_m: 2 arc_deg: 90 height_m: 1 }",
+                "",
+                "",
+                "lacks screen"},
+        Mistake{"missingRadius", "screen { radius_m: 2", "screen { ", "screen", "lacks radius_m"},
+        Mistake{"missingFocal",
+                " focal_x_px: 300 focal_y_px: 310",
+                " focal_x_px: 300",
+                "projector",
+                "lacks focal_y_px"},
+        Mistake{"noChannels", kRig.substr(kRig.find("channels")), "", "", "no channels"},
+        Mistake{"radiusZero", "radius_m: 2", "radius_m: 0", "radius_m", "must be from"},
+        Mistake{"radiusNan", "radius_m: 2", "radius_m: nan", "radius_m", "must be from"},
+        Mistake{"arcNegative", "arc_deg: 90", "arc_deg: -90", "arc_deg", "must be from"},
+        Mistake{"arcPastHalfTurn", "arc_deg: 90", "arc_deg: 181", "arc_deg", "must be from"},
+        Mistake{"heightInfinite", "height_m: 1", "height_m: inf", "height_m", "must be from"},
+        Mistake{"windowOfNoWidth", "width_px: 320", "width_px: 0", "width_px", "must be from"},
+        Mistake{"windowOfNoHeight", "height_px: 241", "height_px: 0", "height_px", "must be from"},
+        Mistake{"panoramaTooLarge", "width_px: 640", "width_px: 99999", "width_px", "must be from"},
+        Mistake{"focalZero", "focal_y_px: 310", "focal_y_px: 0", "focal_y_px", "must be from"},
+        Mistake{"noFish", "fish: 12", "fish: 0", "fish", "must be from"},
+        Mistake{"tooManyFish", "fish: 12", "fish: 100001", "fish", "must be from"},
+        Mistake{"idTaken", "id: 5", "id: 4", "id: 4", "taken"},
+        Mistake{"nameTaken", "name: \"right\"", "name: \"left\"", "name", "taken"},
+        Mistake{"nameWithSlash", "name: \"right\"", "name: \"../x\"", "name", "also names files"},
+        Mistake{
+            "monitorTaken", "mode: WINDOW", "mode: FULLSCREEN monitor: 1", "monitor", "already"},
+        Mistake{"bindAnywhere", "tcp://127.0.0.1:7400", "tcp://*:7400", "control: ", "past this"},
+        Mistake{"bindToNetwork",
+                "tcp://127.0.0.1:7401",
+                "tcp://192.168.1.7:7401",
+                "state: ",
+                "past this"},
+        Mistake{"noScheme", "tcp://127.0.0.1:7400", "127.0.0.1:7400", "control: ", "no address"},
+        Mistake{"noPort", "tcp://127.0.0.1:7400", "tcp://127.0.0.1", "control: ", "no address"},
+        Mistake{"portWord", "tcp://127.0.0.1:7400", "tcp://127.0.0.1:x", "control: ", "port"},
+        Mistake{
+            "portTooHigh", "tcp://127.0.0.1:7400", "tcp://127.0.0.1:70000", "control: ", "port"},
+        Mistake{
+            "equalPorts", "tcp://127.0.0.1:7401", "tcp://localhost:7400", "state: ", "one port"},
+        Mistake{"unknownDevice", "device:2", "radeon", "device: ", "unknown device"},
+        Mistake{"deviceWithoutNumber", "device:2", "device:", "device: ", "unknown device"},
+        Mistake{"unknownMode", "mode: WINDOW", "mode: TILED", "window_x_px", "TILED"},
+        Mistake{"noMode", "mode: WINDOW ", "", "display", "lacks mode"},
+        Mistake{
+            "unspecifiedMode", "mode: WINDOW", "mode: MODE_UNSPECIFIED", "mode", "write WINDOW"},
+        Mistake{"impatientMembership",
+                "membership_s: 0.5",
+                "membership_s: 0.01",
+                "membership_s",
+                "shorter"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(Rig, aFileThatIsNotThereIsRefusedByName) {
+    for (const std::string path : {"config/none.txtpb", "config"}) try {
+            (void)readRig(path);
+            ADD_FAILURE() << path << " was read";
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::StartsWith(path + ": "));
+        }
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/net/blob.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace aquarama {
+namespace {
+
+std::vector<std::byte> someBlob(std::size_t size) {
+    std::vector<std::byte> blob(size);
+    for (std::size_t i = 0; i < size; ++i) blob[i] = static_cast<std::byte>(i * 131 % 251);
+    return blob;
+}
+
+class Blob : public testing::Test {
+  protected:
+    Blob()
+        : directory_(std::filesystem::path(testing::TempDir()) /
+                     ("aquarama-blobs-" + std::to_string(getpid()))) {}
+    ~Blob() override { std::filesystem::remove_all(directory_); }
+
+    std::filesystem::path directory_;
+};
+
+TEST_F(Blob, isTheSameAfterChunks) {
+    for (const std::size_t size : {0, 1, 999, 1000, 1001, 12345}) {
+        const auto blob = someBlob(size);
+        BlobAssembly assembly(digestOf(blob));
+        do {
+            const auto chunk = chunkAt(blob, assembly.nextOffset(), 1000);
+            ASSERT_TRUE(assembly.take(assembly.nextOffset(), blob.size(), chunk));
+        } while (!assembly.whole());
+        EXPECT_EQ(assembly.checked(), blob);
+    }
+}
+
+TEST_F(Blob, takesOnlyTheChunkThatComesNext) {
+    const auto blob = someBlob(100);
+    BlobAssembly assembly(digestOf(blob));
+    EXPECT_FALSE(assembly.take(50, 100, chunkAt(blob, 50, 50)));
+    EXPECT_TRUE(assembly.take(0, 100, chunkAt(blob, 0, 50)));
+    EXPECT_FALSE(assembly.take(0, 100, chunkAt(blob, 0, 50)));    // twice
+    EXPECT_FALSE(assembly.take(50, 101, chunkAt(blob, 50, 50)));  // another size now
+    EXPECT_FALSE(assembly.take(50, 100, someBlob(51)));           // past the end
+    EXPECT_FALSE(assembly.take(50, 100, {}));                     // no progress
+    EXPECT_TRUE(assembly.take(50, 100, chunkAt(blob, 50, 50)));
+    EXPECT_EQ(assembly.checked(), blob);
+}
+
+TEST_F(Blob, thatIsNotWhatWasAskedForIsRefusedAndFetchedAfresh) {
+    auto blob = someBlob(100);
+    BlobAssembly assembly(digestOf(blob));
+    blob[63] ^= std::byte{1};
+    ASSERT_TRUE(assembly.take(0, 100, blob));
+    EXPECT_FALSE(assembly.checked());
+    EXPECT_EQ(assembly.nextOffset(), 0U);
+}
+
+TEST_F(Blob, isFoundAgainInTheCache) {
+    const auto blob = someBlob(5000);
+    const BlobCache cache(directory_);
+    EXPECT_FALSE(cache.find(digestOf(blob)));
+    cache.keep(digestOf(blob), blob);
+    EXPECT_EQ(BlobCache(directory_).find(digestOf(blob)), blob);
+}
+
+TEST_F(Blob, alteredInTheCacheIsNotFound) {
+    const auto blob = someBlob(5000);
+    const BlobCache cache(directory_);
+    cache.keep(digestOf(blob), blob);
+    const auto path = directory_ / toHex(digestOf(blob));
+    std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).seekp(77).put('!');
+    EXPECT_FALSE(cache.find(digestOf(blob)));
+    cache.keep(digestOf(blob), blob);  // and is mended by the next fetch
+    EXPECT_EQ(cache.find(digestOf(blob)), blob);
+    std::filesystem::resize_file(path, 100);
+    EXPECT_FALSE(cache.find(digestOf(blob)));
+}
+
+TEST_F(Blob, leavesNothingElseInTheCache) {
+    const BlobCache cache(directory_);
+    cache.keep(digestOf("a"), someBlob(10));
+    cache.keep(digestOf("a"), someBlob(10));
+    const auto files = std::filesystem::directory_iterator(directory_);
+    EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
+TEST_F(Blob, goesWithoutACacheThatCannotBeWritten) {
+    const BlobCache cache("/proc/no/such/place");
+    cache.keep(digestOf("a"), someBlob(10));
+    EXPECT_FALSE(cache.find(digestOf("a")));
+}
+
+}  // namespace
+}  // namespace aquarama

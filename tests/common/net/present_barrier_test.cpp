@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/net/present_barrier.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace aquarama {
+namespace {
+
+using std::chrono::milliseconds;
+using Verdict = PresentBarrier::Verdict;
+
+constexpr std::size_t kLeft = 0, kMiddle = 1, kRight = 2;
+
+// Three nodes, a deadline of 16 ms, membership for 250 ms of silence, patience of 60 s.
+BarrierLimits limits(bool lockstep) {
+    return {lockstep, milliseconds(16), milliseconds(250), std::chrono::seconds(60)};
+}
+
+PresentBarrier drawing(Frame frame, bool lockstep) {
+    PresentBarrier barrier(3, limits(lockstep), milliseconds(0));
+    for (const std::size_t node : {kLeft, kMiddle, kRight}) barrier.join(node, frame);
+    barrier.begin(frame);
+    return barrier;
+}
+
+Instant at(int ms) {
+    return milliseconds(ms);
+}
+
+TEST(PresentBarrier, presentsOnlyWhenTheLastIsReady) {
+    for (const bool lockstep : {false, true}) {
+        PresentBarrier barrier = drawing({4}, lockstep);
+        EXPECT_EQ(barrier.decide(at(1)).verdict, Verdict::Wait);
+        barrier.ready(kRight, {4}, at(2));
+        barrier.ready(kLeft, {4}, at(3));
+        EXPECT_EQ(barrier.decide(at(3)).verdict, Verdict::Wait);
+        barrier.ready(kMiddle, {4}, at(4));
+        EXPECT_EQ(barrier.decide(at(4)).verdict, Verdict::Present);
+    }
+}
+
+TEST(PresentBarrier, aFrameThatIsBegunForgetsWhoWasReadyForTheLast) {
+    PresentBarrier barrier = drawing({4}, false);
+    for (const std::size_t node : {kLeft, kMiddle, kRight}) barrier.ready(node, {4}, at(1));
+    barrier.begin({5});
+    EXPECT_FALSE(barrier.anyReady());
+    EXPECT_EQ(barrier.decide(at(2)).verdict, Verdict::Wait);
+}
+
+TEST(PresentBarrier, theDeadlineCountsFromTheFirstThatIsReady) {
+    PresentBarrier barrier = drawing({0}, false);
+    // However slow the wall: there is nothing to present before somebody is ready.
+    const auto waiting = barrier.decide(at(5000));
+    EXPECT_EQ(waiting.verdict, Verdict::Wait);
+    EXPECT_FALSE(waiting.until);
+    barrier.ready(kLeft, {0}, at(5000));
+    const auto decision = barrier.decide(at(5001));
+    EXPECT_EQ(decision.verdict, Verdict::Wait);
+    EXPECT_EQ(decision.until, at(5016));
+    EXPECT_EQ(barrier.decide(at(5016)).verdict, Verdict::Present);
+}
+
+TEST(PresentBarrier, whoMissesTheDeadlineIsNotWaitedForAgain) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.ready(kLeft, {0}, at(0));
+    barrier.ready(kMiddle, {0}, at(1));
+    ASSERT_EQ(barrier.decide(at(16)).verdict, Verdict::Present);
+    EXPECT_FALSE(barrier.isWaitedFor(kRight));
+    EXPECT_TRUE(barrier.isMember(kRight));
+    EXPECT_EQ(barrier.timesLate(kRight), 1U);
+    barrier.begin({1});
+    barrier.ready(kLeft, {1}, at(20));
+    barrier.ready(kMiddle, {1}, at(20));
+    EXPECT_EQ(barrier.decide(at(20)).verdict, Verdict::Present);
+    EXPECT_EQ(barrier.timesLate(kRight), 1U);
+}
+
+TEST(PresentBarrier, aLateNodeComesBackWhenItIsReadyForTheFrameThatIsDrawn) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.ready(kLeft, {0}, at(0));
+    ASSERT_EQ(barrier.decide(at(16)).verdict, Verdict::Present);
+    barrier.begin({7});
+    barrier.ready(kRight, {7}, at(30));
+    EXPECT_TRUE(barrier.isWaitedFor(kRight));
+    EXPECT_EQ(barrier.decide(at(31)).verdict, Verdict::Wait);  // for the left one
+}
+
+TEST(PresentBarrier, aNodeOnlyJustTooLateIsWaitedForInTheNextFrame) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.ready(kLeft, {0}, at(0));
+    ASSERT_EQ(barrier.decide(at(16)).verdict, Verdict::Present);
+    barrier.begin({1});
+    barrier.ready(kRight, {0}, at(18));
+    EXPECT_TRUE(barrier.isWaitedFor(kRight));
+    EXPECT_FALSE(barrier.anyReady());  // its picture was the last frame's
+    EXPECT_FALSE(barrier.isWaitedFor(kMiddle));
+}
+
+TEST(PresentBarrier, aNodeSeveralFramesBehindStaysOut) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.ready(kLeft, {0}, at(0));
+    ASSERT_EQ(barrier.decide(at(16)).verdict, Verdict::Present);
+    barrier.begin({1});
+    barrier.ready(kLeft, {1}, at(20));
+    barrier.begin({2});
+    barrier.ready(kRight, {0}, at(40));
+    EXPECT_FALSE(barrier.isWaitedFor(kRight));
+}
+
+// Three nodes that need 100 ms a frame, and start 40 ms apart: more than a deadline.
+TEST(PresentBarrier, aSlowSoftwareWallFallsIntoStep) {
+    PresentBarrier barrier = drawing({0}, false);
+    std::vector<int> doneAt = {100, 120, 140};
+    std::vector<std::uint64_t> draws = {0, 0, 0};
+    std::uint64_t frame = 0;
+    for (int now = 0; now < 3000; ++now) {
+        for (std::size_t node = 0; node < 3; ++node) {
+            barrier.heard(node, at(now));
+            if (now == doneAt[node]) barrier.ready(node, {draws[node]}, at(now));
+            // Too late for its own frame: it takes the one that is drawn now.
+            if (now >= doneAt[node] && draws[node] < frame) {
+                draws[node] = frame;
+                doneAt[node] = now + 100;
+            }
+        }
+        if (barrier.decide(at(now)).verdict == Verdict::Present) barrier.begin({++frame});
+    }
+    EXPECT_EQ(doneAt[0], doneAt[1]);
+    EXPECT_EQ(doneAt[1], doneAt[2]);
+    EXPECT_GE(frame, 25U);
+}
+
+TEST(PresentBarrier, aNodeThatIsMerelySlowStaysAMemberWhileItsNetThreadSpeaks) {
+    PresentBarrier barrier = drawing({0}, false);
+    for (int now = 0; now < 10000; now += 50) {
+        for (const std::size_t node : {kLeft, kMiddle, kRight}) barrier.heard(node, at(now));
+        EXPECT_TRUE(barrier.expelSilent(at(now)).empty());
+    }
+}
+
+TEST(PresentBarrier, aSilentNodeIsNoMemberAfterItsTime) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.heard(kLeft, at(200));
+    barrier.heard(kMiddle, at(200));
+    EXPECT_TRUE(barrier.expelSilent(at(250)).empty());
+    EXPECT_EQ(barrier.expelSilent(at(251)), std::vector<std::size_t>{kRight});
+    EXPECT_FALSE(barrier.isMember(kRight));
+    EXPECT_TRUE(barrier.expelSilent(at(252)).empty());
+    barrier.ready(kRight, {0}, at(253));  // what was still on its way does not count
+    EXPECT_FALSE(barrier.anyReady());
+}
+
+TEST(PresentBarrier, theWallGoesOnWhenTheNodeItWaitsForDies) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.heard(kLeft, at(200));
+    barrier.heard(kMiddle, at(200));
+    barrier.ready(kLeft, {0}, at(244));
+    barrier.ready(kMiddle, {0}, at(245));
+    EXPECT_EQ(barrier.decide(at(246)).verdict, Verdict::Wait);
+    EXPECT_EQ(barrier.expelSilent(at(251)).size(), 1U);
+    EXPECT_EQ(barrier.decide(at(251)).verdict, Verdict::Present);
+}
+
+TEST(PresentBarrier, nothingIsPresentedWhenTheOnlyReadyNodeDied) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.ready(kLeft, {0}, at(1));
+    barrier.leave(kLeft);
+    EXPECT_EQ(barrier.decide(at(100)).verdict, Verdict::Wait);
+    EXPECT_TRUE(barrier.isWaitedFor(kMiddle));
+}
+
+TEST(PresentBarrier, aNewcomerIsWaitedForFromTheFirstFrameThatItSees) {
+    PresentBarrier barrier(3, limits(false), at(0));
+    barrier.join(kLeft, {0});
+    barrier.begin({0});
+    EXPECT_FALSE(barrier.hasNewcomer());
+    barrier.join(kRight, {2});
+    EXPECT_FALSE(barrier.isWaitedFor(kRight));
+    EXPECT_TRUE(barrier.hasNewcomer());
+    barrier.begin({1});
+    EXPECT_FALSE(barrier.isWaitedFor(kRight));
+    barrier.begin({2});
+    EXPECT_TRUE(barrier.isWaitedFor(kRight));
+    EXPECT_FALSE(barrier.hasNewcomer());
+}
+
+TEST(PresentBarrier, anEmptyWallIsIdle) {
+    PresentBarrier barrier(3, limits(false), at(0));
+    EXPECT_EQ(barrier.decide(at(9)).verdict, Verdict::Idle);
+    barrier.join(kLeft, {1});
+    barrier.begin({0});
+    EXPECT_EQ(barrier.decide(at(9)).verdict, Verdict::Idle);
+}
+
+TEST(PresentBarrier, lockstepWaitsForNodesThatNeverCameAndNamesTheSilentOne) {
+    PresentBarrier barrier(3, limits(true), at(0));
+    for (const std::size_t node : {kLeft, kRight}) barrier.join(node, {0});
+    EXPECT_FALSE(barrier.allPrepared());
+    barrier.begin({0});
+    for (const std::size_t node : {kLeft, kRight}) barrier.heard(node, at(59000));
+    for (const std::size_t node : {kLeft, kRight}) barrier.ready(node, {0}, at(59000));
+    const auto waiting = barrier.decide(at(59999));
+    EXPECT_EQ(waiting.verdict, Verdict::Wait);
+    EXPECT_EQ(waiting.until, at(60000));
+    const auto decision = barrier.decide(at(60000));
+    EXPECT_EQ(decision.verdict, Verdict::Silent);
+    EXPECT_EQ(decision.node, kMiddle);
+}
+
+TEST(PresentBarrier, lockstepKnowsNoDeadlineAndDropsNobody) {
+    PresentBarrier barrier = drawing({0}, true);
+    barrier.ready(kLeft, {0}, at(1));
+    EXPECT_EQ(barrier.decide(at(30000)).verdict, Verdict::Wait);
+    EXPECT_TRUE(barrier.expelSilent(at(30000)).empty());
+    EXPECT_TRUE(barrier.isMember(kRight));
+}
+
+TEST(PresentBarrier, lockstepWaitsForANodeThatStartsAgain) {
+    PresentBarrier barrier = drawing({3}, true);
+    for (const std::size_t node : {kLeft, kMiddle, kRight}) barrier.ready(node, {3}, at(1));
+    barrier.leave(kMiddle);
+    EXPECT_EQ(barrier.decide(at(2)).verdict, Verdict::Wait);
+    barrier.join(kMiddle, {3});
+    EXPECT_EQ(barrier.decide(at(3)).verdict, Verdict::Wait);
+    barrier.ready(kMiddle, {3}, at(4));
+    EXPECT_EQ(barrier.decide(at(4)).verdict, Verdict::Present);
+}
+
+// Nodes of random speed that freeze, die and come back, ten seconds each: at no instant is a frame
+// presented that somebody in the wait set was not ready for.
+TEST(PresentBarrier, neverPresentsWhatTheWaitSetIsNotReadyFor) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        std::mt19937 random(seed);
+        PresentBarrier barrier = drawing({0}, false);
+        std::vector<std::uint64_t> readyFor(3, UINT64_MAX);
+        std::uint64_t frame = 0;
+        for (int now = 0; now < 10000; ++now) {
+            const std::size_t node = random() % 3;
+            const auto what = random() % 100;
+            if (what < 60) barrier.heard(node, at(now));
+            if (what < 20 && barrier.isMember(node)) {
+                barrier.ready(node, {frame}, at(now));
+                readyFor[node] = frame;
+            }
+            if (what == 99) barrier.leave(node);
+            if (what == 98) barrier.join(node, {frame + 1});
+            static_cast<void>(barrier.expelSilent(at(now)));
+            if (barrier.decide(at(now)).verdict != Verdict::Present) continue;
+            bool anyReady = false;
+            for (std::size_t other = 0; other < 3; ++other) {
+                if (barrier.isWaitedFor(other)) {
+                    EXPECT_EQ(readyFor[other], frame) << "seed " << seed;
+                }
+                anyReady = anyReady || readyFor[other] == frame;
+            }
+            EXPECT_TRUE(anyReady) << "seed " << seed;
+            barrier.begin({++frame});
+        }
+        EXPECT_GT(frame, 100U);
+    }
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rig whose projectors cannot show one wall is refused where it was written.
+#include <cmath>
+#include <cstdio>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/config/angle.h"
+#include "common/units/error.h"
+#include "rigs.h"
+
+namespace aquarama {
+namespace {
+
+std::string refusal(const Rig& rig) {
+    try {
+        checkGeometry(rig, "hall.txtpb");
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+std::string at(SourcePlace place) {
+    return "hall.txtpb:" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": ";
+}
+
+TEST(CheckGeometry, acceptsTheRigsThatComeWithAquarama) {
+    for (const char* name : {"theatre", "touring", "desk"})
+        EXPECT_EQ(refusal(shippedRig(name)), "accepted") << name;
+}
+
+TEST(CheckGeometry, aProjectorThatLooksAwayIsNamedAtItsChannel) {
+    Rig rig = shippedRig("desk");
+    rig.channels[2].projector.yawPitchRollRadians.x = radiansOf(140.8);
+    EXPECT_THAT(refusal(rig),
+                testing::StartsWith(at(rig.channels[2].place) +
+                                    "projector \"right\" misses the screen: aim it"));
+}
+
+TEST(CheckGeometry, aGapBetweenNeighboursIsNamedInDegrees) {
+    Rig rig = shippedRig("desk");
+    rig.channels[1].projector.focalPixels.x *= 1.4;  // 30 degrees wide instead of 42
+    const std::string said = refusal(rig);
+    EXPECT_THAT(said, testing::StartsWith(at(rig.screen.place) + "neighbours leave a gap from "));
+    double from = 0;
+    double to = 0;
+    const std::string degrees = said.substr(said.find(" from "));
+    ASSERT_EQ(
+        std::sscanf(degrees.c_str(), " from %lf degrees left to %lf degrees left", &from, &to), 2);
+    // The left one's light ends where its last column falls, the middle one's where its first does.
+    const auto azimuth = [&](std::size_t channel, double x) {
+        const double middleRow = rig.channels[channel].sizePixels.y / 2.0;
+        const auto point = screenPoint(rig.screen, rig.channels[channel], {x, middleRow});
+        return std::atan2(-point->x, -point->z) / kRadiansPerDegree;
+    };
+    EXPECT_NEAR(from, azimuth(0, rig.channels[0].sizePixels.x), 0.8);
+    EXPECT_NEAR(to, azimuth(1, 0), 0.8);  // the borders lean by as much
+}
+
+TEST(CheckGeometry, aScreenThatReachesPastTheLightIsNamedInDegrees) {
+    Rig rig = shippedRig("theatre");
+    rig.screen.arcRadians = radiansOf(140);
+    EXPECT_THAT(refusal(rig),
+                testing::StartsWith(at(rig.screen.place) +
+                                    "no projector lights the screen from 69.3 degrees left"));
+}
+
+TEST(CheckGeometry, aScreenThatIsTallerThanTheLightIsRefused) {
+    Rig rig = shippedRig("theatre");
+    rig.screen.heightMetres *= 1.1;
+    EXPECT_THAT(refusal(rig), testing::HasSubstr("no projector lights the screen"));
+}
+
+TEST(CheckGeometry, aProjectorForMoreThanAFlatPictureHoldsIsRefused) {
+    Rig rig = axisRig();
+    rig.screen.arcRadians = radiansOf(170);
+    rig.screen.heightMetres = 0.01;
+    rig.channels[0].projector.focalPixels = {2, 2};
+    EXPECT_THAT(refusal(rig), testing::HasSubstr("150.0 degrees"));
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/wire/envelope.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/common/wire/sample_envelopes.h"
+
+// Every byte that the process takes is counted, to prove what a hostile packet may cost.
+namespace {
+std::atomic<std::size_t> taken = 0;
+}
+void* operator new(std::size_t size) {
+    taken += size;
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace aquarama {
+namespace {
+
+// decode(packet) and the memory that it took on the way.
+std::size_t memoryToDecode(std::span<const std::byte> packet) {
+    const std::size_t before = taken;
+    const auto ignored = decode(packet);
+    return taken - before;
+}
+
+std::string nameOf(const Envelope& envelope) {
+    return "message kind " + std::to_string(envelope.message.index());
+}
+
+TEST(Envelope, everyKindComesBackToTheBit) {
+    for (const Envelope& envelope : sampleEnvelopes()) {
+        const Packet packet = encode(envelope);
+        const auto decoded = decode(packet);
+        ASSERT_TRUE(decoded) << nameOf(envelope);
+        EXPECT_EQ(decoded->session, envelope.session);
+        EXPECT_EQ(decoded->message.index(), envelope.message.index());
+        EXPECT_EQ(encode(*decoded), packet) << nameOf(envelope);
+    }
+}
+
+TEST(Envelope, aWelcomeKeepsItsFields) {
+    const Welcome sent = sampleWelcome();
+    const auto decoded = decode(encode({1, sent}));
+    ASSERT_TRUE(decoded);
+    const auto& welcome = std::get<Welcome>(decoded->message);
+    EXPECT_EQ(welcome.rigText, sent.rigText);
+    EXPECT_EQ(welcome.stateAddress, sent.stateAddress);
+    EXPECT_EQ(welcome.seed, sent.seed);
+    EXPECT_EQ(welcome.pace, Pace::Lockstep);
+    EXPECT_EQ(welcome.pattern, Pattern::Grey);
+    EXPECT_EQ(welcome.repertoire, sent.repertoire);
+    ASSERT_EQ(welcome.school.size(), 2U);
+    EXPECT_EQ(welcome.school[1].id, 4000000000U);
+    EXPECT_EQ(welcome.school[1].lengthMillimetres, 65535);
+}
+
+TEST(Envelope, aStateKeepsEveryBitOfEveryFish) {
+    const StateFrame sent = sampleState(1000);
+    const auto decoded = decode(encodeState(9, sent));
+    ASSERT_TRUE(decoded);
+    const auto& state = std::get<StateFrame>(decoded->message);
+    EXPECT_EQ(state.before, sent.before);
+    EXPECT_EQ(state.after, sent.after);
+    EXPECT_EQ(state.frame, sent.frame);
+    EXPECT_EQ(state.tick, sent.tick);
+    EXPECT_EQ(state.fraction, sent.fraction);
+    EXPECT_EQ(state.worldHash, sent.worldHash);
+    EXPECT_EQ(state.eye.positionMetres, sent.eye.positionMetres);
+    EXPECT_EQ(state.eye.worldFromWall, sent.eye.worldFromWall);
+}
+
+TEST(Envelope, aFishCostsItsRecordAndLittleMore) {
+    StateFrame state = sampleState(1000);
+    state.before.clear();
+    state.fraction = 1.0F;
+    EXPECT_LT(encodeState(9, state).size(), 1000 * sizeof(FishRecord) + 100);
+}
+
+TEST(Envelope, noPrefixOfAnEnvelopeIsAnEnvelope) {
+    for (const Envelope& envelope : sampleEnvelopes()) {
+        const Packet packet = encode(envelope);
+        for (std::size_t size = 0; size < packet.size(); ++size) {
+            EXPECT_FALSE(decode(std::span{packet}.first(size))) << nameOf(envelope) << " " << size;
+        }
+    }
+}
+
+TEST(Envelope, alteredBytesNeitherCrashNorCostMemory) {
+    std::mt19937 random(20);
+    for (const Envelope& envelope : sampleEnvelopes()) {
+        const Packet packet = encode(envelope);
+        for (int trial = 0; trial < 3000; ++trial) {
+            Packet altered = packet;
+            for (unsigned change = random() % 4 + 1; change > 0; --change) {
+                altered[random() % altered.size()] = static_cast<std::byte>(random());
+            }
+            ASSERT_LT(memoryToDecode(altered), 64 * altered.size() + 4096) << nameOf(envelope);
+        }
+    }
+}
+
+TEST(Envelope, noiseIsRefused) {
+    std::mt19937 random(21);
+    int accepted = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        Packet noise(random() % 200);
+        for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
+        accepted += decode(noise) ? 1 : 0;
+    }
+    EXPECT_EQ(accepted, 0);
+}
+
+TEST(Envelope, aLargePacketOfTinyObjectsIsRefusedUnread) {
+    // session, then a status reply that holds a million empty nodes: two bytes each on the wire, an
+    // object each in memory.
+    Packet packet = encode({1, StatusRequest{}});
+    packet.resize(9);
+    const std::size_t nodes = 1'000'000;
+    for (const unsigned byte : {0x92U, 0x01U}) packet.push_back(static_cast<std::byte>(byte));
+    for (std::size_t size = 2 * nodes; size > 0; size >>= 7U) {
+        packet.push_back(static_cast<std::byte>((size & 0x7FU) | (size > 0x7FU ? 0x80U : 0U)));
+    }
+    for (std::size_t i = 0; i < nodes; ++i) {
+        packet.push_back(std::byte{0x52});
+        packet.push_back(std::byte{0});
+    }
+    EXPECT_LT(memoryToDecode(packet), 4096U);
+    EXPECT_FALSE(decode(packet));
+}
+
+// Each way in which a state can be well-formed protobuf and still lie.
+TEST(Envelope, aStateThatLiesIsRefused) {
+    const auto refused = [](auto alter) {
+        StateFrame state = sampleState(4);
+        alter(state);
+        return !decode(encodeState(1, state));
+    };
+    const auto nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(refused([](StateFrame&) {}));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.before.pop_back(); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.before.clear(); }));  // but the fraction is not 1
+    EXPECT_TRUE(refused([](StateFrame& s) { s.fraction = 1.01F; }));
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.fraction = nan; }));
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.eye.positionMetres.y = nan; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = kActions; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.before[0].fromSegment = 255; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
+}
+
+TEST(Envelope, namesAreBoundedAndPrintable) {
+    const auto accepted = [](const std::string& name) {
+        return decode(encode({0, Hello{name, kProtocolMajor, ""}})).has_value();
+    };
+    EXPECT_TRUE(accepted(std::string(kMaxNameBytes, 'n')));
+    EXPECT_FALSE(accepted(std::string(kMaxNameBytes + 1, 'n')));
+    EXPECT_FALSE(accepted(""));
+    EXPECT_FALSE(accepted("left\nmaster: all is well"));
+}
+
+TEST(Envelope, aChunkStaysInsideItsBlob) {
+    const auto accepted = [](std::uint64_t offset, std::uint64_t total, std::size_t size) {
+        return decode(encode({1, BlobChunk{{}, offset, total, Packet(size)}})).has_value();
+    };
+    EXPECT_TRUE(accepted(0, kBlobChunkBytes, kBlobChunkBytes));
+    EXPECT_FALSE(accepted(1, kBlobChunkBytes, kBlobChunkBytes));
+    EXPECT_FALSE(accepted(0, kMaxBlobBytes, kBlobChunkBytes + 1));
+    EXPECT_FALSE(accepted(0, kMaxBlobBytes + 1, 1));
+    EXPECT_FALSE(accepted(std::numeric_limits<std::uint64_t>::max(), 2, 1));
+}
+
+TEST(Envelope, aHelloOfAnotherMajorVersionIsReadSoThatItCanBeAnswered) {
+    const auto decoded = decode(encode({0, Hello{"left", kProtocolMajor + 1, "9.0"}}));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(std::get<Hello>(decoded->message).major, kProtocolMajor + 1);
+}
+
+}  // namespace
+}  // namespace aquarama

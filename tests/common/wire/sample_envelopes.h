@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// One envelope of every kind, with something to lose in each field.
+#pragma once
+
+#include <vector>
+
+#include "common/wire/envelope.h"
+
+namespace aquarama {
+
+inline std::vector<FishRecord> sampleRecords(std::uint32_t fish) {
+    std::vector<FishRecord> records;
+    for (std::uint32_t i = 0; i < fish; ++i) {
+        const auto n = static_cast<std::int32_t>(i);
+        records.push_back({n,
+                           -n * 7919,
+                           n << 8,
+                           i * 2654435761U,
+                           ~i,
+                           static_cast<std::uint16_t>(i * 31),
+                           static_cast<std::uint16_t>(i * 57),
+                           static_cast<std::uint8_t>(i % kActions),
+                           static_cast<std::uint8_t>((i + 3) % kActions),
+                           static_cast<std::uint8_t>(i % 8),
+                           8});
+    }
+    return records;
+}
+
+inline StateFrame sampleState(std::uint32_t fish) {
+    StateFrame state;
+    state.frame = {1U << 20U};
+    state.tick = {(std::uint64_t{1} << 40U) + 7};
+    state.fraction = 0.25F;
+    state.eye = {{1.5F, -2.0F, 30.25F}, {0.5F, 0.5F, -0.5F, 0.5F}};
+    state.worldHash = 0xFEDCBA9876543210U;
+    state.before = sampleRecords(fish);
+    state.after = sampleRecords(fish);
+    return state;
+}
+
+inline Welcome sampleWelcome() {
+    Welcome welcome;
+    welcome.rigText = "name: \"desk\"\n# a comment\n";
+    welcome.stateAddress = "tcp://127.0.0.1:7401";
+    welcome.seed = 4000000000U;
+    welcome.pace = Pace::Lockstep;
+    welcome.pattern = Pattern::Grey;
+    welcome.school = {{7, 230}, {4000000000U, 65535}};
+    welcome.species = digestOf("species");
+    welcome.repertoire = digestOf("repertoire");
+    return welcome;
+}
+
+inline std::vector<Envelope> sampleEnvelopes() {
+    const auto chunk = std::vector<std::byte>(100, std::byte{0xA5});
+    StatusReply reply;
+    reply.pace = Pace::Lockstep;
+    reply.paused = true;
+    reply.frame = {99};
+    reply.tick = {98};
+    reply.frameMedianMs = 16.5F;
+    reply.skewP99Ms = 0.75F;
+    reply.refusedPackets = 3;
+    reply.nodes = {{"left", NodeCondition::Late, 4, 1}, {"right", NodeCondition::Absent, 0, 2}};
+    std::vector<Message> messages = {Hello{"left", 3, "0.1.0"},
+                                     Refusal{"no"},
+                                     sampleWelcome(),
+                                     BlobRequest{digestOf("x"), 1U << 18U},
+                                     BlobChunk{digestOf("x"), 50, 200, chunk},
+                                     Prepared{},
+                                     Joined{{65}},
+                                     sampleState(5),
+                                     Beacon{},
+                                     Ready{{12}, ReleaseReport{{11}, -5}},
+                                     Ready{{13}, {}},
+                                     Present{{12}, 123456789012345},
+                                     Dismissed{"silent"},
+                                     Farewell{},
+                                     Ping{-1},
+                                     Pong{-1, 77},
+                                     Input{InputKind::TogglePause},
+                                     StatusRequest{},
+                                     reply};
+    std::vector<Envelope> envelopes;
+    for (Message& message : messages) envelopes.push_back({0x0123456789ABCDEFU, message});
+    return envelopes;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,92 @@
+"""Nodes that die, hang and come back while the show goes on."""
+
+import os
+import signal
+import time
+import unittest
+
+from show import CHANNELS, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+
+
+class LiveShow:
+    """A live show whose processes a test may hurt."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.log = f"{folder}/log"
+        self.rig = rig_on_free_ports(folder)
+        self.processes = {"master": start("master", self.rig, "--trace", folder, log=self.log)}
+        for name in CHANNELS:
+            self.start_node(name)
+
+    def start_node(self, name):
+        self.processes[name] = start("node", name, "--master", control_address(self.rig), "--headless",
+                                     "--trace", self.folder, log=self.log)
+
+    def last_frame(self, name):
+        return max(trace(self.folder, name), default=-1)
+
+    def wait_for_progress(self, names, frames=5, seconds=60):
+        start_frames = {name: self.last_frame(name) for name in names}
+        for name in names:
+            wait_until(lambda: self.last_frame(name) >= start_frames[name] + frames, seconds,
+                       f"{name} to show {frames} more frames\n{open(self.log).read()[-2000:]}")
+
+    def in_step_since(self, names, frame):
+        """Of the frames after `frame` that all of `names` presented: none before all of these were ready."""
+        traces = [trace(self.folder, name) for name in names]
+        shared = sorted(set.intersection(*(set(rows) for rows in traces)) - set(range(frame + 1)))
+        late = [f for f in shared if max(rows[f][1] for rows in traces) > min(rows[f][2] for rows in traces)]
+        return shared, late
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        self.folder = temporary_folder()
+        self.show = LiveShow(self.folder.name)
+        self.show.wait_for_progress(CHANNELS)
+
+    def tearDown(self):
+        end(self.show.processes.values())
+        self.folder.cleanup()
+
+    def back_in_step(self, name):
+        self.show.wait_for_progress([name])
+        joined = max(self.show.last_frame(name) for name in CHANNELS)
+        self.show.wait_for_progress(CHANNELS)
+        wait_until(lambda: len(self.show.in_step_since(CHANNELS, joined)[0]) >= 3, 60, "frames that all three show")
+
+    def test_a_killed_node_is_passed_over_and_returns(self):
+        self.show.processes["left"].send_signal(signal.SIGKILL)
+        self.show.processes["left"].wait()
+        self.show.wait_for_progress(["middle", "right"])
+        self.assertIsNone(self.show.processes["master"].poll())
+        os.rename(f"{self.folder.name}/left.csv", f"{self.folder.name}/left-before.csv")
+        self.show.start_node("left")
+        self.back_in_step("left")
+
+    def test_a_frozen_node_is_passed_over_and_returns(self):
+        self.show.processes["right"].send_signal(signal.SIGSTOP)
+        self.show.wait_for_progress(["left", "middle"], frames=10)
+        self.show.processes["right"].send_signal(signal.SIGCONT)
+        self.back_in_step("right")
+
+    def test_nodes_wait_for_a_master_that_was_killed(self):
+        self.show.processes["master"].send_signal(signal.SIGKILL)
+        self.show.processes["master"].wait()
+        time.sleep(1)
+        for name in CHANNELS:
+            self.assertIsNone(self.show.processes[name].poll(), f"{name} ended with its master")
+        for name in CHANNELS:
+            os.truncate(f"{self.folder.name}/{name}.csv", 0)
+        self.show.processes["master"] = start("master", self.show.rig, log=self.show.log)
+        self.show.wait_for_progress(CHANNELS)
+
+    def test_interrupting_the_master_ends_every_process_cleanly(self):
+        self.show.processes["master"].send_signal(signal.SIGINT)
+        for name, process in self.show.processes.items():
+            self.assertEqual(process.wait(15), 0, name)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real nodes draw the channels of a rig; what they throw on the simulated screen must be one
+// picture.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "calibration/theatre/compose.h"
+#include "calibration/theatre/measure.h"
+#include "calibration/theatre/projected.h"
+#include "calibration/theatre/snapshot.h"
+#include "common/config/rig.h"
+#include "common/wall/wall.h"
+
+namespace aquarama {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A port that nobody listens on at the moment.
+int freePort() {
+    const int descriptor = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    bind(descriptor, reinterpret_cast<sockaddr*>(&address), size);
+    getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
+    close(descriptor);
+    return ntohs(address.sin_port);
+}
+
+// One of config/*.txtpb on ports of its own, its pictures in a folder that goes with it.
+class Installation {
+  public:
+    explicit Installation(const std::string& name)
+        : folder_{fs::temp_directory_path() / ("aquarama-wall-" + name)} {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+        const std::string config = std::string(AQUARAMA_SOURCE_DIR) + "/config/";
+        rig_ = readRig(config + name + ".txtpb");
+        rig_.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
+        rig_.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
+        rig_.species = config + rig_.species;
+        std::ofstream(folder_ / "rig.txtpb") << writeRig(rig_);
+    }
+    ~Installation() { fs::remove_all(folder_); }
+    Installation(const Installation&) = delete;
+    Installation& operator=(const Installation&) = delete;
+
+    // The light of each channel after a run of the show.
+    std::vector<Light> show(const std::string& arguments) const {
+        const std::string command = std::string(getenv("AQUARAMA_BIN")) + "/aquarama run " +
+                                    (folder_ / "rig.txtpb").string() + " --headless --snapshot " +
+                                    folder_.string() + " " + arguments + " > " +
+                                    (folder_ / "log").string() + " 2>&1";
+        EXPECT_EQ(std::system(command.c_str()), 0) << log();
+        return readChannels(rig_, folder_.string());
+    }
+    [[nodiscard]] const Rig& rig() const { return rig_; }
+
+  private:
+    [[nodiscard]] std::string log() const {
+        std::ifstream file(folder_ / "log");
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    fs::path folder_;
+    Rig rig_;
+};
+
+class OneWall : public testing::TestWithParam<const char*> {};
+
+TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
+    const Installation installation(GetParam());
+    const Light composed =
+        composePanorama(installation.rig(), installation.show("--frames 2 --pattern grid --deep"));
+    const auto offsets = lineOffsets(
+        installation.rig(), composed, directPanorama(installation.rig(), TestPattern::Grid));
+    ASSERT_GT(offsets.size(), 500U);
+    double worst = 0;
+    for (const LineOffset& line : offsets) worst = std::max(worst, std::abs(line.offsetPixels));
+    RecordProperty("worst_px", std::to_string(worst));
+    EXPECT_LT(worst, 0.5);
+}
+
+TEST_P(OneWall, flatGreyStaysFlatAcrossTheOverlaps) {
+    const Installation installation(GetParam());
+    const auto deep = installation.show("--frames 2 --pattern grey --deep");
+    EXPECT_LT(unevenness(composePanorama(installation.rig(), deep), 1), 0.01);
+    const auto dithered = installation.show("--frames 2 --pattern grey");
+    EXPECT_LT(unevenness(composePanorama(installation.rig(), dithered), 16), 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));
+
+// The scene as one channel alone shows it on the panorama: its light, freed of its blend.
+class Alone {
+  public:
+    Alone(const Rig& rig, const std::vector<Light>& channels, std::size_t channel)
+        : rig_{rig}, channel_{channel} {
+        std::vector<Light> only = channels;
+        for (std::size_t other = 0; other < only.size(); ++other) {
+            if (other != channel) only[other] = darkness(only[other].sizePixels);
+        }
+        panorama_ = composePanorama(rig, only);
+    }
+    [[nodiscard]] double weight(glm::ivec2 at) const {
+        const glm::dvec2 unrolledAt = (glm::dvec2(at) + 0.5) / glm::dvec2(rig_.panoramaPixels);
+        return blendWeight(rig_, channel_, screenPointAt(rig_.screen, unrolledAt));
+    }
+    [[nodiscard]] double green(glm::ivec2 at) const {
+        return static_cast<double>(panorama_.at(at.x, at.y).g) / weight(at);
+    }
+
+  private:
+    const Rig& rig_;
+    std::size_t channel_;
+    Light panorama_;
+};
+
+// How far the one picture must be moved to lie on the other, by one least-squares step (Lucas and
+// Kanade 1981).
+glm::dvec2 displacement(const Alone& first,
+                        const Alone& second,
+                        const std::vector<glm::ivec2>& overlap) {
+    glm::dmat2 normal(0.0);
+    glm::dvec2 right(0.0);
+    for (const glm::ivec2 at : overlap) {
+        const glm::dvec2 slope{
+            (first.green(at + glm::ivec2(1, 0)) - first.green(at - glm::ivec2(1, 0))) / 2,
+            (first.green(at + glm::ivec2(0, 1)) - first.green(at - glm::ivec2(0, 1))) / 2};
+        normal += glm::outerProduct(slope, slope);
+        right += slope * (first.green(at) - second.green(at));
+    }
+    return glm::inverse(normal) * right;
+}
+
+TEST(Neighbours, showTheSameFishAtTheSamePlaceOfTheScreen) {
+    const Installation installation("touring");  // its overlaps are wide
+    const Rig& rig = installation.rig();
+    const auto channels = installation.show("--frames 6 --fish 2000 --deep");
+    for (std::size_t left = 0; left + 1 < rig.channels.size(); ++left) {
+        const Alone first(rig, channels, left);
+        const Alone second(rig, channels, left + 1);
+        std::vector<glm::ivec2> overlap;
+        for (int y = 4; y < rig.panoramaPixels.y - 4; y += 2) {
+            for (int x = 4; x < rig.panoramaPixels.x - 4; x += 2) {
+                if (std::min(first.weight({x, y}), second.weight({x, y})) > 0.25)
+                    overlap.emplace_back(x, y);
+            }
+        }
+        ASSERT_GT(overlap.size(), 2000U);
+        const glm::dvec2 moved = displacement(first, second, overlap);
+        EXPECT_LT(glm::length(moved), 0.25) << "channels " << left << " and " << left + 1;
+    }
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,100 @@
+"""Starts real shows for the end-to-end tests: real processes, real sockets, EGL without a display."""
+
+import csv
+import os
+import re
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BIN = Path(os.environ.get("AQUARAMA_BIN", ROOT / "build/dev/bin"))
+CHANNELS = ["left", "middle", "right"]
+
+
+def free_ports(count):
+    """Ports that nobody listens on at the moment."""
+    sockets = [socket.socket() for _ in range(count)]
+    for s in sockets:
+        s.bind(("127.0.0.1", 0))
+    ports = [s.getsockname()[1] for s in sockets]
+    for s in sockets:
+        s.close()
+    return ports
+
+
+def rig_on_free_ports(folder, rig="desk", replace=()):
+    """A copy of config/RIG.txtpb with ports of its own and other (pattern, text) replacements; returns its path."""
+    text = (ROOT / f"config/{rig}.txtpb").read_text()
+    ports = iter(free_ports(8))
+    text = re.sub(r"(tcp://127\.0\.0\.1:)\d+", lambda match: match.group(1) + str(next(ports)), text)
+    text = text.replace("species/", str(ROOT / "config/species") + "/")
+    for pattern, replacement in replace:
+        text, count = re.subn(pattern, replacement, text)
+        assert count, f"{pattern} is not in config/{rig}.txtpb"
+    path = Path(folder) / f"{rig}.txtpb"
+    path.write_text(text)
+    return path
+
+
+def control_address(rig):
+    return re.search(r"tcp://127\.0\.0\.1:\d+", Path(rig).read_text()).group(0)
+
+
+def aquarama(*arguments, **options):
+    """Runs the command to its end; a hang is a failure."""
+    options.setdefault("timeout", 120)
+    environment = os.environ | {"LP_NUM_THREADS": "1"} | options.pop("environment", {})
+    command = [str(BIN / "aquarama"), *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, cwd=ROOT, **options)
+
+
+def start(program, *arguments, log=None):
+    """Starts aquarama-PROGRAM; its output goes to `log`."""
+    output = open(log, "a") if log else subprocess.DEVNULL
+    environment = os.environ | {"LP_NUM_THREADS": "1"}
+    return subprocess.Popen([str(BIN / f"aquarama-{program}"), *map(str, arguments)],
+                            stdout=output, stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
+
+
+def end(processes, within=10):
+    """Ends what still runs."""
+    for process in processes:
+        if process.poll() is None:
+            process.send_signal(signal.SIGCONT)
+            process.terminate()
+    for process in processes:
+        try:
+            process.wait(within)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def trace(folder, name):
+    """frame -> (state_ns, ready_ns, present_ns); what a frame lacks is None. A line being written is left out."""
+    rows = {}
+    path = Path(folder) / f"{name}.csv"
+    if not path.exists():
+        return rows
+    for row in csv.reader(path.read_text().splitlines()):
+        if len(row) == 4 and row[0].isdigit():
+            rows[int(row[0])] = tuple(int(cell) if cell else None for cell in row[1:])
+    return rows
+
+
+def wait_until(condition, seconds, what):
+    """Polls: the deadline is generous, and only a hang meets it."""
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        if condition():
+            return
+        time.sleep(0.05)
+    raise AssertionError(f"waited {seconds} s in vain for: {what}")
+
+
+def temporary_folder():
+    return tempfile.TemporaryDirectory(prefix="aquarama-")

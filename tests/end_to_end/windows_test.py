@@ -1,0 +1,106 @@
+"""Three windows side by side on a display, and the keys that steer them."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from show import BIN, CHANNELS, ROOT, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+
+
+class Display:
+    """A display without a screen."""
+
+    def __init__(self):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x700x24", "-nolisten", "tcp"],
+                                       pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as number:
+            self.name = ":" + number.readline().strip()
+        self.environment = os.environ | {"DISPLAY": self.name, "LP_NUM_THREADS": "1"}
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+    def windows(self):
+        """title -> (x, y, width, height) of every Aquarama window on it."""
+        tree = subprocess.run(["xwininfo", "-root", "-tree"], env=self.environment, capture_output=True, text=True).stdout
+        found = re.findall(r'(0x[0-9a-f]+) "(.*[Aa]quarama.*)".*?(\d+)x(\d+)\+-?\d+\+-?\d+ +\+(-?\d+)\+(-?\d+)', tree)
+        return {title: (int(x), int(y), int(w), int(h), window) for window, title, w, h, x, y in found}
+
+    def press(self, window, key):
+        subprocess.run(["xdotool", "windowfocus", "--sync", window, "key", "--window", window, key],
+                       env=self.environment, check=True, timeout=20)
+
+    def screenshot(self):
+        """The root window as rows of (r, g, b)."""
+        dump = subprocess.run(["xwd", "-root", "-silent"], env=self.environment, capture_output=True, check=True).stdout
+        header = [int.from_bytes(dump[i:i + 4], "big") for i in range(0, 100, 4)]
+        width, height, line, colours = header[4], header[5], header[12], header[19]
+        start_of_pixels = header[0] + colours * 12
+        def pixel(x, y):
+            at = start_of_pixels + y * line + 4 * x
+            return dump[at + 2], dump[at + 1], dump[at]
+        return width, height, pixel
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool") and shutil.which("xwd"),
+                     "Xvfb, xdotool and xwd (x11-apps) are needed to test windows")
+class Windows(unittest.TestCase):
+    def setUp(self):
+        self.display = Display()
+        self.folder = temporary_folder()
+        self.rig = rig_on_free_ports(self.folder.name)
+        self.show = None
+
+    def tearDown(self):
+        if self.show:
+            end([self.show])
+        self.display.close()
+        self.folder.cleanup()
+
+    def run_show(self, *arguments):
+        self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name, *map(str, arguments)],
+                                     env=self.display.environment, cwd=ROOT, stdout=subprocess.DEVNULL,
+                                     stderr=open(f"{self.folder.name}/log", "w"))
+        wait_until(lambda: len(self.display.windows()) == 3 or self.show.poll() is not None, 60, "three windows")
+        self.assertIsNone(self.show.poll(), open(f"{self.folder.name}/log").read())
+
+    def frames_shown(self):
+        return max((max(trace(self.folder.name, name), default=-1) for name in CHANNELS), default=-1)
+
+    def test_three_windows_side_by_side_show_the_world(self):
+        self.run_show("--frames", 60)
+        windows = sorted(self.display.windows().values())
+        for (x, _, width, _, _), (next_x, *_) in zip(windows, windows[1:]):
+            self.assertLessEqual(x + width, next_x, "windows overlap")
+        wait_until(lambda: self.frames_shown() >= 10, 60, "ten frames")
+        _, _, pixel = self.display.screenshot()
+        for x, y, width, height, _ in windows:
+            colours = {pixel(x + i * width // 24, y + j * height // 18) for i in range(2, 23) for j in range(2, 17)}
+            self.assertGreater(len(colours), 50, "a window shows a flat picture")
+        self.assertEqual(self.show.wait(90), 0)
+
+    def test_keys(self):
+        self.run_show()
+        wait_until(lambda: self.frames_shown() >= 3, 60, "the first frames")
+        window = sorted(self.display.windows().values())[1][4]
+        before = self.display.screenshot()
+        for key in ("w", "b", "i", "h"):
+            self.display.press(window, key)
+        time.sleep(2)
+        x, y, width, height, _ = sorted(self.display.windows().values())[1]
+        after = self.display.screenshot()
+        changed = sum(before[2](i, j) != after[2](i, j) for i in range(x, x + width, 7) for j in range(y, y + height, 7))
+        self.assertGreater(changed, 20, "grid, blend mask, fish ids and help change the picture")
+        self.display.press(window, "q")
+        self.assertEqual(self.show.wait(30), 0, "q ends the whole show cleanly")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Schools for tests: fish strewn through a region by a hash, so that every run sees the same ones.
+#pragma once
+
+#include <cstdint>
+
+#include "common/place/noise.h"
+#include "common/place/place.h"
+#include "master/behaviour/angle.h"
+#include "master/behaviour/school_view.h"
+
+namespace aquarama {
+
+inline glm::vec3 scatteredPoint(std::uint32_t hash) {
+    return {signedUnitOf(hashOf(hash, 0)),
+            signedUnitOf(hashOf(hash, 1)),
+            signedUnitOf(hashOf(hash, 2))};
+}
+
+inline SchoolView scatteredSchool(std::uint32_t seed, std::size_t fish, const Region& region) {
+    SchoolView view;
+    view.resize(fish);
+    for (std::size_t i = 0; i < fish; ++i) {
+        const std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(i));
+        const glm::vec3 position = region.centre + scatteredPoint(hash) * region.halfExtent;
+        const glm::vec3 heading = directionOf(scatteredPoint(~hash), {1, 0, 0});
+        view.x[i] = position.x;
+        view.y[i] = position.y;
+        view.z[i] = position.z;
+        view.headingX[i] = heading.x;
+        view.headingY[i] = heading.y;
+        view.headingZ[i] = heading.z;
+        view.speed[i] = 0.4F;
+        view.length[i] = 0.24F;
+    }
+    return view;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/ticker.h"
+
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+#include "master/conductor/meters.h"
+#include "master/conductor/status.h"
+#include "tests/support/stage.h"
+
+namespace aquarama {
+namespace {
+
+Snapshot next(Ticker& ticker) {
+    while (true) {  // the suite's budget would stop it
+        if (auto snapshot = ticker.take()) return *snapshot;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+TEST(Ticker, lockstepGivesEveryTickOnceAndStopsAtTheLast) {
+    CountingWorld world;
+    std::atomic<int> calls = 0;
+    Ticker ticker(world, Pace::Lockstep, Tick{30}, [&] { ++calls; });
+    for (std::uint64_t tick = 0; tick <= 30; ++tick) {
+        const Snapshot snapshot = next(ticker);
+        EXPECT_EQ(snapshot.tick, Tick{tick});
+        EXPECT_EQ(snapshot.hash, CountingWorld::hashAt({tick}));
+        EXPECT_EQ(snapshot.fish.at(0).x, static_cast<int>(tick));
+    }
+    while (calls < 31) std::this_thread::yield();
+    EXPECT_FALSE(ticker.take());
+    EXPECT_EQ(world.tick(), Tick{30});
+}
+
+TEST(Ticker, lockstepRunsNoFurtherAheadThanAFewTicks) {
+    CountingWorld world;
+    std::atomic<int> calls = 0;
+    {
+        const Ticker ticker(world, Pace::Lockstep, {}, [&] { ++calls; });
+        while (calls < 4) std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_LE(world.tick().value, Timeline::kKept);
+}
+
+TEST(Ticker, liveTicksAreDueOnePeriodApartWhateverTheirDelay) {
+    CountingWorld world;
+    Ticker ticker(world, Pace::Live, {}, [] {});
+    Snapshot last = next(ticker);
+    for (int tick = 1; tick < 10; ++tick) {
+        const Snapshot snapshot = next(ticker);
+        EXPECT_EQ(snapshot.tick.value, last.tick.value + 1);
+        if (snapshot.due != last.due + kTickPeriod) {
+            // Only a machine that stood still for a quarter of a second may put it off.
+            EXPECT_GT(snapshot.due - last.due, 15 * kTickPeriod);
+        }
+        last = snapshot;
+    }
+}
+
+TEST(Ticker, aPausePutsOffAllThatIsDue) {
+    CountingWorld world;
+    Ticker ticker(world, Pace::Live, {}, [] {});
+    next(ticker);
+    ticker.togglePause();
+    EXPECT_TRUE(ticker.paused());
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    while (ticker.take()) {
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    EXPECT_FALSE(ticker.take());
+    const Instant resumed = monotonicNow();
+    ticker.togglePause();
+    EXPECT_GE(next(ticker).due, resumed);
+}
+
+TEST(Ticker, endsWhileItWaits) {
+    CountingWorld world;
+    for (const Pace pace : {Pace::Live, Pace::Lockstep}) {
+        Ticker ticker(world, pace, {}, [] {});
+        if (pace == Pace::Live) ticker.togglePause();
+    }
+}
+
+TEST(RecentTimes, giveQuantilesOfTheLastTenSeconds) {
+    RecentTimes times;
+    EXPECT_EQ(times.quantileMs(0.5), 0.0F);
+    for (int ms = 1000; ms > 0; --ms) times.add(std::chrono::milliseconds(ms));
+    EXPECT_NEAR(times.quantileMs(0.0), 1.0F, 1e-3F);
+    EXPECT_NEAR(times.quantileMs(0.5), 300.0F, 1.0F);  // of 1 .. 600
+    EXPECT_NEAR(times.quantileMs(1.0), 600.0F, 1e-3F);
+}
+
+TEST(SkewMeter, measuresLatestMinusEarliestOfEachFrameInAnyOrder) {
+    SkewMeter meter;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) {
+        meter.add({{frame}, 2'000'000});
+        meter.add({{frame}, 5'000'000});
+        if (frame > 0) meter.add({{frame - 1}, 1'000'000});  // a late report
+    }
+    EXPECT_FLOAT_EQ(meter.skews().quantileMs(0.5), 4.0F);
+}
+
+TEST(SkewMeter, oneNodeAloneHasNoSkew) {
+    SkewMeter meter;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) meter.add({{frame}, 7});
+    EXPECT_EQ(meter.skews().quantileMs(1.0), 0.0F);
+}
+
+TEST(Status, saysWhenNoMasterAnswers) {
+    const auto free = bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*")->controlAddress();
+    EXPECT_THROW(static_cast<void>(runStatus(free)), Error);
+}
+
+}  // namespace
+}  // namespace aquarama

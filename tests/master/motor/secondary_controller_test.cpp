@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/motor/secondary_controller.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "master/behaviour/angle.h"
+
+namespace aquarama {
+namespace {
+
+// The bigeye scad's gaits in round numbers.
+Gaits scadGaits() {
+    return {{2185, 3277, 5461, 3277, 993, 3277, 993},
+            {1.0F, 2.0F, 2.6F, 1.7F, 1.5F, 1.7F, 1.5F},
+            {0, 0, 0, 0.26F, 0.96F, -0.26F, -0.96F}};
+}
+
+// One fish that heads along +x and whose intention the test sets.
+struct Mind {
+    Mind() {
+        view.resize(1);
+        states.resize(1);
+        commands.resize(1);
+        intentions.resize(1);
+        memory.resize(1);
+        view.headingX[0] = 1;
+        startCommands(gaits, 1, commands, memory);
+        want(0, 2.0F);
+    }
+    void want(float degreesToTheLeft, float speed, float urgency = 0) {
+        const float angle = degreesToTheLeft * kRadiansPerDegree;
+        intentions.directionX[0] = std::cos(angle);
+        intentions.directionZ[0] = -std::sin(angle);
+        intentions.speed[0] = speed;
+        intentions.urgency[0] = urgency;
+    }
+    // Thinks once; the motor is taken to follow at once.
+    Action think() {
+        SecondaryController{&gaits, &view, &intentions, &states, 1, {tick}, &commands, &memory}.run(
+            0, 1);
+        tick += kTicksBetweenThoughts;
+        states.segment[0] = commands.segment[0];
+        return static_cast<Action>(commands.segment[0]);
+    }
+    Action thinkFor(int thoughts) {
+        for (int i = 1; i < thoughts; ++i) think();
+        return think();
+    }
+
+    Gaits gaits = scadGaits();
+    SchoolView view;
+    MotionStates states;
+    MotorCommands commands;
+    Intentions intentions;
+    ControllerMemory memory;
+    std::uint64_t tick = 0;
+};
+
+TEST(SecondaryController, aWantedSpeedBecomesSlowMediumOrFast) {
+    for (const auto& [speed, gait] : {std::pair{0.9F, Action::ForwardSlow},
+                                      std::pair{2.0F, Action::ForwardMedium},
+                                      std::pair{2.8F, Action::ForwardFast}}) {
+        Mind mind;
+        mind.want(0, speed);
+        EXPECT_EQ(mind.thinkFor(8), gait) << speed;
+    }
+}
+
+TEST(SecondaryController, aGaitIsPlayedFasterOrSlowerButByFifteenPercentAtMost) {
+    for (float speed = 0.6F; speed < 3.2F; speed += 0.05F) {
+        Mind mind;
+        mind.want(0, speed);
+        const auto action = static_cast<std::size_t>(mind.thinkFor(8));
+        const double rate = mind.commands.phaseRate[0] * 1.0 / mind.gaits.phaseRate[action];
+        EXPECT_GE(rate, 0.849);
+        EXPECT_LE(rate, 1.151);
+    }
+    Mind mind;
+    const float stretch = tempoOf(1, 0) + 0.05F;
+    mind.want(0, 2.0F * stretch);
+    mind.thinkFor(8);
+    EXPECT_NEAR(mind.commands.phaseRate[0], stretch * 3277, 2);
+}
+
+TEST(SecondaryController, aWantedCourseBecomesAGradualOrASharpTurnToItsSide) {
+    for (const auto& [degrees, action] : {std::pair{40.0F, Action::TurnLeftGradual},
+                                          std::pair{-40.0F, Action::TurnRightGradual},
+                                          std::pair{110.0F, Action::TurnLeftSharp},
+                                          std::pair{-110.0F, Action::TurnRightSharp}}) {
+        Mind mind;
+        mind.want(degrees, 2.0F);
+        EXPECT_EQ(mind.think(), action) << degrees;
+    }
+}
+
+TEST(SecondaryController, aSmallErrorOfCourseIsSteeredWithinTheStroke) {
+    Mind mind;
+    mind.want(10, 2.0F);
+    EXPECT_TRUE(isForward(mind.think()));
+    EXPECT_GT(mind.commands.yawRate[0], 0);
+    mind.want(-10, 2.0F);
+    EXPECT_TRUE(isForward(mind.think()));
+    EXPECT_LT(mind.commands.yawRate[0], 0);
+}
+
+TEST(SecondaryController, inDangerItTurnsSharplyEarlier) {
+    Mind calm;
+    calm.want(60, 2.0F);
+    EXPECT_EQ(calm.think(), Action::TurnLeftGradual);
+    Mind alarmed;
+    alarmed.want(60, 2.0F, 1.5F);
+    EXPECT_EQ(alarmed.think(), Action::TurnLeftSharp);
+}
+
+TEST(SecondaryController, aTurnThatBeganIsFinishedOnItsSide) {
+    Mind mind;
+    mind.want(30, 2.0F);
+    mind.think();
+    mind.want(10, 2.0F);  // would not begin a turn
+    EXPECT_EQ(mind.think(), Action::TurnLeftGradual);
+    mind.want(3, 2.0F);
+    EXPECT_TRUE(isForward(mind.think()));
+}
+
+TEST(SecondaryController, backwardsItKeepsTheSideOfTheTurnItIsIn) {
+    Mind mind;
+    mind.want(170, 2.0F);
+    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
+    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftGradual);
+    mind.want(-175, 2.0F);
+    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
+}
+
+TEST(SecondaryController, afterASharpTurnWhatItWillHaveDoneCounts) {
+    Mind mind;
+    mind.want(90, 2.0F);
+    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
+    mind.states.phase[0] = 0;  // just begun: 55 of the 57 degrees are still to come
+    mind.want(57, 2.0F);
+    EXPECT_TRUE(isForward(mind.think())) << "one sharp turn is enough";
+}
+
+TEST(SecondaryController, aSharpTurnKeepsItsTempoUntilItsLastTick) {
+    Mind mind;
+    mind.want(90, 2.0F);
+    mind.think();
+    const std::uint16_t turnRate = mind.commands.phaseRate[0];
+    mind.want(0, 2.0F);
+    mind.think();
+    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftSharp);  // plays on
+    mind.states.phase[0] = 60000;
+    mind.think();
+    EXPECT_EQ(mind.commands.phaseRate[0], turnRate);
+    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftSharp);
+    mind.states.phase[0] = 65000;
+    ++mind.tick;  // not its turn to think
+    mind.think();
+    EXPECT_NEAR(mind.commands.phaseRate[0], 3277, 0.16 * 3277) << "what follows swims on";
+}
+
+TEST(SecondaryController, aSpeedAboutABorderDoesNotDither) {
+    Mind mind;
+    int switches = 0;
+    Action last = mind.think();
+    for (int i = 0; i < 25; ++i) {  // less than the shortest patience
+        mind.want(0, i % 2 == 0 ? 1.45F : 1.55F);
+        const Action next = mind.think();
+        switches += next == last ? 0 : 1;
+        last = next;
+    }
+    EXPECT_LE(switches, 1);
+}
+
+TEST(SecondaryController, oneWhoSwamOnePatternForLongChangesItForAWhile) {
+    Mind mind;
+    std::set<Action> seen;
+    int elsewhere = 0;
+    for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {  // two minutes
+        mind.want(0, 1.6F);
+        const Action action = mind.think();
+        seen.insert(action);
+        elsewhere += action == Action::ForwardMedium ? 0 : 1;
+    }
+    EXPECT_GE(seen.size(), 3U);
+    EXPECT_GT(elsewhere, 20);
+}
+
+TEST(SecondaryController, theIntentionMayRefuseARecommendation) {
+    Mind mind;
+    for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {
+        mind.want(0, 2.0F, 0.5F);  // a little too near to something
+        EXPECT_EQ(mind.think(), Action::ForwardMedium);
+    }
+}
+
+TEST(SecondaryController, temposDifferByTenPercentAtMost) {
+    float slowest = 9, fastest = 0;
+    for (std::size_t fish = 0; fish < 200; ++fish) {
+        slowest = std::min(slowest, tempoOf(1, fish));
+        fastest = std::max(fastest, tempoOf(1, fish));
+    }
+    EXPECT_GE(slowest, 0.9F);
+    EXPECT_LE(fastest, 1.1F);
+    EXPECT_GT(fastest - slowest, 0.15F);
+}
+
+}  // namespace
+}  // namespace aquarama

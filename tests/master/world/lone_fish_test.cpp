@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// A single fish that is lured to where it may not go.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include "master/behaviour/angle.h"
+#include "master/behaviour/perception.h"
+#include "master/motor/secondary_controller.h"
+#include "tests/master/world/school_of_synthetic_fish.h"
+
+namespace aquarama {
+namespace {
+
+class LoneFish {
+  public:
+    LoneFish(Surroundings surroundings, glm::vec3 start, glm::vec3 lure)
+        : surroundings_(std::move(surroundings)),
+          grid_(surroundings_.water, kCellMetres, 1),
+          goal_{lure, {}} {
+        view_.resize(1);
+        states_.resize(1);
+        commands_.resize(1);
+        intentions_.resize(1);
+        memory_.resize(1);
+        view_.length[0] = 0.24F;
+        setBodyFrame(states_, 0, {start, {1, 0, 0, 0}});  // heads along +x
+        states_.segment[0] = static_cast<std::uint8_t>(Action::ForwardMedium);
+        startCommands(gaits_, 1, commands_, memory_);
+    }
+
+    glm::vec3 swim() {
+        const glm::vec3 position = bodyFrameOf(states_, 0).position;
+        const glm::vec3 heading = meanRotation(*tables_, states_, 0) * glm::vec3{1, 0, 0};
+        view_.x[0] = position.x;
+        view_.y[0] = position.y;
+        view_.z[0] = position.z;
+        view_.headingX[0] = heading.x;
+        view_.headingY[0] = heading.y;
+        view_.headingZ[0] = heading.z;
+        view_.speed[0] = 2 * view_.length[0];
+        grid_.rebuild(view_);
+        Steering{&view_, &grid_, &surroundings_, goal_, 0.3F, 1, tick_, &intentions_}.run(0, 1);
+        SecondaryController{&gaits_, &view_, &intentions_, &states_, 1, tick_, &commands_, &memory_}
+            .run(0, 1);
+        MotorStep{tables_.get(), traits_, &commands_, &states_, 0, 1}.run();
+        ++tick_.value;
+        return bodyFrameOf(states_, 0).position;
+    }
+
+  private:
+    std::shared_ptr<const MotorTables> tables_ = syntheticTables();
+    Gaits gaits_ = gaitsOf(*tables_);
+    std::array<FishTraits, 1> traits_{{{0, 240}}};
+    Surroundings surroundings_;
+    NeighbourGrid grid_;
+    Goal goal_;
+    SchoolView view_;
+    MotionStates states_;
+    MotorCommands commands_;
+    Intentions intentions_;
+    ControllerMemory memory_;
+    Tick tick_;
+};
+
+const Surroundings kOpenWater{3, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
+
+TEST(LoneFish, turnsInTimeBeforeEveryWall) {
+    for (const glm::vec3 lure : {glm::vec3{20, -5, -5},
+                                 glm::vec3{-20, -5, -5},
+                                 glm::vec3{0, -5, 15},
+                                 glm::vec3{0, -5, -25},
+                                 glm::vec3{0, 5, -5},
+                                 glm::vec3{0, -15, -5}}) {
+        LoneFish fish(kOpenWater, kOpenWater.water.centre, lure);
+        for (int tick = 0; tick < 60 * 60; ++tick) {
+            const glm::vec3 out =
+                glm::abs(fish.swim() - kOpenWater.water.centre) - kOpenWater.water.halfExtent;
+            ASSERT_LT(std::max({out.x, out.y, out.z}), 0.25F)
+                << "lured to " << lure.x << " " << lure.y << " " << lure.z << ", tick " << tick;
+        }
+    }
+}
+
+TEST(LoneFish, goesRoundARockOnItsWay) {
+    for (const float aside : {-0.4F, -0.1F, 0.0F, 0.2F, 0.5F}) {
+        Surroundings surroundings = kOpenWater;
+        surroundings.rocks = {{{0.5F, -5, -5 + aside}, 0.6F, 1}};
+        LoneFish fish(surroundings, {-2.5F, -5, -5}, {2.5F, -5, -5});
+        float nearest = 99;
+        float farthest = -99;
+        for (int tick = 0; tick < 30 * 60; ++tick) {
+            const glm::vec3 position = fish.swim();
+            nearest = std::min(nearest, lengthOf(position - surroundings.rocks[0].centre));
+            farthest = std::max(farthest, position.x);
+        }
+        EXPECT_GT(nearest, 0.6F) << "rock " << aside << " m aside";
+        EXPECT_GT(farthest, 1.5F) << "and it gets past";
+    }
+}
+
+}  // namespace
+}  // namespace aquarama

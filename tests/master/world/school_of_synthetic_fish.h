@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Worlds for tests: the school as on the wall, moved by closed-form segments that are as quick and
+// as agile as the bigeye scad's.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <numbers>
+
+#include "common/motion/motor.h"
+#include "master/world/world.h"
+#include "tests/support/synthetic_repertoire.h"
+
+namespace aquarama {
+
+inline Repertoire syntheticScad() {
+    constexpr double kDegree = std::numbers::pi / 180;
+    using synthetic::Gait;
+    const Gait gradual{.periodSeconds = 1.0 / 3, .turnRadians = 14 * kDegree, .stride = 0.55};
+    const Gait sharp{
+        .periodSeconds = 1.0, .turnRadians = 55 * kDegree, .stride = 1.5, .sharp = true};
+    const auto right = [](Gait gait) {
+        gait.turnRadians = -gait.turnRadians;
+        return gait;
+    };
+    const std::array<Gait, kActions> gaits{Gait{.periodSeconds = 1.0 / 2, .stride = 0.50},
+                                           Gait{.periodSeconds = 1.0 / 3, .stride = 0.65},
+                                           Gait{.periodSeconds = 1.0 / 5, .stride = 0.52},
+                                           gradual,
+                                           sharp,
+                                           right(gradual),
+                                           right(sharp)};
+    Repertoire scad{.species = "synthetic scad", .recordedLengthMetres = 0.24F, .segments = {}};
+    for (std::size_t action = 0; action < kActions; ++action)
+        scad.segments[action] = synthetic::segmentOf(gaits[action], false);
+    return scad;
+}
+
+inline std::shared_ptr<const MotorTables> syntheticTables() {
+    static const std::shared_ptr<const MotorTables> tables = makeMotorTables(syntheticScad());
+    return tables;
+}
+
+inline World syntheticWorld(std::uint32_t seed, std::uint32_t fish, unsigned threads = 1) {
+    WorldOptions options;
+    options.seed = seed;
+    options.fishCount = fish;
+    options.threads = threads;
+    return {options, syntheticTables()};
+}
+
+}  // namespace aquarama

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the school lives: five simulated minutes of it, watched at every tick.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "common/place/place.h"
+#include "tests/master/world/school_of_synthetic_fish.h"
+
+namespace aquarama {
+namespace {
+
+constexpr int kTicks = 5 * 60 * 60;
+constexpr int kTicksBetweenGlances = 5;  // at who is near whom
+constexpr std::uint32_t kFish = 51;
+constexpr float kMeanLength = 0.24F;
+
+struct Fish {
+    glm::vec3 position;
+    glm::vec3 heading;
+    float length;
+};
+
+// Between the middle lines of two fish, nose to tail; the body frame is 0.385 behind the nose.
+float distanceBetweenBodies(const Fish& a, const Fish& b) {
+    float nearest = 1e9F;
+    for (int i = 0; i <= 8; ++i) {
+        const float along = a.length * (0.385F - static_cast<float>(i) / 8);
+        const glm::vec3 from = a.position + a.heading * along - b.position;
+        const float onB =
+            glm::clamp(glm::dot(from, b.heading), -0.615F * b.length, 0.385F * b.length);
+        nearest = std::min(nearest, glm::length(from - b.heading * onB));
+    }
+    return nearest;
+}
+
+struct Diary {
+    float farthestOutOfWater = -99;  // metres; negative while all are inside
+    float nearestToSand = 99;
+    float nearestToSurface = 99;
+    float nearestToEye = 99;
+    double nearestNeighbour = 0;   // body lengths, mean over fish and ticks
+    double polarised = 0;          // share of ticks with a polarisation above 0.6
+    double tailBeatSynchrony = 0;  // mean resultant length of the phases
+    double inView = 0;             // share of fish that the wall shows
+    double nearPasses = 0;         // share of ticks with the school's middle within 3.2 m
+    double farOff = 0;             // and beyond 6 m
+    int longestOverlapTicks = 0;
+    std::vector<std::set<int>> actions = std::vector<std::set<int>>(kFish);
+};
+
+class Watch {
+  public:
+    explicit Watch(std::uint32_t seed) : seed_(seed), world_(syntheticWorld(seed, kFish)) {
+        for (int tick = 0; tick < kTicks; ++tick) {
+            world_.advance();
+            note(tick % kTicksBetweenGlances == 0);
+        }
+        diary_.tailBeatSynchrony /= kTicks;
+        diary_.inView /= kTicks;
+        for (double* mean :
+             {&diary_.nearestNeighbour, &diary_.polarised, &diary_.nearPasses, &diary_.farOff})
+            *mean /= glances_;
+    }
+    [[nodiscard]] const Diary& diary() const { return diary_; }
+
+  private:
+    void note(bool withCompany) {
+        fish_.clear();
+        for (std::uint32_t i = 0; i < kFish; ++i) {
+            fish_.push_back({bodyFrameOf(world_.states(), i).position,
+                             world_.view().heading(i),
+                             0.001F * world_.traits()[i].lengthMillimetres});
+            diary_.actions[i].insert(world_.states().segment[i]);
+            notePlace(fish_.back().position);
+        }
+        noteTailBeats();
+        if (withCompany) noteCompany();
+    }
+
+    void notePlace(glm::vec3 position) {
+        const Region water = schoolRegion();
+        const glm::vec3 out = glm::abs(position - water.centre) - water.halfExtent;
+        const float floor = floorHeight(seed_, {position.x, position.z});
+        const glm::vec3 fromEye = position - kEyePosition;
+        diary_.farthestOutOfWater = std::max({diary_.farthestOutOfWater, out.x, out.y, out.z});
+        diary_.nearestToSand = std::min(diary_.nearestToSand, position.y - floor);
+        diary_.nearestToSurface = std::min(diary_.nearestToSurface, -position.y);
+        diary_.nearestToEye = std::min(diary_.nearestToEye, glm::length(fromEye));
+        // The wall spans 120 degrees across and 25 up and down.
+        const bool across = std::abs(fromEye.x) < 1.732F * -fromEye.z;
+        const bool high = std::abs(fromEye.y) < 0.466F * std::hypot(fromEye.x, fromEye.z);
+        diary_.inView += across && high ? 1.0 / kFish : 0.0;
+    }
+
+    void noteCompany() {
+        glm::vec3 heading{};
+        glm::vec3 middle{};
+        std::array<float, kFish> nearest{};
+        nearest.fill(99);
+        for (std::uint32_t i = 0; i < kFish; ++i) {
+            heading += fish_[i].heading;
+            middle += fish_[i].position / float{kFish};
+            for (std::uint32_t j = i + 1; j < kFish; ++j) {
+                const float distance = glm::distance(fish_[i].position, fish_[j].position);
+                nearest[i] = std::min(nearest[i], distance);
+                nearest[j] = std::min(nearest[j], distance);
+                noteOverlap(i, j, distance);
+            }
+        }
+        for (const float distance : nearest)
+            diary_.nearestNeighbour += double{distance / kMeanLength} / kFish;
+        const float range = glm::distance(middle, kEyePosition);
+        diary_.polarised += glm::length(heading) / kFish > 0.6F ? 1 : 0;
+        diary_.nearPasses += range < 3.2F ? 1 : 0;
+        diary_.farOff += range > 6.0F ? 1 : 0;
+        ++glances_;
+    }
+
+    void noteOverlap(std::uint32_t i, std::uint32_t j, float distance) {
+        int& ticks = overlap_[i * kFish + j];
+        // A scad is a tenth of its length wide.
+        const bool touching = distance < kMeanLength &&
+                              distanceBetweenBodies(fish_[i], fish_[j]) < 0.1F * kMeanLength;
+        ticks = touching ? ticks + kTicksBetweenGlances : 0;
+        diary_.longestOverlapTicks = std::max(diary_.longestOverlapTicks, ticks);
+    }
+
+    void noteTailBeats() {
+        double sine = 0;
+        double cosine = 0;
+        for (const std::uint16_t phase : world_.states().phase) {
+            sine += std::sin(phase * 6.283185307 / 65536);
+            cosine += std::cos(phase * 6.283185307 / 65536);
+        }
+        diary_.tailBeatSynchrony += std::hypot(sine, cosine) / kFish;
+    }
+
+    std::uint32_t seed_;
+    World world_;
+    Diary diary_;
+    int glances_ = 0;
+    std::vector<Fish> fish_;
+    std::vector<int> overlap_ = std::vector<int>(kFish * kFish);
+};
+
+class School : public testing::TestWithParam<std::uint32_t> {
+  protected:
+    // Five minutes are watched once for all claims about a seed.
+    static const Diary& diary() {
+        static const std::array diaries{Watch(1).diary(), Watch(2).diary()};
+        return diaries.at(GetParam() - 1);
+    }
+};
+
+TEST_P(School, staysInItsWater) {
+    EXPECT_LT(diary().farthestOutOfWater, 0.25F) << "metres outside";
+    EXPECT_GT(diary().nearestToSand, 0.2F);
+    EXPECT_GT(diary().nearestToSurface, 0.5F);
+    EXPECT_GT(diary().nearestToEye, 0.9F);
+}
+
+// About one body length (0.5-1.5) in the fish that Partridge 1980 and Pitcher & Parrish 1993
+// measured.
+TEST_P(School, keepsTheSpacingOfRealSchools) {
+    EXPECT_GT(diary().nearestNeighbour, 0.5);
+    EXPECT_LT(diary().nearestNeighbour, 1.5);
+}
+
+// Tunstrom et al. 2013 call a group above 0.65 polarised; milling and turning back may break it.
+TEST_P(School, headsOneWayMostOfTheTime) {
+    EXPECT_GT(diary().polarised, 0.8);
+}
+
+TEST_P(School, noTwoFishOverlapForLong) {
+    EXPECT_LE(diary().longestOverlapTicks, 75);
+}
+
+TEST_P(School, eachFishSwimsInSeveralWays) {
+    for (const std::set<int>& actions : diary().actions) EXPECT_GE(actions.size(), 4U);
+}
+
+// 51 independent phases have a mean resultant of 0.12; one common beat has 1.
+TEST_P(School, tailBeatsAreNotInStep) {
+    EXPECT_LT(diary().tailBeatSynchrony, 0.25);
+}
+
+TEST_P(School, isSeenNearAndFarOnTheWall) {
+    EXPECT_GT(diary().inView, 0.85);
+    EXPECT_GT(diary().nearPasses, 0.05);
+    EXPECT_GT(diary().farOff, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, School, testing::Values(1U, 2U));
+
+}  // namespace
+}  // namespace aquarama

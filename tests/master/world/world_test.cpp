@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/world/world.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "common/units/error.h"
+#include "tests/master/world/instruction_sets.h"
+#include "tests/master/world/school_of_synthetic_fish.h"
+
+namespace aquarama {
+namespace {
+
+std::uint64_t hashAfter(World world, int ticks) {
+    for (int i = 0; i < ticks; ++i) world.advance();
+    return world.hash();
+}
+
+TEST(World, oneSeedIsOneWorldOnAnyNumberOfThreads) {
+    for (const std::uint32_t fish : {51U, 1500U}) {
+        const std::uint64_t alone = hashAfter(syntheticWorld(1, fish, 1), 600);
+        std::printf("hash of %u fish after 600 ticks: %016llx\n",
+                    fish,
+                    static_cast<unsigned long long>(alone));
+        EXPECT_EQ(alone, hashAfter(syntheticWorld(1, fish, 2), 600));
+        EXPECT_EQ(alone, hashAfter(syntheticWorld(1, fish, 4), 600));
+    }
+}
+
+TEST(World, oneSeedIsOneWorldOnEveryInstructionSet) {
+    std::set<std::uint64_t> hashes;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        useOnly(target);
+        hashes.insert(hashAfter(syntheticWorld(1, 51), 600));
+        EXPECT_EQ(hashes.size(), 1U) << hwy::TargetName(target);
+    }
+    useOnly(0);  // all again
+}
+
+TEST(World, anotherSeedIsAnotherWorld) {
+    EXPECT_NE(syntheticWorld(1, 51).hash(), syntheticWorld(2, 51).hash());
+    EXPECT_NE(hashAfter(syntheticWorld(1, 51), 60), hashAfter(syntheticWorld(2, 51), 60));
+}
+
+TEST(World, theHashSeesASingleTick) {
+    World world = syntheticWorld(1, 51);
+    const std::uint64_t before = world.hash();
+    world.advance();
+    EXPECT_NE(world.hash(), before);
+    EXPECT_EQ(world.tick(), Tick{1});
+}
+
+TEST(World, recordsAreTheStates) {
+    World world = syntheticWorld(1, 51);
+    world.advance();
+    std::vector<FishRecord> records;
+    world.records(records);
+    ASSERT_EQ(records.size(), 51U);
+    for (std::size_t fish = 0; fish < records.size(); ++fish)
+        EXPECT_EQ(records[fish], recordOf(world.states(), fish));
+}
+
+TEST(World, lengthsVaryAboutTheSpeciesMeanWithinItsBounds) {
+    const World world = syntheticWorld(3, 2000);
+    double sum = 0;
+    double squares = 0;
+    for (const FishTraits& fish : world.traits()) {
+        EXPECT_GE(fish.lengthMillimetres, 200);
+        EXPECT_LE(fish.lengthMillimetres, 280);
+        sum += fish.lengthMillimetres;
+        squares += double{1} * fish.lengthMillimetres * fish.lengthMillimetres;
+    }
+    const double mean = sum / 2000;
+    EXPECT_NEAR(mean, 240, 1.5);
+    EXPECT_NEAR(squares / 2000 - mean * mean, 12 * 12, 20);
+}
+
+TEST(World, tailBeatsBeginAtPhasesOfAllTheCycle) {
+    const World world = syntheticWorld(1, 51);
+    int quarters[4] = {};
+    for (const std::uint16_t phase : world.states().phase) ++quarters[phase / 16384];
+    for (const int fish : quarters) EXPECT_GT(fish, 5);
+}
+
+TEST(World, withoutFishThereIsNone) {
+    EXPECT_THROW(syntheticWorld(1, 0), Error);
+}
+
+}  // namespace
+}  // namespace aquarama

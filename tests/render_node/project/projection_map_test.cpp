@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/project/projection_map.h"
+
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "common/units/error.h"
+#include "tests/common/wall/rigs.h"
+
+namespace aquarama {
+namespace {
+
+constexpr double kMarginRadians = 0.01;
+
+// Direction from the sweet spot through a place in the frustum's picture, wall frame.
+glm::dvec3 directionThrough(const ChannelFrustum& frustum, glm::dvec2 place) {
+    const glm::dvec4 inCamera(glm::mix(frustum.left, frustum.right, place.x),
+                              glm::mix(frustum.bottom, frustum.top, place.y),
+                              -1,
+                              0);
+    return glm::normalize(glm::dvec3(glm::inverse(frustum.cameraFromWall) * inCamera));
+}
+
+TEST(ProjectionMap, leadsEachPixelToTheRayThroughThePointThatItLights) {
+    for (const char* name : {"desk", "theatre", "touring"}) {
+        const Rig rig = shippedRig(name);
+        for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
+            const WarpMap warp = warpMap(rig, channel);
+            const ChannelFrustum frustum = channelFrustum(rig, channel, kMarginRadians);
+            const ProjectionMap map = projectionMap(warp, frustum);
+            const glm::dvec2 size(scenePictureSize(map));
+            const double pixelRadians = (frustum.right - frustum.left) / size.x;
+            for (std::size_t i = 0; i < warp.pointAndWeight.size(); i += 997) {
+                const glm::dvec4 point(warp.pointAndWeight[i]);
+                const glm::dvec4 place(map.placeAndWeight[i]);
+                EXPECT_EQ(place.z, point.w);
+                if (point.w <= 0) continue;
+                const glm::dvec3 ray = directionThrough(frustum, glm::dvec2(place));
+                const glm::dvec3 wanted = glm::normalize(glm::dvec3(point));
+                EXPECT_LT(glm::distance(ray, wanted), 0.01 * pixelRadians) << name << ' ' << i;
+            }
+        }
+    }
+}
+
+TEST(ProjectionMap, staysInsideThePictureWithRoomForTheFilter) {
+    const Rig rig = shippedRig("desk");
+    const ProjectionMap map =
+        projectionMap(warpMap(rig, 0), channelFrustum(rig, 0, kMarginRadians));
+    const glm::vec2 texel = 1.0F / glm::vec2(scenePictureSize(map));
+    for (const glm::vec4& place : map.placeAndWeight) {
+        if (place.z <= 0) continue;
+        ASSERT_TRUE(glm::all(glm::greaterThan(glm::vec2(place), 2.0F * texel)));
+        ASSERT_TRUE(glm::all(glm::lessThan(glm::vec2(place), 1.0F - 2.0F * texel)));
+    }
+}
+
+// One step between neighbouring projector pixels is one scene pixel in the middle, and more of them
+// elsewhere is more detail, never less than three quarters.
+TEST(ProjectionMap, scenePictureIsAsFineAsTheProjector) {
+    for (const char* name : {"desk", "theatre", "touring"}) {
+        const Rig rig = shippedRig(name);
+        const ProjectionMap map =
+            projectionMap(warpMap(rig, 1), channelFrustum(rig, 1, kMarginRadians));
+        const glm::dvec2 size(scenePictureSize(map));
+        const auto width = static_cast<std::size_t>(map.sizePixels.x);
+        const auto stepAt = [&](std::size_t i) {
+            const glm::dvec2 here(map.placeAndWeight[i]);
+            const glm::dvec2 right(map.placeAndWeight[i + 1]);
+            const glm::dvec2 below(map.placeAndWeight[i + width]);
+            return glm::dvec2(glm::length((right - here) * size),
+                              glm::length((below - here) * size));
+        };
+        const std::size_t middle = map.placeAndWeight.size() / 2 + width / 2;
+        EXPECT_GE(stepAt(middle).x, 0.999) << name;
+        EXPECT_GE(stepAt(middle).y, 0.999) << name;
+        EXPECT_LT(stepAt(middle).x, 1.02) << name << ": larger than needed";
+    }
+}
+
+TEST(ProjectionMap, aProjectorWhoseMiddleMissesTheScreenIsRefused) {
+    ProjectionMap map{.sizePixels = {4, 4}, .placeAndWeight = std::vector<glm::vec4>(16)};
+    EXPECT_THROW((void)scenePictureSize(map), Error);
+    map = {.sizePixels = {1, 1}, .placeAndWeight = std::vector<glm::vec4>(1, glm::vec4(1))};
+    EXPECT_THROW((void)scenePictureSize(map), Error);
+}
+
+}  // namespace
+}  // namespace aquarama

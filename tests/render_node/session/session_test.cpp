@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session against a master that says whatever a test wants it to say.
+#include "render_node/session/session.h"
+
+#include <future>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/net/blob.h"
+#include "tests/support/stage.h"
+
+namespace aquarama {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::uint64_t kRun = 42;
+
+// The master's side, in the test's own thread.
+class ScriptedMaster {
+  public:
+    explicit ScriptedMaster(MemoryNet& net) : channels_(net.master()) {}
+
+    void say(const Message& message) { channels_->sendControl(peer_, encode({run, message})); }
+    void publish(const Message& message) { channels_->publishState(encode({run, message})); }
+    void sayNoise(const ByteVector& noise) {
+        channels_->sendControl(peer_, noise);
+        channels_->publishState(noise);
+    }
+
+    // The next message of this kind from the node; answers pings on the way. Empty after ten
+    // seconds.
+    template <class Kind>
+    std::optional<Kind> hear(Instant within = seconds(10)) {
+        const Instant end = monotonicNow() + within;
+        while (monotonicNow() < end) {
+            while (const auto from = channels_->receiveControl()) {
+                const auto envelope = decode(from->bytes);
+                if (!envelope) continue;
+                peer_ = from->peer;
+                if (auto* ping = std::get_if<Ping>(&envelope->message)) {
+                    say(Pong{ping->sentNs, (monotonicNow() + clockAhead).count()});
+                }
+                if (const auto* kind = std::get_if<Kind>(&envelope->message)) return *kind;
+            }
+            channels_->wait(milliseconds(5));
+        }
+        return std::nullopt;
+    }
+
+    // Everything up to the node's first frame, delivering these bytes for each blob.
+    void admit(const Blobs& blobs, Pace pace = Pace::Live) {
+        ASSERT_TRUE(hear<Hello>());
+        Welcome welcome = StageMaster::welcomeTo(StageMaster::deskRig());
+        welcome.pace = pace;
+        say(welcome);
+        giveBlobs(blobs, 2);
+    }
+    void giveBlobs(const Blobs& blobs, int count) {
+        while (count > 0) {
+            const auto request = hear<BlobRequest>();
+            ASSERT_TRUE(request);
+            const auto& blob = blobs.at(request->digest);
+            const auto chunk = chunkAt(blob, request->offset, kBlobChunkBytes);
+            say(BlobChunk{
+                request->digest, request->offset, blob.size(), {chunk.begin(), chunk.end()}});
+            if (request->offset + chunk.size() == blob.size()) --count;
+            ++chunksGiven;
+        }
+    }
+    void letIn(Frame first) {
+        publish(Beacon{});
+        ASSERT_TRUE(hear<Prepared>());
+        say(Joined{first});
+    }
+    void show(std::uint64_t frame) {
+        StateFrame state;
+        state.frame = {frame};
+        publish(state);
+    }
+
+    std::uint64_t run = kRun;
+    Instant clockAhead{};
+    int chunksGiven = 0;
+
+  private:
+    std::unique_ptr<MasterChannels> channels_;
+    PeerId peer_;
+};
+
+class SessionTest : public testing::Test {
+  protected:
+    SessionTest() : master_(net_), blobs_(freshDirectory()), session_(connect()) {}
+    ~SessionTest() override {
+        session_.reset();
+        std::filesystem::remove_all(blobs_);
+    }
+
+    std::unique_ptr<Session> connect() {
+        return makeSession(
+            "left", [this] { return net_.node(); }, blobs_);
+    }
+    // join() in a thread, while the master plays its part here.
+    std::future<std::optional<Admission>> joining() {
+        return std::async(std::launch::async, [this] { return session_->join(); });
+    }
+    // What join() threw; empty where it did not.
+    static std::string errorOf(std::future<std::optional<Admission>> join) {
+        try {
+            join.get();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+    void becomeMember(Pace pace, Frame first) {
+        auto join = joining();
+        master_.admit(StageMaster::blobs(), pace);
+        ASSERT_TRUE(join.get());
+        session_->prepared();
+        master_.letIn(first);
+    }
+    std::uint64_t nextFrame() { return session_->nextFrame().value().frame.value; }
+    std::future<Release> readying(std::uint64_t frame) {
+        return std::async(std::launch::async,
+                          [this, frame] { return session_->readyThenWait({frame}); });
+    }
+
+    MemoryNet net_;
+    ScriptedMaster master_;
+    std::filesystem::path blobs_;
+    std::unique_ptr<Session> session_;
+};
+
+TEST_F(SessionTest, joinsWithRigSpeciesAndRepertoire) {
+    auto join = joining();
+    master_.admit(StageMaster::blobs());
+    const auto admission = join.get();
+    ASSERT_TRUE(admission);
+    EXPECT_EQ(admission->rig.channels.size(), 3U);
+    EXPECT_EQ(admission->speciesText, "name: \"scad\"");
+    EXPECT_EQ(admission->repertoire.species, "scad");
+    EXPECT_EQ(admission->welcome.school.size(), 3U);
+    EXPECT_GT(master_.chunksGiven, 3);
+}
+
+TEST_F(SessionTest, takesFromItsCacheWhatItOnceFetched) {
+    auto join = joining();
+    master_.admit(StageMaster::blobs());
+    ASSERT_TRUE(join.get());
+    session_ = connect();
+    join = joining();
+    ASSERT_TRUE(master_.hear<Hello>());
+    master_.say(StageMaster::welcomeTo(StageMaster::deskRig()));
+    EXPECT_TRUE(join.get());  // no chunk was given
+}
+
+TEST_F(SessionTest, refusesABlobThatIsNotWhatItsNameSays) {
+    Blobs altered = StageMaster::blobs();
+    altered.at(digestOf(StageMaster::species())).front() ^= std::byte{1};
+    auto join = joining();
+    master_.admit(altered);  // delivered twice here, and a third time below
+    master_.giveBlobs(altered, 1);
+    EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("than its name says"));
+    EXPECT_TRUE(std::filesystem::is_empty(blobs_));
+}
+
+TEST_F(SessionTest, aRefusalIsAnErrorThatSaysWhy) {
+    auto join = joining();
+    ASSERT_TRUE(master_.hear<Hello>());
+    master_.say(Refusal{"it speaks protocol 2"});
+    const std::string error = errorOf(std::move(join));
+    EXPECT_THAT(error, testing::HasSubstr("\"left\""));
+    EXPECT_THAT(error, testing::HasSubstr("protocol 2"));
+}
+
+TEST_F(SessionTest, aRigThatCannotBeReadIsAnError) {
+    auto join = joining();
+    ASSERT_TRUE(master_.hear<Hello>());
+    Welcome welcome = StageMaster::welcomeTo(StageMaster::deskRig());
+    welcome.rigText = "name: \"desk\" colour: \"red\"";
+    master_.say(welcome);
+    master_.giveBlobs(StageMaster::blobs(), 2);
+    EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("colour"));
+}
+
+TEST_F(SessionTest, goesOnSayingHelloUntilItIsHeard) {
+    auto join = joining();
+    for (int times = 0; times < 3; ++times) ASSERT_TRUE(master_.hear<Hello>());
+    master_.say(Dismissed{"another node of this name takes part already"});
+    ASSERT_TRUE(master_.hear<Hello>());
+    master_.admit(StageMaster::blobs());
+    EXPECT_TRUE(join.get());
+}
+
+TEST_F(SessionTest, isPreparedOnlyOnceItHearsTheStates) {
+    auto join = joining();
+    master_.admit(StageMaster::blobs());
+    ASSERT_TRUE(join.get());
+    session_->prepared();
+    EXPECT_FALSE(master_.hear<Prepared>(milliseconds(200)));
+    master_.publish(Beacon{});
+    EXPECT_TRUE(master_.hear<Prepared>());
+}
+
+TEST_F(SessionTest, speaksWhileItsRenderThreadIsBusy) {
+    auto join = joining();
+    master_.admit(StageMaster::blobs());
+    ASSERT_TRUE(join.get());
+    for (int ping = 0; ping < 5; ++ping) EXPECT_TRUE(master_.hear<Ping>());
+}
+
+TEST_F(SessionTest, saysReadyAndWaitsForTheRelease) {
+    becomeMember(Pace::Lockstep, {7});
+    master_.show(7);
+    EXPECT_EQ(nextFrame(), 7U);
+    auto release = readying(7);
+    EXPECT_EQ(master_.hear<Ready>()->frame, Frame{7});
+    EXPECT_EQ(release.wait_for(milliseconds(50)), std::future_status::timeout);
+    master_.say(Present{{7}, 0});
+    EXPECT_EQ(release.get(), Release::Present);
+    EXPECT_GT(session_->stateArrival(), Instant{0});
+}
+
+TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
+    master_.clockAhead = seconds(1000);
+    becomeMember(Pace::Live, {0});
+    for (int ping = 0; ping < 3; ++ping) ASSERT_TRUE(master_.hear<Ping>());
+    master_.show(0);
+    EXPECT_EQ(nextFrame(), 0U);
+    auto release = readying(0);
+    ASSERT_TRUE(master_.hear<Ready>());
+    const Instant at = monotonicNow() + milliseconds(100);
+    master_.say(Present{{0}, (at + master_.clockAhead).count()});
+    EXPECT_EQ(release.get(), Release::Present);
+    // In memory a round trip takes no longer than the scheduler lets it: allow for half of that.
+    EXPECT_GE(monotonicNow(), at - milliseconds(50));
+    master_.show(1);
+    EXPECT_EQ(nextFrame(), 1U);
+    release = readying(1);
+    const auto ready = master_.hear<Ready>();
+    ASSERT_TRUE(ready && ready->released);
+    EXPECT_EQ(ready->released->frame, Frame{0});
+    EXPECT_GE(Instant{ready->released->atNs}, at + master_.clockAhead - milliseconds(100));
+    session_->stop();
+    release.get();
+}
+
+TEST_F(SessionTest, aReleaseInAFarFutureIsTakenForAClockGoneWrong) {
+    becomeMember(Pace::Live, {0});
+    for (int ping = 0; ping < 3; ++ping) ASSERT_TRUE(master_.hear<Ping>());
+    master_.show(0);
+    EXPECT_EQ(nextFrame(), 0U);
+    auto release = readying(0);
+    master_.say(Present{{0}, std::numeric_limits<std::int64_t>::max() / 2});
+    EXPECT_EQ(release.get(), Release::Present);  // the suite's budget would stop it
+}
+
+TEST_F(SessionTest, asksAgainForAReleaseThatDoesNotCome) {
+    becomeMember(Pace::Lockstep, {0});
+    master_.show(0);
+    EXPECT_EQ(nextFrame(), 0U);
+    auto release = readying(0);
+    EXPECT_TRUE(master_.hear<Ready>());
+    EXPECT_TRUE(master_.hear<Ready>());
+    master_.say(Present{{0}, 0});
+    release.get();
+}
+
+TEST_F(SessionTest, skipsAFrameThatTheWallHasOvertakenButNotTwoInARow) {
+    becomeMember(Pace::Live, {0});
+    for (const auto& [frame, wallIsAt, expected] :
+         {std::tuple{0, 4, Release::Skip}, {5, 9, Release::Present}, {10, 15, Release::Skip}}) {
+        master_.show(static_cast<std::uint64_t>(frame));
+        EXPECT_EQ(nextFrame(), static_cast<std::uint64_t>(frame));
+        master_.say(Present{{static_cast<std::uint64_t>(wallIsAt)}, 0});
+        EXPECT_EQ(readying(static_cast<std::uint64_t>(frame)).get(), expected);
+    }
+}
+
+TEST_F(SessionTest, theLastFrameIsPresentedBeforeTheEnd) {
+    becomeMember(Pace::Lockstep, {0});
+    master_.show(0);
+    EXPECT_EQ(nextFrame(), 0U);
+    auto release = readying(0);
+    ASSERT_TRUE(master_.hear<Ready>());
+    master_.say(Present{{0}, 0});
+    master_.say(Farewell{});
+    EXPECT_EQ(release.get(), Release::Present);
+    EXPECT_FALSE(session_->nextFrame());
+    EXPECT_EQ(session_->interruption(), Release::Quit);
+    EXPECT_FALSE(session_->join());
+}
+
+TEST_F(SessionTest, joinsAgainWhenItIsDismissed) {
+    becomeMember(Pace::Live, {0});
+    master_.say(Dismissed{"you were silent for too long"});
+    EXPECT_FALSE(session_->nextFrame());
+    EXPECT_EQ(session_->interruption(), Release::Rejoin);
+    auto join = joining();
+    ASSERT_TRUE(master_.hear<Hello>());
+    master_.say(StageMaster::welcomeTo(StageMaster::deskRig()));
+    EXPECT_TRUE(join.get());
+}
+
+TEST_F(SessionTest, joinsAgainWhenTheMasterWasStartedAgain) {
+    becomeMember(Pace::Live, {0});
+    master_.run = kRun + 2;
+    master_.show(900);
+    EXPECT_FALSE(session_->nextFrame());
+    EXPECT_EQ(session_->interruption(), Release::Rejoin);
+}
+
+TEST_F(SessionTest, joinsAgainWhenTheMasterFallsSilent) {
+    becomeMember(Pace::Live, {0});
+    EXPECT_FALSE(session_->nextFrame());  // nobody answers its pings any more
+    EXPECT_EQ(session_->interruption(), Release::Rejoin);
+}
+
+TEST_F(SessionTest, stopEndsEveryWait) {
+    auto join = joining();
+    ASSERT_TRUE(master_.hear<Hello>());
+    session_->stop();
+    EXPECT_FALSE(join.get());
+    EXPECT_FALSE(session_->nextFrame());
+    EXPECT_EQ(session_->readyThenWait({0}), Release::Quit);
+    EXPECT_FALSE(session_->join());
+}
+
+TEST_F(SessionTest, stopEndsTheWaitForARelease) {
+    becomeMember(Pace::Live, {0});
+    master_.show(0);
+    EXPECT_EQ(nextFrame(), 0U);
+    auto release = readying(0);
+    ASSERT_TRUE(master_.hear<Ready>());
+    session_->stop();
+    EXPECT_EQ(release.get(), Release::Quit);
+    EXPECT_TRUE(master_.hear<Farewell>());
+}
+
+TEST_F(SessionTest, passesOnWhatItsKeysSay) {
+    becomeMember(Pace::Live, {0});
+    session_->send(NodeInput::TogglePause);
+    EXPECT_EQ(master_.hear<Input>()->kind, InputKind::TogglePause);
+    session_->send(NodeInput::Quit);
+    EXPECT_EQ(master_.hear<Input>()->kind, InputKind::Quit);
+}
+
+TEST_F(SessionTest, noiseOnBothChannelsChangesNothing) {
+    becomeMember(Pace::Lockstep, {0});
+    std::mt19937 random(9);
+    for (int round = 0; round < 5; ++round) {
+        for (int packet = 0; packet < 6; ++packet) {  // as many as the channels surely take
+            ByteVector noise(random() % 200);
+            for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
+            master_.sayNoise(noise);
+        }
+        ASSERT_TRUE(master_.hear<Ping>());
+    }
+    master_.show(0);
+    EXPECT_EQ(nextFrame(), 0U);
+}
+
+TEST_F(SessionTest, aMalformedAddressIsRefusedAtOnce) {
+    EXPECT_THROW(static_cast<void>(connectSession("left", "127.0.0.1")), Error);
+}
+
+}  // namespace
+}  // namespace aquarama

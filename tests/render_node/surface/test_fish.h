@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scad that sways, without the minutes of a capture: each action is a wave along the rest nodes.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "common/body/fish_body.h"
+#include "common/config/species.h"
+#include "common/motion/reconstruct.h"
+#include "common/motion/repertoire.h"
+
+namespace aquarama::test {
+
+inline FishBody scad() {
+    return makeBody(
+        readSpecies(std::string(AQUARAMA_SOURCE_DIR) + "/config/species/bigeye_scad.txtpb"));
+}
+
+// The body frame's origin is the body's centre, which lies so far behind the nose.
+inline constexpr float kCentreStation = 0.385F;
+
+inline NodalPoints sway(const FishBody& body, float amplitude, float bend, float phase) {
+    NodalPoints nodes = body.restNodes;
+    for (glm::vec3& node : nodes) {
+        const float s = -node.x;
+        const float wave = std::sin(glm::two_pi<float>() * (s / 1.25F - phase));
+        node.z += amplitude * s * s * wave + bend * (s - 0.4F) * (s - 0.4F);
+        node.x += kCentreStation;
+    }
+    return nodes;
+}
+
+inline std::array<std::int16_t, 3> quantised(glm::vec3 point) {
+    std::array<std::int16_t, 3> result{};
+    for (int k = 0; k < 3; ++k)
+        result.at(static_cast<std::size_t>(k)) =
+            static_cast<std::int16_t>(std::lround(glm::clamp(point[k], -1.0F, 1.0F) / kPoseUnit));
+    return result;
+}
+
+// amplitude 0 gives a repertoire of the rest pose.
+inline Repertoire swaying(const FishBody& body, float amplitude) {
+    Repertoire repertoire;
+    repertoire.species = body.species;
+    repertoire.recordedLengthMetres = body.typicalLengthMetres;
+    std::vector<glm::vec3> points(kControlPoints);
+    for (std::size_t action = 0; action < kActions; ++action) {
+        ActionSegment& segment = repertoire.segments.at(action);
+        segment.periodSeconds = 0.4F;
+        for (std::size_t k = 0; k < kPhases; ++k) {
+            const float bend = amplitude * (static_cast<float>(action) - 3.0F);
+            const NodalPoints nodes = sway(body, amplitude, bend, static_cast<float>(k) / kPhases);
+            for (std::size_t n = 0; n < kNodalPoints; ++n)
+                segment.nodes.at(k).at(n) = quantised(nodes.at(n));
+            poseCage(body, nodes, points);
+            ControlPointPose& pose = segment.controlPoints.emplace_back();
+            for (std::size_t n = 0; n < kControlPoints; ++n) pose.at(n) = quantised(points[n]);
+        }
+    }
+    return repertoire;
+}
+
+inline PresentedFish fishAt(glm::vec3 place, const glm::quat& bodyToWorld, float length = 0.24F) {
+    PresentedFish fish;
+    fish.positionMetres = place;
+    fish.lengthMetres = length;
+    fish.rotation = {bodyToWorld.x, bodyToWorld.y, bodyToWorld.z, bodyToWorld.w};
+    return fish;
+}
+
+}  // namespace aquarama::test

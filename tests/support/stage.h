@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+// A show in one process: a conductor and nodes in threads of their own, over real sockets or in
+// memory, and what happened in which order.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <unistd.h>
+
+#include "common/config/rig.h"
+#include "common/motion/repertoire.h"
+#include "common/net/memory_channels.h"
+#include "common/units/error.h"
+#include "master/conductor/conductor.h"
+#include "render_node/session/link_session.h"
+
+namespace aquarama {
+
+// Fish whose position is the tick.
+class CountingWorld final : public Simulation {
+  public:
+    void advance() override { ++tick_.value; }
+    Tick tick() const override { return tick_; }
+    void records(std::vector<FishRecord>& fish) const override {
+        fish.assign(3, FishRecord{.x = static_cast<std::int32_t>(tick_.value)});
+    }
+    Eye eye() const override { return {}; }
+    std::uint64_t hash() const override { return hashAt(tick_); }
+    static std::uint64_t hashAt(Tick tick) { return tick.value * 0x9E3779B97F4A7C15U + 1; }
+
+  private:
+    Tick tick_;
+};
+
+struct Event {
+    enum class Kind : std::uint8_t { Ready, Presented } kind;
+    std::string node;
+    StateFrame state;
+};
+
+// What all nodes did, in the order in which they did it: ready is noted before it is said,
+// presented after the release has come.
+class Journal {
+  public:
+    void note(Event event) {
+        const std::lock_guard lock(mutex_);
+        events_.push_back(std::move(event));
+        grown_.notify_all();
+    }
+    std::vector<Event> events() const {
+        const std::lock_guard lock(mutex_);
+        return events_;
+    }
+    std::uint64_t presentedBy(const std::string& node) const {
+        const std::lock_guard lock(mutex_);
+        return presented(node);
+    }
+    // False: it did not come to it within half a minute.
+    bool awaitPresented(const std::string& node, std::uint64_t frames) {
+        std::unique_lock lock(mutex_);
+        return grown_.wait_for(
+            lock, std::chrono::seconds(30), [&] { return presented(node) >= frames; });
+    }
+
+  private:
+    std::uint64_t presented(const std::string& node) const {
+        return static_cast<std::uint64_t>(std::ranges::count_if(events_, [&](const Event& event) {
+            return event.kind == Event::Kind::Presented && event.node == node;
+        }));
+    }
+    mutable std::mutex mutex_;
+    std::condition_variable grown_;
+    std::vector<Event> events_;
+};
+
+// A connection that can be cut without either end noticing: what a frozen or dead process is like.
+class Cable {
+  public:
+    explicit Cable(Connect connect) : connect_(std::move(connect)) {}
+    std::unique_ptr<NodeChannels> plug() { return std::make_unique<Cut>(connect_(), cut_); }
+    void cut(bool isCut) { *cut_ = isCut; }
+
+  private:
+    class Cut final : public NodeChannels {
+      public:
+        Cut(std::unique_ptr<NodeChannels> inner, std::shared_ptr<std::atomic<bool>> cut)
+            : inner_(std::move(inner)), cut_(std::move(cut)) {}
+        void sendControl(ByteView bytes) override {
+            if (!*cut_) inner_->sendControl(bytes);
+        }
+        std::optional<ByteVector> receiveControl() override {
+            return *cut_ ? std::nullopt : inner_->receiveControl();
+        }
+        void subscribeState(const std::string& address) override {
+            inner_->subscribeState(address);
+        }
+        std::optional<ByteVector> receiveState() override {
+            return *cut_ ? std::nullopt : inner_->receiveState();
+        }
+        void wait(Instant atMost) override {
+            if (*cut_) std::this_thread::sleep_for(std::min(atMost, Instant{5'000'000}));
+            if (!*cut_) inner_->wait(atMost);
+        }
+        void wake() override { inner_->wake(); }
+
+      private:
+        std::unique_ptr<NodeChannels> inner_;
+        std::shared_ptr<std::atomic<bool>> cut_;
+    };
+
+    Connect connect_;
+    std::shared_ptr<std::atomic<bool>> cut_ = std::make_shared<std::atomic<bool>>(false);
+};
+
+inline std::filesystem::path freshDirectory() {
+    static std::atomic<int> count = 0;
+    auto path = std::filesystem::temp_directory_path() /
+                ("aquarama-stage-" + std::to_string(getpid()) + "-" + std::to_string(++count));
+    std::filesystem::create_directories(path);
+    return path;
+}
+
+// A render node that draws nothing.
+class StageNode {
+  public:
+    struct Habits {
+        Instant drawing{};   // a frame
+        Instant starting{};  // before it says hello at all
+        Instant building{};  // between welcome and prepared
+    };
+
+    StageNode(std::string name, Connect connect, Journal& journal)
+        : StageNode(std::move(name), std::move(connect), journal, Habits{}) {}
+    StageNode(std::string name, Connect connect, Journal& journal, Habits habits)
+        : name_(std::move(name)),
+          journal_(journal),
+          habits_(habits),
+          cable_(std::move(connect)),
+          blobs_(freshDirectory()),
+          session_(makeSession(
+              name_, [this] { return cable_.plug(); }, blobs_)),
+          thread_([this] { live(); }) {}
+    ~StageNode() {
+        session_->stop();
+        thread_.join();
+        session_.reset();
+        std::filesystem::remove_all(blobs_);
+    }
+    StageNode(const StageNode&) = delete;
+    StageNode& operator=(const StageNode&) = delete;
+
+    void freeze() { cable_.cut(true); }
+    void thaw() { cable_.cut(false); }
+    Session& session() { return *session_; }
+    int joins() const { return joins_; }
+    // Why it was refused; empty while it was not.
+    std::string refusal() const {
+        const std::lock_guard lock(mutex_);
+        return refusal_;
+    }
+
+  private:
+    void live() try {
+        std::this_thread::sleep_for(habits_.starting);
+        while (session_->join()) {
+            ++joins_;
+            std::this_thread::sleep_for(habits_.building);
+            session_->prepared();
+            if (show() == Release::Quit) return;
+        }
+    } catch (const Error& error) {
+        const std::lock_guard lock(mutex_);
+        refusal_ = error.what();
+    }
+
+    Release show() {
+        while (auto state = session_->nextFrame()) {
+            const Frame frame = state->frame;
+            std::this_thread::sleep_for(habits_.drawing);
+            journal_.note({Event::Kind::Ready, name_, *state});
+            const Release release = session_->readyThenWait(frame);
+            if (release == Release::Rejoin || release == Release::Quit) return release;
+            if (release == Release::Present) {
+                journal_.note({Event::Kind::Presented, name_, std::move(*state)});
+            }
+        }
+        return session_->interruption();
+    }
+
+    std::string name_;
+    Journal& journal_;
+    Habits habits_;
+    Cable cable_;
+    std::filesystem::path blobs_;
+    std::atomic<int> joins_ = 0;
+    mutable std::mutex mutex_;
+    std::string refusal_;
+    std::unique_ptr<Session> session_;
+    std::thread thread_;
+};
+
+// The master of a desk, with its conductor in a thread.
+class StageMaster {
+  public:
+    explicit StageMaster(const ConductorOptions& options,
+                         const std::string& control = "tcp://127.0.0.1:*",
+                         const Rig& rig = deskRig())
+        : StageMaster(options, bindMaster(control, "tcp://127.0.0.1:*"), rig) {}
+    StageMaster(const ConductorOptions& options,
+                std::unique_ptr<MasterChannels> channels,
+                const Rig& rig = deskRig())
+        : control_(channels->controlAddress()),
+          conductor_(rig, options, world_, welcomeTo(rig), blobs(), std::move(channels)),
+          thread_([this] { conduct(); }) {}
+    ~StageMaster() {
+        conductor_.stop();
+        if (thread_.joinable()) thread_.join();
+    }
+    StageMaster(const StageMaster&) = delete;
+    StageMaster& operator=(const StageMaster&) = delete;
+
+    static Rig deskRig() {
+        Rig rig = readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
+        rig.timing.presentDeadlineSeconds = 0.05;  // a busy machine's scheduler, three times over
+        rig.timing.membershipSeconds = 0.5;
+        return rig;
+    }
+
+    const std::string& control() const { return control_; }
+    Connect connect() const {
+        return [address = control_] { return connectNode(address); };
+    }
+    Conductor& conductor() { return conductor_; }
+    // Waits for the end of the show.
+    ShowReport report() {
+        thread_.join();
+        return report_;
+    }
+    const std::string& failure() const { return failure_; }  // after report()
+
+    static ByteVector species() {
+        const auto bytes = std::as_bytes(std::span{std::string_view("name: \"scad\"")});
+        return {bytes.begin(), bytes.end()};
+    }
+    // Several chunks long.
+    static const ByteVector& repertoire() {
+        static const ByteVector bytes = [] {
+            Repertoire still;
+            still.species = "scad";
+            still.recordedLengthMetres = 0.2F;
+            for (ActionSegment& segment : still.segments) {
+                segment.periodSeconds = 1.0F;
+                segment.controlPoints.resize(kPhases);
+            }
+            return encodeRepertoire(still);
+        }();
+        return bytes;
+    }
+    static Blobs blobs() {
+        Blobs blobs;
+        for (ByteVector blob : {species(), repertoire()}) {
+            const Digest digest = digestOf(blob);
+            blobs.emplace(digest, std::move(blob));
+        }
+        return blobs;
+    }
+    static Welcome welcomeTo(const Rig& rig) {
+        Welcome welcome;
+        welcome.rigText = writeRig(rig);
+        welcome.school = {{1, 200}, {2, 210}, {3, 220}};
+        welcome.species = digestOf(species());
+        welcome.repertoire = digestOf(repertoire());
+        return welcome;
+    }
+
+  private:
+    void conduct() try { report_ = conductor_.run(); } catch (const Error& error) {
+        failure_ = error.what();
+    }
+
+    std::string control_;
+    CountingWorld world_;
+    ShowReport report_;
+    std::string failure_;
+    Conductor conductor_;
+    std::thread thread_;
+};
+
+}  // namespace aquarama
