@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -15,15 +16,15 @@ constexpr glm::ivec2 kLamps(24, 6);
 // The mean of the panorama under each cell of a coarse grid.
 Light coarsened(const Light& fine, glm::ivec2 cells) {
     Light coarse = darkness(cells);
-    std::vector<float> pixels(coarse.rgb.size(), 0.0F);
+    Light counts = darkness(cells);  // of pixels in each
     for (int y = 0; y < fine.sizePixels.y; ++y)
         for (int x = 0; x < fine.sizePixels.x; ++x) {
             const glm::ivec2 cell = glm::ivec2(x, y) * cells / fine.sizePixels;
             coarse.at(cell.x, cell.y) += fine.at(x, y);
-            pixels[static_cast<std::size_t>(cell.y * cells.x + cell.x)] += 1;
+            counts.at(cell.x, cell.y).x += 1;
         }
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        if (pixels[i] > 0) coarse.rgb[i] /= pixels[i];
+    for (std::size_t i = 0; i < coarse.rgb.size(); ++i)
+        coarse.rgb[i] /= std::max(1.0F, counts.rgb[i].x);
     return coarse;
 }
 

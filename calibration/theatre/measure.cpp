@@ -97,9 +97,11 @@ void measureLine(const Rig& rig,
 }  // namespace
 
 std::vector<LineOffset> lineOffsets(const Rig& rig, const Light& composed, const Light& direct) {
+    constexpr int kMostLines = static_cast<int>(90 / kGridDegrees) - 1;  // to each side of level
     std::vector<LineOffset> found;
     for (const bool upright : {true, false})
-        for (double degrees = -90 + kGridDegrees; degrees < 90; degrees += kGridDegrees) {
+        for (int i = -kMostLines; i <= kMostLines; ++i) {
+            const double degrees = i * kGridDegrees;
             const auto position = [&](double at) {
                 return upright ? columnOf(rig, at) : rowOf(rig, -at);  // both grow with `at`
             };
@@ -107,12 +109,8 @@ std::vector<LineOffset> lineOffsets(const Rig& rig, const Light& composed, const
                                 static_cast<int>(std::ceil(position(degrees + kWindowDegrees)))};
             const int size = upright ? rig.panoramaPixels.x : rig.panoramaPixels.y;
             if (window.from < 0 || window.to >= size) continue;
-            measureLine(rig,
-                        composed,
-                        direct,
-                        {upright, upright ? degrees : -degrees, {}, 0},
-                        window,
-                        found);
+            const LineOffset line{upright, upright ? degrees : -degrees, {}, 0};
+            measureLine(rig, composed, direct, line, window, found);
         }
     return found;
 }

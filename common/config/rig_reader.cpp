@@ -37,7 +37,7 @@ bool isLoopback(std::string_view host) {
 
 // Without keys anyone in reach could steer the wall, so nothing listens past this machine.
 std::string readAddress(const TextPlace& network, const std::string& field) {
-    const std::string address = network.text(field);
+    std::string address = network.text(field);
     const std::string_view scheme = "tcp://";
     const std::size_t colon = address.rfind(':');
     if (!address.starts_with(scheme) || colon < scheme.size())
@@ -182,6 +182,7 @@ std::vector<Channel> readChannels(const TextPlace& root) {
                     "more than " + std::to_string(kMostChannels) + " channels: split the rig",
                     kMostChannels);
     std::vector<Channel> channels;
+    channels.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) channels.push_back(readChannel(root.in("channels", i)));
     refuseOverlaps(root, channels);
     return channels;

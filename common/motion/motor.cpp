@@ -95,7 +95,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
     const Travel travel = playing.glides ? glidingTravel(*step.tables, columns, i)
                                          : playedTravel(segment, playing.from, playing.to);
     // The frame from which the path is seen, in the world; eq. 11 with the fish's own length.
-    const Quaternion seenFrom = normalised(orientationOf(s, i) * conjugate(travel.start));
+    const Quaternion seenFrom = renormalised(orientationOf(s, i) * conjugate(travel.start));
     const Vector moves = rotated(seenFrom, travel.translation);
     const float units = static_cast<float>(step.traits[i].lengthMillimetres) * kUnitsPerMillimetre;
     s.x[i] = moved(s.x[i], stepUnits(moves[0] * units));
@@ -107,7 +107,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
                                          static_cast<float>(step.commands->pitch[i]) * kPitchUnit,
                                          static_cast<float>(step.commands->yawRate[i]) * kYawUnit);
     const Quaternion turn{1.0F, steering[0], steering[1], steering[2]};
-    const PackedOrientation packed = pack(normalised(turn * swum));
+    const PackedOrientation packed = pack(renormalised(turn * swum));
     s.orientationA[i] = packed.abc[0];
     s.orientationB[i] = packed.abc[1];
     s.orientationC[i] = packed.abc[2];

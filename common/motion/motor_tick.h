@@ -144,8 +144,11 @@ struct Playing {
                           blended(a.halfTurn[0], b.halfTurn[0]),
                           blended(a.halfTurn[1], b.halfTurn[1]),
                           blended(a.halfTurn[2], b.halfTurn[2])};
-    const Quaternion sway = lerp(a.bodyFromMean, b.bodyFromMean, after);
-    return {.start = conjugate(lerp(a.bodyFromMean, b.bodyFromMean, before)),
+    const auto swayAt = [&](float share) {
+        return normalised(lerp(a.bodyFromMean, b.bodyFromMean, share));
+    };
+    const Quaternion sway = swayAt(after);
+    return {.start = conjugate(swayAt(before)),
             .end = turn * conjugate(sway),
             .bodyFromMean = sway,
             .translation = {blended(a.forward, b.forward), 0.0F, 0.0F}};

@@ -71,17 +71,16 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
 
     // Cubic Hermite over the leg.
     const float seconds = secondsOfLeg(index);
-    const float u = static_cast<float>(ticks) /
-                    static_cast<float>(kRound[index % kRound.size()].ticks);
+    const float u =
+        static_cast<float>(ticks) / static_cast<float>(kRound[index % kRound.size()].ticks);
     const glm::vec3 from = stationAt(seed, index);
     const glm::vec3 step = stationAt(seed, index + 1) - from;
     const glm::vec3 leaving = velocityAt(seed, index) * seconds;
     const glm::vec3 arriving = velocityAt(seed, index + 1) * seconds;
     const glm::vec3 square = step * 3.0F - leaving * 2.0F - arriving;
     const glm::vec3 cube = leaving + arriving - step * 2.0F;
-    const float side = (hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0
-                           ? 1.0F
-                           : -1.0F;
+    const float side =
+        (hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0 ? 1.0F : -1.0F;
     const float fade = std::min(1.0F, 12 * u * (1 - u));
     const float mill = kRound[index % kRound.size()].mills ? side * fade : 0.0F;
     return {from + (leaving + (square + cube * u) * u) * u,

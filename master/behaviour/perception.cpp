@@ -13,8 +13,7 @@ constexpr float kBlindCosineSquared = 0.75F;  // cos^2 of 30 degrees
 void insert(Neighbours& nearest, std::uint32_t fish, float distanceSquared) {
     const auto isNearer = [&](std::size_t place) {
         const float other = nearest.distanceSquared[place];
-        return distanceSquared < other ||
-               (distanceSquared == other && fish < nearest.fish[place]);
+        return distanceSquared < other || (distanceSquared == other && fish < nearest.fish[place]);
     };
     if (nearest.count == kMostNeighbours && !isNearer(kMostNeighbours - 1)) return;
     if (nearest.count < kMostNeighbours) ++nearest.count;

@@ -15,7 +15,7 @@ namespace {
 // the zones fade into one another, so that the school settles at its spacing instead of dithering
 // at a border.
 constexpr float kSpacing = 0.9F;
-constexpr float kAbreastToFile = 0.65F;
+constexpr float kAbreastToFile = 0.6F;
 constexpr float kAsideShare = 0.25F;
 constexpr float kAlignFully = 2.0F;
 constexpr float kAttractFully = 5.0F;
@@ -25,7 +25,7 @@ constexpr float kSeparate = 2.2F;
 constexpr float kAlign = 0.9F;
 constexpr float kCohere = 1.2F;
 constexpr float kFollow = 0.7F;
-constexpr float kWander = 0.3F;
+constexpr float kWander = 0.55F;
 
 constexpr float kSteepest = 0.42F;  // sine of the steepest pitch, 25 degrees
 constexpr float kSlowest = 0.85F;   // body lengths a second
@@ -57,11 +57,11 @@ Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::siz
         const glm::vec3 aside = offset - heading * ahead;
         const float room = lengthOf(aside + heading * (ahead * kAbreastToFile));
         const float tooNear = std::max(0.0F, 1 - room / kSpacing);
-        const float repulsion = tooNear * (1 + tooNear);
+        const float repulsion = tooNear * (1 + 2 * tooNear * tooNear);
         const float tooFar =
             std::clamp((distance - kSpacing) / (kAttractFully - kSpacing), 0.0F, 1.0F);
-        const float inStep = std::clamp(
-            (kAttractFully - distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
+        const float inStep =
+            std::clamp((kAttractFully - distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
         company.separation -=
             directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
         company.brake += repulsion * std::max(0.0F, dot(towards, heading));

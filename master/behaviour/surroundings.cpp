@@ -9,7 +9,7 @@ namespace aquarama {
 
 namespace {
 
-constexpr float kSideMarginMetres = 0.9F;    // where the push of an upright border begins
+constexpr float kSideMarginMetres = 0.9F;     // where the push of an upright border begins
 constexpr float kHeightMarginMetres = 0.45F;  // of the floor, the surface and the water's own
 constexpr float kFloorClearanceMetres = 0.35F;
 constexpr float kSurfaceClearanceMetres = 0.5F;
@@ -77,11 +77,8 @@ glm::vec3 avoidance(const Surroundings& surroundings,
     glm::vec3 push = bordersAt(surroundings, position) +
                      bordersAt(surroundings, position + heading * reachMetres);
     for (const Rock& rock : surroundings.rocks)
-        push += ballPush(rock.centre,
-                         rock.radiusMetres + kRockClearanceMetres,
-                         position,
-                         heading,
-                         reachMetres);
+        push += ballPush(
+            rock.centre, rock.radiusMetres + kRockClearanceMetres, position, heading, reachMetres);
     return push + ballPush(kEyePosition, kNearestToEyeMetres, position, heading, reachMetres);
 }
 

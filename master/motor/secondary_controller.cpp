@@ -19,15 +19,15 @@ constexpr float kSharpFrom = 85.0F * kRadiansPerDegree;
 constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree;
 constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree;  // beyond, either side serves
 
-constexpr float kYawGain = 1.6F;                             // radians a second for a radian
-constexpr float kMostYaw = 30.0F * kRadiansPerDegree;        // a second: beyond, a turn is played
-constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);        // MotorCommands::yawRate
-constexpr float kUnitsOfPitchSine = 32768.0F;                // MotorCommands::pitch
-constexpr float kRateMargin = 0.15F;                         // of the recorded phase rate
-constexpr float kTempoMargin = 0.08F;                        // about a fish's own tempo
-constexpr float kSpeedHysteresis = 0.12F;                    // body lengths a second
+constexpr float kYawGain = 1.6F;                       // radians a second for a radian
+constexpr float kMostYaw = 30.0F * kRadiansPerDegree;  // a second: beyond, a turn is played
+constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);  // MotorCommands::yawRate
+constexpr float kUnitsOfPitchSine = 32768.0F;          // MotorCommands::pitch
+constexpr float kRateMargin = 0.15F;                   // of the recorded phase rate
+constexpr float kTempoMargin = 0.08F;                  // about a fish's own tempo
+constexpr float kSpeedHysteresis = 0.12F;              // body lengths a second
 constexpr std::uint64_t kShortestGaitTicks = 36;
-constexpr float kSpeedMayDiffer = 0.9F;   // of a recommended gait, body lengths a second
+constexpr float kSpeedMayDiffer = 0.9F;  // of a recommended gait, body lengths a second
 constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree;
 constexpr float kCalm = 0.15F;  // urgency up to which a recommendation is considered
 
@@ -80,8 +80,7 @@ using Moment = SecondaryController::Moment;
 Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
     const bool turning = !isForward(moment.present);
-    const bool left = turning && error > kSideIsOpen ? isLeft(moment.present)
-                                                     : moment.yawError > 0;
+    const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
     if (error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
     const bool sameTurn = turning && isLeft(moment.present) == left;
     if (error > (sameTurn ? kGradualTo : kGradualFrom)) return gradual(left);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From intention to motor command (paper, section 5.1): which action segment, how fast it plays, and
-// a change of it when a fish has swum one pattern for too long.
+// From intention to motor command (paper, section 5.1): which action segment, how fast it plays,
+// and a change of it when a fish has swum one pattern for too long.
 #pragma once
 
 #include <cstdint>

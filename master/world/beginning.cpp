@@ -87,8 +87,8 @@ void placeSchool(std::uint32_t seed,
                                     room.z / (half * spacingMetres),
                                     room.x / (2 * half * spacingMetres)});
         const glm::vec3 spread = rotation * (cell * (spacingMetres * fit));
-        const glm::vec3 place = glm::clamp(
-            goal.position + spread, water.centre - room, water.centre + room);
+        const glm::vec3 place =
+            glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
         setBodyFrame(states, fish, {place, rotation});
         const std::uint32_t phase =
             hashOf(hashOf(seed, kPhase), static_cast<std::uint32_t>(fish)) >> 16U;

@@ -17,8 +17,8 @@ class WorkerPool {
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    // Calls work(chunk) once for each of [0, chunks), from any thread in any order, and returns when
-    // all are done. A job may not throw. Neither locks nor allocates.
+    // Calls work(chunk) once for each of [0, chunks), from any thread in any order, and returns
+    // when all are done. A job may not throw. Neither locks nor allocates.
     template <class Work>
     void run(std::size_t chunks, const Work& work) {
         share(chunks, &work, [](const void* job, std::size_t chunk) {

@@ -106,7 +106,8 @@ void World::look(std::size_t first, std::size_t last) {
 }
 
 void World::think(std::size_t first, std::size_t last) {
-    Steering{&view_, &grid_, &surroundings_, goal_, schoolRadius_, seed_, tick_, &intentions_}.run(first, last);
+    Steering{&view_, &grid_, &surroundings_, goal_, schoolRadius_, seed_, tick_, &intentions_}.run(
+        first, last);
     SecondaryController{&gaits_, &view_, &intentions_, &states_, seed_, tick_, &commands_, &memory_}
         .run(first, last);
     MotorStep{tables_.get(), traits_, &commands_, &states_, first, last}.run();

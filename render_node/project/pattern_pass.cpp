@@ -47,6 +47,7 @@ void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLi
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, sizePixels.x, sizePixels.y);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
     glUseProgram(program_.name());
     glUniformMatrix3fv(kWallFromCamera, 1, GL_FALSE, glm::value_ptr(wallFromCamera));
     glUniform4fv(kExtents, 1, glm::value_ptr(extents));

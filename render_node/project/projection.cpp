@@ -36,6 +36,7 @@ void Projection::draw(const Draw& what) const {
     glBindFramebuffer(GL_FRAMEBUFFER, what.framebuffer);
     glViewport(0, 0, size_.x, size_.y);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     glDisable(GL_DITHER);
     glUseProgram(program_.name());

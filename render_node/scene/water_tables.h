@@ -30,7 +30,7 @@ struct WaterSpectra {
 [[nodiscard]] double beamAttenuation(const WaterSpectra& water, int band);
 
 inline constexpr double kFarthestMetres = 80.0;
-inline constexpr double kDeepestMetres = 60.0;
+inline constexpr double kDeepestMetres = 30.0;
 // Depths begin above the surface: the diver's filter may undo more water than there is.
 inline constexpr double kDepthOffsetMetres = 10.0;
 
@@ -39,7 +39,7 @@ struct Table {
     std::vector<glm::vec3> texels;  // x fastest, then y, then layer
 };
 
-// 3x3 matrices over sqrt(range / 80 m) and sqrt((depth + 10 m) / 70 m); layers are the columns.
+// 3x3 matrices over sqrt(range / 80 m) and sqrt((depth + 10 m) / 40 m); layers are the columns.
 [[nodiscard]] Table bakeDirect(const WaterSpectra& water);
 
 // Light scattered into the view, without the lobes of direction: over sqrt(range / 80 m) and rise

@@ -5,9 +5,9 @@
 #include "shading.glsl"
 
 vec3 litUnder(Openness open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
-    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
-    // Geometric mean of the two footprints: the longer one would blur the sand away.
-    float footprint = sqrt(sqrt(dot(dx, dx) * dot(dy, dy))) * (256.0 / kTileMetres);
+    // Root of the area that a pixel covers: the longer side alone would blur the sand away, and an
+    // area is the same whichever way a neighbour's picture is turned.
+    float footprint = sqrt(length(cross(dFdx(place), dFdy(place)))) * (256.0 / kTileMetres);
     return litAt(log2(1.0 + footprint), open, albedo, place, normal, translucency);
 }
 

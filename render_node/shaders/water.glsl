@@ -25,7 +25,7 @@ const float kRangeShare = 0.6;
 float rangeAxis(float range) { return sqrt(clamp(range * (kRangeShare / 80.0), 0.0, 1.0)); }
 // The diver's filter undoes so many metres of the way down: one looks up at a lesser depth.
 float depthAxis(float depth) {
-    return sqrt(clamp((depth - sunAndFilterDepth.w + 10.0) * (1.0 / 70.0), 0.0, 1.0));
+    return sqrt(clamp((depth - sunAndFilterDepth.w + 10.0) * (1.0 / 40.0), 0.0, 1.0));
 }
 
 float pixelsARadian() {

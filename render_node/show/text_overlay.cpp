@@ -58,6 +58,7 @@ void TextOverlay::draw(std::span<const Label> labels,
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, sizePixels.x, sizePixels.y);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(program_.name());

@@ -43,8 +43,9 @@ class SchoolSurface {
                 glm::vec3 sharedEyeMetres);
 
     // Draws the visible fish with their painted skin (fish.vert, fish.frag), lit and seen through
-    // the water by light.glsl. Expects the frame's uniform block to be bound
-    // (shaders/frame_uniforms.h).
+    // the water by light.glsl. Fins are blended over what is behind them: draw fish after the water
+    // and all solid things, before what floats in front. Expects the frame's uniform block to be
+    // bound (shaders/frame_uniforms.h).
     void draw() const;
 
     [[nodiscard]] SurfaceCounts counts() const;

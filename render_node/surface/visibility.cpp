@@ -10,7 +10,8 @@ namespace aquarama {
 
 namespace {
 
-// Radians. A projector of the theatre shows 0.09 as some 160 pixels: six for a quad of the control mesh.
+// Radians. A projector of the theatre shows 0.09 as some 160 pixels: six for a quad of the control
+// mesh.
 constexpr float kLevel1Angle = 0.09F;
 constexpr float kLevel2Angle = 0.28F;
 

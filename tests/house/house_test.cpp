@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each folder may include only what docs/architecture.md allows it.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>

@@ -19,6 +19,19 @@ Rig shippedRig(const std::string& name) {
     return readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
 }
 
+// The large rigs with half as many pixels each way: the same geometry in a quarter of the time.
+Rig testRig(const std::string& name) {
+    Rig rig = shippedRig(name);
+    if (name == "desk") return rig;
+    rig.panoramaPixels /= 2;
+    for (Channel& channel : rig.channels) {
+        channel.sizePixels /= 2;
+        channel.projector.focalPixels /= 2;
+        channel.projector.principalPixels /= 2;
+    }
+    return rig;
+}
+
 std::vector<Light> projected(const Rig& rig, TestPattern pattern) {
     std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
@@ -44,7 +57,7 @@ class OneWall : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Shipped, OneWall, testing::Values("theatre", "touring", "desk"));
 
 TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
-    const Rig rig = shippedRig(GetParam());
+    const Rig rig = testRig(GetParam());
     const std::vector<Light> channels = projected(rig, TestPattern::Grid);
     const Light direct = directPanorama(rig, TestPattern::Grid);
     for (const int bits : {16, 8}) {
@@ -55,7 +68,7 @@ TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
 }
 
 TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
-    const Rig rig = shippedRig(GetParam());
+    const Rig rig = testRig(GetParam());
     const std::vector<Light> channels = projected(rig, TestPattern::Grey);
     const Light deep = composed(rig, channels, 16);
     EXPECT_LT(unevenness(deep, 1), 0.01);

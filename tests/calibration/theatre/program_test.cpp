@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-calibrate as a crew uses it: its exit status, its one line on a mistake, its pictures.
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -22,9 +21,7 @@ struct Outcome {
 };
 
 Outcome calibrate(const std::string& arguments) {
-    const char* folder = std::getenv("AQUARAMA_BIN");
-    if (folder == nullptr) return {-1, "AQUARAMA_BIN is not set: run by ctest"};
-    const std::string command = std::string(folder) + "/aquarama-calibrate " + arguments + " 2>&1";
+    const std::string command = "\"$AQUARAMA_BIN\"/aquarama-calibrate " + arguments + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");
     Outcome outcome;
     for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <ostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -123,8 +124,8 @@ struct Mistake {
     std::string why;  // and says this
 };
 
-void PrintTo(const Mistake& mistake, std::ostream* out) {
-    *out << mistake.name;
+std::ostream& operator<<(std::ostream& out, const Mistake& mistake) {
+    return out << mistake.name;
 }
 
 // file:line:column of a position in a text, by counting: nothing of the parser is used.

@@ -104,7 +104,7 @@ TEST(Place, schoolHasWaterAllRoundIt) {
                 ASSERT_LT(floorHeight(seed, {x, z}), lowest.y - 0.3F);
         for (const Rock& rock : rocksOf(seed)) {
             const glm::vec3 nearest = glm::clamp(rock.centre, lowest, highest);
-            EXPECT_GT(glm::distance(nearest, rock.centre), 0.55F * rock.radiusMetres)
+            EXPECT_GT(glm::distance(nearest, rock.centre), 0.35F * rock.radiusMetres)
                 << "a rock fills the school's water";
         }
     }

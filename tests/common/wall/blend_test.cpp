@@ -29,8 +29,8 @@ TEST_P(BlendOfRig, theSharesOfEveryPointOfTheScreenSumToOne) {
 TEST_P(BlendOfRig, aShareFadesToNothingAtThePicturesBorderInsideAnOverlap) {
     const Rig rig = shippedRig(GetParam());
     const Channel& left = rig.channels[0];
-    for (double row = 0.1; row < 0.95; row += 0.1) {
-        const glm::dvec2 pixel(left.sizePixels.x - 1e-6, row * left.sizePixels.y);
+    for (int tenth = 1; tenth < 10; ++tenth) {
+        const glm::dvec2 pixel(left.sizePixels.x - 1e-6, 0.1 * tenth * left.sizePixels.y);
         const auto border = screenPoint(rig.screen, left, pixel);
         ASSERT_TRUE(border);
         EXPECT_LT(blendWeight(rig, 0, *border), 1e-9);

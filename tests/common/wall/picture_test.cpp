@@ -18,8 +18,8 @@ TEST(Picture, theTransferFunctionsAreTheStandards) {
     EXPECT_NEAR(linearFromSrgb(1), 1, 1e-12);
     EXPECT_NEAR(linearFromSrgb(0.5), 0.21404114048, 1e-9);  // IEC 61966-2-1
     EXPECT_NEAR(srgbFromLinear(0.18), 0.46135612950, 1e-9);
-    for (double linear = 0; linear <= 1; linear += 1.0 / 512)
-        EXPECT_NEAR(linearFromSrgb(srgbFromLinear(linear)), linear, 1e-7);
+    for (int i = 0; i <= 512; ++i)
+        EXPECT_NEAR(linearFromSrgb(srgbFromLinear(i / 512.0)), i / 512.0, 1e-7);
 }
 
 Light ramp() {

@@ -121,8 +121,8 @@ TEST_P(WarpOfRig, theMapSaysOfEachPixelWhatItsRaySays) {
         for (int x = 0; x < channel.sizePixels.x; x += 41) {
             const auto point = screenPoint(rig.screen, channel, {x + 0.5, y + 0.5});
             if (!point) continue;
-            const glm::vec4 entry =
-                map.pointAndWeight[static_cast<std::size_t>(y * channel.sizePixels.x + x)];
+            const int index = y * channel.sizePixels.x + x;
+            const glm::vec4 entry = map.pointAndWeight[static_cast<std::size_t>(index)];
             EXPECT_LT(distance(glm::dvec3(entry), *point), 1e-6);
             EXPECT_NEAR(static_cast<double>(entry.w), blendWeight(rig, 1, *point), 1e-7);
         }
@@ -138,8 +138,9 @@ TEST_P(WarpOfRig, theMapIsExactToAHundredthOfAPanoramaPixel) {
             const glm::vec4 entry = map.pointAndWeight[i];
             if (entry.w <= 0) continue;
             const auto width = static_cast<std::size_t>(map.sizePixels.x);
+            const std::size_t row = i / width;
             const glm::dvec2 pixel(static_cast<double>(i % width) + 0.5,
-                                   static_cast<double>(i / width) + 0.5);
+                                   static_cast<double>(row) + 0.5);
             const auto point = screenPoint(rig.screen, rig.channels[c], pixel);
             if (!point) continue;
             const glm::dvec2 off =

@@ -29,7 +29,8 @@ struct Scene {
         NeighbourGrid grid(surroundings.water, kCellMetres, view.size());
         grid.rebuild(view);
         for (std::uint64_t tick = 0; tick < kTicksBetweenThoughts; ++tick)
-            Steering{&view, &grid, &surroundings, goal, 0.5F, 1, {tick}, &intentions}.run(0, view.size());
+            Steering{&view, &grid, &surroundings, goal, 0.5F, 1, {tick}, &intentions}.run(
+                0, view.size());
         return intentions;
     }
 
@@ -87,7 +88,8 @@ TEST(Steering, eachFishThinksOnceInEightTicksAndAnEighthOfThemAtATime) {
         for (std::size_t fish = 0; fish < 800; ++fish) thinking += thinksAt({tick}, fish) ? 1 : 0;
         EXPECT_EQ(thinking, 100);
     }
-    for (std::size_t fish = 0; fish < 9; ++fish) EXPECT_EQ(thinksAt({3}, fish), thinksAt({11}, fish));
+    for (std::size_t fish = 0; fish < 9; ++fish)
+        EXPECT_EQ(thinksAt({3}, fish), thinksAt({11}, fish));
 }
 
 }  // namespace

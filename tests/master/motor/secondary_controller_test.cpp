@@ -144,6 +144,24 @@ TEST(SecondaryController, afterASharpTurnWhatItWillHaveDoneCounts) {
     EXPECT_TRUE(isForward(mind.think())) << "one sharp turn is enough";
 }
 
+TEST(SecondaryController, aSharpTurnKeepsItsTempoUntilItsLastTick) {
+    Mind mind;
+    mind.want(90, 2.0F);
+    mind.think();
+    const std::uint16_t turnRate = mind.commands.phaseRate[0];
+    mind.want(0, 2.0F);
+    mind.think();
+    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftSharp);  // plays on
+    mind.states.phase[0] = 60000;
+    mind.think();
+    EXPECT_EQ(mind.commands.phaseRate[0], turnRate);
+    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftSharp);
+    mind.states.phase[0] = 65000;
+    ++mind.tick;  // not its turn to think
+    mind.think();
+    EXPECT_NEAR(mind.commands.phaseRate[0], 3277, 0.16 * 3277) << "what follows swims on";
+}
+
 TEST(SecondaryController, aSpeedAboutABorderDoesNotDither) {
     Mind mind;
     int switches = 0;

@@ -44,8 +44,7 @@ class LoneFish {
         view_.speed[0] = 2 * view_.length[0];
         grid_.rebuild(view_);
         Steering{&view_, &grid_, &surroundings_, goal_, 0.3F, 1, tick_, &intentions_}.run(0, 1);
-        SecondaryController{
-            &gaits_, &view_, &intentions_, &states_, 1, tick_, &commands_, &memory_}
+        SecondaryController{&gaits_, &view_, &intentions_, &states_, 1, tick_, &commands_, &memory_}
             .run(0, 1);
         MotorStep{tables_.get(), traits_, &commands_, &states_, 0, 1}.run();
         ++tick_.value;
@@ -78,8 +77,8 @@ TEST(LoneFish, turnsInTimeBeforeEveryWall) {
                                  glm::vec3{0, -15, -5}}) {
         LoneFish fish(kOpenWater, kOpenWater.water.centre, lure);
         for (int tick = 0; tick < 60 * 60; ++tick) {
-            const glm::vec3 out = glm::abs(fish.swim() - kOpenWater.water.centre) -
-                                  kOpenWater.water.halfExtent;
+            const glm::vec3 out =
+                glm::abs(fish.swim() - kOpenWater.water.centre) - kOpenWater.water.halfExtent;
             ASSERT_LT(std::max({out.x, out.y, out.z}), 0.25F)
                 << "lured to " << lure.x << " " << lure.y << " " << lure.z << ", tick " << tick;
         }

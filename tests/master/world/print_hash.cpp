@@ -1,16 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// aquarama_world_hash SEED FISH TICKS THREADS: what the world's hash is then, to compare two builds.
+// aquarama_world_hash SEED FISH TICKS THREADS [TARGET]: what the world's hash is then, to compare
+// two builds; TARGET is an instruction set by its name in Highway (AVX2, SSE4, EMU128 ...), by
+// default the best.
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
+#include "tests/master/world/instruction_sets.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
+
+namespace {
+
+bool use(std::string_view name) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        if (name != hwy::TargetName(target)) continue;
+        aquarama::useOnly(target);
+        return true;
+    }
+    std::fprintf(stderr, "no instruction set %.*s here; there are:", int(name.size()), name.data());
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+        std::fprintf(stderr, " %s", hwy::TargetName(target));
+    std::fputc('\n', stderr);
+    return false;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     using namespace aquarama;
-    if (argc != 5) {
-        std::fprintf(stderr, "usage: %s SEED FISH TICKS THREADS\n", argv[0]);
+    if (argc != 5 && argc != 6) {
+        std::fprintf(stderr, "usage: %s SEED FISH TICKS THREADS [TARGET]\n", argv[0]);
         return 2;
     }
+    if (argc == 6 && !use(argv[5])) return 2;
     const auto number = [&](int i) { return std::strtoul(argv[i], nullptr, 10); };
     World world = syntheticWorld(static_cast<std::uint32_t>(number(1)),
                                  static_cast<std::uint32_t>(number(2)),

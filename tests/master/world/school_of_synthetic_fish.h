@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worlds for tests: the school as on the wall, moved by closed-form segments that are as quick and as
-// agile as the bigeye scad's.
+// Worlds for tests: the school as on the wall, moved by closed-form segments that are as quick and
+// as agile as the bigeye scad's.
 #pragma once
 
 #include <array>
@@ -37,8 +37,7 @@ inline Repertoire syntheticScad() {
 }
 
 inline std::shared_ptr<const MotorTables> syntheticTables() {
-    static const std::shared_ptr<const MotorTables> tables =
-        makeMotorTables(syntheticScad());
+    static const std::shared_ptr<const MotorTables> tables = makeMotorTables(syntheticScad());
     return tables;
 }
 

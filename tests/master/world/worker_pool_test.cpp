@@ -18,7 +18,8 @@ TEST(WorkerPool, everyChunkOfEveryJobIsDoneOnceBeforeRunReturns) {
             for (auto& count : done) count = 0;
             pool.run(chunks, [&](std::size_t chunk) { ++done[chunk]; });
             for (std::size_t chunk = 0; chunk < done.size(); ++chunk)
-                ASSERT_EQ(done[chunk], chunk < chunks ? 1 : 0) << threads << " threads, job " << job;
+                ASSERT_EQ(done[chunk], chunk < chunks ? 1 : 0)
+                    << threads << " threads, job " << job;
         }
     }
 }

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "common/units/error.h"
+#include "tests/master/world/instruction_sets.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
 namespace aquarama {
@@ -26,6 +28,16 @@ TEST(World, oneSeedIsOneWorldOnAnyNumberOfThreads) {
         EXPECT_EQ(alone, hashAfter(syntheticWorld(1, fish, 2), 600));
         EXPECT_EQ(alone, hashAfter(syntheticWorld(1, fish, 4), 600));
     }
+}
+
+TEST(World, oneSeedIsOneWorldOnEveryInstructionSet) {
+    std::set<std::uint64_t> hashes;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        useOnly(target);
+        hashes.insert(hashAfter(syntheticWorld(1, 51), 600));
+        EXPECT_EQ(hashes.size(), 1U) << hwy::TargetName(target);
+    }
+    useOnly(0);  // all again
 }
 
 TEST(World, anotherSeedIsAnotherWorld) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/surface/school_surface.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <random>
 #include <vector>
@@ -139,7 +139,9 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
         surface.update({&fish, 1}, clipFromWorld, glm::vec3{0});
         inSight += isInSight ? 1 : 0;
         culled += 1 - surface.counts().visible;
-        if (isInSight) ASSERT_EQ(surface.counts().visible, 1) << "trial " << trial;
+        if (isInSight) {
+            ASSERT_EQ(surface.counts().visible, 1) << "trial " << trial;
+        }
     }
     EXPECT_GT(inSight, 200);  // else the test would have proved nothing
     EXPECT_GT(culled, 200);
@@ -154,7 +156,8 @@ TEST_F(SchoolSurfaceTest, neighbouringChannelsChooseTheSameLevel) {
         clipFromCamera(0.6F, 1.0F) *
         glm::lookAt(eye + glm::vec3{0.3F, 0, 0}, eye + glm::vec3{-0.1F, 0, -1}, up);
     int compared = 0;
-    for (float away = 0.3F; away < 8.0F; away += 0.05F) {
+    for (int step = 0; step < 150; ++step) {
+        const float away = 0.3F + 0.05F * static_cast<float>(step);
         const PresentedFish fish =
             test::fishAt(eye + away * glm::normalize(glm::vec3{-0.15F, 0, -1}), {1, 0, 0, 0});
         left.update({&fish, 1}, leftClip, eye);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a repertoire holds, as a table of text.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace aquarama {
+
+// Throws Error, naming `source`, when the bytes are no intact repertoire.
+[[nodiscard]] std::string inspectRepertoire(std::span<const std::byte> bytes,
+                                            const std::string& source);
+
+}  // namespace aquarama

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// The master of a rig: wires the world to the conductor.
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <signal.h>
+
+#include "common/config/rig.h"
+#include "common/config/species.h"
+#include "common/motion/motor.h"
+#include "common/motion/repertoire.h"
+#include "common/net/blob.h"
+#include "common/net/channels.h"
+#include "common/place/place.h"
+#include "common/units/digest.h"
+#include "common/units/error.h"
+#include "common/wall/wall.h"
+#include "master/capture/progress_bar.h"
+#include "master/capture/repertoire_cache.h"
+#include "master/conductor/conductor.h"
+#include "master/conductor/status.h"
+#include "master/world/world.h"
+
+namespace aquarama {
+
+namespace {
+
+struct MasterOptions {
+    std::string rigPath;
+    bool lockstep = false;
+    std::optional<std::uint64_t> frames;
+    std::uint32_t seed = 1;
+    std::optional<std::uint32_t> fish;
+    std::string pattern = "world";
+    std::string traceFolder;
+};
+
+class LivingWorld final : public Simulation {
+  public:
+    explicit LivingWorld(World& world) : world_(world) {}
+    void advance() override { world_.advance(); }
+    [[nodiscard]] Tick tick() const override { return world_.tick(); }
+    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
+    [[nodiscard]] Eye eye() const override { return {.positionMetres = kEyePosition}; }
+    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
+
+  private:
+    World& world_;
+};
+
+std::string fileText(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    if (!file) throw Error(path.string() + ": cannot be read; is the rig's `species` right?");
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+// The first show of a species on this machine simulates it; later ones find what it swam.
+ByteVector capturedOnce(const std::string& speciesText, const std::filesystem::path& speciesPath) {
+    ProgressBar bar("capturing " + speciesPath.stem().string());
+    const auto cache = defaultBlobDirectory().parent_path() / "repertoires";
+    return repertoireFor(
+        speciesText, speciesPath.string(), cache, [&](double share) { bar.show(share); });
+}
+
+WorldOptions worldOptions(const MasterOptions& options, const Rig& rig, const Species& species) {
+    WorldOptions world;
+    world.seed = options.seed;
+    world.fishCount = options.fish.value_or(rig.fish);
+    // One core moves a few thousand fish well inside a tick; more threads would only wait for each
+    // other.
+    world.threads =
+        std::clamp(world.fishCount / 2000U, 1U, std::max(std::thread::hardware_concurrency(), 1U));
+    world.lengths = {.meanMetres = static_cast<float>(species.size.meanMetres),
+                     .deviationMetres = static_cast<float>(species.size.deviationMetres),
+                     .leastMetres = static_cast<float>(species.size.leastMetres),
+                     .mostMetres = static_cast<float>(species.size.mostMetres)};
+    return world;
+}
+
+ConductorOptions conductorOptions(const MasterOptions& options) {
+    ConductorOptions conductor;
+    conductor.pace = options.lockstep ? Pace::Lockstep : Pace::Live;
+    conductor.pattern = options.pattern == "grid"   ? Pattern::Grid
+                        : options.pattern == "grey" ? Pattern::Grey
+                                                    : Pattern::World;
+    conductor.frames = options.frames;
+    conductor.seed = options.seed;
+    conductor.traceDirectory = options.traceFolder;
+    return conductor;
+}
+
+// Ctrl-C and SIGTERM stop the show: heard on a thread of its own, where anything may be called.
+class StopOnSignal {
+  public:
+    explicit StopOnSignal(Conductor& conductor)
+        : listener_([this, &conductor] {
+              int signal = 0;
+              sigwait(&signals(), &signal);
+              if (signal != SIGUSR1) conductor.stop();
+          }) {}
+    ~StopOnSignal() {
+        pthread_kill(listener_.native_handle(), SIGUSR1);
+        listener_.join();
+    }
+    StopOnSignal(const StopOnSignal&) = delete;
+    StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+    // Before any thread starts, so that none of them takes the signals.
+    static void holdSignals() { pthread_sigmask(SIG_BLOCK, &signals(), nullptr); }
+
+  private:
+    static const sigset_t& signals() {
+        static const sigset_t set = [] {
+            sigset_t all;
+            sigemptyset(&all);
+            for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) sigaddset(&all, signal);
+            return all;
+        }();
+        return set;
+    }
+    std::thread listener_;
+};
+
+void runMaster(const MasterOptions& options) {
+    StopOnSignal::holdSignals();
+    const Rig rig = readRig(options.rigPath);
+    checkGeometry(rig, options.rigPath);
+    auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
+
+    const auto speciesPath = std::filesystem::path(options.rigPath).parent_path() / rig.species;
+    const std::string speciesText = fileText(speciesPath);
+    const Species species = parseSpecies(speciesText, speciesPath.string());
+    const ByteVector repertoire = capturedOnce(speciesText, speciesPath);
+
+    World world(worldOptions(options, rig, species),
+                makeMotorTables(decodeRepertoire(repertoire, species.name)));
+    LivingWorld simulation(world);
+
+    const auto speciesBytes = std::as_bytes(std::span{speciesText});
+    Welcome welcome;
+    welcome.rigText = writeRig(rig);
+    welcome.school.assign(world.traits().begin(), world.traits().end());
+    welcome.species = digestOf(speciesBytes);
+    welcome.repertoire = digestOf(repertoire);
+    Blobs blobs{{welcome.species, ByteVector(speciesBytes.begin(), speciesBytes.end())},
+                {welcome.repertoire, repertoire}};
+
+    Conductor conductor(rig,
+                        conductorOptions(options),
+                        simulation,
+                        std::move(welcome),
+                        std::move(blobs),
+                        std::move(channels));
+    const StopOnSignal stopOnSignal(conductor);
+    conductor.run();
+}
+
+int dispatch(int count, char** arguments) {
+    CLI::App app{"The master of a rig: moves every fish, and has all nodes present in step",
+                 "aquarama-master"};
+    MasterOptions options;
+    auto* rig = app.add_option("RIG", options.rigPath, "the rig's file");
+    app.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
+    app.add_option("--frames", options.frames, "end after so many frames");
+    app.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
+    app.add_option("--fish", options.fish, "how many, instead of the rig's number")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--pattern", options.pattern, "what the channels show")
+        ->check(CLI::IsMember({"world", "grid", "grey"}));
+    app.add_option(
+        "--trace", options.traceFolder, "folder for master.csv: a line of times a frame");
+
+    std::string statusRig = "config/desk.txtpb";
+    std::string statusAddress;
+    CLI::App& status = *app.add_subcommand("status", "what the running wall is doing");
+    status.add_option("RIG", statusRig, "whose master is asked")->capture_default_str();
+    status.add_option("--master", statusAddress, "its control address, instead of the rig's");
+    try {
+        app.parse(count, arguments);
+        if (!status.parsed() && rig->empty()) throw CLI::RequiredError("RIG");
+    } catch (const CLI::ParseError& wrong) {
+        return app.exit(wrong) == 0 ? 0 : 2;
+    }
+    if (status.parsed()) {
+        std::cout << runStatus(statusAddress.empty() ? readRig(statusRig).controlAddress
+                                                     : statusAddress);
+    } else {
+        runMaster(options);
+    }
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace aquarama
+
+int main(int count, char** arguments) {
+    try {
+        return aquarama::dispatch(count, arguments);
+    } catch (const std::exception& error) {
+        std::cerr << "aquarama-master: " << error.what() << '\n';
+        return 1;
+    }
+}

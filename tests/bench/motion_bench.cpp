@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a fish costs to move (paper, Table 1: 10 microseconds for frame and nodal points). Times are
+// per iteration; the counter ns_per_fish is what to read.
+#include <ctime>
+#include <random>
+
+#include <benchmark/benchmark.h>
+
+#include "common/motion/motor.h"
+#include "common/motion/reconstruct.h"
+#include "tests/support/synthetic_repertoire.h"
+
+namespace aquarama {
+namespace {
+
+const Repertoire& repertoire() {
+    static const Repertoire kRepertoire = syntheticRepertoire(true);
+    return kRepertoire;
+}
+
+const MotorTables& tables() {
+    static const auto kTables = makeMotorTables(repertoire());
+    return *kTables;
+}
+
+// A school at sea: every fish in some segment and phase, and some 1.5 changes of segment a second.
+struct School {
+    MotionStates states;
+    MotorCommands commands;
+    std::vector<FishTraits> traits;
+    std::mt19937 random{1};
+
+    explicit School(std::size_t fish) : traits(fish) {
+        states.resize(fish);
+        commands.resize(fish);
+        for (std::size_t i = 0; i < fish; ++i) {
+            traits[i] = {static_cast<std::uint32_t>(i),
+                         static_cast<std::uint16_t>(100 + random() % 300)};
+            setBodyFrame(states, i, {});
+            states.phase[i] = static_cast<std::uint16_t>(random());
+            decide(i);
+            states.segment[i] = commands.segment[i];
+        }
+    }
+
+    void decide(std::size_t fish) {
+        const auto action = static_cast<Action>(random() % kActions);
+        commands.segment[fish] = static_cast<std::uint8_t>(action);
+        commands.phaseRate[fish] = recordedPhaseRate(tables(), action);
+        commands.yawRate[fish] = static_cast<std::int16_t>(random() % 2000);
+        commands.pitch[fish] = static_cast<std::int16_t>(random() % 8000);
+    }
+    void decideSome() {
+        for (std::size_t i = 0; i < traits.size() / 40; ++i) decide(random() % traits.size());
+    }
+
+    [[nodiscard]] MotorStep step() {
+        return {.tables = &tables(),
+                .traits = traits,
+                .commands = &commands,
+                .states = &states,
+                .first = 0,
+                .last = traits.size()};
+    }
+};
+
+// Of this thread alone: what else the machine does is not the motor's.
+double processorSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Times `work` alone, not what prepares it.
+template <class Prepare, class Work>
+void measure(benchmark::State& state, std::size_t fish, Prepare&& prepare, Work&& work) {
+    double total = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        prepare();
+        const double begin = processorSeconds();
+        work();
+        const double seconds = processorSeconds() - begin;
+        state.SetIterationTime(seconds);
+        total += seconds;
+    }
+    const double played = static_cast<double>(state.iterations()) * static_cast<double>(fish);
+    state.counters["ns_per_fish"] = total / played * 1e9;
+    state.SetItemsProcessed(static_cast<std::int64_t>(played));
+}
+
+constexpr double kStateBytes = sizeof(FishRecord) + 4;  // orientation lies in 13 bytes, not in 8
+constexpr double kCommandBytes = 7;
+
+void bodyFrame(benchmark::State& state) {
+    School school(static_cast<std::size_t>(state.range(0)));
+    measure(
+        state, school.traits.size(), [&] { school.decideSome(); }, [&] { school.step().run(); });
+    state.counters["bytes_per_fish"] = 2 * kStateBytes + kCommandBytes + sizeof(FishTraits);
+}
+BENCHMARK(bodyFrame)
+    ->Name("body_frame")
+    ->ArgName("fish")
+    ->Arg(60)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->UseManualTime();
+
+void bodyFrameSteady(benchmark::State& state) {
+    School school(static_cast<std::size_t>(state.range(0)));
+    measure(
+        state, school.traits.size(), [] {}, [&] { school.step().run(); });
+}
+BENCHMARK(bodyFrameSteady)
+    ->Name("body_frame_steady")
+    ->ArgName("fish")
+    ->Arg(1000)
+    ->Arg(100000)
+    ->UseManualTime();
+
+void bodyFrameReference(benchmark::State& state) {
+    School school(static_cast<std::size_t>(state.range(0)));
+    measure(
+        state,
+        school.traits.size(),
+        [&] { school.decideSome(); },
+        [&] { school.step().runReference(); });
+}
+BENCHMARK(bodyFrameReference)
+    ->Name("body_frame_reference")
+    ->ArgName("fish")
+    ->Arg(10000)
+    ->UseManualTime();
+
+void hash(benchmark::State& state) {
+    const School school(static_cast<std::size_t>(state.range(0)));
+    measure(
+        state,
+        school.traits.size(),
+        [] {},
+        [&] { benchmark::DoNotOptimize(hashOf(school.states)); });
+}
+BENCHMARK(hash)->Name("state_hash")->ArgName("fish")->Arg(10000)->UseManualTime();
+
+// Every fish between two ticks; of them `warping` in a hundred between two segments.
+std::vector<PresentedFish> presented(std::size_t fish, unsigned warping) {
+    School school(fish);
+    std::vector<PresentedFish> shown(fish);
+    for (std::size_t i = 0; i < fish; ++i) {
+        const FishRecord record = recordOf(school.states, i);
+        shown[i] = present(record, record, 0.5F, school.traits[i]);
+        if (school.random() % 100 >= warping) continue;
+        shown[i].fromSegment = static_cast<std::uint32_t>(school.random() % kActions);
+        shown[i].fromPhase = static_cast<float>(school.random() % 65536) / 65536.0F;
+        shown[i].warpWeight = 0.4F;
+    }
+    return shown;
+}
+
+void nodalPointsOfMany(benchmark::State& state) {
+    const auto shown =
+        presented(static_cast<std::size_t>(state.range(0)), static_cast<unsigned>(state.range(1)));
+    std::vector<NodalPoints> nodes(shown.size());
+    measure(
+        state, shown.size(), [] {}, [&] { nodalPoints(repertoire(), shown, nodes); });
+    state.counters["bytes_per_fish"] = sizeof(PresentedFish) + sizeof(NodalPoints);
+}
+BENCHMARK(nodalPointsOfMany)
+    ->Name("nodal_points")
+    ->ArgNames({"fish", "percent_warping"})
+    ->Args({1000, 0})
+    ->Args({1000, 100})
+    ->Args({100000, 100})
+    ->Args({1000000, 100})
+    ->UseManualTime();
+
+void nodalPointsReference(benchmark::State& state) {
+    const auto shown = presented(static_cast<std::size_t>(state.range(0)), 100);
+    std::vector<NodalPoints> nodes(shown.size());
+    measure(
+        state,
+        shown.size(),
+        [] {},
+        [&] {
+            for (std::size_t i = 0; i < shown.size(); ++i) {
+                nodalPoints(repertoire(), shown[i], nodes[i]);
+            }
+        });
+}
+BENCHMARK(nodalPointsReference)
+    ->Name("nodal_points_reference")
+    ->ArgName("fish")
+    ->Arg(1000)
+    ->UseManualTime();
+
+void controlPointsOfMany(benchmark::State& state) {
+    const auto shown =
+        presented(static_cast<std::size_t>(state.range(0)), static_cast<unsigned>(state.range(1)));
+    std::vector<glm::vec3> points(shown.size() * kControlPoints);
+    measure(
+        state, shown.size(), [] {}, [&] { controlPoints(repertoire(), shown, points); });
+    state.counters["bytes_per_fish"] = sizeof(PresentedFish) + kControlPoints * sizeof(glm::vec3);
+}
+BENCHMARK(controlPointsOfMany)
+    ->Name("control_points")
+    ->ArgNames({"fish", "percent_warping"})
+    ->Args({60, 10})
+    ->Args({1000, 100})
+    ->UseManualTime();
+
+}  // namespace
+}  // namespace aquarama

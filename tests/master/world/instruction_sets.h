@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which instruction set the vectorised step may use.
+#pragma once
+
+#include <cstdint>
+
+#include <hwy/highway.h>
+#include <hwy/targets.h>
+
+namespace aquarama {
+
+// One of hwy::SupportedAndGeneratedTargets(); 0 allows all that the processor has.
+inline void useOnly(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace aquarama

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture itself, on software GL.
+#include "render_node/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <epoxy/gl.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "common/place/place.h"
+#include "render_node/context/context.h"
+#include "render_node/scene/sea_light.h"
+#include "render_node/scene/shade.h"
+#include "render_node/shaders/frame_uniforms.h"
+
+namespace aquarama {
+namespace {
+
+constexpr glm::ivec2 kSize{320, 288};
+const glm::vec2 kHalfTangents{0.47F, 0.47F};  // 25 degrees to all sides
+
+struct Shot {
+    std::vector<glm::vec3> pixels;  // display light, bottom row first
+    [[nodiscard]] glm::vec3 at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y * kSize.x + x)];
+    }
+};
+
+// Reversed depth, zero to one, far plane at infinity.
+View viewTowards(float azimuthDegrees) {
+    constexpr float kNear = 0.1F;
+    View view;
+    view.sizePixels = kSize;
+    view.clipFromCamera = glm::mat4{0.0F};
+    view.clipFromCamera[0][0] = 1.0F / kHalfTangents.x;
+    view.clipFromCamera[1][1] = 1.0F / kHalfTangents.y;
+    view.clipFromCamera[2][3] = -1.0F;
+    view.clipFromCamera[3][2] = kNear;
+    view.cameraFromWorld =
+        glm::rotate(glm::mat4{1.0F}, glm::radians(azimuthDegrees), glm::vec3{0, 1, 0}) *
+        glm::translate(glm::mat4{1.0F}, -kEyePosition);
+    return view;
+}
+
+Shot shoot(Scene& scene, double timeSeconds, float azimuthDegrees) {
+    SceneFrame frame;
+    frame.timeSeconds = timeSeconds;
+    frame.eyePositionMetres = kEyePosition;
+    const unsigned texture = scene.draw(frame, viewTowards(azimuthDegrees));
+    Shot shot;
+    shot.pixels.resize(static_cast<std::size_t>(kSize.x * kSize.y));
+    glGetTextureImage(texture,
+                      0,
+                      GL_RGB,
+                      GL_FLOAT,
+                      static_cast<GLsizei>(shot.pixels.size() * sizeof(glm::vec3)),
+                      shot.pixels.data());
+    return shot;
+}
+
+class Place : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        context() = makeOffscreenContext("auto", {16, 16});
+        scene() = fresh({});
+    }
+    static void TearDownTestSuite() {
+        scene().reset();
+        context().reset();
+    }
+    static std::unique_ptr<Scene> fresh(SceneOptions options, int samples = 1) {
+        options.samples = samples;
+        return std::make_unique<Scene>(options, FishBody{}, Repertoire{});
+    }
+    static std::unique_ptr<Context>& context() {
+        static std::unique_ptr<Context> instance;
+        return instance;
+    }
+    static std::unique_ptr<Scene>& scene() {
+        static std::unique_ptr<Scene> instance;
+        return instance;
+    }
+};
+
+TEST_F(Place, drawsWithoutAnErrorOfGl) {
+    shoot(*scene(), 1.0, 0.0);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+// Neither black nor blinding, on any channel: the veil of light keeps it above a projector's black.
+TEST_F(Place, lightIsWithinWhatAWallBears) {
+    for (const float azimuth : {-40.0F, 0.0F, 40.0F}) {
+        const Shot shot = shoot(*scene(), 12.0, azimuth);
+        double sum = 0;
+        int clipped = 0;
+        for (const glm::vec3& pixel : shot.pixels) {
+            sum += double{pixel.r} * 0.2126 + double{pixel.g} * 0.7152 + double{pixel.b} * 0.0722;
+            clipped += std::max({pixel.r, pixel.g, pixel.b}) > 0.995F ? 1 : 0;
+            ASSERT_GE(std::min({pixel.r, pixel.g, pixel.b}), 0.0F);
+        }
+        const auto count = static_cast<double>(shot.pixels.size());
+        EXPECT_GT(sum / count, 0.05) << azimuth;
+        EXPECT_LT(sum / count, 0.20) << azimuth;
+        EXPECT_LT(clipped / count, 0.005) << azimuth;
+    }
+}
+
+// A node that has just restarted draws what its neighbours draw.
+TEST_F(Place, historyNeverChangesWhatIsSeen) {
+    shoot(*scene(), 3.0, -40.0F);
+    const Shot veteran = shoot(*scene(), 7.25, 20.0F);
+    const auto restarted = fresh({});
+    EXPECT_EQ(shoot(*restarted, 7.25, 20.0F).pixels, veteran.pixels);
+}
+
+TEST_F(Place, moves) {
+    EXPECT_NE(shoot(*scene(), 1.0, 0.0F).pixels, shoot(*scene(), 1.1, 0.0F).pixels);
+}
+
+TEST_F(Place, cullingHidesNothingThatIsSeen) {
+    SceneOptions options;
+    options.culling = false;
+    const auto all = fresh(options);
+    EXPECT_EQ(shoot(*all, 5.0, 40.0F).pixels, shoot(*scene(), 5.0, 40.0F).pixels);
+}
+
+// The pixel in which a view shows a direction; empty outside the picture.
+std::optional<glm::vec2> pixelOf(float viewAzimuth, float azimuth, float elevation) {
+    const float across = std::tan(glm::radians(azimuth - viewAzimuth));
+    const float up =
+        std::tan(glm::radians(elevation)) / std::cos(glm::radians(azimuth - viewAzimuth));
+    const glm::vec2 ndc = glm::vec2{across, up} / kHalfTangents;
+    if (std::abs(ndc.x) > 0.98F || std::abs(ndc.y) > 0.98F) return {};
+    return (ndc * 0.5F + 0.5F) * glm::vec2(kSize);
+}
+
+glm::vec3 sampled(const Shot& shot, glm::vec2 pixel) {
+    const glm::vec2 corner = glm::floor(pixel - 0.5F);
+    const glm::vec2 t = pixel - 0.5F - corner;
+    const int x = static_cast<int>(corner.x);
+    const int y = static_cast<int>(corner.y);
+    return glm::mix(glm::mix(shot.at(x, y), shot.at(x + 1, y), t.x),
+                    glm::mix(shot.at(x, y + 1), shot.at(x + 1, y + 1), t.x),
+                    t.y);
+}
+
+// Means over blocks of about 16 x 16 pixels of the overlap of two views 30 degrees apart.
+std::vector<float> differencesAlongTheSeam(const Shot& left, const Shot& right, float between) {
+    constexpr float kBlockDegrees = 2.6F;
+    constexpr int kSteps = 16;
+    std::vector<float> differences;
+    for (float azimuth = -9.0F; azimuth < 7.0F; azimuth += kBlockDegrees)
+        for (float elevation = -20.0F; elevation < 19.0F; elevation += kBlockDegrees) {
+            glm::vec3 sum{0.0F};
+            int count = 0;
+            for (int i = 0; i < kSteps * kSteps; ++i) {
+                const float a = azimuth + kBlockDegrees * static_cast<float>(i % kSteps) / kSteps;
+                const float e = elevation + kBlockDegrees * static_cast<float>(i / kSteps) / kSteps;
+                const auto l = pixelOf(-between / 2.0F, a, e);
+                const auto r = pixelOf(between / 2.0F, a, e);
+                if (!l || !r) continue;
+                sum += sampled(left, *l) - sampled(right, *r);
+                ++count;
+            }
+            if (count < kSteps * kSteps) continue;
+            const glm::vec3 mean = glm::abs(sum / static_cast<float>(count));
+            differences.push_back(255.0F * std::max({mean.r, mean.g, mean.b}));
+        }
+    return differences;
+}
+
+TEST_F(Place, neighboursAgreeWhereTheyOverlap) {
+    constexpr float kBetween = 30.0F;
+    const auto smooth = fresh({}, 4);
+    const Shot left = shoot(*smooth, 9.0, -kBetween / 2.0F);
+    const Shot right = shoot(*smooth, 9.0, kBetween / 2.0F);
+    std::vector<float> codes = differencesAlongTheSeam(left, right, kBetween);
+    ASSERT_GT(codes.size(), 60U);
+    std::ranges::sort(codes);
+    EXPECT_LT(codes[codes.size() / 2], 0.5F);
+    EXPECT_LT(codes[codes.size() * 9 / 10], 2.0F);
+    // Blades of grass thinner than a pixel fall between the samples now of one view, now of the
+    // other.
+    EXPECT_LT(codes.back(), 6.0F);
+}
+
+TEST_F(Place, wavesGatherLightAndMakeNone) {
+    SeaLight light{1, 5.0F};
+    FrameUniforms uniforms{};
+    uniforms.eyeAndTime = glm::vec4(kEyePosition, 0.0F);
+    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), 5.0F);
+    const gl::Buffer block;
+    glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
+    for (const double time : {0.0, 2.7, 1000.3}) {
+        light.update(time, kEyePosition, glm::mat4{1.0F});
+        constexpr int kTexels = 256 * 256;
+        std::vector<float> texels(kTexels);
+        glGetTextureImage(light.causticTile().name(),
+                          0,
+                          GL_RED,
+                          GL_FLOAT,
+                          static_cast<GLsizei>(texels.size() * sizeof(float)),
+                          texels.data());
+        double sum = 0;
+        for (const float texel : texels) sum += double{texel};
+        EXPECT_NEAR(sum / kTexels, 1.0, 0.05) << time;
+        EXPECT_GT(*std::ranges::max_element(texels), 3.0F) << "no net of light";
+    }
+}
+
+}  // namespace
+}  // namespace aquarama
