@@ -17,8 +17,11 @@ namespace aquarama {
 
 namespace {
 
-constexpr std::array<float, kReefLevels - 1> kLevelMetres{6.5F, 11.0F, 18.0F};
+constexpr std::array<float, kReefLevels - 1> kLevelMetres{6.5F, 11.0F, 18.0F, 27.0F};
 constexpr float kGrowthShare = 1.45F;  // of the rock's radius: how far its corals reach
+
+// The small ones are lost in the water.
+constexpr std::array<float, kReefLevels> kLeastShare{0.0F, 0.0F, 0.1F, 0.3F, 0.55F};
 
 // Cover is what makes rock look alive: about a coral for every hand's breadth of its top.
 void addCorals(ReefMesh& mesh, const Rock& rock, int level) {
@@ -29,8 +32,8 @@ void addCorals(ReefMesh& mesh, const Rock& rock, int level) {
         const float size =
             (0.16F + 0.34F * share * share) * (0.6F + 0.35F * std::sqrt(rock.radiusMetres));
         const std::uint32_t seed = dice.seed();
-        if (level == 3 && share < 0.25F) continue;  // the small ones are lost in the water
-        addCoral(mesh, spot, size, seed, level);
+        if (share < kLeastShare.at(static_cast<std::size_t>(level))) continue;
+        addCoral(mesh, spot, size, seed, std::min(level, 3));
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boulders with all that grows on them, at four levels of detail.
+// The boulders with all that grows on them, at five levels of detail.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace aquarama {
 
-inline constexpr int kReefLevels = 4;
+inline constexpr int kReefLevels = 5;
 // One boulder and its corals, shaded by all others.
 [[nodiscard]] ReefMesh growBoulder(const Rock& rock, std::span<const Rock> all, int level);
 

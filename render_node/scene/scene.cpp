@@ -23,13 +23,13 @@ namespace {
 
 // Undoes about the water above the eye, so that near things keep their colours and distance stays
 // blue.
-constexpr float kFilterDepthMetres = 5.3F;
+constexpr float kFilterDepthMetres = 4.9F;
 constexpr int kFlakes = 9000;
 
 // All channels of a wall are about as large, so neighbours agree.
 float detailOf(glm::ivec2 sizePixels) {
     constexpr int kSmallWindow = 640;
-    return sizePixels.y < kSmallWindow ? 0.6F : 1.0F;
+    return sizePixels.y < kSmallWindow ? 0.5F : 1.0F;
 }
 
 FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {

@@ -12,7 +12,7 @@ void main() {
     // A second look, larger and turned, so that the tile is not seen to repeat.
     vec2 turned = vec2(place.x * 0.83 - place.z * 0.56, place.x * 0.56 + place.z * 0.83);
     vec4 coarse = texture(detail, turned / (kTile * 5.3));
-    vec2 slope = 1.3 * (fine.xy - 0.5) + 0.5 * (coarse.xy - 0.5);
+    vec2 slope = 2.0 * (fine.xy - 0.5) + 0.5 * (coarse.xy - 0.5);
     vec3 n = normalize(normal - vec3(slope.x, 0.0, slope.y));
     vec2 open = texture(shade, place.xz / kShadeSide + 0.5).rg;
     vec3 albedo = kSand * (2.0 * fine.z) * (0.55 + 0.9 * coarse.z);

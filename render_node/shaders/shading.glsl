@@ -15,7 +15,7 @@ struct Openness {
 
 // The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
 // the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
-const float kLampPower = 14.0;
+const float kLampPower = 8.0;
 const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045) * kRangeShare;
 vec3 lampLight(vec3 place, vec3 normal) {
     vec3 way = eyeAndTime.xyz - place;

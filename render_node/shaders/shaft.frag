@@ -29,7 +29,7 @@ void main() {
         float depth = -place.y;
         if (depth < 0.0) break;
         vec2 tile = (place.xz + sunAndFilterDepth.xz / sunAndFilterDepth.y * depth) / kTileMetres;
-        float light = textureLod(causticTile, tile, 1.6).r - 1.0;
+        float light = textureLod(causticTile, tile, 1.4 + 0.06 * range).r - 1.0;
         light = 1.0 + kGain * light * (1.0 - exp(-0.5 * depth)) * exp(-0.022 * depth);
         float weight = stride * exp(-0.075 * range);
         vec4 within = step(vec4(range), vec4(3.0, 8.0, 18.0, 45.0)) * weight;

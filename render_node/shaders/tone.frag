@@ -4,7 +4,7 @@ layout(binding = 0) uniform sampler2D scene;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display;
 const float kExposure = 8.2;
-const float kSaturation = 1.08;
+const float kSaturation = 1.02;
 
 // Water is bluer than the display can show (red below 0): a soft floor at 3.5 % of the brightest
 // channel, which keeps the ratio of green to blue.

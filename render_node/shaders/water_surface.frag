@@ -12,8 +12,7 @@ vec3 sky(vec3 direction) {
     float away = dot(direction, sun) - 1.0;
     vec3 blue = mix(vec3(0.060, 0.076, 0.095), vec3(0.030, 0.050, 0.090),
                     smoothstep(0.0, 0.9, direction.y));
-    return blue + vec3(1.0, 0.93, 0.82) * (60.0 * exp(2600.0 * away) + 2.2 * exp(260.0 * away) +
-                                           0.16 * exp(14.0 * away));
+    return blue + vec3(1.0, 0.93, 0.82) * (2.2 * exp(260.0 * away) + 0.16 * exp(14.0 * away));
 }
 
 void main() {
@@ -24,6 +23,8 @@ void main() {
     vec2 turned = vec2(0.83 * place.x - 0.56 * place.z, 0.56 * place.x + 0.83 * place.z);
     vec2 slope = 1.6 * texture(waveTile, place.xz / kTileMetres).xy +
                  1.7 * texture(waveTile, turned / 3.7).xy;
+    // Steep facets would tear holes of sky into the mirror: waves break before.
+    slope *= inversesqrt(1.0 + 8.0 * dot(slope, slope));
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float inward = max(dot(w, normal), 0.02);
     vec3 up = vec3(0.0);
