@@ -19,9 +19,9 @@ namespace aquarama {
 namespace {
 
 // Bindings of shader storage, as fish_data.glsl, fish.comp and fish.vert have them.
-enum Binding : unsigned { kSchool, kRecorded, kFirstEntries, kEntries, kSurface };
+constexpr GLuint kSchool = 0, kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 4;
 // Uniforms of fish.comp and fish.vert.
-enum Uniform : int { kFirstFish, kFirstVertex, kVertexCount };
+constexpr GLint kFirstFish = 0, kFirstVertex = 1, kVertexCount = 2;
 
 constexpr std::size_t kBytesPerVertex = 16;
 // Half of the least block that GL drivers allow in practice (128 MiB on software Mesa).

@@ -186,14 +186,15 @@ TEST(LimitTable, level0IsTheControlMesh) {
         EXPECT_EQ(evaluate(table, i, cage).position, cage[i]);
 }
 
-// A fish of 160 pixels, where the control mesh takes over, changes by less than two of them.
+// Where the control mesh takes over a fish fills some 160 pixels: the tips of its fins, which
+// change most, move by less than three.
 TEST(LimitTable, aChangeOfLevelMovesNoVertexFar) {
     const FishBody body = test::scad();
     const std::vector<glm::vec3> cage = bentCage(body);
     const LimitTable coarse = makeLimitTable(body, 1), fine = makeLimitTable(body, 2);
     for (std::size_t i = 0; i < kControlPoints; ++i) {
         const glm::vec3 limit = evaluate(coarse, i, cage).position;
-        EXPECT_LT(glm::distance(limit, cage[i]), 2.0F / 160.0F) << "vertex " << i;
+        EXPECT_LT(glm::distance(limit, cage[i]), 3.0F / 160.0F) << "vertex " << i;
         EXPECT_LT(glm::distance(limit, evaluate(fine, i, cage).position), 1e-6F) << "vertex " << i;
     }
 }
