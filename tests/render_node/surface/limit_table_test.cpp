@@ -43,6 +43,7 @@ std::vector<glm::vec3> bentCage(const FishBody& body) {
     return points;
 }
 
+// NOLINTBEGIN(readability-identifier-naming): names that OpenSubdiv calls
 struct RefinedPoint {
     void Clear(void* = nullptr) { position = {}; }
     void AddWithWeight(const RefinedPoint& source, float weight) {
@@ -50,6 +51,7 @@ struct RefinedPoint {
     }
     glm::vec3 position{};
 };
+// NOLINTEND(readability-identifier-naming)
 
 // Where repeated refinement, without any limit mask, takes the cage's vertices, and the points that
 // the first refinement put on its faces: an oracle that shares no code with limit stencils.
