@@ -157,7 +157,7 @@ std::vector<Plant> plantsOf(std::uint32_t seed) {
 }
 
 Region schoolRegion() {
-    return {glm::vec3{0.0F, -5.7F, -4.6F}, glm::vec3{4.6F, 1.7F, 2.2F}};
+    return {glm::vec3{0.0F, -5.8F, -5.5F}, glm::vec3{5.0F, 1.8F, 3.5F}};
 }
 
 }  // namespace aquarama
