@@ -18,12 +18,14 @@
 #include "common/config/species.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
+#include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/place/place.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
-#include "master/capture/capture_repertoire.h"
+#include "master/capture/progress_bar.h"
+#include "master/capture/repertoire_cache.h"
 #include "master/conductor/conductor.h"
 #include "master/conductor/status.h"
 #include "master/world/world.h"
@@ -61,6 +63,14 @@ std::string fileText(const std::filesystem::path& path) {
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
+}
+
+// The first show of a species on this machine simulates it; later ones find what it swam.
+ByteVector capturedOnce(const std::string& speciesText, const std::filesystem::path& speciesPath) {
+    ProgressBar bar("capturing " + speciesPath.stem().string());
+    const auto cache = defaultBlobDirectory().parent_path() / "repertoires";
+    return repertoireFor(
+        speciesText, speciesPath.string(), cache, [&](double share) { bar.show(share); });
 }
 
 WorldOptions worldOptions(const MasterOptions& options, const Rig& rig, const Species& species) {
@@ -131,7 +141,7 @@ void runMaster(const MasterOptions& options) {
     const auto speciesPath = std::filesystem::path(options.rigPath).parent_path() / rig.species;
     const std::string speciesText = fileText(speciesPath);
     const Species species = parseSpecies(speciesText, speciesPath.string());
-    const ByteVector repertoire = encodeRepertoire(captureRepertoire(species, [](double) {}));
+    const ByteVector repertoire = capturedOnce(speciesText, speciesPath);
 
     World world(worldOptions(options, rig, species),
                 makeMotorTables(decodeRepertoire(repertoire, species.name)));

@@ -48,7 +48,7 @@ struct Block {
     HWY_ALIGN float end[4 * kBlockFish];
     HWY_ALIGN float bodyFromMean[4 * kBlockFish];
     HWY_ALIGN float translation[4 * kBlockFish];
-    HWY_ALIGN float unitsPerBodyLength[kBlockFish];
+    HWY_ALIGN std::int32_t lengthMillimetres[kBlockFish];
 };
 
 void store(const Travel& travel, Block& block, std::size_t i) {
@@ -112,8 +112,7 @@ HWY_INLINE void travelBlock(const MotorStep& step,
         } else {
             storePlayed(step.tables->segments[columns.segment[fish]], playing, block, i);
         }
-        block.unitsPerBodyLength[i] =
-            static_cast<float>(step.traits[fish].lengthMillimetres) * kUnitsPerMillimetre;
+        block.lengthMillimetres[i] = step.traits[fish].lengthMillimetres;
     }
 }
 
@@ -125,6 +124,12 @@ HWY_INLINE Lanes differenceOfProducts(Lanes a, Lanes b, Lanes c, Lanes d) {
 }
 HWY_INLINE Lanes bounded(Lanes value, float limit) {
     return hn::Min(hn::Max(value, hn::Set(kFloats, -limit)), hn::Set(kFloats, limit));
+}
+
+// To the nearest even integer, for |value| up to 2^22: where the sum's last bit is worth one.
+HWY_INLINE IntLanes rounded(Lanes value) {
+    const Lanes shift = hn::Set(kFloats, 12582912.0F);  // 1.5 * 2^23
+    return hn::Sub(hn::BitCast(kInts, hn::Add(value, shift)), hn::BitCast(kInts, shift));
 }
 
 HWY_INLINE QuaternionLanes load(const float* quaternions) {
@@ -140,8 +145,14 @@ HWY_INLINE QuaternionLanes product(const QuaternionLanes& a, const QuaternionLan
             hn::Add(sumOfProducts(a.w, b.z, a.z, b.w), differenceOfProducts(a.x, b.y, a.y, b.x))};
 }
 
-HWY_INLINE QuaternionLanes conjugateOf(const QuaternionLanes& q) {
-    return {q.w, hn::Neg(q.x), hn::Neg(q.y), hn::Neg(q.z)};
+// a times the conjugate of b: the signs are carried into the sums, which leaves every bit alone.
+HWY_INLINE QuaternionLanes quotient(const QuaternionLanes& a, const QuaternionLanes& b) {
+    return {
+        hn::Add(sumOfProducts(a.w, b.w, a.x, b.x), sumOfProducts(a.y, b.y, a.z, b.z)),
+        hn::Sub(differenceOfProducts(a.x, b.w, a.w, b.x), differenceOfProducts(a.y, b.z, a.z, b.y)),
+        hn::Sub(differenceOfProducts(a.y, b.w, a.w, b.y), differenceOfProducts(a.z, b.x, a.x, b.z)),
+        hn::Sub(differenceOfProducts(a.z, b.w, a.w, b.z),
+                differenceOfProducts(a.x, b.y, a.y, b.x))};
 }
 
 HWY_INLINE QuaternionLanes renormalisedLanes(const QuaternionLanes& q) {
@@ -206,7 +217,7 @@ HWY_INLINE void setOrientation(const QuaternionLanes& q, MotionStates& s, std::s
     const auto put = [&](Lanes component, std::vector<std::int32_t>& column) HWY_ATTR {
         const Lanes units =
             hn::Mul(hn::Mul(sign, component), hn::Set(kFloats, kOrientationUnitsPerOne));
-        hn::StoreU(hn::NearestInt(bounded(units, kOrientationLimit)), kInts, column.data() + fish);
+        hn::StoreU(rounded(bounded(units, kOrientationLimit)), kInts, column.data() + fish);
     };
     const auto isW = isLargest(largest, 0);
     put(hn::IfThenElse(isW, q.x, q.w), s.orientationA);
@@ -255,7 +266,7 @@ HWY_INLINE Lanes commanded(const std::vector<std::int16_t>& column, std::size_t 
 
 HWY_INLINE void move(std::vector<std::int32_t>& column, std::size_t fish, Lanes units) {
     std::int32_t* const position = column.data() + fish;
-    const IntLanes step = hn::NearestInt(bounded(units, kLongestStepUnits));
+    const IntLanes step = rounded(bounded(units, kLongestStepUnits));
     hn::StoreU(hn::Add(hn::LoadU(kInts, position), step), kInts, position);
 }
 
@@ -272,10 +283,11 @@ HWY_INLINE void stepLanes(const MotorStep& step,
     Lanes padding{};
     hn::LoadInterleaved4(
         kFloats, block.translation + 4 * lane, travel.x, travel.y, travel.z, padding);
-    const QuaternionLanes seenFrom =
-        renormalisedLanes(product(orientationOf(s, fish), conjugateOf(start)));
+    const QuaternionLanes seenFrom = renormalisedLanes(quotient(orientationOf(s, fish), start));
     const VectorLanes moves = rotated(seenFrom, travel);
-    const Lanes units = hn::Load(kFloats, block.unitsPerBodyLength + lane);
+    const Lanes units =
+        hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, block.lengthMillimetres + lane)),
+                hn::Set(kFloats, kUnitsPerMillimetre));
     move(s.x, fish, hn::Mul(moves.x, units));
     move(s.y, fish, hn::Mul(moves.y, units));
     move(s.z, fish, hn::Mul(moves.z, units));

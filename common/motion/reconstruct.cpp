@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/reconstruct.h"
 
-#include <algorithm>
+#include "common/motion/phase_sample.h"
 
 namespace aquarama {
 namespace {
 
 constexpr float kPhaseUnit = 1.0F / 65536.0F;
-
-// Where between two samples of the cycle a phase lies.
-struct Sample {
-    std::size_t before = 0, after = 0;
-    float share = 0.0F;  // of `after`
-};
-
-Sample sampleAt(float phase) {
-    const float at = std::clamp(phase, 0.0F, 1.0F) * kPhases;
-    const auto before = static_cast<std::size_t>(at);
-    return {before % kPhases, (before + 1) % kPhases, at - static_cast<float>(before)};
-}
-
-const ActionSegment& segmentOf(const Repertoire& repertoire, std::uint32_t segment) {
-    return repertoire.segments[std::min<std::size_t>(segment, kActions - 1)];
-}
 
 glm::vec3 lengthsOf(const std::array<std::int16_t, 3>& point) {
     return glm::vec3(point[0], point[1], point[2]) * kPoseUnit;
@@ -30,7 +14,7 @@ glm::vec3 lengthsOf(const std::array<std::int16_t, 3>& point) {
 
 // Point i of a cycle of poses at a phase, body lengths.
 template <class Poses>
-glm::vec3 pointAt(const Poses& poses, const Sample& sample, std::size_t i) {
+glm::vec3 pointAt(const Poses& poses, const PhaseSample& sample, std::size_t i) {
     return glm::mix(
         lengthsOf(poses[sample.before][i]), lengthsOf(poses[sample.after][i]), sample.share);
 }
@@ -44,8 +28,8 @@ void deform(const Repertoire& repertoire,
             std::span<glm::vec3> points) {
     const auto& to = posesOf(segmentOf(repertoire, fish.segment));
     const auto& from = posesOf(segmentOf(repertoire, fish.fromSegment));
-    const Sample toSample = sampleAt(fish.phase);
-    const Sample fromSample = sampleAt(fish.fromPhase);
+    const PhaseSample toSample = sampleAt(fish.phase);
+    const PhaseSample fromSample = sampleAt(fish.fromPhase);
     for (std::size_t i = 0; i < points.size(); ++i) {
         points[i] = pointAt(to, toSample, i);
         if (fish.warpWeight < 1.0F) {
@@ -144,9 +128,4 @@ void controlPoints(const Repertoire& repertoire,
     placeInWorld(fish, points.first(kControlPoints));
 }
 
-}  // namespace aquarama
-namespace aquarama {
-void nodalPoints(const Repertoire& r, std::span<const PresentedFish> f, std::span<NodalPoints> n) {
-    for (size_t i = 0; i < f.size(); ++i) nodalPoints(r, f[i], n[i]);
-}
 }  // namespace aquarama

@@ -30,8 +30,8 @@ struct PresentedFish {
 };
 static_assert(sizeof(PresentedFish) == 64);
 
-// fraction 0 shows `before`, 1 shows `after` (the next tick). Fish that differ in segment are shown
-// as `after` poses them.
+// fraction 0 shows `before`, 1 shows `after` (the next tick). A fish that
+// left its segment in between glides from the pose it left; one that jumped is shown as `after`.
 [[nodiscard]] PresentedFish present(const FishRecord& before,
                                     const FishRecord& after,
                                     float fraction,
@@ -41,13 +41,18 @@ static_assert(sizeof(PresentedFish) == 64);
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes);
 // World frame, metres.
 void nodalPoints(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes);
+// Only of segments that were captured with control points.
 void controlPoints(const Repertoire& repertoire,
                    const PresentedFish& fish,
                    std::span<glm::vec3> points);
 
-// The same for many fish at once, vectorised: world frame, metres; nodes[fish].
+// The same for many fish at once, vectorised: world frame, metres; nodes[fish], and
+// points[fish * kControlPoints + i].
 void nodalPoints(const Repertoire& repertoire,
                  std::span<const PresentedFish> fish,
                  std::span<NodalPoints> nodes);
+void controlPoints(const Repertoire& repertoire,
+                   std::span<const PresentedFish> fish,
+                   std::span<glm::vec3> points);
 
 }  // namespace aquarama

@@ -22,6 +22,7 @@ constexpr int kMasterLingerMs = 1000;  // how long a farewell may take to leave
 constexpr int kNodeLingerMs = 200;
 constexpr int kReconnectMs = 50;  // a master that restarts is found at once
 constexpr int kReconnectMaxMs = 500;
+constexpr int kMostRequests = 256;  // to the state channel in one turn: a flood stops no frame
 constexpr std::size_t kSubscriptionBytes = 256;  // the longest that the state channel listens to
 
 ByteVector bytesOf(const zmq::message_t& message) {
@@ -174,11 +175,13 @@ class ZmqMasterChannels final : public MasterChannels {
   private:
     // "\x01" is a subscription to everything, the only one that we know; "\x00" ends it.
     void admitSubscribers() {
-        while (const auto request = receiveSingle(state_)) {
-            const bool plain = request->size() == 1;
-            if (plain && request->front() == std::byte{1}) {
+        for (int request = 0; request < kMostRequests; ++request) {
+            const auto topic = receiveSingle(state_);
+            if (!topic) return;
+            const bool plain = topic->size() == 1;
+            if (plain && topic->front() == std::byte{1}) {
                 state_.set(zmq::sockopt::subscribe, "");
-            } else if (plain && request->front() == std::byte{0}) {
+            } else if (plain && topic->front() == std::byte{0}) {
                 state_.set(zmq::sockopt::unsubscribe, "");
             } else {
                 ++noise_;

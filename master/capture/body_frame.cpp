@@ -6,11 +6,11 @@
 
 namespace aquarama {
 
-// The paper takes its lateral axis from the dorsal edge n5-n6 alone, which shows the shear of the
-// ring as a roll of some degrees; the mean of both edges does not. And y is made a unit vector,
-// since x is not quite square to that axis.
+// The paper takes origin and lateral axis from one diagonal and one edge of ring 2, which show the
+// ring's own shear as a bob and a roll of some degrees; the means of both diagonals and both edges
+// do not. And y is made a unit vector, since x is not quite square to that axis.
 PoseFrame frameOf(const NodeVectors& pose) {
-    const glm::dvec3 origin = (pose[5] + pose[7]) / 2.0;
+    const glm::dvec3 origin = (pose[5] + pose[6] + pose[7] + pose[8]) / 4.0;
     const glm::dvec3 right = (pose[6] - pose[5]) + (pose[7] - pose[8]);
     const glm::dvec3 x = glm::normalize(pose[0] - origin);
     const glm::dvec3 y = glm::normalize(glm::cross(right, x));

@@ -116,6 +116,7 @@ std::string drawSegment(const FishBody& body, const ActionSegment& segment, int 
     for (std::size_t i = 0; i < kPanels; ++i) {
         views.push_back(viewFromAbove(body, phases.at(i * total / (kPanels - 1))));
         extent.add(views.back().outline);
+        extent.add(views.back().midline);
         for (const auto& fin : views.back().pectorals) extent.add(fin);
     }
     extent.least -= kMargin;
@@ -191,7 +192,7 @@ void drawAxes(Svg& svg, const Chart& chart) {
     for (int i = -1; i <= 1; ++i) {
         const double y = 0.1 * i;
         svg.line(chart({0, y}), chart({1, y}), kGrid);
-        svg.text(chart({0, y}) + glm::dvec2(-8, 4), fixed(-y, 1), letters(12, "end"));
+        svg.text(chart({0, y}) + glm::dvec2(-8, 4), fixed(i == 0 ? 0 : -y, 1), letters(12, "end"));
     }
     for (int i = 0; i <= 5; ++i) {
         const double x = 0.2 * i;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/capture/inspect.h"
 
+#include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -28,6 +30,11 @@ int versionOf(std::span<const std::byte> intact) {
     return std::to_integer<int>(intact[5]) | std::to_integer<int>(intact[6]) << 8;
 }
 
+// No "-0.00" for what is zero but for rounding.
+double cleaned(double value) {
+    return std::abs(value) < 1e-5 ? 0 : value;
+}
+
 std::string rowOf(Action action, const ActionSegment& segment) {
     const SegmentMeasures m = measure(segment);
     const bool isForward = action <= Action::ForwardFast;
@@ -36,8 +43,8 @@ std::string rowOf(Action action, const ActionSegment& segment) {
                            m.periodSeconds,
                            m.speedBodyLengths,
                            m.strideBodyLengths,
-                           m.turnRadians / kRadiansPerDegree,
-                           m.turnRate / kRadiansPerDegree);
+                           cleaned(m.turnRadians / kRadiansPerDegree),
+                           cleaned(m.turnRate / kRadiansPerDegree));
     // Amplitude is across a straight course; a turn has none.
     row +=
         isForward ? line(" %8.3f %8.3f", m.tailAmplitude, m.strouhal) : line(" %8s %8s", "-", "-");

@@ -35,11 +35,20 @@ double largestStepOf(const ActionSegment& segment) {
     return largest;
 }
 
-// A path without its sway: each point the mean of a beat around it would take a model of the beat;
-// the chord of the cycle, lengthened by the arc that its turn says it is, needs none.
-double arcLength(double chord, double turn) {
-    const double half = turn / 2;
-    return std::abs(half) < 1e-6 ? chord : chord * half / std::sin(half);
+// The way of a cycle without the sway of the beat: straight on, or along the arc about the point
+// that a turning cycle goes round, at the origin's mean distance from it. A sharp turn has no beat.
+double strideOf(const std::vector<ReplayedPhase>& phases, double turn, bool isSharp) {
+    const glm::dvec3 chord = phases.back().origin - phases.front().origin;
+    constexpr double kStraight = 1e-4;
+    if (!isSharp && std::abs(turn) < kStraight) return glm::length(chord);
+    const glm::dvec3 toTheLeft = glm::cross(glm::dvec3(0, 1, 0), chord);
+    const glm::dvec3 centre =
+        phases.front().origin + (chord + toTheLeft / std::tan(turn / 2)) / 2.0;
+    double way = 0;
+    for (std::size_t k = 0; k + 1 < phases.size(); ++k)
+        way += isSharp ? glm::distance(phases[k].origin, phases[k + 1].origin)
+                       : glm::distance(phases[k].origin, centre) * std::abs(turn) / kPhases;
+    return way;
 }
 
 double peakToPeak(const std::vector<ReplayedPhase>& phases,
@@ -82,7 +91,7 @@ SegmentMeasures measure(const ActionSegment& segment) {
     m.periodSeconds = static_cast<double>(segment.periodSeconds);
     m.turnRadians = std::atan2(-heading.z, heading.x);
     m.turnRate = m.turnRadians / m.periodSeconds;
-    m.strideBodyLengths = arcLength(glm::length(end.origin), m.turnRadians);
+    m.strideBodyLengths = strideOf(phases, m.turnRadians, segment.playsToEnd);
     m.speedBodyLengths = m.strideBodyLengths / m.periodSeconds;
     m.leanRadians = std::acos(std::min(1.0, glm::dot(end.worldFromBody * up, up)));
     m.climb = end.origin.y;

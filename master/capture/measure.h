@@ -23,7 +23,7 @@ struct ReplayedPhase {
 
 struct SegmentMeasures {
     double periodSeconds = 0;
-    double strideBodyLengths = 0;  // path of the body frame's origin in a cycle, without its sway
+    double strideBodyLengths = 0;  // way of the body frame's origin in a cycle, without its sway
     double speedBodyLengths = 0;   // a second
     double turnRadians = 0;        // in a cycle, left positive
     double turnRate = 0;           // radians a second

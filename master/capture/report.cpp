@@ -21,24 +21,11 @@ namespace fs = std::filesystem;
 constexpr const char* kStyle = R"(<style>
 body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36; max-width: 1110px; margin: 2em auto; padding: 0 1em; }
 h1, h2 { font-weight: 600; } h2 { margin-top: 2em; }
-table { border-collapse: collapse; } caption { text-align: left; padding-bottom: .5em; }
+table { border-collapse: collapse; }
 th, td { padding: .25em .8em; text-align: right; border-bottom: 1px solid #dbe5ea; }
-th:first-child, td:first-child, .words td { text-align: left; }
+th:first-child, td:first-child, .beside :nth-child(n+5) { text-align: left; }
 img { max-width: 100%; } figure { margin: 1em 0; } figcaption { color: #4a606c; }
 </style>
-)";
-
-constexpr const char* kPublished = R"(<h2>Beside living fish</h2>
-<table class="words">
-<tr><th>quantity</th><th>published</th><th>source</th></tr>
-<tr><td>Strouhal number</td><td>0.2 to 0.4 in cruising</td><td>Taylor, Nudds &amp; Thomas 2003</td></tr>
-<tr><td>stride</td><td>0.6 to 0.7 BL a beat, the same at all speeds</td><td>Videler &amp; Wardle 1991</td></tr>
-<tr><td>tail, peak to peak</td><td>rises with frequency to about 0.2 BL, then stays</td><td>Bainbridge 1958</td></tr>
-<tr><td>speed at frequency f</td><td>(3 f &minus; 4) / 4 BL/s: 1.25 at 3 Hz, 2.75 at 5 Hz</td><td>Bainbridge 1958</td></tr>
-<tr><td>nose, peak to peak</td><td>0.01 to 0.03 BL (largemouth bass)</td><td>Jayne &amp; Lauder 1995</td></tr>
-<tr><td>cruising speed</td><td>1.2 and 2.2 BL/s (chub mackerel of this size)</td><td>Nauen &amp; Lauder 2002</td></tr>
-<tr><td>routine turns</td><td>100 to 500 deg/s at their peak</td><td>Domenici 2004</td></tr>
-</table>
 )";
 
 // How a figure of each segment is shown: so many cycles that a turn can be seen.
@@ -60,21 +47,58 @@ std::string cells(std::span<const std::string> values) {
     return row + "</tr>\n";
 }
 
+struct Quantity {
+    const char* name;
+    double (*of)(const SegmentMeasures&);
+    int digits;
+    const char* published;
+    const char* source;
+};
+constexpr std::array kQuantities{
+    Quantity{"beat, Hz", [](const SegmentMeasures& m) { return 1 / m.periodSeconds; }, 2, "", ""},
+    Quantity{"speed, BL/s",
+             [](const SegmentMeasures& m) { return m.speedBodyLengths; },
+             2,
+             "chub mackerel of this size filmed at 1.2 and 2.2; dace, trout and goldfish "
+             "(3 f &minus; 4) / 4, so 2.75 at 5 Hz",
+             "Nauen &amp; Lauder 2002; Bainbridge 1958"},
+    Quantity{"stride, BL a beat",
+             [](const SegmentMeasures& m) { return m.strideBodyLengths; },
+             3,
+             "0.6 to 0.7",
+             "Videler &amp; Wardle 1991"},
+    Quantity{"tail, peak to peak, BL",
+             [](const SegmentMeasures& m) { return m.tailAmplitude; },
+             3,
+             "rises with frequency to about 0.2",
+             "Bainbridge 1958"},
+    Quantity{"nose, peak to peak, BL",
+             [](const SegmentMeasures& m) { return m.noseAmplitude; },
+             3,
+             "0.008 to 0.024 (largemouth bass)",
+             "Jayne &amp; Lauder 1995"},
+    Quantity{"Strouhal number",
+             [](const SegmentMeasures& m) { return m.strouhal; },
+             3,
+             "0.2 to 0.4",
+             "Taylor, Nudds &amp; Thomas 2003"},
+    Quantity{"largest step of a nodal point, BL a tick of 1/60 s",
+             [](const SegmentMeasures& m) { return m.largestStep; },
+             4,
+             "",
+             ""},
+};
+
 std::string forwardTable(const Repertoire& repertoire) {
     std::string html =
-        "<table><caption>Swimming straight</caption><tr><th>segment</th><th>beat, Hz</th>"
-        "<th>speed, BL/s</th><th>stride, BL</th><th>tail p-p, BL</th><th>nose p-p, BL</th>"
-        "<th>Strouhal</th><th>largest step, BL/tick</th></tr>\n";
-    for (std::size_t i = 0; i < 3; ++i) {
-        const SegmentMeasures m = measure(repertoire.segments.at(i));
-        const std::array<std::string, 8> row{nameOf(static_cast<Action>(i)),
-                                             fixed(1 / m.periodSeconds, 2),
-                                             fixed(m.speedBodyLengths, 2),
-                                             fixed(m.strideBodyLengths, 3),
-                                             fixed(m.tailAmplitude, 3),
-                                             fixed(m.noseAmplitude, 3),
-                                             fixed(m.strouhal, 3),
-                                             fixed(m.largestStep, 4)};
+        "<h2>Swimming straight</h2>\n<table "
+        "class=\"beside\"><tr><th></th><th>slow</th><th>medium</th>"
+        "<th>fast</th><th>living fish</th><th>source</th></tr>\n";
+    for (const Quantity& quantity : kQuantities) {
+        std::array<std::string, 6> row{
+            quantity.name, "", "", "", quantity.published, quantity.source};
+        for (std::size_t i = 0; i < 3; ++i)
+            row.at(1 + i) = fixed(quantity.of(measure(repertoire.segments.at(i))), quantity.digits);
         html += cells(row);
     }
     return html + "</table>\n";
@@ -82,7 +106,9 @@ std::string forwardTable(const Repertoire& repertoire) {
 
 std::string turnTable(const Repertoire& repertoire) {
     std::string html =
-        "<table><caption>Turning (left positive)</caption><tr><th>segment</th><th>cycle, s</th>"
+        "<h2>Turning</h2>\n<p>To the left is positive. Routine turns of living fish peak at 100 to "
+        "500 "
+        "deg/s (Domenici 2004).</p>\n<table><tr><th>segment</th><th>cycle, s</th>"
         "<th>turn of a cycle, deg</th><th>mean rate, deg/s</th><th>peak rate, deg/s</th>"
         "<th>speed, BL/s</th><th>radius, BL</th><th>largest step, BL/tick</th></tr>\n";
     for (std::size_t i = 3; i < kActions; ++i) {
@@ -122,7 +148,7 @@ fs::path writeReport(const Repertoire& repertoire, const FishBody& body, const f
         fixed(static_cast<double>(repertoire.recordedLengthMetres), 2) +
         " m. Lengths are in body lengths (BL), so that they hold for a fish of any "
         "size.</p>\n" +
-        forwardTable(repertoire) + "<p></p>\n" + turnTable(repertoire) + kPublished +
+        forwardTable(repertoire) + turnTable(repertoire) +
         "<h2>Midlines over a beat</h2>\n<p>Dark to light through one beat; dashed: the "
         "envelope of a saithe (Videler &amp; Hess 1984).</p>\n";
     for (std::size_t i = 0; i < 3; ++i) {

@@ -105,10 +105,29 @@ ShowReport Conductor::run() {
         }
         channels_->wait(kLongestWait);
     }
-    sayToAll(Farewell{});
     ticker_.reset();
+    sayFarewell();
     if (!failure_.empty()) throw Error(failure_);
     return report_;
+}
+
+// Until every node has answered, or long enough: closing a connection on what a node still says to
+// us would throw away what we said last.
+void Conductor::sayFarewell() {
+    constexpr Instant kLongest = std::chrono::seconds(2);
+    constexpr Instant kRepeat = std::chrono::milliseconds(100);
+    const Instant begin = monotonicNow();
+    Instant lastSaid = begin - kRepeat;
+    while (std::ranges::any_of(seats_, [](const Seat& seat) { return !seat.peer.empty(); })) {
+        const Instant now = monotonicNow();
+        if (now - begin > kLongest) return;
+        if (now - lastSaid >= kRepeat) {
+            sayToAll(Farewell{});
+            lastSaid = now;
+        }
+        channels_->wait(kRepeat / 4);
+        hear(monotonicNow());
+    }
 }
 
 // Lockstep takes a tick when its frame comes up, so that the tick thread waits for the frames.

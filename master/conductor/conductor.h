@@ -89,6 +89,7 @@ class Conductor {
 
     void say(const PeerId& peer, const Message& message);
     void sayToAll(const Message& message);
+    void sayFarewell();
     [[nodiscard]] std::optional<std::size_t> seatNamed(const std::string& name) const;
     [[nodiscard]] std::optional<std::size_t> seatOf(const PeerId& peer) const;
     [[nodiscard]] bool isLockstep() const { return options_.pace == Pace::Lockstep; }

@@ -87,13 +87,13 @@ void Conductor::greet(const PeerId& peer, const Hello& hello, Instant now) {
     if (another && now - seat.lastHeard < kSilenceOfTheDead) {
         return say(peer, Dismissed{"another node of this name takes part already"});
     }
+    if (seat.peer != peer) spdlog::info("welcomed node {}", seat.name);
     barrier_.leave(*node);
     barrier_.heard(*node, now);
     seat.peer = peer;
     seat.prepared = false;
     seat.lastHeard = now;
     say(peer, welcome_);
-    spdlog::info("welcomed node {}", seat.name);
 }
 
 void Conductor::heed(std::size_t node, const Message& message, Instant now) {

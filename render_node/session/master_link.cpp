@@ -219,7 +219,9 @@ void MasterLink::take(const Dismissed& dismissed) {
     }
 }
 
+// Answered, so that the master knows that we have heard it.
 void MasterLink::take(const Farewell&) {
+    say(Farewell{});
     phase_ = Phase::Outside;
     session_ = 0;
     meeting_.interrupt(Release::Quit);

@@ -7,7 +7,8 @@ const uint kControlPoints = 426u;
 const uint kPhases = 64u;
 
 layout(local_size_x = 128) in;
-layout(std430, binding = 1) readonly buffer Recorded { uvec2 recorded[]; };  // 3 x 16 bit, body lengths
+// 3 x 16 bits a point, body lengths.
+layout(std430, binding = 1) readonly buffer Recorded { uvec2 recorded[]; };
 layout(std430, binding = 2) readonly buffer FirstEntries { uint firstEntry[]; };
 struct Entry {
     uint controlPoint;
@@ -16,9 +17,9 @@ struct Entry {
 layout(std430, binding = 3) readonly buffer Entries { Entry entries[]; };
 layout(std430, binding = 4) writeonly buffer Surface { uvec4 surface[]; };
 
-layout(location = 0) uniform uint firstFish;     // of this batch, in the school
-layout(location = 1) uniform uint firstVertex;   // of this batch, in the surface
-layout(location = 2) uniform uint vertexCount;   // of one fish
+layout(location = 0) uniform uint firstFish;    // of this batch, in the school
+layout(location = 1) uniform uint firstVertex;  // of this batch, in the surface
+layout(location = 2) uniform uint vertexCount;  // of one fish
 
 shared vec3 controlPoints[kControlPoints];
 

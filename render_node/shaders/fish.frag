@@ -17,23 +17,24 @@ void main() {
     skin.albedo *= tintOf(id);
 
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
-    vec3 smooth_ = normalize(normal);
+    vec3 skinNormal = normalize(normal);
     // Towards the outline scales are seen edge on: their tilts fade before they sparkle.
-    float outline = smoothstep(0.05, 0.40, -dot(smooth_, fromEye));
+    float outline = smoothstep(0.05, 0.40, -dot(skinNormal, fromEye));
     skin.tilt *= outline;
     skin.flicker *= outline;
     // Directions on the skin: towards the tail, and upwards.
-    vec3 tailwards = normalize(cross(smooth_, dorsal)) * (rest.z < 0.0 ? -1.0 : 1.0);
-    vec3 upwards = normalize(dorsal - dot(dorsal, smooth_) * smooth_);
-    vec3 n = normalize(smooth_ + skin.tilt.x * tailwards + skin.tilt.y * upwards);
+    vec3 tailwards = normalize(cross(skinNormal, dorsal) + 1.0e-6) * (rest.z < 0.0 ? -1.0 : 1.0);
+    vec3 upwards = normalize(dorsal - dot(dorsal, skinNormal) * skinNormal + 1.0e-6);
+    vec3 n = normalize(skinNormal + skin.tilt.x * tailwards + skin.tilt.y * upwards);
     vec3 flickering = n + 0.07 * (skin.flicker.x * tailwards + skin.flicker.y * upwards);
     vec3 plate = plateletNormal(flickering, dorsal, -fromEye);
 
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
-    vec3 film = 1.0 + 0.9 * skin.iridescence * cos(6.2831853 * (1.1 * facing + vec3(0.0, 0.33, 0.67)));
+    vec3 phase = 6.2831853 * (1.1 * facing + vec3(0.0, 0.33, 0.67));
+    vec3 film = 1.0 + 0.9 * skin.iridescence * cos(phase);
     FishLight light = fishLight(place, fromEye);
     vec3 matte = lit(skin.albedo * film, place, n, 0.0) * light.eased;
-    // One look into the mirror serves the platelets where there are some, and the wet skin elsewhere.
+    // One look into the mirror serves platelets where there are some, and the wet skin elsewhere.
     vec3 shown = reflected(normalize(mix(n, plate, skin.silver)), fromEye, place);
     vec3 silver = (shown + light.white * flash(plate, fromEye)) * silverTint(facing, skin.albedo);
     float grazing = (1.0 - facing) * (1.0 - facing);

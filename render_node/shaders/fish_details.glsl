@@ -54,10 +54,10 @@ Scale scaleAt(vec2 at, float size, bool isSeen) {
 float lateralLineY(float s) { return 0.051 - 0.050 * smoothstep(0.34, 0.60, s); }
 
 void paintScutes(inout Skin skin, float s, float y, Footprint f) {
-    float halfHeight = 0.0085 * smoothstep(0.54, 0.68, s) * smoothstep(0.84, 0.80, s);
+    float halfHeight = 0.0085 * smoothstep(0.54, 0.68, s) * falling(0.80, 0.84, s);
     float soft = max(0.0016, 0.7 * f.pixel);
     float on = (1.0 - smoothstep(halfHeight - soft, halfHeight + soft, abs(y))) *
-               smoothstep(0.54, 0.57, s) * smoothstep(0.84, 0.81, s);
+               smoothstep(0.54, 0.57, s) * falling(0.81, 0.84, s);
     const float kPitch = 0.0085;
     float detail = clamp(0.4 * kPitch / f.pixel - 0.8, 0.0, 1.0);
     float along = fract((s + 0.35 * abs(y)) / kPitch);
@@ -70,30 +70,33 @@ void paintScutes(inout Skin skin, float s, float y, Footprint f) {
 
 // The gill cover: a dark slit behind a lit lip; a fainter line on the cheek; the black spot.
 void paintGill(inout Skin skin, float s, float v, float y, Footprint f) {
-    float on = smoothstep(0.86, 0.60, abs(v));
+    float on = falling(0.60, 0.86, abs(v));
     float slit = s - (0.245 - 0.024 * v * v);
     float dark = on * line(slit - 0.002, 0.0030, f.pixel);
     float lip = on * line(slit + 0.006, 0.0050, f.pixel);
     float cheek = s - (0.181 - 0.015 * v * v);
-    float fold = smoothstep(0.6, 0.3, abs(v + 0.15)) * line(cheek, 0.0028, f.pixel);
+    float fold = falling(0.3, 0.6, abs(v + 0.15)) * line(cheek, 0.0028, f.pixel);
     skin.albedo *= (1.0 - 0.62 * dark) * (1.0 + 0.16 * lip) * (1.0 - 0.25 * fold);
     skin.silver *= (1.0 - 0.65 * dark) * (1.0 - 0.25 * fold);
-    skin.tilt.x += 0.45 * on * (line(slit - 0.004, 0.004, f.pixel) - line(slit + 0.004, 0.005, f.pixel)) +
-                   0.18 * fold;
-    float spot = line(length(vec2((s - 0.240) / 0.011, (y - 0.038) / 0.014)), 1.0, f.pixel / 0.012);
+    float swelling = line(slit - 0.004, 0.004, f.pixel) - line(slit + 0.004, 0.005, f.pixel);
+    skin.tilt.x += 0.45 * on * swelling + 0.18 * fold;
+    vec2 fromSpot = vec2((s - 0.240) / 0.011, (y - 0.038) / 0.014);
+    float spot = line(length(fromSpot), 1.0, f.pixel / 0.012);
     skin.albedo = mix(skin.albedo, kInk, 0.93 * spot);
     skin.silver *= 1.0 - spot;
 }
 
 void paintMouth(inout Skin skin, float s, float y, Footprint f) {
-    float gape = line(y + 0.62 * s - 0.001, 0.0024, f.pixel) * smoothstep(0.056, 0.046, s);
+    float gape = line(y + 0.62 * s - 0.001, 0.0024, f.pixel) * falling(0.046, 0.056, s);
     float jaw = line(y + 0.50 * s + 0.016, 0.0030, f.pixel) * smoothstep(0.012, 0.03, s) *
-                smoothstep(0.085, 0.07, s);
+                falling(0.07, 0.085, s);
     skin.albedo *= (1.0 - 0.85 * gape) * (1.0 - 0.22 * jaw);
     skin.silver *= (1.0 - 0.9 * gape) * (1.0 - 0.3 * jaw);
-    skin.tilt.y += 0.5 * (line(y + 0.62 * s - 0.005, 0.003, f.pixel) - line(y + 0.62 * s + 0.004, 0.003, f.pixel)) *
-                   smoothstep(0.056, 0.046, s);
-    float nostril = line(length((vec2(s, y) - vec2(0.052, 0.031)) / vec2(1.0, 0.7)), 0.0022, f.pixel);
+    float fromGape = y + 0.62 * s;
+    float lips = line(fromGape - 0.005, 0.003, f.pixel) - line(fromGape + 0.004, 0.003, f.pixel);
+    skin.tilt.y += 0.5 * lips * falling(0.046, 0.056, s);
+    vec2 fromNostril = (vec2(s, y) - vec2(0.052, 0.031)) / vec2(1.0, 0.7);
+    float nostril = line(length(fromNostril), 0.0022, f.pixel);
     skin.albedo *= 1.0 - 0.8 * nostril;
 }
 
@@ -107,7 +110,8 @@ Skin paintBody(float s, float y, float z, float v, uint id, Footprint f) {
 
     Skin skin;
     skin.albedo = groundColour(v, 0.10 * detail * (scale.own.x - 0.5), golden, id);
-    skin.albedo *= 1.0 + detail * (0.30 * (scale.own.x - 0.5) - 0.22 * smoothstep(0.72, 1.0, scale.rim));
+    float rim = smoothstep(0.72, 1.0, scale.rim);
+    skin.albedo *= 1.0 + detail * (0.30 * (scale.own.x - 0.5) - 0.22 * rim);
     skin.silver = silverOf(s, v, golden);
     skin.iridescence = 0.22 * smoothstep(0.2, 0.7, v) + 0.12;
     skin.gloss = 0.75;
@@ -122,14 +126,15 @@ Skin paintBody(float s, float y, float z, float v, uint id, Footprint f) {
     paintMouth(skin, s, y, f);
 
     // The adipose lid veils the eye's surroundings; it is clear, not silver.
-    float lid = smoothstep(0.064, 0.044, length((vec2(s, y) - kEye) * vec2(0.80, 1.0)));
-    skin.albedo = mix(skin.albedo, vec3(0.42, 0.50, 0.52), 0.40 * lid * smoothstep(0.9, 0.5, v));
+    float lid = falling(0.044, 0.064, length((vec2(s, y) - kEye) * vec2(0.80, 1.0)));
+    skin.albedo = mix(skin.albedo, vec3(0.42, 0.50, 0.52), 0.40 * lid * falling(0.5, 0.9, v));
     skin.silver *= 1.0 - 0.55 * lid;
     // The dark crown of the head.
-    skin.albedo = mix(skin.albedo, kBack * 1.3, 0.75 * smoothstep(0.52, 0.85, v) * smoothstep(0.26, 0.18, s));
+    float crown = smoothstep(0.52, 0.85, v) * falling(0.18, 0.26, s);
+    skin.albedo = mix(skin.albedo, kBack * 1.3, 0.75 * crown);
     // Beneath the pectoral fin little light arrives.
-    float under = exp(-dot((vec2(s, y) - vec2(0.31, -0.030)) / vec2(0.055, 0.022),
-                           (vec2(s, y) - vec2(0.31, -0.030)) / vec2(0.055, 0.022)));
+    vec2 fromRoot = (vec2(s, y) - vec2(0.31, -0.030)) / vec2(0.055, 0.022);
+    float under = exp(-dot(fromRoot, fromRoot));
     skin.albedo *= 1.0 - 0.22 * under;
     return skin;
 }
@@ -142,18 +147,20 @@ void paintEye(inout Skin skin, vec2 at, Footprint f, out float coverage, out flo
     coverage = 1.0 - smoothstep(1.0 - soft, 1.0 + soft, d);
     pupil = 1.0 - smoothstep(0.47 - 0.03 - soft, 0.47 + 0.03 + soft, d);
     float angle = atan(from.y, from.x);
-    float streaks = 0.5 + 0.5 * sin(angle * 23.0 + 3.0 * sin(angle * 7.0)) * clamp(0.02 / f.pixel - 1.0, 0.0, 1.0);
-    vec3 iris = vec3(0.66, 0.63, 0.50) * (0.70 + 0.16 * streaks + 0.25 * smoothstep(0.75, 0.5, d));
+    float detail = clamp(0.02 / f.pixel - 1.0, 0.0, 1.0);
+    float streaks = 0.5 + 0.5 * sin(angle * 23.0 + 3.0 * sin(angle * 7.0)) * detail;
+    vec3 iris = vec3(0.56, 0.53, 0.42) * (0.66 + 0.16 * streaks + 0.25 * falling(0.5, 0.75, d));
     iris *= 1.0 - 0.45 * smoothstep(0.25, 0.95, from.y);  // the upper iris is dusky
     iris = mix(iris, vec3(0.80, 0.72, 0.42), 0.55 * line(d - 0.53, 0.05, 2.0 * soft));
     vec3 eye = mix(iris, vec3(0.002, 0.003, 0.005), pupil);
     eye = mix(eye, vec3(0.010, 0.012, 0.014), 0.88 * smoothstep(0.82, 0.98, d));
     skin.albedo *= 1.0 - 0.40 * (1.0 - smoothstep(1.0, 1.25, d)) * (1.0 - coverage);
     skin.albedo = mix(skin.albedo, eye, coverage);
-    skin.silver = mix(skin.silver, 0.35 * (1.0 - pupil) * (1.0 - smoothstep(0.80, 0.95, d)), coverage);
+    float guanine = 0.35 * (1.0 - pupil) * (1.0 - smoothstep(0.80, 0.95, d));
+    skin.silver = mix(skin.silver, guanine, coverage);
     skin.iridescence *= 1.0 - coverage;
     skin.gloss = mix(skin.gloss, 1.0, coverage);
-    skin.tilt = mix(skin.tilt, 0.85 * from * smoothstep(0.15, 1.0, d) , coverage);
+    skin.tilt = mix(skin.tilt, 0.85 * from * smoothstep(0.15, 1.0, d), coverage);
     skin.flicker *= 1.0 - coverage;
 }
 #endif

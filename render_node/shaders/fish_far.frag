@@ -19,8 +19,9 @@ void main() {
     // Of the head's details, the two that still show: the big eye, and the gill cover's edge.
     float ring = line(distance(rest.xy, kEye), 0.9 * kEyeRadius, pixel);
     float pupil = line(distance(rest.xy, kEye), 0.5 * kEyeRadius, pixel);
-    float gill = line(s - 0.245 + 0.024 * v * v, 0.004, pixel) * smoothstep(0.86, 0.60, abs(v));
-    albedo = mix(albedo, vec3(0.60, 0.58, 0.48), 0.7 * ring) * (1.0 - 0.95 * pupil) * (1.0 - 0.6 * gill);
+    float gill = line(s - 0.245 + 0.024 * v * v, 0.004, pixel) * falling(0.60, 0.86, abs(v));
+    albedo = mix(albedo, vec3(0.48, 0.46, 0.38), 0.7 * ring);
+    albedo *= (1.0 - 0.95 * pupil) * (1.0 - 0.6 * gill);
     silver *= (1.0 - ring) * (1.0 - 0.6 * gill);
 
     vec3 fromEye = normalize(place - eyeAndTime.xyz);

@@ -23,7 +23,7 @@ struct Membrane {
 };
 
 Membrane membraneOf(float q) {
-    Membrane m = Membrane(vec3(0.34, 0.36, 0.30), 0.34 + 0.2 * smoothstep(0.4, 0.0, q));
+    Membrane m = Membrane(vec3(0.34, 0.36, 0.30), 0.34 + 0.2 * falling(0.0, 0.4, q));
     if (part == kCaudal) {
         vec3 dusk = vec3(0.055, 0.06, 0.06);
         m = Membrane(mix(vec3(0.34, 0.33, 0.15), dusk, 0.75 * smoothstep(0.55, 1.0, q)), 0.80);
@@ -50,21 +50,24 @@ void main() {
     float p = fin.x, q = fin.y;
     Membrane m = membraneOf(q);
     float ray = rayAt(p, q, kRays[part]);
-    m.albedo *= (0.85 + 0.25 * smoothstep(1.0, 0.0, q)) * (1.0 - 0.45 * ray);
+    m.albedo *= (0.85 + 0.25 * falling(0.0, 1.0, q)) * (1.0 - 0.45 * ray);
     m.opacity = min(m.opacity + 0.25 * ray, 1.0);
 
     // At its root a fin is muscle under the skin; those of the paired fins reach further out.
     bool isPaired = part == kPectoral || part == kPelvic;
-    float grown = isPaired ? smoothstep(0.14, 0.42, q) : smoothstep(0.0, part == kCaudal ? 0.22 : 0.12, q);
+    float root = isPaired ? 0.14 : 0.0;
+    float reach = isPaired ? 0.42 : (part == kCaudal ? 0.22 : 0.12);
+    float grown = smoothstep(root, reach, q);
     float golden = goldenLine(rest.x, rest.w, fwidth(rest.w));
     vec3 skin = groundColour(rest.w, 0.0, golden, id);
     vec3 albedo = mix(skin, m.albedo, grown) * tintOf(id);
     float silver = silverOf(rest.x, rest.w, golden) * (1.0 - grown);
 
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
-    vec3 flat_ = normalize(cross(dFdx(place), dFdy(place)));
-    flat_ *= -sign(dot(flat_, fromEye));
-    vec3 n = normalize(mix(normalize(normal), flat_, grown));
+    // A membrane is flat: its normal is its triangle's, and the small terms keep it from vanishing.
+    vec3 facet = normalize(cross(dFdx(place), dFdy(place)) + 1.0e-14 * normal);
+    if (dot(facet, fromEye) > 0.0) facet = -facet;
+    vec3 n = normalize(mix(normalize(normal), facet, grown) - 1.0e-3 * fromEye);
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
     vec3 plate = plateletNormal(n, dorsal, -fromEye);
     FishLight light = fishLight(place, fromEye);

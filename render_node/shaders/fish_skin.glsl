@@ -16,6 +16,9 @@ float hash(uvec2 cell, uint salt) {
     return float((h ^ (h >> 16)) & 0xffffu) * (1.0 / 65535.0);
 }
 
+// 1 below `from`, 0 above `to`.
+float falling(float from, float to, float x) { return 1.0 - smoothstep(from, to, x); }
+
 // 1 on a line, fading over its width. What is thinner than a pixel grows fainter, never shimmers.
 float line(float x, float width, float pixel) {
     float wide = sqrt(width * width + 0.36 * pixel * pixel);
@@ -25,12 +28,13 @@ float line(float x, float width, float pixel) {
 
 // What makes each fish its own: a tint, and how golden its line is.
 vec3 tintOf(uint id) {
-    return 0.94 + 0.12 * vec3(hash(uvec2(id, 1u), 7u), hash(uvec2(id, 2u), 7u), hash(uvec2(id, 3u), 7u));
+    return 0.94 + 0.12 * vec3(hash(uvec2(id, 1u), 7u), hash(uvec2(id, 2u), 7u),
+                              hash(uvec2(id, 3u), 7u));
 }
 float goldOf(uint id) { return mix(0.75, 1.20, hash(uvec2(id, 4u), 7u)); }
 
 float goldenLine(float s, float v, float pixelV) {
-    return line(v - 0.34, 0.085, pixelV) * smoothstep(0.24, 0.30, s) * smoothstep(0.83, 0.74, s);
+    return line(v - 0.34, 0.085, pixelV) * smoothstep(0.24, 0.30, s) * falling(0.74, 0.83, s);
 }
 
 // Blue-green back, silver flank, white belly, golden line: all that one sees from afar. `ragged`
@@ -43,7 +47,7 @@ vec3 groundColour(float v, float ragged, float golden, uint id) {
 
 // Share of guanine mirror in the skin.
 float silverOf(float s, float v, float golden) {
-    return 0.88 * smoothstep(0.62, 0.10, v) * smoothstep(0.015, 0.05, s) * (1.0 - 0.75 * golden);
+    return 0.88 * falling(0.10, 0.62, v) * smoothstep(0.015, 0.05, s) * (1.0 - 0.75 * golden);
 }
 
 // Stacks of guanine platelets hang upright whatever the curve of the skin (Denton 1970), so that a
@@ -62,8 +66,8 @@ vec3 reflected(vec3 mirrorNormal, vec3 fromEye, vec3 place) {
 }
 
 // The floodlight is strong enough for the reef. What swims before it would be burnt white, so near
-// fish take less of all light: their shading and their colours stay. White is what a white card that
-// faces the eye would send back.
+// fish take less of all light: their shading and their colours stay. White is what a white card
+// that faces the eye would then send back.
 struct FishLight {
     float eased;
     float white;
@@ -78,7 +82,7 @@ FishLight fishLight(vec3 place, vec3 fromEye) {
 float flash(vec3 plate, vec3 fromEye) {
     float c = max(-dot(plate, fromEye), 0.0);
     c *= c; c *= c; c *= c;
-    return 0.45 * c * c;
+    return 0.32 * c * c;
 }
 
 // Thin films colour the mirror faintly; more would be soap.

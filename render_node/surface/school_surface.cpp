@@ -2,7 +2,6 @@
 #include "render_node/surface/school_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -10,10 +9,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/units/error.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
-#include "render_node/surface/limit_table.h"
+#include "render_node/surface/level_buffers.h"
 #include "render_node/surface/visibility.h"
 
 namespace aquarama {
@@ -29,70 +27,6 @@ constexpr std::size_t kBytesPerVertex = 16;
 // Half of the least block that GL drivers allow in practice (128 MiB on software Mesa).
 constexpr std::size_t kSurfaceBytes = std::size_t{64} << 20U;
 constexpr std::size_t kLargestDispatch = 65535;
-
-// Recorded control points, four 16-bit numbers each: the fourth is unused.
-using RecordedPoint = std::array<std::int16_t, 4>;
-
-std::vector<RecordedPoint> recordedPoints(const Repertoire& repertoire) {
-    std::vector<RecordedPoint> points;
-    points.reserve(std::size_t{kActions} * kPhases * kControlPoints);
-    for (const ActionSegment& segment : repertoire.segments) {
-        if (segment.controlPoints.size() != kPhases)
-            throw Error("the repertoire of " + repertoire.species +
-                        " has no recorded control points; capture it again");
-        for (const ControlPointPose& pose : segment.controlPoints) {
-            for (const auto& [x, y, z] : pose) points.push_back({x, y, z, 0});
-        }
-    }
-    return points;
-}
-
-// How far from the body frame's origin any control point of any pose gets, in body lengths. Poses
-// between recorded ones get no further.
-float reachOf(const std::vector<RecordedPoint>& points) {
-    float reach = 0.0F;
-    for (const auto& [x, y, z, unused] : points)
-        reach = std::max(reach, glm::length(glm::vec3(x, y, z)));
-    return reach * kPoseUnit;
-}
-
-template <class T>
-gl::Buffer makeBuffer(const std::vector<T>& values, const char* label) {
-    gl::Buffer buffer;
-    glNamedBufferStorage(
-        buffer.name(), static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), 0);
-    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
-    return buffer;
-}
-
-// One level of detail on the GPU.
-struct Level {
-    explicit Level(const LimitTable& table)
-        : vertexCount{table.vertices.size()},
-          bodyIndices{static_cast<GLsizei>(table.bodyIndices)},
-          finIndices{static_cast<GLsizei>(table.indices.size() - table.bodyIndices)},
-          firstEntries{makeBuffer(table.firstEntry, "stencil offsets")},
-          entries{makeBuffer(table.entries, "stencil entries")},
-          places{makeBuffer(table.vertices, "skin places")},
-          indices{makeBuffer(table.indices, "fish indices")} {
-        const unsigned array = vertexArray.name();
-        glVertexArrayElementBuffer(array, indices.name());
-        glVertexArrayVertexBuffer(array, 0, places.name(), 0, sizeof(SkinPlace));
-        for (const unsigned attribute : {0U, 1U, 2U}) {
-            glEnableVertexArrayAttrib(array, attribute);
-            glVertexArrayAttribBinding(array, attribute, 0);
-        }
-        glVertexArrayAttribFormat(array, 0, 4, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, rest));
-        glVertexArrayAttribFormat(array, 1, 2, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, fin));
-        glVertexArrayAttribIFormat(array, 2, 1, GL_UNSIGNED_INT, offsetof(SkinPlace, part));
-    }
-
-    std::size_t vertexCount;
-    GLsizei bodyIndices;
-    GLsizei finIndices;
-    gl::Buffer firstEntries, entries, places, indices;
-    gl::VertexArray vertexArray;
-};
 
 // Fish of one level that follow each other in the school's buffer and share the surface buffer.
 struct Batch {
@@ -137,7 +71,7 @@ struct SchoolSurface::Parts {
 
     SurfaceOptions options;
     float reachBodyLengths;
-    std::vector<Level> levels;
+    std::vector<LevelBuffers> levels;
     gl::Buffer recorded, school, surface;
     gl::ProgramHandle compute = gl::makeProgram({"fish.comp"});
     gl::ProgramHandle nearSkin = gl::makeProgram({"fish.vert", "fish.frag"});
@@ -201,7 +135,7 @@ void SchoolSurface::Parts::splitIntoBatches() {
 }
 
 void SchoolSurface::Parts::bind(const Batch& batch, unsigned program) const {
-    const Level& level = levels[static_cast<std::size_t>(batch.level)];
+    const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
     glUseProgram(program);
     glUniform1ui(kFirstFish, static_cast<GLuint>(batch.firstFish));
     glUniform1ui(kFirstVertex, static_cast<GLuint>(batch.firstVertex));
@@ -211,7 +145,7 @@ void SchoolSurface::Parts::bind(const Batch& batch, unsigned program) const {
 }
 
 void SchoolSurface::Parts::evaluate(const Batch& batch) const {
-    const Level& level = levels[static_cast<std::size_t>(batch.level)];
+    const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
     bind(batch, compute.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecorded, recorded.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFirstEntries, level.firstEntries.name());
@@ -222,7 +156,7 @@ void SchoolSurface::Parts::evaluate(const Batch& batch) const {
 }
 
 void SchoolSurface::Parts::drawBatch(const Batch& batch) const {
-    const Level& level = levels[static_cast<std::size_t>(batch.level)];
+    const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
     const auto instances = static_cast<GLsizei>(batch.fish);
     glBindVertexArray(level.vertexArray.name());
     glEnable(GL_CULL_FACE);

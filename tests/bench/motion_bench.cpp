@@ -195,18 +195,19 @@ BENCHMARK(nodalPointsReference)
     ->UseManualTime();
 
 void controlPointsOfMany(benchmark::State& state) {
-    const auto shown = presented(static_cast<std::size_t>(state.range(0)), 100);
-    std::vector<glm::vec3> points(kControlPoints);
+    const auto shown =
+        presented(static_cast<std::size_t>(state.range(0)), static_cast<unsigned>(state.range(1)));
+    std::vector<glm::vec3> points(shown.size() * kControlPoints);
     measure(
-        state,
-        shown.size(),
-        [] {},
-        [&] {
-            for (const PresentedFish& fish : shown) controlPoints(repertoire(), fish, points);
-        });
-    state.counters["bytes_per_fish"] = kControlPoints * sizeof(glm::vec3);
+        state, shown.size(), [] {}, [&] { controlPoints(repertoire(), shown, points); });
+    state.counters["bytes_per_fish"] = sizeof(PresentedFish) + kControlPoints * sizeof(glm::vec3);
 }
-BENCHMARK(controlPointsOfMany)->Name("control_points")->ArgName("fish")->Arg(1000)->UseManualTime();
+BENCHMARK(controlPointsOfMany)
+    ->Name("control_points")
+    ->ArgNames({"fish", "percent_warping"})
+    ->Args({60, 10})
+    ->Args({1000, 100})
+    ->UseManualTime();
 
 }  // namespace
 }  // namespace aquarama

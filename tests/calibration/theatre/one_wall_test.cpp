@@ -19,8 +19,10 @@ Rig shippedRig(const std::string& name) {
     return readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
 }
 
-// Half as many pixels each way: the same geometry in a quarter of the time.
-Rig halved(Rig rig) {
+// The large rigs with half as many pixels each way: the same geometry in a quarter of the time.
+Rig testRig(const std::string& name) {
+    Rig rig = shippedRig(name);
+    if (name == "desk") return rig;
     rig.panoramaPixels /= 2;
     for (Channel& channel : rig.channels) {
         channel.sizePixels /= 2;
@@ -51,16 +53,11 @@ double largest(const std::vector<LineOffset>& offsets) {
     return worst;
 }
 
-class OneWall : public testing::TestWithParam<Rig> {};
-INSTANTIATE_TEST_SUITE_P(Shipped,
-                         OneWall,
-                         testing::Values(halved(shippedRig("theatre")),
-                                         halved(shippedRig("touring")),
-                                         shippedRig("desk")),
-                         [](const auto& test) { return test.param.name; });
+class OneWall : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Shipped, OneWall, testing::Values("theatre", "touring", "desk"));
 
 TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
-    const Rig& rig = GetParam();
+    const Rig rig = testRig(GetParam());
     const std::vector<Light> channels = projected(rig, TestPattern::Grid);
     const Light direct = directPanorama(rig, TestPattern::Grid);
     for (const int bits : {16, 8}) {
@@ -71,7 +68,7 @@ TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
 }
 
 TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
-    const Rig& rig = GetParam();
+    const Rig rig = testRig(GetParam());
     const std::vector<Light> channels = projected(rig, TestPattern::Grey);
     const Light deep = composed(rig, channels, 16);
     EXPECT_LT(unevenness(deep, 1), 0.01);

@@ -2,12 +2,16 @@
 // The same promises for both kinds of channels, and over real sockets what strangers may do.
 #include "common/net/channels.h"
 
+#include <csignal>
+#include <cstring>
+#include <fstream>
 #include <random>
-#include <set>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <zmq.hpp>
 
 #include "common/net/memory_channels.h"
@@ -180,6 +184,7 @@ class Stranger {
   public:
     Stranger(zmq::socket_type type, const std::string& address) : socket_(context_, type) {
         socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::sndhwm, 4);  // its own memory is not what a test measures
         socket_.connect(address);
     }
     void send(const ByteVector& noise) {
@@ -217,6 +222,58 @@ TEST(ZmqChannels, aStrangersNoiseOnTheStatePortIsCountedAndChangesNothing) {
         master->publishState(bytes("beacon"));
         return node->receiveState();
     }));
+}
+
+// Resident memory of this process.
+std::size_t residentBytes() {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t all = 0;
+    std::size_t resident = 0;
+    statm >> all >> resident;
+    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+// Floods both ports with what they do not want, until it is killed.
+[[noreturn]] void flood(const std::string& control, const std::string& state) {
+    Stranger packets(zmq::socket_type::dealer, control);
+    Stranger topics(zmq::socket_type::xsub, state);
+    ByteVector topic(200, std::byte{1});
+    for (std::uint32_t packet = 0;; ++packet) {
+        packets.send(ByteVector(60'000));
+        std::memcpy(topic.data() + 1, &packet, sizeof packet);  // each another
+        topics.send(topic);
+    }
+}
+
+// That nobody listens at: taken and given back.
+std::pair<std::string, std::string> freeAddresses() {
+    const auto taken = bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*");
+    return {taken->controlAddress(), taken->stateAddress()};
+}
+
+TEST(ZmqChannels, aStrangersFloodDoesNotFillTheMastersMemory) {
+    const auto [control, state] = freeAddresses();
+    const pid_t stranger = fork();  // a process of its own: its memory is not what we measure
+    if (stranger == 0) flood(control, state);
+    auto master = bindMaster(control, state);
+    const auto node = connectNode(control);
+    const std::size_t before = residentBytes();
+    std::size_t noise = 0;
+    const Instant giveUp = monotonicNow() + seconds(10);
+    while (noise < 3000 && monotonicNow() < giveUp) {
+        master->wait(milliseconds(1));
+        noise += master->discardNoise();
+    }
+    const std::size_t after = residentBytes();
+    EXPECT_GE(noise, 3000U);
+    EXPECT_LT(after, before + (std::size_t{32} << 20U));
+    EXPECT_TRUE(await(*master, [&] {
+        node->sendControl(bytes("still here"));
+        auto heard = master->receiveControl();
+        return heard && heard->bytes.size() < 100 ? heard : std::nullopt;
+    }));
+    kill(stranger, SIGKILL);
+    waitpid(stranger, nullptr, 0);
 }
 
 TEST(ZmqChannels, messagesOfSeveralPartsArriveAsNothing) {

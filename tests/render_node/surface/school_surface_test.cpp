@@ -156,7 +156,8 @@ TEST_F(SchoolSurfaceTest, neighbouringChannelsChooseTheSameLevel) {
         clipFromCamera(0.6F, 1.0F) *
         glm::lookAt(eye + glm::vec3{0.3F, 0, 0}, eye + glm::vec3{-0.1F, 0, -1}, up);
     int compared = 0;
-    for (float away = 0.3F; away < 8.0F; away += 0.05F) {
+    for (int step = 0; step < 150; ++step) {
+        const float away = 0.3F + 0.05F * static_cast<float>(step);
         const PresentedFish fish =
             test::fishAt(eye + away * glm::normalize(glm::vec3{-0.15F, 0, -1}), {1, 0, 0, 0});
         left.update({&fish, 1}, leftClip, eye);

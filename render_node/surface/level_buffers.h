@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the GPU keeps of a species: its recorded control points, and the tables of each level of
+// detail.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/motion/repertoire.h"
+#include "render_node/gl/handle.h"
+#include "render_node/surface/limit_table.h"
+
+namespace aquarama {
+
+// Four 16-bit numbers, of which the last is unused.
+using RecordedPoint = std::array<std::int16_t, 4>;
+
+// By segment, phase and control point. Throws Error where the repertoire holds none.
+[[nodiscard]] std::vector<RecordedPoint> recordedPoints(const Repertoire& repertoire);
+
+// How far from the body frame's origin any control point of any pose gets, in body lengths. Poses
+// between recorded ones get no further.
+[[nodiscard]] float reachOf(const std::vector<RecordedPoint>& points);
+
+template <class T>
+gl::Buffer makeBuffer(const std::vector<T>& values, const char* label) {
+    gl::Buffer buffer;
+    glNamedBufferStorage(
+        buffer.name(), static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), 0);
+    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
+    return buffer;
+}
+
+struct LevelBuffers {
+    explicit LevelBuffers(const LimitTable& table);
+
+    std::size_t vertexCount;
+    GLsizei bodyIndices;
+    GLsizei finIndices;
+    gl::Buffer firstEntries, entries, places, indices;
+    gl::VertexArray vertexArray;
+};
+
+}  // namespace aquarama

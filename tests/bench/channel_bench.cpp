@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// A frame of one channel of the desk, and its last pass alone.
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "common/place/place.h"
+#include "render_node/context/context.h"
+#include "render_node/gl/target.h"
+#include "render_node/project/projection.h"
+#include "render_node/scene/scene.h"
+#include "tests/common/wall/rigs.h"
+#include "tests/render_node/surface/test_fish.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::size_t kMiddle = 1;
+constexpr double kMarginRadians = 0.0175;
+
+// Reads one pixel, so that nothing is left to be done when the clock stops.
+void finish(const gl::Target& target) {
+    std::uint32_t pixel = 0;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer());
+    glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, &pixel);
+    benchmark::DoNotOptimize(pixel);
+}
+
+// A school all round the eye, so that culling has something to leave out.
+std::vector<PresentedFish> schoolAround() {
+    constexpr int kFish = 51;
+    std::vector<PresentedFish> fish;
+    for (int i = 0; i < kFish; ++i) {
+        const float angle = 2.4F * static_cast<float>(i);  // about the golden angle
+        const float range = 1.5F + 0.1F * static_cast<float>(i);
+        const glm::vec3 place(
+            range * std::sin(angle), 0.3F * std::sin(5 * angle), -range * std::cos(angle));
+        fish.push_back(
+            test::fishAt(kEyePosition + place, glm::angleAxis(angle, glm::vec3(0, 1, 0))));
+    }
+    return fish;
+}
+
+void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
+    const Rig rig = shippedRig("desk");
+    const auto context = makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
+    const ChannelFrustum frustum = channelFrustum(rig, kMiddle, kMarginRadians);
+    const ProjectionMap map = projectionMap(warpMap(rig, kMiddle), frustum);
+    const FishBody body = test::scad();
+    Scene scene(
+        {.culling = culling, .levelsOfDetail = levelsOfDetail}, body, test::swaying(body, 0.05F));
+    const Projection projection(map, 0);
+    const gl::Target target(GL_RGBA8, map.sizePixels);
+    const std::vector<PresentedFish> fish = schoolAround();
+    const glm::dmat4 wallFromWorld = glm::translate(glm::dmat4(1), -glm::dvec3(kEyePosition));
+    const View view{.clipFromCamera = clipFromCamera(frustum, 0.05F),
+                    .cameraFromWorld = glm::mat4(frustum.cameraFromWall * wallFromWorld),
+                    .sizePixels = scenePictureSize(map)};
+    double seconds = 0;
+    const auto drawFrame = [&] {
+        const SceneFrame frame{
+            .timeSeconds = seconds += 1.0 / 60, .eyePositionMetres = kEyePosition, .fish = fish};
+        projection.draw({.sceneTexture = scene.draw(frame, view),
+                         .framebuffer = target.framebuffer(),
+                         .frame = {}});
+        finish(target);
+    };
+    drawFrame();  // compiles what the driver compiles on first use
+    for (auto _ : state) drawFrame();
+    state.counters["frames"] =
+        benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void projectPass(benchmark::State& state, const char* rigName) {
+    const Rig rig = shippedRig(rigName);
+    const auto context = makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
+    const ProjectionMap map =
+        projectionMap(warpMap(rig, kMiddle), channelFrustum(rig, kMiddle, kMarginRadians));
+    const Projection projection(map, 0);
+    const gl::Target scene(GL_RGBA16F, scenePictureSize(map));
+    const gl::Target target(GL_RGBA8, map.sizePixels);
+    glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer());
+    glClearColor(0.1F, 0.2F, 0.3F, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    for (auto _ : state) {
+        projection.draw(
+            {.sceneTexture = scene.texture(), .framebuffer = target.framebuffer(), .frame = {}});
+        finish(target);
+    }
+    const double pixels = static_cast<double>(map.sizePixels.x) * map.sizePixels.y;
+    state.counters["ns_per_pixel"] =
+        benchmark::Counter(pixels * static_cast<double>(state.iterations()) * 1e-9,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+// The driver draws on threads of its own: what all of them used is what counts.
+void inMilliseconds(benchmark::internal::Benchmark* bench) {
+    bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+}
+
+BENCHMARK_CAPTURE(channelFrame, culling_lod, true, true)
+    ->Name("channel_frame/culling:1/lod:1")
+    ->Apply(inMilliseconds);
+BENCHMARK_CAPTURE(channelFrame, lod, false, true)
+    ->Name("channel_frame/culling:0/lod:1")
+    ->Apply(inMilliseconds);
+BENCHMARK_CAPTURE(channelFrame, culling, true, false)
+    ->Name("channel_frame/culling:1/lod:0")
+    ->Apply(inMilliseconds);
+BENCHMARK_CAPTURE(channelFrame, neither, false, false)
+    ->Name("channel_frame/culling:0/lod:0")
+    ->Apply(inMilliseconds);
+BENCHMARK_CAPTURE(projectPass, desk, "desk")->Name("project_pass/desk")->Apply(inMilliseconds);
+BENCHMARK_CAPTURE(projectPass, theatre, "theatre")
+    ->Name("project_pass/theatre")
+    ->Apply(inMilliseconds);
+
+}  // namespace
+}  // namespace aquarama

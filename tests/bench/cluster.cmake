@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES cluster_bench.cpp LINK aquarama_conductor aquarama_session aquarama_wire)

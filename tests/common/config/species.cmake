@@ -1,0 +1,1 @@
+aquarama_test(species SOURCES species_test.cpp LINK aquarama_config BUDGET 10)

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/reconstruct.h"
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include "tests/common/motion/school.h"
+
+namespace aquarama {
+namespace {
+
+double travel(const NodalPoints& a, const NodalPoints& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < kNodalPoints; ++i) {
+        most = std::max(most, static_cast<double>(glm::distance(a[i], b[i])));
+    }
+    return most;
+}
+
+PresentedFish randomFish(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    const auto share = [&] { return static_cast<float>(random() % 65536) / 65536.0F; };
+    const glm::vec4 turn(normal(random), normal(random), normal(random), normal(random));
+    PresentedFish fish;
+    fish.positionMetres = 0.1F * glm::vec3(normal(random), normal(random), normal(random));
+    fish.lengthMetres = 0.05F + share();
+    fish.rotation = glm::normalize(turn);
+    fish.phase = share();
+    fish.fromPhase = share();
+    fish.warpWeight = random() % 2 == 0 ? 1.0F : share();
+    fish.segment = static_cast<std::uint32_t>(random() % kActions);
+    fish.fromSegment = static_cast<std::uint32_t>(random() % kActions);
+    return fish;
+}
+
+// Eq. 12 with eq. 8 undone: n = o + R (alpha d), where d is what was captured.
+TEST(Reconstruct, nodalPointsAreThoseThatWereCaptured) {
+    const auto rest = synthetic::restNodes();
+    for (std::size_t action = 0; action < kActions; ++action) {
+        const synthetic::Gait gait = synthetic::gaits()[action];
+        for (int k = 0; k < kPhases; k += 5) {
+            const double phase = static_cast<double>(k) / kPhases;
+            const synthetic::Frame frame = synthetic::frameOf(gait, phase);
+            const glm::dquat rotation = glm::quat_cast(frame.axes);
+            constexpr double kLength = 0.5;
+            PresentedFish fish;
+            fish.positionMetres = glm::vec3(kLength * frame.origin);
+            fish.lengthMetres = static_cast<float>(kLength);
+            fish.rotation = glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w);
+            fish.phase = static_cast<float>(phase);
+            fish.segment = static_cast<std::uint32_t>(action);
+            NodalPoints nodes;
+            nodalPoints(sharedRepertoire(), fish, nodes);
+            for (std::size_t i = 0; i < kNodalPoints; ++i) {
+                const glm::dvec3 captured = kLength * synthetic::placed(gait, phase, rest[i]);
+                EXPECT_LT(glm::distance(glm::dvec3(nodes[i]), captured), kLength * 5e-5);
+            }
+        }
+    }
+}
+
+TEST(Reconstruct, everyInstructionSetIsWithinAMillionthOfTheReference) {
+    std::mt19937 random(5);
+    std::vector<PresentedFish> school(500);
+    for (PresentedFish& fish : school) fish = randomFish(random);
+    std::vector<NodalPoints> nodes(school.size());
+    std::vector<glm::vec3> points(school.size() * kControlPoints);
+    std::vector<glm::vec3> expectedPoints(kControlPoints);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        nodalPoints(sharedRepertoire(), school, nodes);
+        controlPoints(sharedRepertoire(), school, points);
+        for (std::size_t f = 0; f < school.size(); ++f) {
+            NodalPoints expected;
+            nodalPoints(sharedRepertoire(), school[f], expected);
+            const double allowed = 1e-6 * static_cast<double>(school[f].lengthMetres) + 2e-7;
+            ASSERT_LT(travel(nodes[f], expected), allowed) << hwy::TargetName(target);
+            controlPoints(sharedRepertoire(), school[f], expectedPoints);
+            for (std::size_t i = 0; i < kControlPoints; ++i) {
+                const glm::vec3 point = points[f * kControlPoints + i];
+                ASSERT_LT(static_cast<double>(glm::distance(point, expectedPoints[i])), allowed);
+            }
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+TEST(Reconstruct, aPresentedFishIsItsTicksAtBothEnds) {
+    std::mt19937 random(6);
+    School school(200);
+    scatter(school, random);
+    for (int tick = 0; tick < 100; ++tick) {
+        commandAtRandom(school, random);
+        const MotionStates before = school.states;
+        school.tick();
+        for (std::size_t i = 0; i < school.traits.size(); ++i) {
+            const FishRecord a = recordOf(before, i);
+            const FishRecord b = recordOf(school.states, i);
+            const auto nodesOf = [&](const FishRecord& from, const FishRecord& to, float fraction) {
+                NodalPoints nodes;
+                nodalPoints(
+                    sharedRepertoire(), present(from, to, fraction, school.traits[i]), nodes);
+                return nodes;
+            };
+            const double length = school.traits[i].lengthMillimetres * 1e-3;
+            const double rounding = 1e-5 * length + 4e-5;  // of floats, some 300 m out
+            EXPECT_LT(travel(nodesOf(a, b, 0), nodesOf(a, a, 0)), rounding);
+            EXPECT_LT(travel(nodesOf(a, b, 1), nodesOf(b, b, 0)), rounding);
+        }
+    }
+}
+
+// In ten frames a tick, a frame is never a jump: also where the phase wraps and where a warp
+// starts.
+TEST(Reconstruct, framesBetweenTicksFlow) {
+    std::mt19937 random(7);
+    School school(1);
+    school.play(0, Action::ForwardMedium);
+    NodalPoints last;
+    bool first = true;
+    for (int tick = 0; tick < 400; ++tick) {
+        if (tick % 25 == 0) school.command(0, static_cast<Action>(random() % kActions));
+        const FishRecord before = recordOf(school.states, 0);
+        school.tick();
+        const FishRecord after = recordOf(school.states, 0);
+        for (int frame = 0; frame < 10; ++frame) {
+            NodalPoints nodes;
+            const float fraction = static_cast<float>(frame) / 10.0F;
+            nodalPoints(
+                sharedRepertoire(), present(before, after, fraction, school.traits[0]), nodes);
+            // 0.2 m long, 2 body lengths a second, a tail that beats as fast again.
+            ASSERT_TRUE(first || travel(nodes, last) < 0.2 * 0.1 / 10) << "tick " << tick;
+            last = nodes;
+            first = false;
+        }
+    }
+}
+
+TEST(Reconstruct, aFishThatJumpedIsShownWhereItLanded) {
+    FishRecord before{.segment = 0};
+    before.phase = 100;
+    FishRecord after{.segment = 3};
+    after.phase = 5000;
+    after.fromSegment = 2;
+    const PresentedFish fish = present(before, after, 0.25F, {.id = 7, .lengthMillimetres = 300});
+    EXPECT_EQ(fish.segment, 3U);
+    EXPECT_EQ(fish.warpWeight, 1.0F);
+    EXPECT_EQ(fish.phase, 5000.0F / 65536.0F);
+    EXPECT_EQ(fish.id, 7U);
+    EXPECT_FLOAT_EQ(fish.lengthMetres, 0.3F);
+}
+
+TEST(Reconstruct, aSegmentThatDoesNotExistIsNotReadBeyondTheLast) {
+    PresentedFish fish;
+    fish.segment = 250;
+    fish.phase = 7.5F;
+    fish.lengthMetres = 1;
+    NodalPoints nodes;
+    nodalPoints(sharedRepertoire(), fish, nodes);
+    for (const glm::vec3& node : nodes) EXPECT_LT(glm::length(node), 1.5F);
+}
+
+}  // namespace
+}  // namespace aquarama

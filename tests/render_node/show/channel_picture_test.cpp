@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/channel_picture.h"
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/place/place.h"
+#include "render_node/show/font.h"
+#include "tests/render_node/show/fake_session.h"
+
+namespace aquarama {
+namespace {
+
+constexpr glm::vec3 kFishPlace = kEyePosition + glm::vec3(0.2F, 0.1F, -3);
+
+StateFrame frameWithAFish() {
+    StateFrame frame = frameNumber(1);
+    frame.eye.positionMetres = kEyePosition;
+    MotionStates states;
+    states.resize(1);
+    setBodyFrame(states, 0, {.position = kFishPlace, .rotation = {1, 0, 0, 0}});
+    frame.after = {recordOf(states, 0)};
+    return frame;
+}
+
+Admission admissionToTheWorld() {
+    Admission admission = admissionTo(Pattern::World);
+    admission.welcome.school = {{.id = 17, .lengthMillimetres = 240}};
+    admission.repertoire = test::swaying(test::scad(), 0.05F);
+    return admission;
+}
+
+// Where on the channel's picture a point of the world is seen, top left is (0, 0).
+glm::dvec2 pixelOf(const Rig& rig, std::size_t channel, glm::dvec3 world) {
+    const glm::dvec3 direction = world - glm::dvec3(kEyePosition);
+    const double level = glm::length(glm::dvec2(direction.x, direction.z));
+    return projectorPixel(rig.channels[channel], direction * (rig.screen.radiusMetres / level))
+        .value_or(glm::dvec2(-1));
+}
+
+// The scene takes seconds to grow, so that all share one.
+class ChannelPictureTest : public testing::Test {
+  protected:
+    static constexpr std::size_t kMiddle = 1;
+    struct Stage {
+        std::unique_ptr<Context> context = makeOffscreenContext("auto", {480, 360});
+        Admission admission = admissionToTheWorld();
+        ChannelPicture picture{admission, kMiddle};
+        gl::Target target{GL_RGBA8, picture.sizePixels()};
+    };
+    static void SetUpTestSuite() { stage = std::make_unique<Stage>(); }
+    static void TearDownTestSuite() { stage.reset(); }
+
+    static std::vector<std::uint8_t> shown(const Overlays& overlays) {
+        stage->picture.drawScene(frameWithAFish(), overlays);
+        stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, overlays);
+        return gl::readRgb<std::uint8_t>(stage->target);
+    }
+    static inline std::unique_ptr<Stage> stage;
+};
+
+TEST_F(ChannelPictureTest, theWorldIsAFunctionOfTheFrameAlone) {
+    const auto first = shown({});
+    StateFrame other = frameWithAFish();
+    other.tick = {500};
+    stage->picture.drawScene(other, {});
+    EXPECT_EQ(shown({}), first);
+    EXPECT_GT(std::set<std::uint8_t>(first.begin(), first.end()).size(), 40U) << "a flat picture";
+}
+
+TEST_F(ChannelPictureTest, aFishsNumberStandsWhereTheWallShowsIt) {
+    const auto plain = shown({});
+    const auto numbered = shown({.fishIds = true});
+    glm::dvec2 sum(0);
+    double count = 0;
+    for (std::size_t i = 0; i < plain.size(); i += 3) {
+        if (plain[i] == numbered[i]) continue;
+        const auto pixel = static_cast<int>(i / 3);
+        sum += glm::dvec2(pixel % 480, pixel / 480) + 0.5;
+        ++count;
+    }
+    ASSERT_GT(count, 60) << "no number is seen";
+    ASSERT_LT(count, 1000) << "more than a number has changed";
+    const glm::dvec2 expected = pixelOf(stage->admission.rig, kMiddle, kFishPlace);
+    EXPECT_LT(glm::distance(sum / count, expected), 4);
+}
+
+TEST_F(ChannelPictureTest, gridMaskAndHelpAreSeen) {
+    const auto plain = shown({});
+    std::set<std::vector<std::uint8_t>> pictures{plain};
+    pictures.insert(shown({.warpGrid = true}));
+    pictures.insert(shown({.blendMask = true}));
+    pictures.insert(shown({.help = true}));
+    EXPECT_EQ(pictures.size(), 4U);
+    EXPECT_EQ(shown({}), plain) << "an overlay leaves a trace";
+}
+
+TEST(TextOverlay, drawsTheFontsDots) {
+    const auto context = makeOffscreenContext("auto", {64, 32});
+    const gl::Target target(GL_RGBA8, {64, 32});
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+    glClearColor(0.5F, 0.5F, 0.5F, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const std::vector<Label> labels{{{10, 5}, "R2"}};
+    TextOverlay().draw(labels, target.framebuffer(), {64, 32}, 2);
+    const auto pixels = gl::readRgb<std::uint8_t>(target);
+    const auto at = [&](std::size_t x, std::size_t y) { return pixels[3 * (y * 64 + x)]; };
+    const GlyphBits bits = glyphOf('2');
+    for (std::size_t row = 0; row < kGlyphRows; ++row)
+        for (std::size_t column = 0; column < kGlyphColumns; ++column) {
+            const bool lit = (bits >> (row * kGlyphColumns + column) & 1U) != 0;
+            // The second cell is 6 dots to the right; a margin of one dot above and to the left.
+            const std::size_t x = 10 + 2 * (6 + 1 + column);
+            const std::size_t y = 5 + 2 * (1 + row);
+            EXPECT_EQ(at(x, y), lit ? 255 : 45) << column << ", " << row;
+            EXPECT_EQ(at(x + 1, y + 1), at(x, y));
+        }
+    EXPECT_EQ(at(9, 10), 128) << "left of the box";
+    EXPECT_EQ(at(10, 4), 128) << "above the box";
+}
+
+}  // namespace
+}  // namespace aquarama

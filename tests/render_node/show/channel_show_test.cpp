@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/channel_show.h"
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/units/error.h"
+#include "common/wall/png_file.h"
+#include "tests/render_node/project/reference.h"
+#include "tests/render_node/show/fake_session.h"
+
+namespace aquarama {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kGrey = 0.18;
+
+class ChannelShowTest : public testing::Test {
+  protected:
+    ChannelShowTest() { fs::create_directories(folder_); }
+    ~ChannelShowTest() override { fs::remove_all(folder_); }
+
+    NodeOptions options(bool deep = false) const {
+        NodeOptions chosen;
+        chosen.channel = "middle";
+        chosen.snapshotFolder = folder_;
+        chosen.traceFolder = folder_;
+        chosen.deep = deep;
+        return chosen;
+    }
+    void show(FakeSession& session, const NodeOptions& chosen) {
+        const Controls controls(session);
+        ChannelShow(session, context_, controls, chosen).run(admissionTo(Pattern::Grey));
+    }
+    std::vector<std::string> traceLines() const {
+        std::istringstream text(fileText(folder_ + "/middle.csv"));
+        std::vector<std::string> lines;
+        for (std::string line; std::getline(text, line);) lines.push_back(line);
+        return lines;
+    }
+
+    std::string folder_ = testing::TempDir() + "aquarama_channel_show_test";
+    Events events_;
+    CountingContext context_{events_, {480, 360}};
+};
+
+TEST_F(ChannelShowTest, everyFrameIsReadyBeforeItIsSwapped) {
+    FakeSession session(events_,
+                        {{frameNumber(0), Release::Present}, {frameNumber(1), Release::Present}});
+    show(session, options());
+    EXPECT_EQ(events_, (Events{"prepared", "ready 0", "swap", "ready 1", "swap"}));
+}
+
+TEST_F(ChannelShowTest, aFrameThatTheWallPassedOverIsNotShown) {
+    FakeSession session(events_,
+                        {{frameNumber(0), Release::Skip}, {frameNumber(1), Release::Present}});
+    show(session, options());
+    EXPECT_EQ(events_, (Events{"prepared", "ready 0", "ready 1", "swap"}));
+    ASSERT_EQ(traceLines().size(), 2U);
+    EXPECT_THAT(traceLines()[1], testing::StartsWith("1,"));
+}
+
+TEST_F(ChannelShowTest, aNodeThatWasDroppedJoinsAgain) {
+    FakeSession session(events_,
+                        {{frameNumber(0), Release::Present},
+                         {frameNumber(1), Release::Rejoin},
+                         {frameNumber(7), Release::Present}});
+    session.rejoin_ = admissionTo(Pattern::Grey);
+    show(session, options());
+    EXPECT_EQ(
+        events_,
+        (Events{"prepared", "ready 0", "swap", "ready 1", "join", "prepared", "ready 7", "swap"}));
+}
+
+TEST_F(ChannelShowTest, aNodeThatIsStoppedWhileItJoinsAgainEnds) {
+    FakeSession session(events_, {{frameNumber(0), Release::Rejoin}});
+    show(session, options());
+    EXPECT_EQ(events_, (Events{"prepared", "ready 0", "join"}));
+}
+
+TEST_F(ChannelShowTest, tracesEachFrameInTheOrderOfTime) {
+    FakeSession session(events_,
+                        {{frameNumber(3), Release::Present}, {frameNumber(4), Release::Present}});
+    show(session, options());
+    const auto lines = traceLines();
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_EQ(lines[0], "frame,state_ns,ready_ns,present_ns");
+    std::uint64_t frame = 3;
+    for (const std::string& line : {lines[1], lines[2]}) {
+        std::istringstream cells(line);
+        std::vector<std::uint64_t> values;
+        for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::stoull(cell));
+        ASSERT_EQ(values.size(), 4U);
+        EXPECT_EQ(values[0], frame++);
+        EXPECT_LT(values[1], values[2]);
+        EXPECT_LE(values[2], values[3]);
+    }
+}
+
+TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
+    FakeSession session(events_, {{frameNumber(0), Release::Present}});
+    show(session, options(/*deep=*/true));
+    const Picture picture = readPng(folder_ + "/channel-middle.png");
+    const Rig rig = shippedRig("desk");
+    const WarpMap warp = warpMap(rig, channelIndex(rig, "middle"));
+    ASSERT_EQ(picture.sizePixels, warp.sizePixels);
+    ASSERT_EQ(picture.bits, 16);
+    for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
+        const double weight = static_cast<double>(warp.pointAndWeight[i].w);
+        // Half floats hold 0.18 to one part in 4000.
+        ASSERT_NEAR(picture.rgb[3 * i], 65535 * srgbOf(kGrey * weight), 10) << "weight " << weight;
+    }
+}
+
+TEST_F(ChannelShowTest, aSnapshotWithNoFrameShownIsNone) {
+    FakeSession session(events_, {{frameNumber(0), Release::Skip}});
+    show(session, options());
+    EXPECT_FALSE(fs::exists(folder_ + "/channel-middle.png"));
+}
+
+TEST_F(ChannelShowTest, aFilmIsAFolderOfSnapshots) {
+    FakeSession session(events_,
+                        {{frameNumber(1), Release::Present},
+                         {frameNumber(2), Release::Present},
+                         {frameNumber(3), Release::Present}});
+    NodeOptions chosen = options();
+    chosen.filmEvery = 2;
+    show(session, chosen);
+    EXPECT_TRUE(fs::exists(folder_ + "/film/000002/channel-middle.png"));
+    EXPECT_FALSE(fs::exists(folder_ + "/film/000001"));
+    EXPECT_FALSE(fs::exists(folder_ + "/film/000003"));
+}
+
+TEST_F(ChannelShowTest, whatCannotBeWrittenIsSaidBeforeTheShow) {
+    FakeSession session(events_, {});
+    NodeOptions chosen = options();
+    chosen.traceFolder = folder_ + "/nowhere";
+    EXPECT_THROW(show(session, chosen), Error);
+    EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(ChannelShowTest, aChannelThatTheRigLacksIsNamed) {
+    FakeSession session(events_, {});
+    NodeOptions chosen = options();
+    chosen.channel = "ceiling";
+    try {
+        show(session, chosen);
+        FAIL() << "a channel that is not there was taken";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("ceiling"));
+    }
+}
+
+}  // namespace
+}  // namespace aquarama

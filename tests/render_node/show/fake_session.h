@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// A master that follows a script, and a context that counts, for tests of a node's frame loop.
+#pragma once
+
+#include <deque>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "render_node/context/context.h"
+#include "render_node/session/session.h"
+#include "tests/common/wall/rigs.h"
+#include "tests/render_node/surface/test_fish.h"
+
+namespace aquarama {
+
+using Events = std::vector<std::string>;
+
+// What the script answers when a frame is reported ready.
+using Script = std::deque<std::pair<StateFrame, Release>>;
+
+class FakeSession : public Session {
+  public:
+    FakeSession(Events& events, Script script) : events_{events}, script_{std::move(script)} {}
+
+    std::optional<Admission> join() override {
+        events_.emplace_back("join");
+        return rejoin_;
+    }
+    void prepared() override { events_.emplace_back("prepared"); }
+    std::optional<StateFrame> nextFrame() override {
+        if (script_.empty()) return std::nullopt;
+        return script_.front().first;
+    }
+    [[nodiscard]] std::chrono::nanoseconds stateArrival() const override {
+        return std::chrono::nanoseconds(1);
+    }
+    [[nodiscard]] Release interruption() const override { return Release::Quit; }
+    Release readyThenWait(Frame frame) override {
+        events_.push_back("ready " + std::to_string(frame.value));
+        const Release answer = script_.front().second;
+        script_.pop_front();
+        return answer;
+    }
+    void send(NodeInput input) override {
+        events_.emplace_back(input == NodeInput::Quit ? "send quit" : "send pause");
+    }
+    void stop() override { events_.emplace_back("stop"); }
+
+    std::optional<Admission> rejoin_;
+
+  private:
+    Events& events_;
+    Script script_;
+};
+
+// EGL underneath; says when it swaps.
+class CountingContext : public Context {
+  public:
+    CountingContext(Events& events, glm::ivec2 size)
+        : events_{events}, context_{makeOffscreenContext("auto", size)} {}
+    void makeCurrent() override { context_->makeCurrent(); }
+    void release() override { context_->release(); }
+    void swap() override { events_.emplace_back("swap"); }
+    [[nodiscard]] glm::ivec2 framebufferPixels() const override {
+        return context_->framebufferPixels();
+    }
+    [[nodiscard]] bool hasWindow() const override { return false; }
+    [[nodiscard]] std::string description() const override { return context_->description(); }
+    void pumpEvents(std::chrono::milliseconds) override {}
+    [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
+
+  private:
+    Events& events_;
+    std::unique_ptr<Context> context_;
+};
+
+inline std::string fileText(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// Welcomed to the desk.
+inline Admission admissionTo(Pattern pattern) {
+    Admission admission;
+    admission.rig = shippedRig("desk");
+    admission.welcome.rigText = writeRig(admission.rig);
+    admission.welcome.seed = 1;
+    admission.welcome.pattern = pattern;
+    admission.speciesText = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb");
+    return admission;
+}
+
+inline StateFrame frameNumber(std::uint64_t number) {
+    StateFrame frame;
+    frame.frame = {number};
+    frame.tick = {number};
+    return frame;
+}
+
+}  // namespace aquarama
