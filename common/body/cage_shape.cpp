@@ -81,9 +81,10 @@ CageShape::CageShape(const Species& species)
     };
     fill(back_, 6, 13, firstDorsal_.baseFront().x, firstDorsal_.baseRear().x);
     fill(back_, 14, 20, secondDorsal_.baseFront().x, secondDorsal_.baseRear().x);
-    fill(belly_, 7, 15, pelvic_.baseRear().x, anal_.baseFront().x);
+    fill(belly_, 8, 15, pelvic_.baseRear().x, anal_.baseFront().x);
     fill(belly_, 15, 20, anal_.baseFront().x, anal_.baseRear().x);
-    belly_[6] = pelvic_.baseFront().x;
+    belly_[7] = pelvic_.baseFront().x;
+    belly_[6] = belly_[7] - 0.03F;  // clear of the pectoral root on rings 5 and 6
     for (std::size_t r = 0; r < 6; ++r) {
         back_.at(r) = headStation(static_cast<int>(r), back_[6]);
         belly_.at(r) = headStation(static_cast<int>(r), belly_[6]);
@@ -171,7 +172,7 @@ CageVertex CageShape::onMedianFin(const CageSite& site) const {
 CageVertex CageShape::onPairedFin(const CageSite& site) const {
     const bool isPelvic = site.part == CagePart::Pelvic;
     const FinPatch& fin = isPelvic ? pelvic_ : pectoral_;
-    const float p = isPelvic ? static_cast<float>(site.ring - 6) : pectoralRay(site.column);
+    const float p = isPelvic ? static_cast<float>(site.ring - 7) : pectoralRay(site.column);
     const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
     const bool isOuter = isPelvic ? site.column == 5 || site.column == 8 : site.ring == 5;
     const glm::vec2 base = fin.at(p, 0);

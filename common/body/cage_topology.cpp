@@ -148,8 +148,8 @@ CageTopology makeCageTopology() {
     cage.raise(CagePart::FirstDorsal, strip(6, 13, 0), 2);
     cage.raise(CagePart::SecondDorsal, strip(14, 20, 0), 1);
     cage.raise(CagePart::Anal, strip(15, 20, 6), 2);
-    cage.raise(CagePart::Pelvic, {{6, 5}}, 2);
-    cage.raise(CagePart::Pelvic, {{6, 7}}, 2);
+    cage.raise(CagePart::Pelvic, {{7, 5}}, 2);
+    cage.raise(CagePart::Pelvic, {{7, 7}}, 2);
     cage.raise(CagePart::Pectoral, {{5, 3}, {5, 4}}, 2);
     cage.raise(CagePart::Pectoral, {{5, 8}, {5, 9}}, 2);
     return std::move(cage).finish();

@@ -31,6 +31,8 @@ constexpr std::array kRound{
     Station{{0.6F, -5.4F, -4.6F}, 0.3F, 16 * 60, true},
     Station{{-0.2F, -5.5F, -5.2F}, 0.3F, 7 * 60},
 };
+// The curtain rises as the school comes close: what a visitor sees first, and the first picture.
+constexpr std::uint64_t kOpeningTicks = 26 * 60;
 constexpr float kHeightShiftMetres = 0.35F;
 
 constexpr std::uint64_t ticksOfRound() {
@@ -64,8 +66,9 @@ glm::vec3 velocityAt(std::uint32_t seed, std::uint64_t index) {
 }  // namespace
 
 Goal journeyGoal(std::uint32_t seed, Tick tick) {
-    std::uint64_t index = (tick.value / ticksOfRound() + 1) * kRound.size();
-    std::uint64_t ticks = tick.value % ticksOfRound();
+    const std::uint64_t played = tick.value + kOpeningTicks;
+    std::uint64_t index = (played / ticksOfRound() + 1) * kRound.size();
+    std::uint64_t ticks = played % ticksOfRound();
     while (ticks >= kRound[index % kRound.size()].ticks)
         ticks -= kRound[index++ % kRound.size()].ticks;
 

@@ -80,7 +80,6 @@ struct Scene::Parts {
 
 // Near things first, so that what they hide is never shaded.
 void Scene::Parts::drawSolids(const Viewpoint& viewpoint) {
-    if (school) school->draw();
     meadow.draw(viewpoint);
     reef.draw(viewpoint);
     ground.draw(viewpoint);
@@ -128,6 +127,7 @@ unsigned Scene::draw(const SceneFrame& frame, const View& view) {
                               detailOf(view.sizePixels)};
     parts.drawSolids(viewpoint);
     parts.drawWater();
+    if (parts.school) parts.school->draw();  // fins are blended over the water
     parts.drawSnow();
     return parts.picture.finish();
 }
