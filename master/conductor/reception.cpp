@@ -159,7 +159,7 @@ void Conductor::vacate(std::size_t node, const std::string& why) {
 void Conductor::obey(const Input& input) {
     if (input.kind == InputKind::Quit) {
         over_ = true;
-    } else if (!isLockstep()) {
+    } else if (!isLockstep() && ticker_) {  // there is none any more while farewells are said
         ticker_->togglePause();
     }
 }
