@@ -3,12 +3,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+#include "common/place/place.h"
 
 namespace aquarama {
 
@@ -29,6 +32,22 @@ class Frustum {
     std::array<glm::vec4, 4> planes_;  // the sides; things before and behind are few
 };
 
+// The first limit that a range does not reach.
+template <std::size_t Limits>
+[[nodiscard]] constexpr std::size_t levelAt(float range, const std::array<float, Limits>& limits) {
+    std::size_t level = 0;
+    while (level < Limits && range >= limits[level]) ++level;
+    return level;
+}
+
+// The finest level that a thing is ever drawn at: the eye keeps to the middle of the place. Should
+// it stray, the thing is only coarser than it might be.
+template <std::size_t Limits>
+[[nodiscard]] std::size_t finestLevelOf(glm::vec3 place, const std::array<float, Limits>& limits) {
+    constexpr float kEyeStraysMetres = 4.0F;
+    return levelAt(glm::distance(place, kEyePosition) - kEyeStraysMetres, limits);
+}
+
 // How a frame is drawn: the same choice on every node, as it depends on the shared eye alone.
 struct Viewpoint {
     Frustum frustum;
@@ -44,10 +63,7 @@ struct Viewpoint {
     template <std::size_t Limits>
     [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, Limits> limits) const {
         if (!levelsOfDetail) return 0;
-        const float range = glm::distance(place, eyeMetres);
-        std::size_t level = 0;
-        while (level < Limits && range >= limits[level] * detail) ++level;
-        return level;
+        return levelAt(glm::distance(place, eyeMetres) / detail, limits);
     }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/ground.h"
 
+#include <algorithm>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -79,20 +81,24 @@ Ground::Ground(std::uint32_t seed)
       shade_{bakeShade(seed)} {
     Mesh all;
     constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        // All patches share a level's triangles.
+        const Mesh mesh = layPatch(seed, {}, kPatchMetres, kCells[level]);
+        levels_[level] = {all.indices.size() * sizeof(std::uint32_t),
+                          static_cast<int>(mesh.indices.size())};
+        all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
     for (int i = 0; i < kPatchesASide * kPatchesASide; ++i) {
         const glm::vec2 corner =
             glm::vec2{i % kPatchesASide, i / kPatchesASide} * kPatchMetres - kHalf;
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
         Patch& patch = patches_.emplace_back();
         patch.centre = {middle.x, floorHeight(seed, middle), middle.y};
-        for (std::size_t level = 0; level < levels_.size(); ++level) {
+        patch.finest = finestLevelOf(patch.centre, kLevelMetres);
+        for (std::size_t level = patch.finest; level < levels_.size(); ++level) {
             const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells[level]);
             patch.firstVertices[level] = static_cast<int>(all.vertices.size());
             all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-            if (i > 0) continue;  // all patches share a level's triangles
-            levels_[level] = {all.indices.size() * sizeof(std::uint32_t),
-                              static_cast<int>(mesh.indices.size())};
-            all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
         }
     }
     setSolids(array_, vertices_, indices_, all);
@@ -106,7 +112,8 @@ void Ground::draw(const Viewpoint& viewpoint) const {
     constexpr float kPatchRadius = kPatchMetres * 0.75F;
     for (const Patch& patch : patches_) {
         if (!viewpoint.sees(patch.centre, kPatchRadius)) continue;
-        const std::size_t level = viewpoint.levelOf(patch.centre, kLevelMetres);
+        const std::size_t level =
+            std::max(viewpoint.levelOf(patch.centre, kLevelMetres), patch.finest);
         glDrawElementsBaseVertex(GL_TRIANGLES,
                                  levels_[level].count,
                                  GL_UNSIGNED_INT,

@@ -26,6 +26,7 @@ class Ground {
   private:
     struct Patch {
         glm::vec3 centre{};
+        std::size_t finest = 0;
         std::array<int, 3> firstVertices{};
     };
     struct Level {

@@ -72,11 +72,14 @@ Reef::Reef(std::uint32_t seed)
         Boulder& boulder = boulders_.emplace_back();
         boulder.centre = rock.centre;
         boulder.radiusMetres = rock.radiusMetres * kGrowthShare;
-        for (std::size_t level = 0; level < kReefLevels; ++level) {
+        const std::size_t finest = finestLevelOf(rock.centre, kLevelMetres);
+        for (std::size_t level = finest; level < kReefLevels; ++level) {
             const ReefMesh mesh = growBoulder(rock, rocks, static_cast<int>(level));
             boulder.stone[level] = append(all, mesh.stone);
             boulder.growth[level] = append(all, mesh.growth);
         }
+        std::fill_n(boulder.stone.begin(), finest, boulder.stone[finest]);
+        std::fill_n(boulder.growth.begin(), finest, boulder.growth[finest]);
     }
     setSolids(array_, vertices_, indices_, all);
 }
