@@ -20,7 +20,7 @@ NeighbourGrid::NeighbourGrid(const Region& water, float cellMetres, std::size_t 
       cells_{cellsAcross(water.halfExtent.x, cellMetres),
              cellsAcross(water.halfExtent.y, cellMetres),
              cellsAcross(water.halfExtent.z, cellMetres)},
-      starts_(static_cast<std::size_t>(cells_.x * cells_.y * cells_.z) + 1),
+      starts_(std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z) + 1),
       cellOfFish_(fish),
       x_(fish),
       y_(fish),
@@ -54,8 +54,9 @@ void NeighbourGrid::rebuild(const SchoolView& view) {
 }
 
 NeighbourGrid::Candidates NeighbourGrid::run(int row, int firstCell, int lastCell) const {
-    const std::size_t first = starts_[static_cast<std::size_t>(row + firstCell)];
-    const std::size_t count = starts_[static_cast<std::size_t>(row + lastCell) + 1] - first;
+    const auto cells = starts_.begin() + row;
+    const std::size_t first = cells[firstCell];
+    const std::size_t count = cells[lastCell + 1] - first;
     return {{x_.data() + first, count},
             {y_.data() + first, count},
             {z_.data() + first, count},

@@ -11,7 +11,7 @@ namespace aquarama {
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { kTempo = 101, kPatience, kRecommended, kHold };
+enum Draw : std::uint32_t { Tempo = 101, Patience, Recommended, Hold };
 
 constexpr float kGradualFrom = 22.0F * kRadiansPerDegree;  // error at which a turn begins
 constexpr float kGradualTo = 6.0F * kRadiansPerDegree;     // and at which it ends
@@ -38,7 +38,7 @@ std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Draw draw, std::uint64
 
 // U(4, 10) seconds.
 std::uint16_t patienceOf(std::uint32_t seed, std::size_t fish, std::uint64_t tick) {
-    return static_cast<std::uint16_t>(240 + drawn(seed, fish, kPatience, tick) % 361);
+    return static_cast<std::uint16_t>(240 + drawn(seed, fish, Patience, tick) % 361);
 }
 
 Action gradual(bool left) {
@@ -115,7 +115,7 @@ void ControllerMemory::resize(std::size_t fish) {
 }
 
 float tempoOf(std::uint32_t seed, std::size_t fish) {
-    return 1 + 0.1F * signedUnitOf(drawn(seed, fish, kTempo, 0));
+    return 1 + 0.1F * signedUnitOf(drawn(seed, fish, Tempo, 0));
 }
 
 void startCommands(const Gaits& gaits,
@@ -176,10 +176,10 @@ Action SecondaryController::choose(std::size_t fish, const Moment& moment) const
     if (chosen != moment.present || moment.since <= memory->patience[fish]) return chosen;
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);
-    const auto recommended = static_cast<Action>(drawn(seed, fish, kRecommended, tick.value) %
+    const auto recommended = static_cast<Action>(drawn(seed, fish, Recommended, tick.value) %
                                                  static_cast<std::uint32_t>(kActions));
     if (!accepts(*gaits, moment, recommended)) return chosen;
-    memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, kHold, tick.value) % 46;
+    memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, Hold, tick.value) % 46;
     return recommended;
 }
 

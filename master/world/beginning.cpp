@@ -2,6 +2,7 @@
 #include "master/world/beginning.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/common.hpp>
 
@@ -13,7 +14,7 @@ namespace aquarama {
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { kLength = 201, kPlace, kPhase };
+enum Draw : std::uint32_t { Length = 201, Place, Phase };
 
 // Irwin-Hall: four uniform numbers make a bell curve of deviation 1 / sqrt(3), without libm.
 float bell(std::uint32_t hash) {
@@ -57,11 +58,11 @@ std::vector<FishTraits> traitsOf(const WorldOptions& options) {
     std::vector<FishTraits> traits(options.fishCount);
     const FishLengths& lengths = options.lengths;
     for (std::uint32_t id = 0; id < options.fishCount; ++id) {
-        const float own = bell(hashOf(hashOf(options.seed, kLength), id));
+        const float own = bell(hashOf(hashOf(options.seed, Length), id));
         const float metres = std::clamp(lengths.meanMetres + lengths.deviationMetres * own,
                                         lengths.leastMetres,
                                         lengths.mostMetres);
-        traits[id] = {id, static_cast<std::uint16_t>(metres * 1000 + 0.5F)};
+        traits[id] = {id, static_cast<std::uint16_t>(std::lround(metres * 1000))};
     }
     return traits;
 }
@@ -76,7 +77,7 @@ void placeSchool(std::uint32_t seed,
     // A school too large for the water is packed more densely.
     const glm::vec3 room = water.halfExtent * 0.85F;
     for (std::size_t fish = 0; fish < states.size(); ++fish) {
-        const std::uint32_t own = hashOf(hashOf(seed, kPlace), static_cast<std::uint32_t>(fish));
+        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(fish));
         const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
                                signedUnitOf(hashOf(own, 1)),
                                signedUnitOf(hashOf(own, 2))};
@@ -91,7 +92,7 @@ void placeSchool(std::uint32_t seed,
             glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
         setBodyFrame(states, fish, {place, rotation});
         const std::uint32_t phase =
-            hashOf(hashOf(seed, kPhase), static_cast<std::uint32_t>(fish)) >> 16U;
+            hashOf(hashOf(seed, Phase), static_cast<std::uint32_t>(fish)) >> 16U;
         states.phase[fish] = static_cast<std::uint16_t>(phase);
         states.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
         states.fromPhase[fish] = states.phase[fish];

@@ -16,6 +16,8 @@ class WorkerPool {
     ~WorkerPool();
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
+    WorkerPool(WorkerPool&&) = delete;
+    WorkerPool& operator=(WorkerPool&&) = delete;
 
     // Calls work(chunk) once for each of [0, chunks), from any thread in any order, and returns
     // when all are done. A job may not throw. Neither locks nor allocates.
