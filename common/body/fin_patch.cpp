@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/body/fin_patch.h"
 
+#include <algorithm>
+
 #include <glm/common.hpp>
 
 #include "common/body/monotone_curve.h"
@@ -19,11 +21,12 @@ std::vector<float> evenSteps(std::size_t count) {
 }
 
 std::vector<float> sampled(const std::vector<glm::vec2>& points, int component) {
-    std::vector<float> values;
-    for (const glm::vec2& point : points) values.push_back(point[component]);
+    std::vector<float> values(points.size());
+    std::ranges::transform(
+        points, values.begin(), [&](glm::vec2 point) { return point[component]; });
     const MonotoneCurve curve(evenSteps(points.size()), values);
-    std::vector<float> samples;
-    for (const float p : evenSteps(kSamples)) samples.push_back(curve.at(p));
+    std::vector<float> samples = evenSteps(kSamples);
+    for (float& sample : samples) sample = curve.at(sample);
     return samples;
 }
 

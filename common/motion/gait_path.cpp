@@ -21,8 +21,8 @@ void integrate(const ActionSegment& segment, GaitPath& path) {
 // The path with the cycle repeated before and after it.
 glm::dquat rotationAt(const GaitPath& path, int phase) {
     if (phase >= 0) return path.rotation[static_cast<std::size_t>(phase)];
-    return glm::conjugate(path.rotation[kCycle]) *
-           path.rotation[static_cast<std::size_t>(phase + kPhases)];
+    const int inCycle = phase + kPhases;
+    return glm::conjugate(path.rotation[kCycle]) * path.rotation[static_cast<std::size_t>(inCycle)];
 }
 
 // The mean of the frames within half a cycle of `phase`.
@@ -45,10 +45,14 @@ std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsTo
 }
 
 // Central difference of the body frame's origin, taken in the second cycle, which has a first
-// before it; seen in mean axes.
-double forwardAt(const GaitPath& path, std::size_t k) {
+// before it; seen in mean axes. Where a turn begins and ends, one side is not its own.
+double forwardAt(const GaitPath& path, std::size_t k, bool playsToEnd) {
     const std::size_t at = kCycle + k % kCycle;
-    const glm::dvec3 step = (path.translation[at + 1] - path.translation[at - 1]) * 0.5;
+    const bool begins = playsToEnd && k == 0;
+    const bool ends = playsToEnd && k == kCycle;
+    const glm::dvec3 before = path.translation[begins ? at : at - 1];
+    const glm::dvec3 after = path.translation[ends ? at : at + 1];
+    const glm::dvec3 step = (after - before) * (begins || ends ? 1.0 : 0.5);
     const glm::dvec3 inBody = glm::conjugate(path.rotation[at]) * step;
     return (glm::conjugate(path.bodyFromMean[k]) * inBody).x;
 }
@@ -65,7 +69,8 @@ GaitPath pathOf(const ActionSegment& segment) {
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         const std::size_t now = k % kCycle;
         const glm::dquat turn = glm::conjugate(means[now]) * means[now + 1];
-        path.mean[k] = {glm::dvec3(turn.x, turn.y, turn.z) / turn.w, forwardAt(path, k)};
+        path.mean[k] = {glm::dvec3(turn.x, turn.y, turn.z) / turn.w,
+                        forwardAt(path, k, segment.playsToEnd)};
     }
     return path;
 }

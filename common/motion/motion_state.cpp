@@ -135,16 +135,16 @@ void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame
 }
 
 std::uint64_t hashOf(const MotionStates& states) {
+    const auto wide = [](auto field) { return static_cast<std::uint64_t>(field); };
     std::uint64_t hash = mix(states.size());
     for (std::size_t fish = 0; fish < states.size(); ++fish) {
         const FishRecord r = recordOf(states, fish);
         // Four independent words a fish, so that only the last line waits for the fish before.
         const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, r.phase));
-        const std::uint64_t turn =
-            mix(r.orientationLow | static_cast<std::uint64_t>(r.orientationHigh) << 32U);
-        const std::uint64_t warp = r.segment | r.fromSegment << 8U | r.warpFrame << 16U |
-                                   static_cast<std::uint64_t>(r.warpLength) << 24U |
-                                   static_cast<std::uint64_t>(r.fromPhase) << 32U;
+        const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);
+        const std::uint64_t warp = wide(r.segment) | wide(r.fromSegment) << 8U |
+                                   wide(r.warpFrame) << 16U | wide(r.warpLength) << 24U |
+                                   wide(r.fromPhase) << 32U;
         hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
     }
     return mix(hash);

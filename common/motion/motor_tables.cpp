@@ -62,7 +62,7 @@ void fill(const ActionSegment& segment, SegmentTables& tables) {
         const auto [x, y, z] = narrow(path.translation[k]);
         tables.path[k] = {narrow(path.rotation[k]), {x, y, z, 0.0F}};
     }
-    const double cellsPerTick = static_cast<double>(tables.phaseRate * kPhaseCellUnit);
+    const double cellsPerTick = static_cast<double>(tables.phaseRate) / 1024.0;
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         tables.bodyFromMean[k] = narrow(path.bodyFromMean[k]);
         tables.glide[k] = glideOf(path, k, cellsPerTick, segment.playsToEnd);

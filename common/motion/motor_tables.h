@@ -36,8 +36,8 @@ struct WarpPlan {
 
 struct SegmentTables {
     std::array<PathSample, kPathSamples> path;
-    std::array<Quaternion, kCycleSamples> bodyFromMean;
     std::array<GlideSample, kCycleSamples> glide;
+    std::array<Quaternion, kCycleSamples> bodyFromMean;
     std::array<std::array<WarpPlan, kActions>, kPhases> warpTo;
     float inversePhaseRate = 0.0F;
     float speedBodyLengths = 0.0F;  // a second

@@ -91,7 +91,7 @@ struct MemoryNet::Hub {
         changed.notify_all();
     }
 
-    Parcel parcel(const PeerId& from, ByteView bytes) const {
+    [[nodiscard]] Parcel parcel(const PeerId& from, ByteView bytes) const {
         return {monotonicNow() + faults.delay, from, {bytes.begin(), bytes.end()}};
     }
 
@@ -128,8 +128,8 @@ class MemoryMaster final : public MasterChannels {
     std::size_t discardNoise() override { return 0; }
     void wait(Instant atMost) override { hub_->wait("", atMost); }
     void wake() override { hub_->wake(""); }
-    std::string controlAddress() const override { return "memory:control"; }
-    std::string stateAddress() const override { return "memory:state"; }
+    [[nodiscard]] std::string controlAddress() const override { return "memory:control"; }
+    [[nodiscard]] std::string stateAddress() const override { return "memory:state"; }
 
   private:
     std::shared_ptr<MemoryNet::Hub> hub_;

@@ -167,10 +167,12 @@ class ZmqMasterChannels final : public MasterChannels {
 
     void wait(Instant atMost) override { pollSockets({&control_, &state_}, wake_, atMost); }
     void wake() override { wake_.set(); }
-    std::string controlAddress() const override {
+    [[nodiscard]] std::string controlAddress() const override {
         return control_.get(zmq::sockopt::last_endpoint);
     }
-    std::string stateAddress() const override { return state_.get(zmq::sockopt::last_endpoint); }
+    [[nodiscard]] std::string stateAddress() const override {
+        return state_.get(zmq::sockopt::last_endpoint);
+    }
 
   private:
     // "\x01" is a subscription to everything, the only one that we know; "\x00" ends it.

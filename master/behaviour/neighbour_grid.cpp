@@ -11,11 +11,6 @@ int cellsAcross(float halfExtent, float cellMetres) {
     return std::max(1, static_cast<int>(2 * halfExtent / cellMetres) + 1);
 }
 
-int cellAlong(float metresFromOrigin, float cellsPerMetre, int cells) {
-    const float cell = metresFromOrigin * cellsPerMetre;
-    return static_cast<int>(std::clamp(cell, 0.0F, static_cast<float>(cells - 1)));
-}
-
 }  // namespace
 
 NeighbourGrid::NeighbourGrid(const Region& water, float cellMetres, std::size_t fish)
@@ -33,10 +28,8 @@ NeighbourGrid::NeighbourGrid(const Region& water, float cellMetres, std::size_t 
       fish_(fish) {}
 
 NeighbourGrid::Cell NeighbourGrid::cellOf(glm::vec3 point) const {
-    const glm::vec3 from = point - origin_;
-    return {cellAlong(from.x, cellsPerMetre_, cells_.x),
-            cellAlong(from.y, cellsPerMetre_, cells_.y),
-            cellAlong(from.z, cellsPerMetre_, cells_.z)};
+    const glm::vec3 at = (point - origin_) * cellsPerMetre_;
+    return {clampedCell(at.x, cells_.x), clampedCell(at.y, cells_.y), clampedCell(at.z, cells_.z)};
 }
 
 void NeighbourGrid::rebuild(const SchoolView& view) {
@@ -60,9 +53,9 @@ void NeighbourGrid::rebuild(const SchoolView& view) {
     }
 }
 
-NeighbourGrid::Candidates NeighbourGrid::run(int firstCell, int lastCell) const {
-    const std::size_t first = starts_[static_cast<std::size_t>(firstCell)];
-    const std::size_t count = starts_[static_cast<std::size_t>(lastCell) + 1] - first;
+NeighbourGrid::Candidates NeighbourGrid::run(int row, int firstCell, int lastCell) const {
+    const std::size_t first = starts_[static_cast<std::size_t>(row + firstCell)];
+    const std::size_t count = starts_[static_cast<std::size_t>(row + lastCell) + 1] - first;
     return {{x_.data() + first, count},
             {y_.data() + first, count},
             {z_.data() + first, count},

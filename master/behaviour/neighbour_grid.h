@@ -3,7 +3,8 @@
 // runs of memory.
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,32 +26,58 @@ class NeighbourGrid {
         std::span<const float> x, y, z;
         std::span<const std::uint32_t> fish;
     };
-    // Calls visit(Candidates) for each row of the (2 reach + 1)^3 cells about a point; that holds
-    // every fish nearer than reach * cellMetres.
+    // Calls visit(Candidates) for rows of cells, from the point outwards, that together hold every
+    // fish within sqrt(reachSquared). The visitor may lower reachSquared as it finds what it
+    // sought.
     template <class Visit>
-    void visitAround(glm::vec3 point, int reach, Visit&& visit) const {
+    void visitAround(glm::vec3 point, const float& reachSquared, Visit&& visit) const {
+        const glm::vec3 at = (point - origin_) * cellsPerMetre_;  // in cells
         const Cell centre = cellOf(point);
-        const int firstX = centre.x > reach ? centre.x - reach : 0;
-        const int lastX = centre.x + reach < cells_.x ? centre.x + reach : cells_.x - 1;
-        for (int z = centre.z - reach; z <= centre.z + reach; ++z) {
-            if (z < 0 || z >= cells_.z) continue;
-            for (int y = centre.y - reach; y <= centre.y + reach; ++y) {
-                if (y < 0 || y >= cells_.y) continue;
-                const int row = (z * cells_.y + y) * cells_.x;
-                visit(run(row + firstX, row + lastX));
+        const auto row = [&](int y, int z) {
+            if (y < 0 || y >= cells_.y || z < 0 || z >= cells_.z) return;
+            const float dy = outside(at.y, centre.y, y);
+            const float dz = outside(at.z, centre.z, z);
+            const float left =
+                reachSquared * kSlack - (dy * dy + dz * dz) * cellMetres_ * cellMetres_;
+            if (left < 0) return;
+            const float halfWidth = std::sqrt(left) * cellsPerMetre_;
+            const int first = clampedCell(at.x - halfWidth, cells_.x);
+            const int last = clampedCell(at.x + halfWidth, cells_.x);
+            visit(run((z * cells_.y + y) * cells_.x, first, last));
+        };
+        row(centre.y, centre.z);
+        const int cells = 1 + static_cast<int>(std::sqrt(reachSquared) * cellsPerMetre_);
+        for (int ring = 1; ring <= cells; ++ring) {
+            for (int i = -ring; i < ring;
+                 ++i) {  // the four sides of a square, each without its end
+                row(centre.y + i, centre.z - ring);
+                row(centre.y + ring, centre.z + i);
+                row(centre.y - i, centre.z + ring);
+                row(centre.y - ring, centre.z - i);
             }
         }
     }
 
-    [[nodiscard]] float cellMetres() const { return cellMetres_; }
     [[nodiscard]] std::size_t bytes() const;
 
   private:
     struct Cell {
         int x, y, z;
     };
+    static constexpr float kSlack = 1.001F;  // more than rounding can take off a reach
+
+    // Border cells reach outwards without end.
+    [[nodiscard]] static int clampedCell(float cell, int cells) {
+        return static_cast<int>(std::clamp(cell, 0.0F, static_cast<float>(cells - 1)));
+    }
+    // How far a point in cell `own` is from another, in cells.
+    [[nodiscard]] static float outside(float at, int own, int other) {
+        return other > own   ? static_cast<float>(other) - at
+               : other < own ? at - static_cast<float>(other + 1)
+                             : 0.0F;
+    }
     [[nodiscard]] Cell cellOf(glm::vec3 point) const;
-    [[nodiscard]] Candidates run(int firstCell, int lastCell) const;
+    [[nodiscard]] Candidates run(int row, int firstCell, int lastCell) const;
 
     glm::vec3 origin_{};
     float cellMetres_;

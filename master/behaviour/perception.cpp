@@ -30,19 +30,19 @@ struct Search {
     glm::vec3 position;
     glm::vec3 heading;
     std::uint32_t fish;
-    Neighbours nearest;
+    float reachSquared = kSightMetres * kSightMetres;
+    Neighbours nearest{};
 
     void look(const NeighbourGrid::Candidates& candidates) {
-        float farthest = kSightMetres * kSightMetres;
         for (std::size_t i = 0; i < candidates.fish.size(); ++i) {
             const glm::vec3 offset{candidates.x[i] - position.x,
                                    candidates.y[i] - position.y,
                                    candidates.z[i] - position.z};
             const float distanceSquared = dot(offset, offset);
-            if (distanceSquared > farthest || candidates.fish[i] == fish) continue;
+            if (distanceSquared > reachSquared || candidates.fish[i] == fish) continue;
             if (!inFieldOfView(heading, offset)) continue;
             insert(nearest, candidates.fish[i], distanceSquared);
-            if (nearest.count == kMostNeighbours) farthest = nearest.distanceSquared.back();
+            if (nearest.count == kMostNeighbours) reachSquared = nearest.distanceSquared.back();
         }
     }
 };
@@ -55,15 +55,9 @@ bool inFieldOfView(glm::vec3 heading, glm::vec3 offset) {
 }
 
 Neighbours nearestVisible(const SchoolView& view, const NeighbourGrid& grid, std::uint32_t fish) {
-    Search search{view.position(fish), view.heading(fish), fish, {}};
-    for (const int reach : {1, kCellsInSight}) {
-        search.nearest = {};
-        grid.visitAround(search.position, reach, [&](const auto& row) { search.look(row); });
-        const float certain = static_cast<float>(reach) * grid.cellMetres();
-        if (search.nearest.count == kMostNeighbours &&
-            search.nearest.distanceSquared.back() < certain * certain)
-            break;
-    }
+    Search search{view.position(fish), view.heading(fish), fish};
+    grid.visitAround(
+        search.position, search.reachSquared, [&](const auto& row) { search.look(row); });
     return search.nearest;
 }
 

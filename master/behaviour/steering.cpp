@@ -22,6 +22,7 @@ constexpr float kAttractFully = 5.0F;
 
 constexpr float kKeepCourse = 0.8F;  // weights against the unit vector of one's own course
 constexpr float kSeparate = 2.2F;
+constexpr float kMostSeparation = 0.9F;
 constexpr float kAlign = 0.9F;
 constexpr float kCohere = 1.2F;
 constexpr float kFollow = 0.7F;
@@ -69,6 +70,9 @@ Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::siz
         company.alignment += view.heading(other) * inStep;
         company.speed += view.speed[other] * perLength;
     }
+    // Parting by more than a slant would bring the tails together.
+    const float parting = lengthOf(company.separation) * kSeparate;
+    if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
     if (neighbours.count == 0) return company;
     const float share = 1 / static_cast<float>(neighbours.count);
     company.alignment *= share;

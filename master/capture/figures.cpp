@@ -129,8 +129,10 @@ std::string drawSegment(const FishBody& body, const ActionSegment& segment, int 
 
     Svg svg(width, height);
     for (std::size_t i = 0; i < kPanels; ++i) {
-        const glm::dvec2 corner{kGap + static_cast<double>(i % kColumns) * (kPanelWidth + kGap),
-                                kGap + static_cast<double>(i / kColumns) * (panelHeight + kGap)};
+        const std::size_t row = i / kColumns;
+        const std::size_t column = i % kColumns;
+        const glm::dvec2 corner{kGap + static_cast<double>(column) * (kPanelWidth + kGap),
+                                kGap + static_cast<double>(row) * (panelHeight + kGap)};
         svg.rectangle(corner, {kPanelWidth, panelHeight}, kFrame);
         const Chart chart{corner + glm::dvec2(0, kTop), extent.least, scale};
         const std::size_t now = i * total / (kPanels - 1);

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 
 #include "common/config/angle.h"
@@ -16,12 +15,10 @@ namespace aquarama {
 namespace {
 
 // printf into a string: the tables here are all columns of figures.
-[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
+template <class... Values>
+std::string line(const char* format, Values... values) {
     std::array<char, 256> text{};
-    std::va_list values;
-    va_start(values, format);
-    std::vsnprintf(text.data(), text.size(), format, values);
-    va_end(values);
+    std::snprintf(text.data(), text.size(), format, values...);
     return text.data();
 }
 

@@ -17,7 +17,8 @@ NodeVectors poseAt(const ActionSegment& segment, std::size_t phase) {
     NodeVectors pose{};
     for (std::size_t i = 0; i < pose.size(); ++i) {
         const auto& integers = segment.nodes.at(phase % kPhases).at(i);
-        pose.at(i) = glm::dvec3(integers[0], integers[1], integers[2]) * double{kPoseUnit};
+        pose.at(i) =
+            static_cast<double>(kPoseUnit) * glm::dvec3(integers[0], integers[1], integers[2]);
     }
     return pose;
 }
@@ -70,7 +71,7 @@ std::vector<ReplayedPhase> replay(const ActionSegment& segment, int cycles) {
     std::vector<ReplayedPhase> phases;
     glm::dvec3 origin{};
     glm::dquat rotation{1, 0, 0, 0};
-    const auto count = static_cast<std::size_t>(cycles * kPhases);
+    const auto count = static_cast<std::size_t>(cycles) * kPhases;
     for (std::size_t k = 0; k <= count; ++k) {
         ReplayedPhase phase{origin, rotation, poseAt(segment, k)};
         for (glm::dvec3& node : phase.nodes) node = origin + rotation * node;

@@ -167,7 +167,7 @@ fs::path writeReport(const Repertoire& repertoire, const FishBody& body, const f
                        drawSegment(body, segment, cycles),
                        name + (cycles == 1 ? "" : ", " + std::to_string(cycles) + " cycles"));
     }
-    const fs::path page = folder / (repertoire.species + ".html");
+    fs::path page = folder / (repertoire.species + ".html");
     writeWhole(page, bytesOf(html + "</body></html>\n"));
     return page;
 }

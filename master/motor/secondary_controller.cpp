@@ -13,7 +13,7 @@ namespace {
 // Streams of one seed: what a number is drawn for.
 enum Draw : std::uint32_t { kTempo = 101, kPatience, kRecommended, kHold };
 
-constexpr float kGradualFrom = 18.0F * kRadiansPerDegree;  // error at which a turn begins
+constexpr float kGradualFrom = 22.0F * kRadiansPerDegree;  // error at which a turn begins
 constexpr float kGradualTo = 6.0F * kRadiansPerDegree;     // and at which it ends
 constexpr float kSharpFrom = 85.0F * kRadiansPerDegree;
 constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree;

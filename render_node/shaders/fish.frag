@@ -37,10 +37,7 @@ void main() {
     // One look into the mirror serves platelets where there are some, and the wet skin elsewhere.
     vec3 shown = reflected(normalize(mix(n, plate, skin.silver)), fromEye, place);
     vec3 silver = (shown + light.white * flash(plate, fromEye)) * silverTint(facing, skin.albedo);
-    float grazing = (1.0 - facing) * (1.0 - facing);
-    float wet = skin.gloss * (0.03 + 0.30 * grazing * grazing) + 0.05 * eye;
-    // A glint of the sun narrower than a pixel would flicker.
-    vec3 sheen = min(shown * (wet * (0.6 + 0.4 * n.y)), vec3(0.10));
+    vec3 sheen = sheenOf(shown, skin.gloss + 1.5 * eye, facing, n.y, f.pixel);
     // The catch light of the eye, up and to the front, where the bright surface is mirrored.
     vec2 glintAt = kEye + vec2(-0.30, 0.36) * kEyeRadius;
     float glint = eye * line(distance(rest.xy, glintAt), 0.16 * kEyeRadius, f.pixel);

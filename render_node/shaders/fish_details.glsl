@@ -149,7 +149,7 @@ void paintEye(inout Skin skin, vec2 at, Footprint f, out float coverage, out flo
     float angle = atan(from.y, from.x);
     float detail = clamp(0.02 / f.pixel - 1.0, 0.0, 1.0);
     float streaks = 0.5 + 0.5 * sin(angle * 23.0 + 3.0 * sin(angle * 7.0)) * detail;
-    vec3 iris = vec3(0.56, 0.53, 0.42) * (0.66 + 0.16 * streaks + 0.25 * falling(0.5, 0.75, d));
+    vec3 iris = kIris * (0.66 + 0.16 * streaks + 0.25 * falling(0.5, 0.75, d));
     iris *= 1.0 - 0.45 * smoothstep(0.25, 0.95, from.y);  // the upper iris is dusky
     iris = mix(iris, vec3(0.80, 0.72, 0.42), 0.55 * line(d - 0.53, 0.05, 2.0 * soft));
     vec3 eye = mix(iris, vec3(0.002, 0.003, 0.005), pupil);

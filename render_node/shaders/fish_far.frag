@@ -17,12 +17,13 @@ void main() {
     float silver = silverOf(s, v, golden);
 
     // Of the head's details, the two that still show: the big eye, and the gill cover's edge.
-    float ring = line(distance(rest.xy, kEye), 0.9 * kEyeRadius, pixel);
-    float pupil = line(distance(rest.xy, kEye), 0.5 * kEyeRadius, pixel);
+    float d = distance(rest.xy, kEye) / kEyeRadius, soft = 0.7 * pixel / kEyeRadius;
+    float eye = 1.0 - smoothstep(1.0 - soft, 1.0 + soft, d);
+    float pupil = 1.0 - smoothstep(0.47 - soft, 0.47 + soft, d);
     float gill = line(s - 0.245 + 0.024 * v * v, 0.004, pixel) * falling(0.60, 0.86, abs(v));
-    albedo = mix(albedo, vec3(0.48, 0.46, 0.38), 0.7 * ring);
+    albedo = mix(albedo, kIris * 0.85, eye);
     albedo *= (1.0 - 0.95 * pupil) * (1.0 - 0.6 * gill);
-    silver *= (1.0 - ring) * (1.0 - 0.6 * gill);
+    silver *= (1.0 - eye) * (1.0 - 0.6 * gill);
 
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
     vec3 n = normalize(normal);
@@ -30,8 +31,9 @@ void main() {
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
     silver *= smoothstep(0.0, 0.25, facing);
     FishLight light = fishLight(place, fromEye);
-    vec3 shown = reflected(plate, fromEye, place) + light.white * flash(plate, fromEye);
+    vec3 shown = reflected(normalize(mix(n, plate, silver)), fromEye, place);
+    vec3 mirror = (shown + light.white * flash(plate, fromEye)) * silverTint(facing, albedo);
     vec3 matte = lit(albedo, place, n, 0.0) * light.eased;
-    vec3 radiance = mix(matte, shown * silverTint(facing, albedo), silver);
+    vec3 radiance = mix(matte, mirror, silver) + sheenOf(shown, 0.75, facing, n.y, pixel);
     colour = vec4(seen(radiance, place), 1.0);
 }

@@ -61,12 +61,14 @@ void main() {
     float golden = goldenLine(rest.x, rest.w, fwidth(rest.w));
     vec3 skin = groundColour(rest.w, 0.0, golden, id);
     vec3 albedo = mix(skin, m.albedo, grown) * tintOf(id);
-    float silver = silverOf(rest.x, rest.w, golden) * (1.0 - grown);
+    float silver = silverOf(rest.x, rest.w, golden) * (1.0 - grown) * (isPaired ? 0.5 : 1.0);
 
     vec3 fromEye = normalize(place - eyeAndTime.xyz);
     // A membrane is flat: its normal is its triangle's, and the small terms keep it from vanishing.
     vec3 facet = normalize(cross(dFdx(place), dFdy(place)) + 1.0e-14 * normal);
     if (dot(facet, fromEye) > 0.0) facet = -facet;
+    // Median fins stand upright, also where a far one's triangles are thinner than a pixel.
+    if (!isPaired) facet -= 0.85 * dot(facet, dorsal) * dorsal;
     vec3 n = normalize(mix(normalize(normal), facet, grown) - 1.0e-3 * fromEye);
     float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
     vec3 plate = plateletNormal(n, dorsal, -fromEye);

@@ -6,6 +6,7 @@
 
 const vec3 kBack = vec3(0.010, 0.075, 0.150), kFlank = vec3(0.50, 0.60, 0.64);
 const vec3 kBelly = vec3(0.74, 0.78, 0.79), kGold = vec3(0.66, 0.46, 0.050);
+const vec3 kIris = vec3(0.56, 0.53, 0.42);
 const vec3 kInk = vec3(0.006, 0.007, 0.009);
 const vec2 kEye = vec2(0.100, 0.016);
 const float kEyeRadius = 0.036;
@@ -83,6 +84,15 @@ float flash(vec3 plate, vec3 fromEye) {
     float c = max(-dot(plate, fromEye), 0.0);
     c *= c; c *= c; c *= c;
     return 0.32 * c * c;
+}
+
+// Wet skin between the platelets. The rim of the outline shines most, and glints in the sun: less
+// where it is narrower than a pixel.
+vec3 sheenOf(vec3 shown, float gloss, float facing, float up, float pixel) {
+    float resolved = clamp(0.003 / pixel, 0.0, 1.0);
+    float grazing = (1.0 - facing) * (1.0 - facing) * resolved;
+    float wet = gloss * (0.03 + 0.30 * grazing * grazing);
+    return min(shown * (wet * (0.6 + 0.4 * up)), vec3(0.10 * resolved));
 }
 
 // Thin films colour the mirror faintly; more would be soap.

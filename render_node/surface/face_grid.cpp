@@ -61,7 +61,7 @@ FaceGrid::FaceGrid(const ControlCage& cage, int cuts) : cuts_{cuts} {
 }
 
 std::uint32_t FaceGrid::at(std::size_t face, int i, int j) const {
-    const auto side = static_cast<std::size_t>(cuts_ + 1);
+    const std::size_t side = static_cast<std::size_t>(cuts_) + 1;
     return numbers_[face * side * side + static_cast<std::size_t>(j) * side +
                     static_cast<std::size_t>(i)];
 }

@@ -19,9 +19,9 @@ namespace aquarama {
 namespace {
 
 // Bindings of shader storage, as fish_data.glsl, fish.comp and fish.vert have them.
-enum Binding : unsigned { kSchool, kRecorded, kFirstEntries, kEntries, kSurface };
+constexpr GLuint kSchool = 0, kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 4;
 // Uniforms of fish.comp and fish.vert.
-enum Uniform : int { kFirstFish, kFirstVertex, kVertexCount };
+constexpr GLint kFirstFish = 0, kFirstVertex = 1, kVertexCount = 2;
 
 constexpr std::size_t kBytesPerVertex = 16;
 // Half of the least block that GL drivers allow in practice (128 MiB on software Mesa).
@@ -168,12 +168,10 @@ void SchoolSurface::Parts::drawBatch(const Batch& batch) const {
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
-    const auto firstFin = static_cast<std::size_t>(level.bodyIndices) * sizeof(std::uint32_t);
-    glDrawElementsInstanced(GL_TRIANGLES,
-                            level.finIndices,
-                            GL_UNSIGNED_INT,
-                            reinterpret_cast<const void*>(firstFin),
-                            instances);
+    const auto firstFin = static_cast<std::uintptr_t>(level.bodyIndices) * sizeof(std::uint32_t);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): GL takes an offset into the buffer as a pointer
+    const auto* offset = reinterpret_cast<const void*>(firstFin);
+    glDrawElementsInstanced(GL_TRIANGLES, level.finIndices, GL_UNSIGNED_INT, offset, instances);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);

@@ -81,7 +81,7 @@ TEST(Motor, aCycleCoversTheRecordedStrideAtAnyRate) {
 
 TEST(Motor, aFishOfTwiceTheLengthSwimsTwiceTheMetres) {
     School school(2);
-    for (const std::size_t fish : {0, 1}) school.play(fish, Action::ForwardMedium);
+    for (const std::size_t fish : {0U, 1U}) school.play(fish, Action::ForwardMedium);
     school.traits[1].lengthMillimetres = 400;
     school.tick(600);
     const double ratio = glm::length(school.place(1)) / glm::length(school.place(0));

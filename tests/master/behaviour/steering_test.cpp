@@ -44,11 +44,12 @@ float right(const Intentions& intentions, std::size_t fish) {
     return intentions.directionZ[fish];  // heading +x, a fish has +z to its right
 }
 
-TEST(Steering, fishTooNearPart) {
+TEST(Steering, fishTooNearPartByASlant) {
     Scene scene({{0, 0, -0.04F}, {0, 0, 0.04F}});
     const Intentions wanted = scene.think();
-    EXPECT_LT(right(wanted, 0), -0.5F);
-    EXPECT_GT(right(wanted, 1), 0.5F);
+    EXPECT_LT(right(wanted, 0), -0.25F);
+    EXPECT_GT(right(wanted, 1), 0.25F);
+    EXPECT_LT(right(wanted, 1) - right(wanted, 0), 1.2F) << "turned more, their tails would meet";
 }
 
 TEST(Steering, fishFarApartDrawTogether) {
@@ -64,6 +65,12 @@ TEST(Steering, aFishFallsInWithTheCourseOfItsNeighbours) {
         scene.view.headingZ[other] = 0.7071F;
     }
     EXPECT_GT(right(scene.think(), 0), 0.2F);
+}
+
+TEST(Steering, oneBehindATailBrakes) {
+    Scene scene({{0, 0, 0}, {0.23F, 0, 0}});
+    const Intentions wanted = scene.think();
+    EXPECT_LT(wanted.speed[0], wanted.speed[1] - 0.3F);
 }
 
 TEST(Steering, aFishThatFellBehindHurriesAndOneAheadWaits) {

@@ -20,7 +20,7 @@ TEST(Avoidance, openWaterDoesNotPush) {
 
 TEST(Avoidance, aBorderIsFeltBeforeItIsReachedAndTheMoreTheNearer) {
     const Surroundings water = openWater();
-    EXPECT_EQ(avoidance(water, {4, -4, -5}, kForward, 1), glm::vec3(0));
+    EXPECT_EQ(avoidance(water, {3.5F, -4, -5}, kForward, 1), glm::vec3(0));
     const float early = avoidance(water, {4.5F, -4, -5}, kForward, 1).x;
     const float late = avoidance(water, {5.4F, -4, -5}, kForward, 1).x;
     EXPECT_LT(early, 0);

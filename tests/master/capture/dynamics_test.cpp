@@ -56,8 +56,9 @@ FishState disturbed(const BiomechanicalFish& fish) {
 void addBlock(DenseMatrix& matrix, int rowNode, int columnNode, const glm::dmat3& block) {
     for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q)
-            matrix.at(static_cast<std::size_t>(3 * rowNode + p))
-                .at(static_cast<std::size_t>(3 * columnNode + q)) += block[p][q];
+            matrix.at(3 * static_cast<std::size_t>(rowNode) + static_cast<std::size_t>(p))
+                .at(3 * static_cast<std::size_t>(columnNode) + static_cast<std::size_t>(q)) +=
+                block[p][q];
 }
 
 TEST(EnvelopeSystem, solvesWhatADenseSolverSolves) {
@@ -88,8 +89,9 @@ TEST(EnvelopeSystem, solvesWhatADenseSolverSolves) {
     const std::vector<double> expected = solveDense(dense, right);
     for (int i = 0; i < kNodalPoints; ++i)
         for (int p = 0; p < 3; ++p)
-            EXPECT_NEAR(
-                system.solution(i)[p], expected.at(static_cast<std::size_t>(3 * i + p)), 1e-12);
+            EXPECT_NEAR(system.solution(i)[p],
+                        expected.at(3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(p)),
+                        1e-12);
 }
 
 TEST(Dynamics, aFishAtRestStaysAtRest) {

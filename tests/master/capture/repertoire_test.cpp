@@ -120,7 +120,8 @@ TEST(Capture, aSharpTurnBeginsAndEndsStraight) {
     const ActionSegment& segment = segmentOf(Action::TurnLeftSharp);
     for (const std::size_t phase : {std::size_t{0}, std::size_t{kPhases - 1}})
         for (const auto& node : segment.nodes.at(phase))
-            EXPECT_LT(std::abs(node[2]) * double{kPoseUnit}, 0.051 + 0.03);  // half-width of ring 2
+            EXPECT_LT(std::abs(node[2]) * static_cast<double>(kPoseUnit),
+                      0.051 + 0.03);  // half-width of ring 2
 }
 
 // The constraints that eq. 1 to 4, with their remedies, put on a pose in its own frame.

@@ -190,7 +190,7 @@ TEST(Show, lockstepWaitsForANodeThatStartsAgainAndSkipsNothing) {
 
 TEST(Show, lockstepEndsByNameWhenANodeStaysSilent) {
     ConductorOptions options = lockstep(100000);
-    options.patience = milliseconds(700);
+    options.patience = std::chrono::seconds(2);
     StageMaster master(options);
     Journal journal;
     const auto nodes = nodesOf(master, journal);

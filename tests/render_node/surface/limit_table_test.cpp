@@ -43,6 +43,7 @@ std::vector<glm::vec3> bentCage(const FishBody& body) {
     return points;
 }
 
+// NOLINTBEGIN(readability-identifier-naming): names that OpenSubdiv calls
 struct RefinedPoint {
     void Clear(void* = nullptr) { position = {}; }
     void AddWithWeight(const RefinedPoint& source, float weight) {
@@ -50,6 +51,7 @@ struct RefinedPoint {
     }
     glm::vec3 position{};
 };
+// NOLINTEND(readability-identifier-naming)
 
 // Where repeated refinement, without any limit mask, takes the cage's vertices, and the points that
 // the first refinement put on its faces: an oracle that shares no code with limit stencils.
@@ -184,6 +186,19 @@ TEST(LimitTable, level0IsTheControlMesh) {
     ASSERT_EQ(table.vertices.size(), cage.size());
     for (std::size_t i = 0; i < cage.size(); ++i)
         EXPECT_EQ(evaluate(table, i, cage).position, cage[i]);
+}
+
+// Where the control mesh takes over a fish fills some 160 pixels: the tips of its fins, which
+// change most, move by less than three.
+TEST(LimitTable, aChangeOfLevelMovesNoVertexFar) {
+    const FishBody body = test::scad();
+    const std::vector<glm::vec3> cage = bentCage(body);
+    const LimitTable coarse = makeLimitTable(body, 1), fine = makeLimitTable(body, 2);
+    for (std::size_t i = 0; i < kControlPoints; ++i) {
+        const glm::vec3 limit = evaluate(coarse, i, cage).position;
+        EXPECT_LT(glm::distance(limit, cage[i]), 3.0F / 160.0F) << "vertex " << i;
+        EXPECT_LT(glm::distance(limit, evaluate(fine, i, cage).position), 1e-6F) << "vertex " << i;
+    }
 }
 
 TEST(LimitTable, finerLevelsLieWhereEndlessRefinementLeads) {

@@ -23,7 +23,8 @@ struct Picture {
     std::vector<glm::vec4> pixels;
 
     [[nodiscard]] glm::vec3 at(glm::ivec2 pixel) const {
-        return pixels.at(static_cast<std::size_t>(pixel.y * kSize.x + pixel.x));
+        return pixels.at(static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(kSize.x) +
+                         static_cast<std::size_t>(pixel.x));
     }
     // Mean of 5 x 5 pixels about a place on the fish's left side.
     [[nodiscard]] glm::vec3 onFish(float s, float y) const {
@@ -65,7 +66,7 @@ Picture portrait() {
     frame.fish = {&fish, 1};
     const unsigned texture = scene.draw(frame, view);
     Picture picture;
-    picture.pixels.resize(static_cast<std::size_t>(kSize.x * kSize.y));
+    picture.pixels.resize(static_cast<std::size_t>(kSize.x) * static_cast<std::size_t>(kSize.y));
     glGetTextureImage(texture,
                       0,
                       GL_RGBA,
