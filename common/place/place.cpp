@@ -10,7 +10,7 @@ namespace aquarama {
 namespace {
 
 // Streams of one seed, so that adding a rock never moves the sand.
-enum Stream : std::uint32_t { kDunes = 1, kHummocks, kRocks, kKelp, kMeadow };
+enum Stream : std::uint32_t { Dunes = 1, Hummocks, Rocks, Kelp, Meadow };
 
 // The composition: what stands where is planned for the wall's 120 degrees (left third, middle,
 // right third); a seed only moves it a little.
@@ -46,14 +46,19 @@ struct Stand {
     float heightMetres;
 };
 constexpr std::array kKelpStands{
-    Stand{{8.6F, -6.6F}, 1.9F, 24, 7.0F},   Stand{{12.5F, -9.8F}, 3.0F, 26, 7.4F},
-    Stand{{-11.2F, -8.2F}, 1.9F, 16, 6.8F}, Stand{{-8.5F, -21.5F}, 3.2F, 16, 7.0F},
+    Stand{{8.6F, -6.6F}, 1.9F, 24, 7.0F},
+    Stand{{12.5F, -9.8F}, 3.0F, 26, 7.4F},
+    Stand{{-11.2F, -8.2F}, 1.9F, 16, 6.8F},
+    Stand{{-8.5F, -21.5F}, 3.2F, 16, 7.0F},
     Stand{{9.5F, -22.0F}, 3.0F, 14, 7.0F},
 };
 constexpr std::array kMeadows{
-    Stand{{-3.4F, -8.4F}, 1.8F, 70, 0.46F}, Stand{{3.6F, -7.0F}, 1.5F, 50, 0.40F},
-    Stand{{2.3F, -5.2F}, 0.9F, 24, 0.34F},  Stand{{-6.2F, -3.2F}, 1.2F, 34, 0.44F},
-    Stand{{-1.5F, -13.5F}, 3.0F, 90, 0.52F}, Stand{{6.5F, -13.0F}, 2.6F, 60, 0.50F},
+    Stand{{-3.4F, -8.4F}, 1.8F, 70, 0.46F},
+    Stand{{3.6F, -7.0F}, 1.5F, 50, 0.40F},
+    Stand{{2.3F, -5.2F}, 0.9F, 24, 0.34F},
+    Stand{{-6.2F, -3.2F}, 1.2F, 34, 0.44F},
+    Stand{{-1.5F, -13.5F}, 3.0F, 90, 0.52F},
+    Stand{{6.5F, -13.0F}, 2.6F, 60, 0.50F},
 };
 
 // A point of the disc by rejection: no square root, no angle, evenly spread.
@@ -113,13 +118,13 @@ float floorHeight(std::uint32_t seed, glm::vec2 xz) {
     // Two scales: long dunes of 14 m and hummocks of 3 m.
     const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
     const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
-    return -kMeanFloorDepthMetres + 0.22F * fractalNoise(hashOf(seed, kDunes), dunes, 2) +
-           0.07F * fractalNoise(hashOf(seed, kHummocks), hummocks, 2);
+    return -kMeanFloorDepthMetres + 0.22F * fractalNoise(hashOf(seed, Dunes), dunes, 2) +
+           0.07F * fractalNoise(hashOf(seed, Hummocks), hummocks, 2);
 }
 
 std::vector<Rock> rocksOf(std::uint32_t seed) {
     std::vector<Rock> rocks;
-    std::uint32_t next = hashOf(seed, kRocks);
+    std::uint32_t next = hashOf(seed, Rocks);
     for (const RockGroup& group : kRockGroups) {
         next = hashOf(next);
         const glm::vec2 shift = inDisc(next, 0);
@@ -146,13 +151,13 @@ std::vector<Plant> plantsOf(std::uint32_t seed) {
             rocks,
             seed,
             kelp,
-            {PlantKind::Kelp, hashOf(hashOf(seed, kKelp), stand++), 0.55F});
+            {PlantKind::Kelp, hashOf(hashOf(seed, Kelp), stand++), 0.55F});
     for (const Stand& meadow : kMeadows)
         sow(plants,
             rocks,
             seed,
             meadow,
-            {PlantKind::Seagrass, hashOf(hashOf(seed, kMeadow), stand++), 0.45F});
+            {PlantKind::Seagrass, hashOf(hashOf(seed, Meadow), stand++), 0.45F});
     return plants;
 }
 

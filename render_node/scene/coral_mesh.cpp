@@ -70,7 +70,8 @@ struct Growth {
     glm::vec3 body;
     glm::vec3 tip;
     int generations;
-    int sides;
+    int sides;              // 0: twigs only
+    glm::mat3 plane{1.0F};  // of a fan
 };
 
 void branch(
@@ -191,13 +192,8 @@ void addDome(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice di
         std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
 }
 
-void fanBranch(Mesh& mesh,
-               Growth& growth,
-               const glm::mat3& plane,
-               const Joint& from,
-               float angle,
-               float length,
-               int left) {
+void fanBranch(Mesh& mesh, Growth& growth, const Joint& from, float angle, float length, int left) {
+    const glm::mat3& plane = growth.plane;
     const glm::vec3 direction = plane[0] * std::sin(angle) + plane[1] * std::cos(angle);
     const Joint to{from.centre + direction * length,
                    glm::max(from.radius * 0.74F, 0.0045F),
@@ -208,7 +204,6 @@ void fanBranch(Mesh& mesh,
     for (const float side : {-1.0F, 1.0F})
         fanBranch(mesh,
                   growth,
-                  plane,
                   to,
                   angle + side * growth.dice.between(0.18F, 0.6F),
                   length * growth.dice.between(0.74F, 0.95F),
@@ -219,11 +214,11 @@ void fanBranch(Mesh& mesh,
 void addFan(Mesh& mesh, const Spot& spot, float size, glm::vec3 colour, Dice dice, int level) {
     const glm::vec3 up = glm::normalize(spot.normal + glm::vec3{0, 1.2F, 0});
     const glm::mat3 plane = frameAbout(up, dice.between(-0.6F, 0.6F));
-    Growth growth{Dice{dice.seed()}, colour * 0.75F, colour * 1.15F, level < 3 ? 6 - level : 2, 0};
+    Growth growth{
+        Dice{dice.seed()}, colour * 0.75F, colour * 1.15F, level < 3 ? 6 - level : 2, 0, plane};
     for (const float angle : {-0.5F, 0.0F, 0.5F})
         fanBranch(mesh,
                   growth,
-                  plane,
                   {spot.position, size * 0.028F, growth.body, 0.6F},
                   angle,
                   size * 0.24F,

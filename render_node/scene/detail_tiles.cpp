@@ -68,21 +68,21 @@ Relief rockAt(glm::vec2 uv) {
 }
 
 glm::u8 packed(float x) {
-    return static_cast<glm::u8>(glm::clamp(x, 0.0F, 1.0F) * 255.0F + 0.5F);
+    return static_cast<glm::u8>(glm::round(glm::clamp(x, 0.0F, 1.0F) * 255.0F));
 }
 
 template <class ReliefAt>
 Tile tileOf(int texels, float sideMetres, ReliefAt reliefAt) {
-    const auto count = static_cast<std::size_t>(texels * texels);
+    const auto side = static_cast<std::size_t>(texels);
     std::vector<Relief> reliefs;
-    reliefs.reserve(count);
+    reliefs.reserve(side * side);
     for (int y = 0; y < texels; ++y)
         for (int x = 0; x < texels; ++x)
             reliefs.push_back(reliefAt((glm::vec2{x, y} + 0.5F) / static_cast<float>(texels)));
     const auto heightAt = [&](int x, int y) {
-        const int column = (x + texels) % texels;
-        const int row = (y + texels) % texels;
-        return reliefs[static_cast<std::size_t>(row * texels + column)].height;
+        const auto column = static_cast<std::size_t>((x + texels) % texels);
+        const auto row = static_cast<std::size_t>((y + texels) % texels);
+        return reliefs[row * side + column].height;
     };
     const float twoTexels = 2.0F * sideMetres / static_cast<float>(texels);
     Tile tile{texels, {}};
@@ -90,7 +90,7 @@ Tile tileOf(int texels, float sideMetres, ReliefAt reliefAt) {
         for (int x = 0; x < texels; ++x) {
             const float slopeX = (heightAt(x + 1, y) - heightAt(x - 1, y)) / twoTexels;
             const float slopeZ = (heightAt(x, y + 1) - heightAt(x, y - 1)) / twoTexels;
-            const Relief& relief = reliefs[static_cast<std::size_t>(y * texels + x)];
+            const Relief& relief = reliefs[tile.values.size()];
             // Slopes from -1 to 1, albedos up to twice the mean.
             tile.values.emplace_back(packed(0.5F + 0.5F * slopeX),
                                      packed(0.5F + 0.5F * slopeZ),

@@ -117,7 +117,7 @@ void Ground::draw(const Viewpoint& viewpoint) const {
         glDrawElementsBaseVertex(GL_TRIANGLES,
                                  levels_[level].count,
                                  GL_UNSIGNED_INT,
-                                 reinterpret_cast<const void*>(levels_[level].firstByte),
+                                 byteOffset(levels_[level].firstByte),
                                  patch.firstVertices[level]);
     }
 }

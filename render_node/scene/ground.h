@@ -30,7 +30,7 @@ class Ground {
         std::array<int, 3> firstVertices{};
     };
     struct Level {
-        std::uintptr_t firstByte = 0;
+        std::size_t firstByte = 0;
         int count = 0;
     };
     std::vector<Patch> patches_;

@@ -7,6 +7,7 @@
 #include "common/place/noise.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/plant_mesh.h"
+#include "render_node/scene/solid_array.h"
 
 namespace aquarama {
 
@@ -132,14 +133,13 @@ void Meadow::draw(const Viewpoint& viewpoint) {
         const std::size_t end = i + 1 < batches.size() ? batches[i + 1].first : chosen_.size();
         if (end == batches[i].first) continue;
         const Shape& shape = *batches[i].shape;
-        glDrawElementsInstancedBaseVertexBaseInstance(
-            GL_TRIANGLES,
-            shape.indexCount,
-            GL_UNSIGNED_SHORT,
-            reinterpret_cast<const void*>(shape.firstByte),
-            static_cast<GLsizei>(end - batches[i].first),
-            shape.firstVertex,
-            static_cast<GLuint>(batches[i].first));
+        glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES,
+                                                      shape.indexCount,
+                                                      GL_UNSIGNED_SHORT,
+                                                      byteOffset(shape.firstByte),
+                                                      static_cast<GLsizei>(end - batches[i].first),
+                                                      shape.firstVertex,
+                                                      static_cast<GLuint>(batches[i].first));
     }
 }
 

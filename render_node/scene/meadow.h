@@ -25,7 +25,7 @@ class Meadow {
         glm::vec4 tintAndSway{};
     };
     struct Shape {
-        std::uintptr_t firstByte = 0;
+        std::size_t firstByte = 0;
         int indexCount = 0;
         int firstVertex = 0;
     };

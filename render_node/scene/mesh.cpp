@@ -13,7 +13,7 @@ glm::i8vec3 packedNormal(glm::vec3 normal) {
 }
 
 glm::u8 packedUnit(float x) {
-    return static_cast<glm::u8>(glm::clamp(x, 0.0F, 1.0F) * 255.0F + 0.5F);
+    return static_cast<glm::u8>(glm::round(glm::clamp(x, 0.0F, 1.0F) * 255.0F));
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ void Reef::drawPart(const Viewpoint& viewpoint,
         glDrawElementsBaseVertex(GL_TRIANGLES,
                                  range.count,
                                  GL_UNSIGNED_INT,
-                                 reinterpret_cast<const void*>(range.firstByte),
+                                 byteOffset(range.firstByte),
                                  range.firstVertex);
     }
 }

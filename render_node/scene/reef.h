@@ -27,7 +27,7 @@ class Reef {
 
   private:
     struct Range {
-        std::uintptr_t firstByte = 0;
+        std::size_t firstByte = 0;
         int count = 0;
         int firstVertex = 0;
     };

@@ -48,6 +48,8 @@ class Scene {
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
+    Scene(Scene&&) = delete;
+    Scene& operator=(Scene&&) = delete;
 
     // Draws into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already exposed and toned
     // to display light (0 black, 1 the projector's full white), and returns its GL name; valid

@@ -80,8 +80,8 @@ SeaLight::SeaLight(std::uint32_t seed, float filterDepthMetres)
       inscatter_{oceanWater()},
       tableDepthMetres_{-kEyePosition.y},
       direct_{makeTexture(bakeDirect(oceanWater()))},
-      inscatterTable_{
-          makeTexture(inscatter_.atDepth(double{tableDepthMetres_ - filterDepthMetres}))},
+      inscatterTable_{makeTexture(
+          inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres)))},
       openWater_{makeTexture(inscatter_.openWater())},
       waveTile_{makeTexture(GL_RGBA16F, glm::ivec2{kWaveTexels}, kTileLevels, Edge::Repeat)},
       causticTile_{makeTexture(GL_R16F, glm::ivec2{kCausticTexels}, kTileLevels, Edge::Repeat)},
@@ -105,7 +105,8 @@ SeaLight::SeaLight(std::uint32_t seed, float filterDepthMetres)
 void SeaLight::update(double timeSeconds, glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
     if (tableDepthMetres_ != -eyeMetres.y) {
         tableDepthMetres_ = -eyeMetres.y;
-        refill(inscatterTable_, inscatter_.atDepth(double{tableDepthMetres_ - filterDepthMetres_}));
+        refill(inscatterTable_,
+               inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres_)));
     }
     const SeaNow now = seaAt(waves_, timeSeconds);
     glNamedBufferSubData(seaBlock_.name(), 0, sizeof(now), &now);

@@ -2,6 +2,8 @@
 // How SolidVertex lies in a vertex array, and detail tiles in textures.
 #pragma once
 
+#include <cstddef>
+
 #include "render_node/gl/handle.h"
 #include "render_node/scene/detail_tiles.h"
 #include "render_node/scene/mesh.h"
@@ -14,5 +16,10 @@ void setSolids(const gl::VertexArray& array,
                const gl::Buffer& indices,
                const Mesh& mesh);
 [[nodiscard]] gl::Texture makeTexture(const Tile& tile);
+
+// Draws take the place of their first index as a pointer.
+[[nodiscard]] inline const void* byteOffset(std::size_t bytes) {
+    return static_cast<const char*>(nullptr) + bytes;
+}
 
 }  // namespace aquarama

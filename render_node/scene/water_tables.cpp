@@ -28,8 +28,8 @@ constexpr double kStaysInPicture = 0.49;
 constexpr int kRanges = 64, kDepths = 32, kRises = 32;
 constexpr double kOpenWaterMetres = 60.0;
 
-double wavelength(int band) {
-    return 400.0 + 10.0 * band;
+double wavelength(std::size_t band) {
+    return 400.0 + 10.0 * static_cast<double>(band);
 }
 
 double sampled(const std::array<double, kSamples>& samples, double nanometres) {
@@ -57,7 +57,7 @@ void setWeights(WaterSpectra& water) {
                                    {-1.5371385, 1.8760108, -0.2040259},
                                    {-0.4985314, 0.0415560, 1.0572252}};
     glm::dvec3 white{0.0};
-    for (int band = 0; band < kBands; ++band) {
+    for (std::size_t band = 0; band < kBands; ++band) {
         const glm::dvec3 rgb = rec709FromXyz * observer(wavelength(band)) * kDaylight[band];
         for (int c = 0; c < 3; ++c) water.weights[c][band] = rgb[c];
         white += rgb;
@@ -69,7 +69,7 @@ void setWeights(WaterSpectra& water) {
 // Edges at 495 and 585 nm, 8 nm soft: of such triples the one that errs least over seven pigments.
 void setReflectances(WaterSpectra& water) {
     const auto step = [](double x) { return 1.0 / (1.0 + std::exp(-x / 8.0)); };
-    for (int band = 0; band < kBands; ++band) {
+    for (std::size_t band = 0; band < kBands; ++band) {
         const double red = step(wavelength(band) - 585.0);
         const double blue = 1.0 - step(wavelength(band) - 495.0);
         water.reflectances[0][band] = red;
@@ -93,7 +93,7 @@ double riseAt(int i) {
 // Columns: what is left of a unit of each smooth reflectance, in linear Rec. 709.
 glm::dmat3 transmitted(const WaterSpectra& water, double range, double depth) {
     glm::dmat3 columns{0.0};
-    for (int band = 0; band < kBands; ++band) {
+    for (std::size_t band = 0; band < kBands; ++band) {
         const double left =
             std::exp(-water.downwelling[band] * depth - beamAttenuation(water, band) * range);
         for (int surface = 0; surface < 3; ++surface)
@@ -105,14 +105,14 @@ glm::dmat3 transmitted(const WaterSpectra& water, double range, double depth) {
 }
 
 // b (1 - exp(-k r)) / k with k = kappa - Kd w_y: looking up, the light grows on the way.
-double pathScattering(const WaterSpectra& water, int band, double range, double rise) {
+double pathScattering(const WaterSpectra& water, std::size_t band, double range, double rise) {
     const double k = std::max(beamAttenuation(water, band) - water.downwelling[band] * rise, 0.004);
     return water.scattering[band] * (1.0 - std::exp(-k * range)) / k;
 }
 
 }  // namespace
 
-double beamAttenuation(const WaterSpectra& water, int band) {
+double beamAttenuation(const WaterSpectra& water, std::size_t band) {
     return water.absorption[band] + (1.0 - kStaysInPicture) * water.scattering[band];
 }
 
@@ -120,7 +120,7 @@ WaterSpectra oceanWater() {
     constexpr double kParticles = 0.045;  // scattering at 550 nm, 1/m, of clear ocean water
     constexpr double kMeanCosine = 0.9;   // of the light that comes down
     WaterSpectra water;
-    for (int band = 0; band < kBands; ++band) {
+    for (std::size_t band = 0; band < kBands; ++band) {
         const double nm = wavelength(band);
         const double kd = sampled(kDownwelling, nm);
         // Sea water itself scatters as in Morel 1974, particles as 1/lambda.
@@ -158,14 +158,14 @@ Inscatter::Inscatter(const WaterSpectra& water) : water_{water} {
         for (int range = 0; range <= kRanges; ++range) {
             const double metres = range < kRanges ? rangeAt(range) : kOpenWaterMetres;
             Spectrum& path = paths_.emplace_back();
-            for (int band = 0; band < kBands; ++band)
+            for (std::size_t band = 0; band < kBands; ++band)
                 path[band] = pathScattering(water, band, metres, riseAt(rise));
         }
 }
 
 Spectrum Inscatter::lightAt(double depthMetres) const {
     Spectrum light;
-    for (int band = 0; band < kBands; ++band)
+    for (std::size_t band = 0; band < kBands; ++band)
         light[band] = std::exp(-water_.downwelling[band] * depthMetres);
     return light;
 }
@@ -173,7 +173,7 @@ Spectrum Inscatter::lightAt(double depthMetres) const {
 glm::vec3 Inscatter::along(const Spectrum& light, int range, int rise) const {
     const Spectrum& path = paths_[static_cast<std::size_t>(rise * (kRanges + 1) + range)];
     glm::dvec3 sum{0.0};
-    for (int band = 0; band < kBands; ++band)
+    for (std::size_t band = 0; band < kBands; ++band)
         for (int c = 0; c < 3; ++c) sum[c] += water_.weights[c][band] * light[band] * path[band];
     return glm::vec3(sum);
 }

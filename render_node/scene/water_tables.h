@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace aquarama {
 
-inline constexpr int kBands = 31;  // 400 to 700 nm by 10
+inline constexpr std::size_t kBands = 31;  // 400 to 700 nm by 10
 using Spectrum = std::array<double, kBands>;
 
 // Clear ocean water, Jerlov's type IA, 1/m.
@@ -27,7 +28,7 @@ struct WaterSpectra {
 
 // Unscattered share of the way to the eye: of the scattered light, 0.49 goes so nearly straight on
 // that it stays in the picture.
-[[nodiscard]] double beamAttenuation(const WaterSpectra& water, int band);
+[[nodiscard]] double beamAttenuation(const WaterSpectra& water, std::size_t band);
 
 inline constexpr double kFarthestMetres = 80.0;
 inline constexpr double kDeepestMetres = 30.0;

@@ -120,12 +120,13 @@ TEST(Shade, aBoulderShadesWhatLiesBehindIt) {
 TEST(Waves, fitTheirTileAndFocusOnTheSand) {
     const Waves waves = wavesOf(kSeed, kMeanFloorDepthMetres);
     for (const Wave& wave : waves) {
-        const glm::dvec2 onTile = wave.number * (double{kTileMetres} / (2.0 * std::numbers::pi));
+        const glm::dvec2 onTile =
+            wave.number * (static_cast<double>(kTileMetres) / (2.0 * std::numbers::pi));
         EXPECT_NEAR(onTile.x, std::round(onTile.x), 1e-9);
         EXPECT_NEAR(onTile.y, std::round(onTile.y), 1e-9);
         EXPECT_NEAR(wave.frequency * wave.frequency, 9.81 * glm::length(wave.number), 1e-9);
     }
-    const double focus = focusNumber(waves, double{kMeanFloorDepthMetres});
+    const double focus = focusNumber(waves, static_cast<double>(kMeanFloorDepthMetres));
     EXPECT_GT(focus, 0.35);
     EXPECT_LT(focus, 0.70);
 }
@@ -136,7 +137,8 @@ TEST(Waves, keepTheirPhaseForMonths) {
     for (std::size_t i = 0; i < waves.size(); ++i) {
         const float phase = seaAt(waves, kMonth).waves[i].w;
         const double exact = std::remainder(
-            waves[i].phase - waves[i].frequency * kMonth - double{phase}, 2.0 * std::numbers::pi);
+            waves[i].phase - waves[i].frequency * kMonth - static_cast<double>(phase),
+            2.0 * std::numbers::pi);
         EXPECT_NEAR(exact, 0.0, 1e-5);
     }
 }

@@ -28,7 +28,8 @@ const glm::vec2 kHalfTangents{0.47F, 0.47F};  // 25 degrees to all sides
 struct Shot {
     std::vector<glm::vec3> pixels;  // display light, bottom row first
     [[nodiscard]] glm::vec3 at(int x, int y) const {
-        return pixels[static_cast<std::size_t>(y * kSize.x + x)];
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(kSize.x) +
+                      static_cast<std::size_t>(x)];
     }
 };
 
@@ -54,7 +55,7 @@ Shot shoot(Scene& scene, double timeSeconds, float azimuthDegrees) {
     frame.eyePositionMetres = kEyePosition;
     const unsigned texture = scene.draw(frame, viewTowards(azimuthDegrees));
     Shot shot;
-    shot.pixels.resize(static_cast<std::size_t>(kSize.x * kSize.y));
+    shot.pixels.resize(static_cast<std::size_t>(kSize.x) * static_cast<std::size_t>(kSize.y));
     glGetTextureImage(texture,
                       0,
                       GL_RGB,
@@ -100,7 +101,8 @@ TEST_F(Place, lightIsWithinWhatAWallBears) {
         double sum = 0;
         int clipped = 0;
         for (const glm::vec3& pixel : shot.pixels) {
-            sum += double{pixel.r} * 0.2126 + double{pixel.g} * 0.7152 + double{pixel.b} * 0.0722;
+            sum += static_cast<double>(pixel.r) * 0.2126 + static_cast<double>(pixel.g) * 0.7152 +
+                   static_cast<double>(pixel.b) * 0.0722;
             clipped += std::max({pixel.r, pixel.g, pixel.b}) > 0.995F ? 1 : 0;
             ASSERT_GE(std::min({pixel.r, pixel.g, pixel.b}), 0.0F);
         }
@@ -209,7 +211,7 @@ TEST_F(Place, wavesGatherLightAndMakeNone) {
                           static_cast<GLsizei>(texels.size() * sizeof(float)),
                           texels.data());
         double sum = 0;
-        for (const float texel : texels) sum += double{texel};
+        for (const float texel : texels) sum += static_cast<double>(texel);
         EXPECT_NEAR(sum / kTexels, 1.0, 0.05) << time;
         EXPECT_GT(*std::ranges::max_element(texels), 3.0F) << "no net of light";
     }

@@ -14,8 +14,8 @@ namespace {
 
 using Pigment = std::function<double(double nanometres)>;
 
-double wavelengthOf(int band) {
-    return 400.0 + 10.0 * band;
+double wavelengthOf(std::size_t band) {
+    return 400.0 + 10.0 * static_cast<double>(band);
 }
 
 // A table as the shaders read it: axes as in water.glsl, bilinear between texels.
@@ -25,8 +25,9 @@ glm::vec3 read(const Table& table, double u, double v, int layer = 0) {
     const int left = std::min(static_cast<int>(x), table.width - 2);
     const int low = std::min(static_cast<int>(y), table.height - 2);
     const auto at = [&](int column, int row) {
-        return table.texels.at(
-            static_cast<std::size_t>((layer * table.height + row) * table.width + column));
+        return table.texels.at(static_cast<std::size_t>(layer * table.height + row) *
+                                   static_cast<std::size_t>(table.width) +
+                               static_cast<std::size_t>(column));
     };
     const auto s = static_cast<float>(x - left);
     const auto t = static_cast<float>(y - low);
@@ -42,22 +43,22 @@ double depthAxis(double depth) {
     return std::sqrt((depth + 10.0) / 40.0);
 }
 
-glm::dvec3 integrated(const WaterSpectra& water, const std::function<double(int)>& light) {
+glm::dvec3 integrated(const WaterSpectra& water, const std::function<double(std::size_t)>& light) {
     glm::dvec3 sum{0.0};
-    for (int band = 0; band < kBands; ++band)
+    for (std::size_t band = 0; band < kBands; ++band)
         for (int c = 0; c < 3; ++c) sum[c] += water.weights[c][band] * light(band);
     return sum;
 }
 
 glm::dvec3 colourOf(const WaterSpectra& water, const Pigment& pigment) {
-    return integrated(water, [&](int band) { return pigment(wavelengthOf(band)); });
+    return integrated(water, [&](std::size_t band) { return pigment(wavelengthOf(band)); });
 }
 
 glm::dvec3 seenThrough(const WaterSpectra& water,
                        const Pigment& pigment,
                        double range,
                        double depth) {
-    return integrated(water, [&](int band) {
+    return integrated(water, [&](std::size_t band) {
         return pigment(wavelengthOf(band)) *
                std::exp(-water.downwelling[band] * depth - beamAttenuation(water, band) * range);
     });
@@ -83,7 +84,7 @@ double smoothStep(double x) {
 TEST(WaterSpectra, daylightIsWhiteAndTheThreeSurfacesMakeWhite) {
     const WaterSpectra water = oceanWater();
     EXPECT_LT(error(colourOf(water, [](double) { return 1.0; }), glm::dvec3{1.0}), 1e-9);
-    for (int band = 0; band < kBands; ++band)
+    for (std::size_t band = 0; band < kBands; ++band)
         EXPECT_NEAR(
             water.reflectances[0][band] + water.reflectances[1][band] + water.reflectances[2][band],
             1.0,
@@ -92,11 +93,11 @@ TEST(WaterSpectra, daylightIsWhiteAndTheThreeSurfacesMakeWhite) {
 
 TEST(WaterSpectra, redDiesFirstAndTheWayDownIsNotTheWayAcross) {
     const WaterSpectra water = oceanWater();
-    constexpr int kBlue = 7;  // 470 nm
-    constexpr int kRed = 25;  // 650 nm
+    constexpr std::size_t kBlue = 7;  // 470 nm
+    constexpr std::size_t kRed = 25;  // 650 nm
     EXPECT_GT(beamAttenuation(water, kRed), 5.0 * beamAttenuation(water, kBlue));
     EXPECT_GT(beamAttenuation(water, kBlue), 1.3 * water.downwelling[kBlue]);
-    for (int band = 0; band < kBands; ++band) EXPECT_GT(water.absorption[band], 0.0);
+    for (std::size_t band = 0; band < kBands; ++band) EXPECT_GT(water.absorption[band], 0.0);
 }
 
 // Also above the surface, where the diver's filter looks.
@@ -142,7 +143,7 @@ TEST(InscatterTable, isTheSumAlongTheRay) {
     for (const double rise : {-0.8, -0.2, 0.0, 0.3})
         for (const double range : {1.0, 5.0, 14.0}) {
             constexpr int kSteps = 2000;
-            const glm::dvec3 truth = integrated(water, [&](int band) {
+            const glm::dvec3 truth = integrated(water, [&](std::size_t band) {
                 double sum = 0;
                 for (int i = 0; i < kSteps; ++i) {
                     const double s = range * (i + 0.5) / kSteps;
