@@ -8,13 +8,13 @@
 
 namespace aquarama::gl {
 
-// Sole owner of one OpenGL name. Traits supply create(args...) and destroy(name).
+// Sole owner of one OpenGL name. Traits supply create() or create(kind), and destroy(name).
 // Must be destroyed while its context is current.
 template <class Traits>
 class Handle {
   public:
-    template <class... Args>
-    explicit Handle(Args... args) : name_{Traits::create(args...)} {}
+    Handle() : name_{Traits::create()} {}
+    explicit Handle(GLenum kind) : name_{Traits::create(kind)} {}
     ~Handle() {
         if (name_ != 0) Traits::destroy(name_);
     }

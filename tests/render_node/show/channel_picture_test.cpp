@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/show/channel_picture.h"
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
+#include "common/wall/picture.h"
+#include "common/wall/wall.h"
 #include "render_node/show/font.h"
 #include "tests/render_node/show/fake_session.h"
 
@@ -16,12 +20,17 @@ namespace {
 
 constexpr glm::vec3 kFishPlace = kEyePosition + glm::vec3(0.2F, 0.1F, -3);
 
-StateFrame frameWithAFish() {
+StateFrame emptySea() {
     StateFrame frame = frameNumber(1);
     frame.eye.positionMetres = kEyePosition;
+    return frame;
+}
+
+StateFrame frameWithAFish(const BodyFrame& body = {.position = kFishPlace}) {
+    StateFrame frame = emptySea();
     MotionStates states;
     states.resize(1);
-    setBodyFrame(states, 0, {.position = kFishPlace, .rotation = {1, 0, 0, 0}});
+    setBodyFrame(states, 0, body);
     frame.after = {recordOf(states, 0)};
     return frame;
 }
@@ -41,15 +50,32 @@ glm::dvec2 pixelOf(const Rig& rig, std::size_t channel, glm::dvec3 world) {
         .value_or(glm::dvec2(-1));
 }
 
+// Where both give half of the light, at the eye's height; unrolled.
+glm::dvec2 seamBetween(const Rig& rig, std::size_t left, std::size_t right) {
+    double best = 0;
+    double u = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 point = screenPointAt(rig.screen, {i / 2000.0, 0.5});
+        const double both = blendWeight(rig, left, point) * blendWeight(rig, right, point);
+        if (both <= best) continue;
+        best = both;
+        u = i / 2000.0;
+    }
+    return {u, 0.5};
+}
+
 // The scene takes seconds to grow, so that all share one.
 class ChannelPictureTest : public testing::Test {
   protected:
+    static constexpr std::size_t kLeft = 0;
     static constexpr std::size_t kMiddle = 1;
     struct Stage {
         std::unique_ptr<Context> context = makeOffscreenContext("auto", {480, 360});
         Admission admission = admissionToTheWorld();
         ChannelPicture picture{admission, kMiddle};
+        ChannelPicture left{admission, kLeft};
         gl::Target target{GL_RGBA8, picture.sizePixels()};
+        gl::Target deep{GL_RGBA16, picture.sizePixels()};
     };
     static void SetUpTestSuite() { stage = std::make_unique<Stage>(); }
     static void TearDownTestSuite() { stage.reset(); }
@@ -58,6 +84,34 @@ class ChannelPictureTest : public testing::Test {
         stage->picture.drawScene(frameWithAFish(), overlays);
         stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, overlays);
         return gl::readRgb<std::uint8_t>(stage->target);
+    }
+    static Light lightOfFrame(ChannelPicture& picture, const StateFrame& frame) {
+        picture.drawScene(frame, {});
+        picture.project(stage->deep.framebuffer(), Encoding::Plain, {});
+        const auto pixels = gl::readRgb<std::uint16_t>(stage->deep);
+        return lightOf(Picture{picture.sizePixels(), 16, pixels});
+    }
+    // Where on the unrolled wall a channel shows the fish, in pixels of the panorama: the mean of
+    // what it changes there.
+    static glm::dvec2 shownPlace(ChannelPicture& picture,
+                                 std::size_t channel,
+                                 const StateFrame& fish) {
+        const Rig& rig = stage->admission.rig;
+        const WarpMap warp = warpMap(rig, channel);
+        const Light with = lightOfFrame(picture, fish);
+        const Light without = lightOfFrame(picture, emptySea());
+        glm::dvec2 sum(0);
+        double total = 0;
+        for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
+            const glm::dvec4 point(warp.pointAndWeight[i]);
+            if (point.w < 0.02) continue;
+            const glm::dvec3 change = glm::abs(with.rgb[i] - without.rgb[i]);
+            const double share = (change.x + change.y + change.z) / point.w;
+            sum += share * unrolled(rig.screen, glm::dvec3(point)) * glm::dvec2(rig.panoramaPixels);
+            total += share;
+        }
+        EXPECT_GT(total, 1) << "channel " << channel << " does not show the fish";
+        return sum / total;
     }
     static inline std::unique_ptr<Stage> stage;
 };
@@ -96,6 +150,20 @@ TEST_F(ChannelPictureTest, gridMaskAndHelpAreSeen) {
     pictures.insert(shown({.help = true}));
     EXPECT_EQ(pictures.size(), 4U);
     EXPECT_EQ(shown({}), plain) << "an overlay leaves a trace";
+}
+
+// A fish that swims towards the wall, so that it is narrower than the overlap.
+TEST_F(ChannelPictureTest, neighboursShowAFishInTheirOverlapAtOnePlace) {
+    const Rig& rig = stage->admission.rig;
+    const glm::dvec3 seam = screenPointAt(rig.screen, seamBetween(rig, kLeft, kMiddle));
+    const glm::vec3 place = kEyePosition + glm::vec3(glm::normalize(seam) * 3.0);
+    const float towardsTheWall =
+        static_cast<float>(std::atan2(-seam.z, seam.x)) + std::numbers::pi_v<float>;
+    const StateFrame fish = frameWithAFish(
+        {.position = place, .rotation = glm::angleAxis(towardsTheWall, glm::vec3(0, 1, 0))});
+    const glm::dvec2 byLeft = shownPlace(stage->left, kLeft, fish);
+    const glm::dvec2 byMiddle = shownPlace(stage->picture, kMiddle, fish);
+    EXPECT_LT(glm::distance(byLeft, byMiddle), 0.5) << byLeft.x << " and " << byMiddle.x;
 }
 
 TEST(TextOverlay, drawsTheFontsDots) {

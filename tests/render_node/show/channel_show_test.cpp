@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/show/channel_show.h"
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -10,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "common/units/error.h"
+#include "common/wall/pattern.h"
+#include "common/wall/picture.h"
 #include "common/wall/png_file.h"
 #include "tests/render_node/project/reference.h"
 #include "tests/render_node/show/fake_session.h"
@@ -34,9 +37,9 @@ class ChannelShowTest : public testing::Test {
         chosen.deep = deep;
         return chosen;
     }
-    void show(FakeSession& session, const NodeOptions& chosen) {
+    void show(FakeSession& session, const NodeOptions& chosen, Pattern pattern = Pattern::Grey) {
         const Controls controls(session);
-        ChannelShow(session, context_, controls, chosen).run(admissionTo(Pattern::Grey));
+        ChannelShow(session, context_, controls, chosen).run(admissionTo(pattern));
     }
     std::vector<std::string> traceLines() const {
         std::istringstream text(fileText(folder_ + "/middle.csv"));
@@ -116,6 +119,40 @@ TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
         // Half floats hold 0.18 to one part in 4000.
         ASSERT_NEAR(picture.rgb[3 * i], 65535 * srgbOf(kGrey * weight), 10) << "weight " << weight;
     }
+}
+
+// What a pixel of the middle channel should show of the grid, by closed forms alone; 0 off the
+// screen.
+double gridOfTheWall(const Rig& rig, glm::dvec2 pixel) {
+    const auto point = screenPoint(rig.screen, rig.channels[1], pixel);
+    return point ? gridLight(*point) * blendWeight(rig, 1, *point) : 0;
+}
+
+// How far a picture is displaced from what it should be, by least squares: the reference's slope
+// times the displacement explains the difference.
+TEST_F(ChannelShowTest, theGridLiesOnTheWallToATenthOfAPixel) {
+    FakeSession session(events_, {{frameNumber(0), Release::Present}});
+    show(session, options(/*deep=*/true), Pattern::Grid);
+    const Light light = lightOf(readPng(folder_ + "/channel-middle.png"));
+    const Rig rig = shippedRig("desk");
+    glm::dvec2 slopeTimesDifference(0);
+    glm::dvec2 slopeSquared(0);
+    for (int y = 0; y < light.sizePixels.y; ++y)
+        for (int x = 0; x < light.sizePixels.x; ++x) {
+            const glm::dvec2 centre(x + 0.5, y + 0.5);
+            const double difference =
+                static_cast<double>(light.at(x, y).x) - gridOfTheWall(rig, centre);
+            const glm::dvec2 slope(gridOfTheWall(rig, centre + glm::dvec2(0.5, 0)) -
+                                       gridOfTheWall(rig, centre - glm::dvec2(0.5, 0)),
+                                   gridOfTheWall(rig, centre + glm::dvec2(0, 0.5)) -
+                                       gridOfTheWall(rig, centre - glm::dvec2(0, 0.5)));
+            slopeTimesDifference += slope * difference;
+            slopeSquared += slope * slope;
+        }
+    ASSERT_GT(slopeSquared.x, 1) << "no upright line is seen";
+    ASSERT_GT(slopeSquared.y, 1) << "no level line is seen";
+    EXPECT_LT(std::abs(slopeTimesDifference.x / slopeSquared.x), 0.1);
+    EXPECT_LT(std::abs(slopeTimesDifference.y / slopeSquared.y), 0.1);
 }
 
 TEST_F(ChannelShowTest, aSnapshotWithNoFrameShownIsNone) {
