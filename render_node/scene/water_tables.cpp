@@ -139,15 +139,17 @@ WaterSpectra oceanWater() {
 
 Table bakeDirect(const WaterSpectra& water) {
     Table table{kRanges, kDepths, 3, {}};
-    table.texels.resize(static_cast<std::size_t>(kRanges * kDepths * 3));
+    table.texels.resize(std::size_t{kRanges} * kDepths * 3);
+    std::size_t at = 0;
     const glm::dmat3 surfacesFromColour = glm::inverse(transmitted(water, 0.0, 0.0));
     for (int depth = 0; depth < kDepths; ++depth)
         for (int range = 0; range < kRanges; ++range) {
             const glm::dmat3 seen =
                 transmitted(water, rangeAt(range), depthAt(depth)) * surfacesFromColour;
             for (int column = 0; column < 3; ++column)
-                table.texels[static_cast<std::size_t>((column * kDepths + depth) * kRanges +
-                                                      range)] = glm::vec3(seen[column]);
+                table.texels[at + static_cast<std::size_t>(column) * kRanges * kDepths] =
+                    glm::vec3(seen[column]);
+            ++at;
         }
     return table;
 }
@@ -171,7 +173,8 @@ Spectrum Inscatter::lightAt(double depthMetres) const {
 }
 
 glm::vec3 Inscatter::along(const Spectrum& light, int range, int rise) const {
-    const Spectrum& path = paths_[static_cast<std::size_t>(rise * (kRanges + 1) + range)];
+    const Spectrum& path =
+        paths_[static_cast<std::size_t>(rise) * (kRanges + 1) + static_cast<std::size_t>(range)];
     glm::dvec3 sum{0.0};
     for (std::size_t band = 0; band < kBands; ++band)
         for (int c = 0; c < 3; ++c) sum[c] += water_.weights[c][band] * light[band] * path[band];
