@@ -12,8 +12,8 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
-#include <signal.h>
 
+#include "common/cli/signals.h"
 #include "common/config/rig.h"
 #include "common/config/species.h"
 #include "common/motion/motor.h"
@@ -100,40 +100,8 @@ ConductorOptions conductorOptions(const MasterOptions& options) {
     return conductor;
 }
 
-// Ctrl-C and SIGTERM stop the show: heard on a thread of its own, where anything may be called.
-class StopOnSignal {
-  public:
-    explicit StopOnSignal(Conductor& conductor)
-        : listener_([this, &conductor] {
-              int signal = 0;
-              sigwait(&signals(), &signal);
-              if (signal != SIGUSR1) conductor.stop();
-          }) {}
-    ~StopOnSignal() {
-        pthread_kill(listener_.native_handle(), SIGUSR1);
-        listener_.join();
-    }
-    StopOnSignal(const StopOnSignal&) = delete;
-    StopOnSignal& operator=(const StopOnSignal&) = delete;
-
-    // Before any thread starts, so that none of them takes the signals.
-    static void holdSignals() { pthread_sigmask(SIG_BLOCK, &signals(), nullptr); }
-
-  private:
-    static const sigset_t& signals() {
-        static const sigset_t set = [] {
-            sigset_t all;
-            sigemptyset(&all);
-            for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) sigaddset(&all, signal);
-            return all;
-        }();
-        return set;
-    }
-    std::thread listener_;
-};
-
 void runMaster(const MasterOptions& options) {
-    StopOnSignal::holdSignals();
+    holdSignals();
     const Rig rig = readRig(options.rigPath);
     checkGeometry(rig, options.rigPath);
     auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
@@ -162,7 +130,7 @@ void runMaster(const MasterOptions& options) {
                         std::move(welcome),
                         std::move(blobs),
                         std::move(channels));
-    const StopOnSignal stopOnSignal(conductor);
+    const SignalWatch watch([&] { conductor.stop(); });
     conductor.run();
 }
 

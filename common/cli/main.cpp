@@ -89,6 +89,10 @@ int dispatch(int count, char** arguments) {
         delegate(inspectorOf(file), "inspect", all.subspan(2));
     }
 
+    if (!first.empty() && first != "run" && !first.starts_with('-')) {
+        throw Error("there is no command \"" + first + "\"; aquarama --help lists them");
+    }
+
     CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors"};
     app.require_subcommand(1);
     ShowOptions options;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <signal.h>
@@ -89,16 +90,26 @@ void signalAll(const std::vector<Process>& processes, int signal) {
     }
 }
 
+// Every death that was heard of, before the first of them is judged: what is dead must not be
+// waited for.
+std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
+                                                const Heard& heard) {
+    std::vector<std::pair<Process*, Ending>> dead;
+    for (const Ending& ending : heard.endings) {
+        const auto process = std::ranges::find(processes, ending.child, &Process::child);
+        if (process == processes.end()) continue;
+        process->child = 0;
+        dead.emplace_back(&*process, ending);
+    }
+    return dead;
+}
+
 // Asks all to end, and makes sure of it.
 void endAll(std::vector<Process>& processes) {
     signalAll(processes, SIGTERM);
     const auto deadline = Clock::now() + kGoodbye;
     while (anyRunning(processes)) {
-        for (const Ending& ending : waitForChildren(100ms).endings) {
-            for (Process& process : processes) {
-                if (process.child == ending.child) process.child = 0;
-            }
-        }
+        deaths(processes, waitForChildren(100ms));
         if (Clock::now() > deadline) signalAll(processes, SIGKILL);
     }
 }
@@ -113,7 +124,6 @@ enum class Verdict { GoesOn, Over, Failed };
 
 Verdict judge(const ShowOptions& options, Process& process, const Ending& ending) {
     const bool early = Clock::now() - process.started < kTooShort;
-    process.child = 0;
     if (ending.clean()) return process.name == "master" ? Verdict::Over : Verdict::GoesOn;
     std::cerr << "aquarama: " << process.name << ' ' << described(ending);
     if (options.lockstep() || (early && ending.signal == 0)) {
@@ -128,31 +138,23 @@ Verdict judge(const ShowOptions& options, Process& process, const Ending& ending
 // Watches until the master has ended and every node with it, or something failed. True: the show
 // ended as it should.
 bool watch(const ShowOptions& options, std::vector<Process>& processes) {
-    bool over = false;
     auto farewell = Clock::time_point::max();
     while (anyRunning(processes)) {
         const Heard heard = waitForChildren(200ms);
-        if (heard.interrupted) {
-            endAll(processes);
-            return true;
-        }
-        for (const Ending& ending : heard.endings) {
-            const auto process = std::ranges::find(processes, ending.child, &Process::child);
-            if (process == processes.end()) continue;
+        bool failed = false;
+        for (const auto& [process, ending] : deaths(processes, heard)) {
             const Verdict verdict = judge(options, *process, ending);
-            if (verdict == Verdict::Failed) {
-                endAll(processes);
-                return false;
-            }
-            if (verdict == Verdict::Over && !over) {
-                over = true;
+            failed = failed || verdict == Verdict::Failed;
+            if (verdict == Verdict::Over)
                 farewell = Clock::now() + 30s;  // nodes may still be writing their pictures
-            }
         }
-        if (Clock::now() > farewell) {
+        if (Clock::now() > farewell && anyRunning(processes)) {
             std::cerr << "aquarama: a node did not end with the show; ending it\n";
+            failed = true;
+        }
+        if (failed || heard.interrupted) {
             endAll(processes);
-            return false;
+            return !failed;
         }
     }
     return true;

@@ -12,7 +12,7 @@
 #include "render_node/session/session.h"
 #include "render_node/show/channel_show.h"
 #include "render_node/show/controls.h"
-#include "render_node/show/signals.h"
+#include "common/cli/signals.h"
 
 namespace aquarama {
 

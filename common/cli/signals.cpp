@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/show/signals.h"
+#include "common/cli/signals.h"
 
 #include <utility>
 
