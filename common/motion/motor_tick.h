@@ -26,6 +26,9 @@ inline constexpr float kLongestStepUnits = 4194304.0F;  // 2^22, 64 m: rounds ex
 inline constexpr float kLevelAxisBias = 0.0009765625F;  // gives a vertical nose a way to fall
 inline constexpr float kTiniest = 5.9604645e-08F;       // 2^-24: divides where nothing is left
 
+// A range is stepped in whole vectors of this many fish on every machine, and what is left plainly.
+inline constexpr std::size_t kWidestLanes = 16;
+
 // The columns of the states and commands, as plain pointers: their stores alias nothing.
 struct MotorColumns {
     const std::uint8_t* wanted;

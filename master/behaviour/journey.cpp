@@ -25,7 +25,7 @@ constexpr std::array kRound{
     Station{{0.0F, -5.7F, -7.7F}, 0.4F, 12 * 60},
     Station{{-4.2F, -6.2F, -6.0F}, 0.3F, 7 * 60},
     Station{{-3.8F, -5.9F, -3.2F}, 0.2F, 10 * 60},
-    Station{{0.0F, -6.1F, -2.6F}, 0.15F, 10 * 60},
+    Station{{0.0F, -6.1F, -2.45F}, 0.1F, 10 * 60},
     Station{{3.8F, -5.7F, -3.2F}, 0.2F, 8 * 60},
     Station{{4.1F, -6.3F, -5.8F}, 0.3F, 9 * 60},
     Station{{0.6F, -5.4F, -4.6F}, 0.3F, 16 * 60, true},

@@ -15,8 +15,8 @@ namespace {
 // the zones fade into one another, so that the school settles at its spacing instead of dithering
 // at a border.
 constexpr float kSpacing = 0.9F;
-constexpr float kAbreastToFile = 0.6F;
-constexpr float kAsideShare = 0.25F;
+constexpr float kAbreastToFile = 0.6F;  // room abreast for room in file
+constexpr float kAsideShare = 0.25F;    // of a push in file that is along it: the rest is sideways
 constexpr float kAlignFully = 2.0F;
 constexpr float kAttractFully = 5.0F;
 

@@ -9,7 +9,7 @@ namespace aquarama {
 
 namespace {
 
-constexpr float kSideMarginMetres = 1.1F;     // where the push of an upright border begins
+constexpr float kSideMarginMetres = 0.8F;     // where the push of an upright border begins
 constexpr float kHeightMarginMetres = 0.45F;  // of the floor, the surface and the water's own
 constexpr float kFloorClearanceMetres = 0.35F;
 constexpr float kSurfaceClearanceMetres = 0.5F;

@@ -45,7 +45,6 @@ class World {
 
     [[nodiscard]] Tick tick() const { return tick_; }
     [[nodiscard]] const MotionStates& states() const { return states_; }
-    [[nodiscard]] const MotorCommands& commands() const { return commands_; }
     [[nodiscard]] const SchoolView& view() const { return view_; }  // as the last tick began
     [[nodiscard]] std::span<const FishTraits> traits() const { return traits_; }
     [[nodiscard]] std::size_t bytes() const;  // of all that grows with the school

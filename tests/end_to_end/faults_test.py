@@ -4,6 +4,7 @@ import os
 import signal
 import time
 import unittest
+from pathlib import Path
 
 from show import CHANNELS, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
 
@@ -30,7 +31,7 @@ class LiveShow:
         start_frames = {name: self.last_frame(name) for name in names}
         for name in names:
             wait_until(lambda: self.last_frame(name) >= start_frames[name] + frames, seconds,
-                       f"{name} to show {frames} more frames\n{open(self.log).read()[-2000:]}")
+                       f"{name} to show {frames} more frames\n{Path(self.log).read_text()[-2000:]}")
 
     def in_step_since(self, names, frame):
         """Of the frames after `frame` that all of `names` presented: none before all of these were ready."""
@@ -55,6 +56,7 @@ class Faults(unittest.TestCase):
         joined = max(self.show.last_frame(name) for name in CHANNELS)
         self.show.wait_for_progress(CHANNELS)
         wait_until(lambda: len(self.show.in_step_since(CHANNELS, joined)[0]) >= 3, 60, "frames that all three show")
+        self.assertEqual(self.show.in_step_since(CHANNELS, joined)[1], [], "presented before all were ready")
 
     def test_a_killed_node_is_passed_over_and_returns(self):
         self.show.processes["left"].send_signal(signal.SIGKILL)

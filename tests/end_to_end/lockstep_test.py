@@ -5,6 +5,7 @@ import random
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 from show import CHANNELS, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace
 
@@ -35,8 +36,7 @@ class Lockstep(unittest.TestCase):
                 rig = rig_on_free_ports(folder)
                 run = aquarama("run", rig, "--headless", "--frames", 12, "--seed", seed, "--snapshot", folder)
                 self.assertEqual(run.returncode, 0, run.stderr)
-                panorama = open(f"{folder}/panorama.png", "rb").read()
-                pictures.append(hashlib.sha256(panorama).hexdigest())
+                pictures.append(hashlib.sha256(Path(folder, "panorama.png").read_bytes()).hexdigest())
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0], pictures[2])
 
@@ -56,9 +56,9 @@ class Lockstep(unittest.TestCase):
                         processes.append(start(*program, log=log))
                         time.sleep(chance.choice([0, 0, 0.02, 0.1, 0.4]))
                     for process in processes:
-                        self.assertEqual(process.wait(60), 0, open(log).read())
+                        self.assertEqual(process.wait(60), 0, Path(log).read_text())
                 except subprocess.TimeoutExpired:
-                    self.fail(f"start {attempt} hangs: {starts}\n{open(log).read()}")
+                    self.fail(f"start {attempt} hangs: {starts}\n{Path(log).read_text()}")
                 finally:
                     end(processes)
                 assert_presented_in_step(self, folder, 3)

@@ -54,10 +54,10 @@ def aquarama(*arguments, **options):
 
 def start(program, *arguments, log=None):
     """Starts aquarama-PROGRAM; its output goes to `log`."""
-    output = open(log, "a") if log else subprocess.DEVNULL
     environment = os.environ | {"LP_NUM_THREADS": "1"}
-    return subprocess.Popen([str(BIN / f"aquarama-{program}"), *map(str, arguments)],
-                            stdout=output, stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
+    with open(log or os.devnull, "a") as output:
+        return subprocess.Popen([str(BIN / f"aquarama-{program}"), *map(str, arguments)],
+                                stdout=output, stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
 
 
 def end(processes, within=10):

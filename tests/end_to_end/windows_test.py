@@ -7,6 +7,7 @@ import signal
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 from show import BIN, CHANNELS, ROOT, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
 
@@ -65,21 +66,22 @@ class Windows(unittest.TestCase):
         self.folder.cleanup()
 
     def run_show(self, *arguments):
-        self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name, *map(str, arguments)],
-                                     env=self.display.environment, cwd=ROOT, stdout=subprocess.DEVNULL,
-                                     stderr=open(f"{self.folder.name}/log", "w"))
+        self.log = Path(self.folder.name, "log")
+        with open(self.log, "w") as log:
+            self.show = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--trace", self.folder.name, *map(str, arguments)],
+                                         env=self.display.environment, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=log)
         wait_until(lambda: len(self.display.windows()) == 3 or self.show.poll() is not None, 60, "three windows")
-        self.assertIsNone(self.show.poll(), open(f"{self.folder.name}/log").read())
+        self.assertIsNone(self.show.poll(), self.log.read_text())
 
     def frames_shown(self):
         return max((max(trace(self.folder.name, name), default=-1) for name in CHANNELS), default=-1)
 
     def test_three_windows_side_by_side_show_the_world(self):
         self.run_show("--frames", 60)
+        wait_until(lambda: self.frames_shown() >= 10, 60, "ten frames")
         windows = sorted(self.display.windows().values())
         for (x, _, width, _, _), (next_x, *_) in zip(windows, windows[1:]):
             self.assertLessEqual(x + width, next_x, "windows overlap")
-        wait_until(lambda: self.frames_shown() >= 10, 60, "ten frames")
         _, _, pixel = self.display.screenshot()
         for x, y, width, height, _ in windows:
             colours = {pixel(x + i * width // 24, y + j * height // 18) for i in range(2, 23) for j in range(2, 17)}

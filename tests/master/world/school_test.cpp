@@ -76,7 +76,7 @@ class Watch {
         for (std::uint32_t i = 0; i < kFish; ++i) {
             fish_.push_back({bodyFrameOf(world_.states(), i).position,
                              world_.view().heading(i),
-                             0.001F * world_.traits()[i].lengthMillimetres});
+                             0.001F * static_cast<float>(world_.traits()[i].lengthMillimetres)});
             diary_.actions[i].insert(world_.states().segment[i]);
             notePlace(fish_.back().position);
         }
@@ -115,7 +115,7 @@ class Watch {
             }
         }
         for (const float distance : nearest)
-            diary_.nearestNeighbour += double{distance / kMeanLength} / kFish;
+            diary_.nearestNeighbour += static_cast<double>(distance / kMeanLength) / kFish;
         const float range = glm::distance(middle, kEyePosition);
         diary_.polarised += glm::length(heading) / kFish > 0.6F ? 1 : 0;
         diary_.nearPasses += range < 3.2F ? 1 : 0;
@@ -147,7 +147,7 @@ class Watch {
     Diary diary_;
     int glances_ = 0;
     std::vector<Fish> fish_;
-    std::vector<int> overlap_ = std::vector<int>(kFish * kFish);
+    std::vector<int> overlap_ = std::vector<int>(std::size_t{kFish} * kFish);
 };
 
 class School : public testing::TestWithParam<std::uint32_t> {

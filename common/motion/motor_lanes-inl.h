@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arithmetic of motor.cpp and orientation.h on vectors of fish, operation for operation.
+// Elementwise only, and no fused multiply-add: so every width gives the same bits.
+
+// Included once for each instruction set, by motor_simd.cpp.
+#if defined(AQUARAMA_MOTOR_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AQUARAMA_MOTOR_LANES_INL_H
+#undef AQUARAMA_MOTOR_LANES_INL_H
+#else
+#define AQUARAMA_MOTOR_LANES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "common/motion/motor_tick.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace aquarama::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, kWidestLanes>;
+using Ints = hn::RebindToSigned<Floats>;
+using Lanes = hn::Vec<Floats>;
+using IntLanes = hn::Vec<Ints>;
+constexpr Floats kFloats;
+constexpr Ints kInts;
+
+struct QuaternionLanes {
+    Lanes w, x, y, z;
+};
+struct VectorLanes {
+    Lanes x, y, z;
+};
+
+HWY_INLINE Lanes sumOfProducts(Lanes a, Lanes b, Lanes c, Lanes d) {
+    return hn::Add(hn::Mul(a, b), hn::Mul(c, d));
+}
+HWY_INLINE Lanes differenceOfProducts(Lanes a, Lanes b, Lanes c, Lanes d) {
+    return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
+}
+HWY_INLINE Lanes bounded(Lanes value, float limit) {
+    return hn::Min(hn::Max(value, hn::Set(kFloats, -limit)), hn::Set(kFloats, limit));
+}
+
+// To the nearest even integer, for |value| up to 2^22: where the sum's last bit is worth one.
+HWY_INLINE IntLanes rounded(Lanes value) {
+    const Lanes shift = hn::Set(kFloats, 12582912.0F);  // 1.5 * 2^23
+    return hn::Sub(hn::BitCast(kInts, hn::Add(value, shift)), hn::BitCast(kInts, shift));
+}
+
+HWY_INLINE QuaternionLanes load(const float* quaternions) {
+    QuaternionLanes q{};
+    hn::LoadInterleaved4(kFloats, quaternions, q.w, q.x, q.y, q.z);
+    return q;
+}
+
+HWY_INLINE QuaternionLanes product(const QuaternionLanes& a, const QuaternionLanes& b) {
+    return {hn::Sub(differenceOfProducts(a.w, b.w, a.x, b.x), sumOfProducts(a.y, b.y, a.z, b.z)),
+            hn::Add(sumOfProducts(a.w, b.x, a.x, b.w), differenceOfProducts(a.y, b.z, a.z, b.y)),
+            hn::Add(sumOfProducts(a.w, b.y, a.y, b.w), differenceOfProducts(a.z, b.x, a.x, b.z)),
+            hn::Add(sumOfProducts(a.w, b.z, a.z, b.w), differenceOfProducts(a.x, b.y, a.y, b.x))};
+}
+
+// a times the conjugate of b: the signs are carried into the sums, which leaves every bit alone.
+HWY_INLINE QuaternionLanes quotient(const QuaternionLanes& a, const QuaternionLanes& b) {
+    return {
+        hn::Add(sumOfProducts(a.w, b.w, a.x, b.x), sumOfProducts(a.y, b.y, a.z, b.z)),
+        hn::Sub(differenceOfProducts(a.x, b.w, a.w, b.x), differenceOfProducts(a.y, b.z, a.z, b.y)),
+        hn::Sub(differenceOfProducts(a.y, b.w, a.w, b.y), differenceOfProducts(a.z, b.x, a.x, b.z)),
+        hn::Sub(differenceOfProducts(a.z, b.w, a.w, b.z),
+                differenceOfProducts(a.x, b.y, a.y, b.x))};
+}
+
+HWY_INLINE QuaternionLanes renormalisedLanes(const QuaternionLanes& q) {
+    const Lanes squared =
+        hn::Add(sumOfProducts(q.w, q.w, q.x, q.x), sumOfProducts(q.y, q.y, q.z, q.z));
+    const Lanes inverse = hn::Sub(hn::Set(kFloats, 1.5F), hn::Mul(hn::Set(kFloats, 0.5F), squared));
+    return {
+        hn::Mul(q.w, inverse), hn::Mul(q.x, inverse), hn::Mul(q.y, inverse), hn::Mul(q.z, inverse)};
+}
+
+HWY_INLINE VectorLanes rotated(const QuaternionLanes& q, const VectorLanes& v) {
+    const Lanes two = hn::Set(kFloats, 2.0F);
+    const Lanes x = hn::Mul(two, differenceOfProducts(q.y, v.z, q.z, v.y));
+    const Lanes y = hn::Mul(two, differenceOfProducts(q.z, v.x, q.x, v.z));
+    const Lanes z = hn::Mul(two, differenceOfProducts(q.x, v.y, q.y, v.x));
+    return {hn::Add(hn::Add(v.x, hn::Mul(q.w, x)), differenceOfProducts(q.y, z, q.z, y)),
+            hn::Add(hn::Add(v.y, hn::Mul(q.w, y)), differenceOfProducts(q.z, x, q.x, z)),
+            hn::Add(hn::Add(v.z, hn::Mul(q.w, z)), differenceOfProducts(q.x, y, q.y, x))};
+}
+
+HWY_INLINE auto isLargest(IntLanes largest, int component) {
+    return hn::RebindMask(kFloats, hn::Eq(largest, hn::Set(kInts, component)));
+}
+
+HWY_INLINE QuaternionLanes orientationOf(const MotionStates& s, std::size_t fish) {
+    const auto component = [fish](const std::vector<std::int32_t>& column) HWY_ATTR {
+        return hn::Mul(hn::ConvertTo(kFloats, hn::LoadU(kInts, column.data() + fish)),
+                       hn::Set(kFloats, kOrientationUnit));
+    };
+    const hn::Rebind<std::uint8_t, Ints> bytes;
+    const IntLanes largest =
+        hn::PromoteTo(kInts, hn::LoadU(bytes, s.orientationLargest.data() + fish));
+    const Lanes a = component(s.orientationA);
+    const Lanes b = component(s.orientationB);
+    const Lanes c = component(s.orientationC);
+    const Lanes squared =
+        hn::Sub(hn::Set(kFloats, 1.0F), hn::Add(sumOfProducts(a, a, b, b), hn::Mul(c, c)));
+    const Lanes most = hn::Sqrt(hn::Max(squared, hn::Zero(kFloats)));
+    const auto isW = isLargest(largest, 0);
+    const auto isX = isLargest(largest, 1);
+    const auto isY = isLargest(largest, 2);
+    const auto isZ = isLargest(largest, 3);
+    return {hn::IfThenElse(isW, most, a),
+            hn::IfThenElse(isW, a, hn::IfThenElse(isX, most, b)),
+            hn::IfThenElse(hn::Or(isW, isX), b, hn::IfThenElse(isY, most, c)),
+            hn::IfThenElse(isZ, most, c)};
+}
+
+HWY_INLINE void setOrientation(const QuaternionLanes& q, MotionStates& s, std::size_t fish) {
+    Lanes best = q.w;
+    IntLanes largest = hn::Zero(kInts);
+    const auto consider = [&](Lanes component, int index) HWY_ATTR {
+        const auto more = hn::Gt(hn::Abs(component), hn::Abs(best));
+        best = hn::IfThenElse(more, component, best);
+        largest = hn::IfThenElse(hn::RebindMask(kInts, more), hn::Set(kInts, index), largest);
+    };
+    consider(q.x, 1);
+    consider(q.y, 2);
+    consider(q.z, 3);
+    const Lanes one = hn::Set(kFloats, 1.0F);
+    const Lanes sign = hn::IfThenElse(hn::Lt(best, hn::Zero(kFloats)), hn::Neg(one), one);
+    const auto put = [&](Lanes component, std::vector<std::int32_t>& column) HWY_ATTR {
+        const Lanes units =
+            hn::Mul(hn::Mul(sign, component), hn::Set(kFloats, kOrientationUnitsPerOne));
+        hn::StoreU(rounded(bounded(units, kOrientationLimit)), kInts, column.data() + fish);
+    };
+    const auto isW = isLargest(largest, 0);
+    put(hn::IfThenElse(isW, q.x, q.w), s.orientationA);
+    put(hn::IfThenElse(hn::Or(isW, isLargest(largest, 1)), q.y, q.x), s.orientationB);
+    put(hn::IfThenElse(isLargest(largest, 3), q.y, q.z), s.orientationC);
+    const hn::Rebind<std::uint8_t, Ints> bytes;
+    hn::StoreU(hn::DemoteTo(bytes, largest), bytes, s.orientationLargest.data() + fish);
+}
+
+HWY_INLINE Lanes levellingRoll(Lanes up, Lanes right) {
+    const Lanes rate = hn::Set(kFloats, kRollRate);
+    const Lanes gentle = bounded(hn::Mul(hn::Set(kFloats, kRollGain), right), kRollRate);
+    const auto bellyUp = hn::Lt(up, hn::Zero(kFloats));
+    const auto noseVertical =
+        hn::Lt(sumOfProducts(up, up, right, right), hn::Set(kFloats, kNoseVerticalSquared));
+    return hn::IfThenZeroElse(noseVertical,
+                              hn::IfThenElse(bellyUp, hn::CopySign(rate, right), gentle));
+}
+
+HWY_INLINE VectorLanes halfSteering(const QuaternionLanes& m, Lanes pitchSine, Lanes yaw) {
+    const Lanes one = hn::Set(kFloats, 1.0F);
+    const Lanes two = hn::Set(kFloats, 2.0F);
+    const Lanes half = hn::Set(kFloats, 0.5F);
+    const Lanes forwardX = hn::Sub(one, hn::Mul(two, sumOfProducts(m.y, m.y, m.z, m.z)));
+    const Lanes forwardY = hn::Mul(two, sumOfProducts(m.x, m.y, m.w, m.z));
+    const Lanes forwardZ = hn::Mul(two, differenceOfProducts(m.x, m.z, m.w, m.y));
+    const Lanes up = hn::Sub(one, hn::Mul(two, sumOfProducts(m.x, m.x, m.z, m.z)));
+    const Lanes right = hn::Mul(two, differenceOfProducts(m.y, m.z, m.w, m.x));
+    const Lanes wanted = bounded(pitchSine, kSteepestPitch);
+    const Lanes pitch =
+        bounded(hn::Mul(hn::Set(kFloats, kPitchGain), hn::Sub(wanted, forwardY)), kPitchRate);
+    const Lanes levelZ = hn::Add(forwardX, hn::Set(kFloats, kLevelAxisBias));
+    const Lanes squared = sumOfProducts(levelZ, levelZ, forwardZ, forwardZ);
+    const Lanes alongLevel = hn::Div(pitch, hn::Sqrt(hn::Max(squared, hn::Set(kFloats, kTiniest))));
+    const Lanes roll = levellingRoll(up, right);
+    return {hn::Mul(half, differenceOfProducts(roll, forwardX, alongLevel, forwardZ)),
+            hn::Mul(half, hn::Add(hn::Mul(roll, forwardY), yaw)),
+            hn::Mul(half, sumOfProducts(roll, forwardZ, alongLevel, levelZ))};
+}
+
+HWY_INLINE Lanes commanded(const std::vector<std::int16_t>& column, std::size_t fish, float unit) {
+    const hn::Rebind<std::int16_t, Ints> shorts;
+    const IntLanes integers = hn::PromoteTo(kInts, hn::LoadU(shorts, column.data() + fish));
+    return hn::Mul(hn::ConvertTo(kFloats, integers), hn::Set(kFloats, unit));
+}
+
+HWY_INLINE void move(std::vector<std::int32_t>& column, std::size_t fish, Lanes units) {
+    std::int32_t* const position = column.data() + fish;
+    const IntLanes step = rounded(bounded(units, kLongestStepUnits));
+    hn::StoreU(hn::Add(hn::LoadU(kInts, position), step), kInts, position);
+}
+
+}  // namespace
+}  // namespace aquarama::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
