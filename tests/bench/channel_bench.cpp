@@ -90,9 +90,8 @@ void projectPass(benchmark::State& state, const char* rigName) {
         finish(target);
     }
     const double pixels = static_cast<double>(map.sizePixels.x) * map.sizePixels.y;
-    state.counters["ns_per_pixel"] =
-        benchmark::Counter(pixels * static_cast<double>(state.iterations()) * 1e-9,
-                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["pixels"] =
+        benchmark::Counter(pixels, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 // The driver draws on threads of its own: what all of them used is what counts.

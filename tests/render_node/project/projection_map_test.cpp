@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/project/projection_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -43,6 +45,50 @@ TEST(ProjectionMap, leadsEachPixelToTheRayThroughThePointThatItLights) {
                 EXPECT_LT(glm::distance(ray, wanted), 0.01 * pixelRadians) << name << ' ' << i;
             }
         }
+    }
+}
+
+// The place in a channel's picture that the pixel between texel centres shows.
+glm::dvec2 placeAt(const ProjectionMap& map, glm::dvec2 pixel) {
+    const glm::dvec2 texel = pixel - 0.5;
+    const glm::ivec2 corner(glm::floor(texel));
+    const glm::dvec2 share = texel - glm::floor(texel);
+    const auto at = [&](int x, int y) {
+        return glm::dvec2(map.placeAndWeight[static_cast<std::size_t>(y * map.sizePixels.x + x)]);
+    };
+    return glm::mix(glm::mix(at(corner.x, corner.y), at(corner.x + 1, corner.y), share.x),
+                    glm::mix(at(corner.x, corner.y + 1), at(corner.x + 1, corner.y + 1), share.x),
+                    share.y);
+}
+
+// A fish at any distance is drawn by every channel into the pixel that lights the one point of the
+// wall on the way to the eye: so neighbours agree about it.
+TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
+    Dice dice;
+    for (const char* name : {"desk", "theatre", "touring"}) {
+        const Rig rig = shippedRig(name);
+        std::vector<glm::dvec3> directions;
+        for (int i = 0; i < 1000; ++i)
+            directions.push_back(
+                screenPointAt(rig.screen, {dice.between(0.01, 0.99), dice.between(0.05, 0.95)}));
+        std::vector<std::size_t> channelsOf(directions.size(), 0);
+        for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
+            const ChannelFrustum frustum = channelFrustum(rig, channel, kMarginRadians);
+            const ProjectionMap map = projectionMap(warpMap(rig, channel), frustum);
+            const glm::dvec2 size(scenePictureSize(map));
+            for (std::size_t i = 0; i < directions.size(); ++i) {
+                if (blendWeight(rig, channel, directions[i]) < 0.01) continue;
+                ++channelsOf[i];
+                const glm::dvec3 fish = directions[i] * dice.between(0.5, 8);
+                const glm::dvec4 clip = glm::dmat4(clipFromCamera(frustum, 0.05F)) *
+                                        frustum.cameraFromWall * glm::dvec4(fish, 1);
+                const glm::dvec2 drawn = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
+                const auto pixel = projectorPixel(rig.channels[channel], directions[i]);
+                ASSERT_TRUE(pixel);
+                EXPECT_LT(glm::distance(drawn, placeAt(map, *pixel) * size), 0.05) << name;
+            }
+        }
+        EXPECT_GT(std::ranges::count(channelsOf, 2U), 10) << name << ": no overlap was met";
     }
 }
 

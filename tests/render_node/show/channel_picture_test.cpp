@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <vector>
 
@@ -50,8 +49,8 @@ glm::dvec2 pixelOf(const Rig& rig, std::size_t channel, glm::dvec3 world) {
         .value_or(glm::dvec2(-1));
 }
 
-// Where both give half of the light, at the eye's height; unrolled.
-glm::dvec2 seamBetween(const Rig& rig, std::size_t left, std::size_t right) {
+// Where both give half of the light, at the eye's height: u of the unrolled screen.
+double seamBetween(const Rig& rig, std::size_t left, std::size_t right) {
     double best = 0;
     double u = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -61,7 +60,7 @@ glm::dvec2 seamBetween(const Rig& rig, std::size_t left, std::size_t right) {
         best = both;
         u = i / 2000.0;
     }
-    return {u, 0.5};
+    return u;
 }
 
 // The scene takes seconds to grow, so that all share one.
@@ -152,18 +151,23 @@ TEST_F(ChannelPictureTest, gridMaskAndHelpAreSeen) {
     EXPECT_EQ(shown({}), plain) << "an overlay leaves a trace";
 }
 
-// A fish that swims towards the wall, so that it is narrower than the overlap.
+// Fish that swim towards the wall, so that they are narrower than the overlap. Outlines are of
+// whole pixels, hence the mean over several; what geometry alone does is held to a twentieth of a
+// pixel by the test of the projection map.
 TEST_F(ChannelPictureTest, neighboursShowAFishInTheirOverlapAtOnePlace) {
     const Rig& rig = stage->admission.rig;
-    const glm::dvec3 seam = screenPointAt(rig.screen, seamBetween(rig, kLeft, kMiddle));
-    const glm::vec3 place = kEyePosition + glm::vec3(glm::normalize(seam) * 3.0);
-    const float towardsTheWall =
-        static_cast<float>(std::atan2(-seam.z, seam.x)) + std::numbers::pi_v<float>;
-    const StateFrame fish = frameWithAFish(
-        {.position = place, .rotation = glm::angleAxis(towardsTheWall, glm::vec3(0, 1, 0))});
-    const glm::dvec2 byLeft = shownPlace(stage->left, kLeft, fish);
-    const glm::dvec2 byMiddle = shownPlace(stage->picture, kMiddle, fish);
-    EXPECT_LT(glm::distance(byLeft, byMiddle), 0.5) << byLeft.x << " and " << byMiddle.x;
+    const double seam = seamBetween(rig, kLeft, kMiddle);
+    glm::dvec2 sum(0);
+    constexpr int kFish = 8;
+    for (int i = 0; i < kFish; ++i) {
+        const glm::dvec3 point = screenPointAt(rig.screen, {seam, 0.3 + 0.05 * i});
+        const auto towardsTheWall = static_cast<float>(std::atan2(-point.z, point.x));
+        const StateFrame fish =
+            frameWithAFish({.position = kEyePosition + glm::vec3(glm::normalize(point) * 2.5),
+                            .rotation = glm::angleAxis(towardsTheWall, glm::vec3(0, 1, 0))});
+        sum += shownPlace(stage->left, kLeft, fish) - shownPlace(stage->picture, kMiddle, fish);
+    }
+    EXPECT_LT(glm::length(sum / double{kFish}), 0.5);
 }
 
 TEST(TextOverlay, drawsTheFontsDots) {
