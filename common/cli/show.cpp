@@ -23,14 +23,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kGoodbye = 5s;   // how long a process may take to end after it was asked to
-constexpr auto kTooShort = 5s;  // one that dies sooner would only die again
+constexpr auto kGoodbye = 5s;      // how long a process may take to end after it was asked to
+constexpr int kInterrupted = 130;  // what shells say of Ctrl-C
+constexpr auto kTooShort = 5s;     // one that dies sooner at its first start would only die again
+constexpr auto kBreath = 1s;       // before another start of one that keeps dying
 
 struct Process {
     std::string name;
     Command command;
     pid_t child = 0;
     Clock::time_point started;
+    bool proven = false;  // has lived long enough once
 
     void launch() {
         child = start(command);
@@ -124,20 +127,24 @@ enum class Verdict { GoesOn, Over, Failed };
 
 Verdict judge(const ShowOptions& options, Process& process, const Ending& ending) {
     const bool early = Clock::now() - process.started < kTooShort;
+    process.proven = process.proven || !early;
     if (ending.clean()) return process.name == "master" ? Verdict::Over : Verdict::GoesOn;
     std::cerr << "aquarama: " << process.name << ' ' << described(ending);
-    if (options.lockstep() || (early && ending.signal == 0)) {
+    if (options.lockstep() || !process.proven) {
         std::cerr << "; the show ends\n";
         return Verdict::Failed;
     }
     std::cerr << "; starting it again\n";
+    if (early) std::this_thread::sleep_for(kBreath);
     process.launch();
     return Verdict::GoesOn;
 }
 
-// Watches until the master has ended and every node with it, or something failed. True: the show
-// ended as it should.
-bool watch(const ShowOptions& options, std::vector<Process>& processes) {
+enum class Outcome { Finished, Interrupted, Failed };
+
+// Watches until the master has ended and every node with it, or something failed, or we are asked
+// to stop.
+Outcome watch(const ShowOptions& options, std::vector<Process>& processes) {
     auto farewell = Clock::time_point::max();
     while (anyRunning(processes)) {
         const Heard heard = waitForChildren(200ms);
@@ -154,10 +161,10 @@ bool watch(const ShowOptions& options, std::vector<Process>& processes) {
         }
         if (failed || heard.interrupted) {
             endAll(processes);
-            return !failed;
+            return failed ? Outcome::Failed : Outcome::Interrupted;
         }
     }
-    return true;
+    return Outcome::Finished;
 }
 
 // Lets aquarama-calibrate make one thing of the nodes' pictures.
@@ -196,7 +203,11 @@ int runShow(const ShowOptions& options, const Rig& rig) {
               << options.rigPath << '\n';
     for (Process& process : processes) process.launch();
 
-    if (!watch(options, processes)) return 1;
+    const Outcome outcome = watch(options, processes);
+    if (outcome == Outcome::Failed) return 1;
+    // A live show runs until somebody ends it; one that was to finish by itself has not done its
+    // work.
+    if (outcome == Outcome::Interrupted) return options.lockstep() ? kInterrupted : 0;
     if (options.snapshotFolder.empty()) return 0;
     if (!compose(options, "compose")) return 1;
     if (options.filmEvery > 0 && !compose(options, "film")) return 1;

@@ -2,11 +2,12 @@
 
 import os
 import signal
+import subprocess
 import time
 import unittest
 from pathlib import Path
 
-from show import CHANNELS, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import BIN, CHANNELS, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
 
 
 class LiveShow:
@@ -101,6 +102,49 @@ class Faults(unittest.TestCase):
         self.show.processes["master"].send_signal(signal.SIGINT)
         for name, process in self.show.processes.items():
             self.assertEqual(process.wait(15), 0, name)
+
+
+class Run(unittest.TestCase):
+    """`aquarama run` watches over its processes."""
+
+    def setUp(self):
+        self.folder = temporary_folder()
+        rig = rig_on_free_ports(self.folder.name)
+        with open(f"{self.folder.name}/log", "w") as log:
+            self.run_process = subprocess.Popen([BIN / "aquarama", "run", rig, "--headless", "--live", "--trace", self.folder.name],
+                                                stderr=log, stdout=log, cwd=ROOT, env=os.environ | {"LP_NUM_THREADS": "1"})
+        wait_until(lambda: all(max(trace(self.folder.name, name), default=-1) >= 3 for name in CHANNELS), 60, "a show")
+
+    def tearDown(self):
+        end([self.run_process])
+        self.folder.cleanup()
+
+    def children(self):
+        """command line -> process id of what `run` has started."""
+        listing = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(self.run_process.pid)],
+                                 capture_output=True, text=True).stdout
+        return {line.split(None, 1)[1]: int(line.split()[0]) for line in listing.splitlines()}
+
+    def test_ctrl_c_ends_every_process_cleanly(self):
+        children = self.children()
+        self.assertEqual(len(children), 4)
+        self.run_process.send_signal(signal.SIGINT)
+        self.assertEqual(self.run_process.wait(20), 0)
+        for process in children.values():
+            self.assertFalse(Path(f"/proc/{process}").exists(), "a process outlived the show")
+
+    def test_a_node_that_crashes_late_is_started_again(self):
+        time.sleep(5)  # one that dies sooner than this is a fault of the set-up, not of the day
+        victim = next(pid for command, pid in self.children().items() if "aquarama-node left" in command)
+        os.kill(victim, signal.SIGKILL)
+        wait_until(lambda: len(self.children()) == 4 and victim not in self.children().values(), 20, "another left node")
+
+    def test_a_run_that_is_killed_takes_its_processes_along(self):
+        children = self.children()
+        self.run_process.kill()
+        self.run_process.wait()
+        for command, process in children.items():
+            wait_until(lambda: not Path(f"/proc/{process}").exists(), 20, f"the end of {command}")
 
 
 if __name__ == "__main__":
