@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
+#include "common/cli/signals.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/debug.h"
 #include "render_node/session/session.h"
 #include "render_node/show/channel_show.h"
 #include "render_node/show/controls.h"
-#include "common/cli/signals.h"
 
 namespace aquarama {
 
