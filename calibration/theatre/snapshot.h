@@ -10,8 +10,8 @@
 
 namespace aquarama {
 
-// folder/channel-NAME.png of every channel, as light. Throws Error when a picture is missing or has not
-// its channel's size.
+// folder/channel-NAME.png of every channel, as light. Throws Error when a picture is missing or has
+// not its channel's size.
 [[nodiscard]] std::vector<Light> readChannels(const Rig& rig, const std::string& folder);
 
 // Reads folder/channel-NAME.png of every channel, writes folder/panorama.png and folder/hall.png.

@@ -16,7 +16,7 @@ Rig theatre() {
 std::vector<Light> greyChannels(const Rig& rig) {
     std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        channels.push_back(projectedLight(rig, i, Pattern::Grey));
+        channels.push_back(projectedLight(rig, i, TestPattern::Grey));
     return channels;
 }
 
@@ -35,7 +35,7 @@ BENCHMARK(panoramaOfTheatre)->Name("compose_panorama")->Unit(benchmark::kMillise
 
 void hallOfTheatre(benchmark::State& state) {
     const Rig rig = theatre();
-    const Light panorama = directPanorama(rig, Pattern::Grey);
+    const Light panorama = directPanorama(rig, TestPattern::Grey);
     for (auto _ : state) benchmark::DoNotOptimize(composeHall(rig, panorama, {1600, 900}));
 }
 BENCHMARK(hallOfTheatre)->Name("compose_hall")->Unit(benchmark::kMillisecond);

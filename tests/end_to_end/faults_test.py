@@ -6,7 +6,7 @@ import time
 import unittest
 from pathlib import Path
 
-from show import CHANNELS, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import CHANNELS, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
 
 
 class LiveShow:
@@ -57,6 +57,19 @@ class Faults(unittest.TestCase):
         self.show.wait_for_progress(CHANNELS)
         wait_until(lambda: len(self.show.in_step_since(CHANNELS, joined)[0]) >= 3, 60, "frames that all three show")
         self.assertEqual(self.show.in_step_since(CHANNELS, joined)[1], [], "presented before all were ready")
+
+    def test_status_tells_who_is_there_and_who_is_not(self):
+        def status():
+            asked = aquarama("status", "--master", control_address(self.show.rig))
+            self.assertEqual(asked.returncode, 0, asked.stderr)
+            return {line.split()[0]: line for line in asked.stdout.splitlines() if line.split()}
+
+        together = status()
+        for name in CHANNELS:
+            self.assertIn(name, together)
+        self.show.processes["left"].send_signal(signal.SIGKILL)
+        self.show.processes["left"].wait()
+        wait_until(lambda: status()["left"] != together["left"], 30, "the status to tell that a node is gone")
 
     def test_a_killed_node_is_passed_over_and_returns(self):
         self.show.processes["left"].send_signal(signal.SIGKILL)

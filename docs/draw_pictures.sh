@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Draws the pictures of the documents anew, with what ./run has built.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+drawn=$(mktemp -d)
+trap 'rm -rf "$drawn"' EXIT
+
+build/show/bin/aquarama run config/theatre.txtpb --headless --frames 150 --snapshot "$drawn/theatre"
+build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
+
+mkdir -p docs/pictures
+cp "$drawn/theatre/hall.png" docs/pictures/
+for figure in forward_medium turn_right_sharp midlines-forward_medium; do
+    cp "$drawn/report/bigeye_scad-$figure.svg" "docs/pictures/${figure//-/_}.svg"
+done
