@@ -42,7 +42,8 @@ inline constexpr char kFullscreenKey = 'f';  // handled by the window itself
 [[nodiscard]] std::unique_ptr<Context> makeOffscreenContext(const std::string& device,
                                                             glm::ivec2 sizePixels);
 
-// OpenGL 4.5 core in a window, current on no thread. Throws Error: no display, no such monitor, a
+// OpenGL 4.5 core in a window, current on no thread; the display's own GPU draws, whatever device
+// the channel names. Throws Error: no display, no such monitor, a
 // framebuffer or refresh rate that is not the channel's, no GL 4.5.
 [[nodiscard]] std::unique_ptr<Context> makeWindowContext(const Display& display,
                                                          const std::string& title,

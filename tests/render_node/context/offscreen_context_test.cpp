@@ -59,6 +59,7 @@ TEST(OffscreenContext, movesBetweenThreads) {
     EXPECT_TRUE(drawsThere);
 }
 
+// NOLINTBEGIN(concurrency-mt-unsafe): no other thread is running.
 // Each in a process of its own: the loader reads its environment once.
 [[noreturn]] void exitWithRefusal(const char* variable, const char* value) {
     setenv(variable, value, 1);
@@ -66,6 +67,7 @@ TEST(OffscreenContext, movesBetweenThreads) {
     std::fprintf(stderr, "refused: %s\n", refusal.c_str());
     std::exit(refusal.empty() ? 0 : 1);
 }
+// NOLINTEND(concurrency-mt-unsafe)
 
 TEST(OffscreenContextDeathTest, aMachineWithoutADriverIsToldWhatToInstall) {
     testing::GTEST_FLAG(death_test_style) = "threadsafe";

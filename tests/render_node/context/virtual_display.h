@@ -18,6 +18,7 @@
 
 namespace aquarama {
 
+// NOLINTBEGIN(concurrency-mt-unsafe): tests change the environment before they make threads.
 class VirtualDisplay {
   public:
     static constexpr glm::ivec2 kSize{800, 600};
@@ -58,7 +59,7 @@ class VirtualDisplay {
         std::vector<std::uint8_t> rgb;
         for (std::size_t y = 0; y < kSize.y; ++y)
             for (std::size_t x = 0; x < kSize.x; ++x)
-                for (const std::size_t colour : {2, 1, 0})
+                for (const std::size_t colour : {2U, 1U, 0U})
                     rgb.push_back(dump[pixels + y * rowBytes + pixelBytes * x + colour]);
         return rgb;
     }
@@ -102,5 +103,6 @@ class VirtualDisplay {
 
     pid_t server_ = 0;
 };
+// NOLINTEND(concurrency-mt-unsafe)
 
 }  // namespace aquarama

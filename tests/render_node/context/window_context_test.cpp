@@ -125,6 +125,7 @@ TEST_F(WindowTest, aMonitorThatIsNotTheChannelsIsRefused) {
     EXPECT_THAT(refusalOf(display, {200, 100}), testing::HasSubstr("refresh rate"));
 }
 
+// NOLINTBEGIN(concurrency-mt-unsafe): no other thread is running.
 TEST(WindowContext, withoutADisplayAsksForHeadless) {
     unsetenv("DISPLAY");
     EXPECT_THAT(refusalOf(windowAt({0, 0}), {200, 100}), testing::HasSubstr("--headless"));
@@ -132,6 +133,7 @@ TEST(WindowContext, withoutADisplayAsksForHeadless) {
     EXPECT_THAT(refusalOf(windowAt({0, 0}), {200, 100}), testing::HasSubstr("--headless"));
     unsetenv("DISPLAY");
 }
+// NOLINTEND(concurrency-mt-unsafe)
 
 }  // namespace
 }  // namespace aquarama

@@ -54,7 +54,9 @@ glm::dvec2 placeAt(const ProjectionMap& map, glm::dvec2 pixel) {
     const glm::ivec2 corner(glm::floor(texel));
     const glm::dvec2 share = texel - glm::floor(texel);
     const auto at = [&](int x, int y) {
-        return glm::dvec2(map.placeAndWeight[static_cast<std::size_t>(y * map.sizePixels.x + x)]);
+        return glm::dvec2(map.placeAndWeight[static_cast<std::size_t>(y) *
+                                                 static_cast<std::size_t>(map.sizePixels.x) +
+                                             static_cast<std::size_t>(x)]);
     };
     return glm::mix(glm::mix(at(corner.x, corner.y), at(corner.x + 1, corner.y), share.x),
                     glm::mix(at(corner.x, corner.y + 1), at(corner.x + 1, corner.y + 1), share.x),
@@ -67,10 +69,10 @@ TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
     Dice dice;
     for (const char* name : {"desk", "theatre", "touring"}) {
         const Rig rig = shippedRig(name);
-        std::vector<glm::dvec3> directions;
-        for (int i = 0; i < 1000; ++i)
-            directions.push_back(
-                screenPointAt(rig.screen, {dice.between(0.01, 0.99), dice.between(0.05, 0.95)}));
+        std::vector<glm::dvec3> directions(1000);
+        for (glm::dvec3& direction : directions)
+            direction =
+                screenPointAt(rig.screen, {dice.between(0.01, 0.99), dice.between(0.05, 0.95)});
         std::vector<std::size_t> channelsOf(directions.size(), 0);
         for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
             const ChannelFrustum frustum = channelFrustum(rig, channel, kMarginRadians);

@@ -26,10 +26,10 @@ constexpr double kGrey = 0.18;
 
 class ChannelShowTest : public testing::Test {
   protected:
-    ChannelShowTest() { fs::create_directories(folder_); }
-    ~ChannelShowTest() override { fs::remove_all(folder_); }
+    void SetUp() override { fs::create_directories(folder_); }
+    void TearDown() override { fs::remove_all(folder_); }
 
-    NodeOptions options(bool deep = false) const {
+    [[nodiscard]] NodeOptions options(bool deep = false) const {
         NodeOptions chosen;
         chosen.channel = "middle";
         chosen.snapshotFolder = folder_;
@@ -41,7 +41,7 @@ class ChannelShowTest : public testing::Test {
         const Controls controls(session);
         ChannelShow(session, context_, controls, chosen).run(admissionTo(pattern));
     }
-    std::vector<std::string> traceLines() const {
+    [[nodiscard]] std::vector<std::string> traceLines() const {
         std::istringstream text(fileText(folder_ + "/middle.csv"));
         std::vector<std::string> lines;
         for (std::string line; std::getline(text, line);) lines.push_back(line);
