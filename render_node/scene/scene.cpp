@@ -10,8 +10,8 @@
 #include "render_node/scene/frustum.h"
 #include "render_node/scene/ground.h"
 #include "render_node/scene/meadow.h"
-#include "render_node/scene/picture.h"
 #include "render_node/scene/reef.h"
+#include "render_node/scene/scene_picture.h"
 #include "render_node/scene/sea_light.h"
 #include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
@@ -73,7 +73,7 @@ struct Scene::Parts {
     Ground ground;
     Reef reef;
     Meadow meadow;
-    Picture picture;
+    ScenePicture picture;
     std::optional<SchoolSurface> school;
     gl::ProgramHandle surface, water, snow;
 };

@@ -8,9 +8,9 @@
 
 namespace aquarama {
 
-class Picture {
+class ScenePicture {
   public:
-    explicit Picture(int samples);
+    explicit ScenePicture(int samples);
     void begin(glm::ivec2 sizePixels);  // binds and clears; a new size is a new set of buffers
     unsigned finish();                  // resolves, tones; the texture that holds the display light
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/scene/picture.h"
+#include "render_node/scene/scene_picture.h"
 
 #include <algorithm>
 #include <string_view>
@@ -35,7 +35,7 @@ gl::Texture makeLayer(GLenum format, glm::ivec2 size, int samples) {
 
 }  // namespace
 
-Picture::Picture(int samples)
+ScenePicture::ScenePicture(int samples)
     : samples_{supported(samples)},
       tone_{gl::makeProgram({"quad.vert", "tone.frag"})},
       drawnColour_{static_cast<GLenum>(GL_TEXTURE_2D)},
@@ -43,7 +43,7 @@ Picture::Picture(int samples)
       resolvedColour_{static_cast<GLenum>(GL_TEXTURE_2D)},
       display_{static_cast<GLenum>(GL_TEXTURE_2D)} {}
 
-void Picture::allocate(glm::ivec2 sizePixels) {
+void ScenePicture::allocate(glm::ivec2 sizePixels) {
     size_ = sizePixels;
     drawnColour_ = makeLayer(GL_RGBA16F, size_, samples_);
     drawnDepth_ = makeLayer(GL_DEPTH_COMPONENT32F, size_, samples_);
@@ -56,7 +56,7 @@ void Picture::allocate(glm::ivec2 sizePixels) {
     resolved_ = makeTarget(resolvedColour_);
 }
 
-void Picture::begin(glm::ivec2 sizePixels) {
+void ScenePicture::begin(glm::ivec2 sizePixels) {
     if (sizePixels != size_) allocate(sizePixels);
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
     glViewport(0, 0, size_.x, size_.y);
@@ -68,7 +68,7 @@ void Picture::begin(glm::ivec2 sizePixels) {
     glDepthFunc(GL_GEQUAL);
 }
 
-unsigned Picture::finish() {
+unsigned ScenePicture::finish() {
     glDisable(GL_DEPTH_TEST);
     if (samples_ > 1)
         glBlitNamedFramebuffer(drawn_.name(),
