@@ -73,13 +73,13 @@ Process nodeProcess(const ShowOptions& options, const Rig& rig, const Channel& c
             .started = {}};
 }
 
-// Software OpenGL takes every core for each process; several nodes on one machine share them better
-// with one each.
+// Software OpenGL takes every core for each process; several nodes on one machine share them
+// better. Two threads at least: those that fill pixels rest while their node prepares vertices, so
+// that nodes take turns.
 void shareCores(const Rig& rig) {
-    const auto perNode =
-        std::thread::hardware_concurrency() / std::max<std::size_t>(rig.channels.size(), 1);
+    const std::size_t perNode = std::thread::hardware_concurrency() / rig.channels.size();
     setenv("LP_NUM_THREADS",
-           std::to_string(std::max<std::size_t>(perNode, 1)).c_str(),
+           std::to_string(std::max<std::size_t>(perNode, 2)).c_str(),
            /*overwrite=*/0);
 }
 

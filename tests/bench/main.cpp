@@ -71,8 +71,8 @@ double nanosecondsPerFish(const std::vector<benchmark::BenchmarkReporter::Run>& 
 void printFactor(const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
     const double step = nanosecondsPerFish(runs, "dynamics_step");
     const double frame = nanosecondsPerFish(runs, "dynamics_tick");
-    const double replay =
-        nanosecondsPerFish(runs, "body_frame/") + nanosecondsPerFish(runs, "nodal_points/");
+    const double replay = nanosecondsPerFish(runs, "body_frame/fish:1000/") +
+                          nanosecondsPerFish(runs, "nodal_points/fish:1000/");
     if (step == 0.0 || frame == 0.0 || replay == 0.0) return;
     std::printf(
         "dynamics to replay (body frame and 23 nodal points of a fish, %.1f ns); the paper has "
