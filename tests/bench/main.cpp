@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the benchmarks, writes them as CSV beside the machine's name, and prints the factor of the
 // paper's Table 1.
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <sys/resource.h>
 #include <sys/utsname.h>
 
 namespace {
@@ -23,12 +25,32 @@ std::string processorName() {
     return machine.machine;
 }
 
+// "Intel(R) Xeon(R) Processor" as a name for a file: intel-r-xeon-r-processor.
+std::string fileNameOf(const std::string& machine) {
+    std::string name;
+    for (const char letter : machine) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+        if (plain) name += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+        if (!plain && !name.empty() && name.back() != '-') name += '-';
+    }
+    return name;
+}
+
+// The most that this program has held at any time so far.
+double peakMemoryMib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
 // Prints to the console as usual and keeps every figure.
 class KeepingReporter : public benchmark::ConsoleReporter {
   public:
     void ReportRuns(const std::vector<Run>& runs) override {
         for (const Run& run : runs) {
-            if (!run.error_occurred) kept_.push_back(run);
+            if (run.error_occurred) continue;
+            kept_.push_back(run);
+            kept_.back().counters["peak_memory_mib"] = peakMemoryMib();
         }
         ConsoleReporter::ReportRuns(runs);
     }
@@ -90,7 +112,7 @@ int main(int count, char** arguments) {
     KeepingReporter reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);
     benchmark::Shutdown();
-    writeCsv(reporter.kept(), "build/bench/" + processorName() + ".csv");
+    writeCsv(reporter.kept(), "build/bench/" + fileNameOf(processorName()) + ".csv");
     printFactor(reporter.kept());
     return 0;
 }
