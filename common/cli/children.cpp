@@ -2,7 +2,7 @@
 #include "common/cli/children.h"
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 #include <signal.h>
 #include <sys/prctl.h>
@@ -46,7 +46,7 @@ std::vector<Ending> reap() {
 
 void listenForSignals() {
     const sigset_t signals = heardSignals();
-    sigprocmask(SIG_BLOCK, &signals, nullptr);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
 pid_t start(const Command& command) {
@@ -54,14 +54,15 @@ pid_t start(const Command& command) {
     const pid_t parent = getpid();
     const pid_t child = fork();
     if (child < 0)
-        throw Error("cannot start " + command.program.string() + ": " + std::strerror(errno));
+        throw Error("cannot start " + command.program.string() + ": " +
+                    std::system_category().message(errno));
     if (child > 0) return child;
 
     setpgid(0, 0);  // Ctrl-C is ours to pass on, once
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(1);  // we died before the line above
     const sigset_t signals = heardSignals();
-    sigprocmask(SIG_UNBLOCK, &signals, nullptr);
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
     execv(command.program.c_str(), arguments.data());
     _exit(127);
 }
@@ -78,7 +79,8 @@ Heard waitForChildren(std::chrono::milliseconds atMost) {
 void become(const Command& command) {
     const std::vector<char*> arguments = argumentVector(command);
     execv(command.program.c_str(), arguments.data());
-    throw Error("cannot start " + command.program.string() + ": " + std::strerror(errno));
+    throw Error("cannot start " + command.program.string() + ": " +
+                std::system_category().message(errno));
 }
 
 }  // namespace aquarama

@@ -78,6 +78,7 @@ Process nodeProcess(const ShowOptions& options, const Rig& rig, const Channel& c
 // that nodes take turns.
 void shareCores(const Rig& rig) {
     const std::size_t perNode = std::thread::hardware_concurrency() / rig.channels.size();
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
     setenv("LP_NUM_THREADS",
            std::to_string(std::max<std::size_t>(perNode, 2)).c_str(),
            /*overwrite=*/0);
