@@ -1,40 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/wire/envelope.h"
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "tests/common/wire/sample_envelopes.h"
-
-// Every byte that the process takes is counted, to prove what a hostile packet may cost.
-namespace {
-std::atomic<std::size_t> taken = 0;
-}
-void* operator new(std::size_t size) {
-    taken += size;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include "tests/support/count_memory.h"
 
 namespace aquarama {
 namespace {
 
 // decode(packet) and the memory that it took on the way.
 std::size_t memoryToDecode(std::span<const std::byte> packet) {
-    const std::size_t before = taken;
+    const std::size_t before = bytesTaken;
     const auto ignored = decode(packet);
-    return taken - before;
+    return bytesTaken - before;
 }
 
 std::string nameOf(const Envelope& envelope) {
