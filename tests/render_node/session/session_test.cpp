@@ -233,18 +233,19 @@ TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
     ASSERT_TRUE(master_.hear<Ready>());
-    const Instant at = monotonicNow() + milliseconds(100);
+    const Instant at = monotonicNow() + milliseconds(200);
     master_.say(Present{{0}, (at + master_.clockAhead).count()});
     EXPECT_EQ(release.get(), Release::Present);
-    // In memory a round trip takes no longer than the scheduler lets it: allow for half of that.
-    EXPECT_GE(monotonicNow(), at - milliseconds(50));
+    // Never before; but the clock's offset is known to half a round trip, which a busy machine
+    // stretches.
+    EXPECT_GE(monotonicNow(), at - milliseconds(150));
     master_.show(1);
     EXPECT_EQ(nextFrame(), 1U);
     release = readying(1);
     const auto ready = master_.hear<Ready>();
     ASSERT_TRUE(ready && ready->released);
     EXPECT_EQ(ready->released->frame, Frame{0});
-    EXPECT_GE(Instant{ready->released->atNs}, at + master_.clockAhead - milliseconds(100));
+    EXPECT_GE(Instant{ready->released->atNs}, at + master_.clockAhead - milliseconds(300));
     session_->stop();
     release.get();
 }
