@@ -14,7 +14,7 @@ namespace aquarama {
 namespace {
 
 constexpr std::string_view kMagic = "AQREP";
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kVersion = 2;
 constexpr std::size_t kLongestSpecies = 64;
 constexpr std::size_t kHeadBytes = 11;  // name, version, length of the whole file
 constexpr std::size_t kDigestBytes = 32;
@@ -22,6 +22,7 @@ constexpr float kLongestFishMetres = 60.0F;
 constexpr float kShortestPeriodSeconds = 0.02F;  // a beat of 50 Hz; no fish is near it
 constexpr float kLongestPeriodSeconds = 60.0F;
 constexpr float kLongestStepBodyLengths = 1.0F;  // in 1/64 of a cycle; a burst is near 0.02
+constexpr float kMostDrag = 1000.0F;  // 1 / body length: stops within a thousandth of one
 
 template <class Pose>
 void writePose(ByteWriter& out, const Pose& pose) {
@@ -84,6 +85,10 @@ bool inBounds(const FrameIncrement& step) {
            near(step.translation.y) && near(step.translation.z);
 }
 
+std::array<float*, 3> dragsOf(SpeedResponse& response) {
+    return {&response.swimDrag, &response.glideDrag, &response.brakeDrag};
+}
+
 // What is wrong with a segment, or nothing.
 std::optional<std::string> faultOf(const ActionSegment& segment) {
     if (!(segment.periodSeconds >= kShortestPeriodSeconds &&
@@ -109,7 +114,11 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
           repertoire.recordedLengthMetres <= kLongestFishMetres)) {
         return "has a recorded length outside 0 to 60 m";
     }
-    for (int action = 0; action < kActions; ++action) {
+    const auto [swim, glide, brake] = repertoire.response;
+    const auto isDrag = [](float drag) { return drag >= 0 && drag <= kMostDrag; };
+    if (!isDrag(swim) || !isDrag(glide) || !isDrag(brake))
+        return "has a drag outside 0 to 1000 per body length";
+    for (int action = 0; action < kCapturedActions; ++action) {
         if (const auto fault = faultOf(repertoire.segments[static_cast<std::size_t>(action)])) {
             return std::string("segment ") + nameOf(static_cast<Action>(action)) + " " + *fault;
         }
@@ -124,7 +133,7 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
 // Bit a: segment a has control points.
 unsigned segmentsWithControlPoints(const Repertoire& repertoire) {
     unsigned bits = 0;
-    for (unsigned action = 0; action < kActions; ++action) {
+    for (unsigned action = 0; action < kCapturedActions; ++action) {
         if (!repertoire.segments[action].controlPoints.empty()) bits |= 1U << action;
     }
     return bits;
@@ -132,7 +141,7 @@ unsigned segmentsWithControlPoints(const Repertoire& repertoire) {
 
 std::size_t bytesOfSegments(unsigned withControlPoints) {
     std::size_t bytes = 0;
-    for (unsigned action = 0; action < kActions; ++action) {
+    for (unsigned action = 0; action < kCapturedActions; ++action) {
         bytes += bytesOfSegment((withControlPoints >> action & 1U) != 0);
     }
     return bytes;
@@ -143,12 +152,13 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
     Repertoire repertoire;
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());
     repertoire.recordedLengthMetres = in.float32();
+    for (float* drag : dragsOf(repertoire.response)) *drag = in.float32();
     const unsigned withControlPoints = in.unsignedNumber<std::uint8_t>();
-    if (!in.ok() || withControlPoints >> kActions != 0 ||
+    if (!in.ok() || withControlPoints >> kCapturedActions != 0 ||
         in.remaining() != bytesOfSegments(withControlPoints)) {
         refuse(source, "is not as long as its head says");
     }
-    for (unsigned action = 0; action < kActions; ++action) {
+    for (unsigned action = 0; action < kCapturedActions; ++action) {
         ActionSegment& segment = repertoire.segments[action];
         segment.periodSeconds = in.float32();
         const auto playsToEnd = in.unsignedNumber<std::uint8_t>();
@@ -171,7 +181,8 @@ const char* nameOf(Action action) {
                                                        "turn_left_gradual",
                                                        "turn_left_sharp",
                                                        "turn_right_gradual",
-                                                       "turn_right_sharp"};
+                                                       "turn_right_sharp",
+                                                       "glide"};
     return kNames.at(static_cast<std::size_t>(action));
 }
 
@@ -182,13 +193,16 @@ std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire) {
     out.characters(kMagic);
     out.unsignedNumber(kVersion);
     out.unsignedNumber(
-        static_cast<std::uint32_t>(kHeadBytes + 1 + repertoire.species.size() + sizeof(float) + 1 +
-                                   bytesOfSegments(withControlPoints) + kDigestBytes));
+        static_cast<std::uint32_t>(kHeadBytes + 1 + repertoire.species.size() + 4 * sizeof(float) +
+                                   1 + bytesOfSegments(withControlPoints) + kDigestBytes));
     out.unsignedNumber(static_cast<std::uint8_t>(repertoire.species.size()));
     out.characters(repertoire.species);
     out.float32(repertoire.recordedLengthMetres);
+    SpeedResponse response = repertoire.response;
+    for (const float* drag : dragsOf(response)) out.float32(*drag);
     out.unsignedNumber(static_cast<std::uint8_t>(withControlPoints));
-    for (const ActionSegment& segment : repertoire.segments) writeSegment(out, segment);
+    for (std::size_t action = 0; action < kCapturedActions; ++action)
+        writeSegment(out, repertoire.segments[action]);
     out.characters(digestOf(out.written()).bytes);
     return std::move(out).take();
 }
@@ -214,6 +228,7 @@ Repertoire decodeRepertoire(std::span<const std::byte> bytes, const std::string&
     ByteReader in(content.subspan(kHeadBytes));
     Repertoire repertoire = readContent(in, source);
     if (const auto fault = faultOf(repertoire)) refuse(source, *fault);
+    addGlide(repertoire);
     return repertoire;
 }
 

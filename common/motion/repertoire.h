@@ -28,8 +28,10 @@ enum class Action : std::uint8_t {
     TurnLeftSharp,
     TurnRightGradual,
     TurnRightSharp,
+    Glide,
 };
-inline constexpr int kActions = 7;
+inline constexpr int kCapturedActions = 7;  // all but the last are captured
+inline constexpr int kActions = 8;
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
 
 // The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
@@ -55,18 +57,32 @@ struct ActionSegment {
     std::vector<ControlPointPose> controlPoints;  // s at phase k (eq. 9): kPhases of them, or none
 };
 
+// How the speed v of a fish goes after that of what it plays, in body lengths and seconds:
+//     dv/dt = drag (v_segment |v_segment| - v |v|),
+// the segment's thrust against drag by the square of the speed. A glide has no thrust.
+struct SpeedResponse {
+    float swimDrag = 0.0F;   // 1 / body length, while the tail beats
+    float glideDrag = 0.0F;  // with a straight body
+    float brakeDrag = 0.0F;  // what spread pectoral fins add
+};
+
 struct Repertoire {
     std::string species;
     float recordedLengthMetres = 0.0F;
+    SpeedResponse response;
     std::array<ActionSegment, kActions> segments{};
 };
 
-// The file: "AQREP", version, length, species, segments, SHA-256 of all that precedes it;
-// little-endian.
+// Fills in Action::Glide, which is not captured: the mean pose of forward_medium, straight on at
+// its speed. Motion warps lead into it and out of it (paper, section 4.2).
+void addGlide(Repertoire& repertoire);
+
+// The file: "AQREP", version, length, species, speed response, captured segments, SHA-256 of all
+// that precedes it; little-endian.
 [[nodiscard]] std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire);
 
-// Throws Error, naming `source`, when the bytes are truncated, altered, of another version or out
-// of bounds; sizes are checked before memory is taken.
+// With its glide. Throws Error, naming `source`, when the bytes are truncated, altered, of another
+// version or out of bounds; sizes are checked before memory is taken.
 [[nodiscard]] Repertoire decodeRepertoire(std::span<const std::byte> bytes,
                                           const std::string& source);
 

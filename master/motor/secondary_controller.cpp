@@ -177,7 +177,7 @@ Action SecondaryController::choose(std::size_t fish, const Moment& moment) const
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);
     const auto recommended = static_cast<Action>(drawn(seed, fish, Recommended, tick.value) %
-                                                 static_cast<std::uint32_t>(kActions));
+                                                 static_cast<std::uint32_t>(kCapturedActions));
     if (!accepts(*gaits, moment, recommended)) return chosen;
     memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, Hold, tick.value) % 46;
     return recommended;

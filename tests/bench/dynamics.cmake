@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES dynamics_bench.cpp LINK aquarama_capture)
+aquarama_bench(SOURCES dynamics_bench.cpp LINK aquarama_compile)

@@ -6,8 +6,8 @@
 
 #include "common/config/species.h"
 #include "common/units/ids.h"
-#include "master/capture/biomechanical_fish.h"
-#include "master/capture/muscle_programs.h"
+#include "master/capture/control/muscle_programs.h"
+#include "master/capture/dynamics/biomechanical_fish.h"
 
 namespace aquarama {
 namespace {

@@ -26,7 +26,7 @@ struct Gait {
     bool sharp = false;  // the turn begins and ends straight
 };
 
-inline std::array<Gait, kActions> gaits() {
+inline std::array<Gait, kCapturedActions> gaits() {
     constexpr double kDegree = std::numbers::pi / 180.0;
     const Gait gradual{.periodSeconds = 0.5, .turnRadians = 15 * kDegree, .stride = 0.55};
     const Gait sharp{
@@ -186,9 +186,11 @@ inline Repertoire syntheticRepertoire(bool withControlPoints = true,
     repertoire.species = species;
     repertoire.recordedLengthMetres = 0.2F;
     const auto gaits = synthetic::gaits();
-    for (std::size_t action = 0; action < kActions; ++action) {
+    for (std::size_t action = 0; action < kCapturedActions; ++action) {
         repertoire.segments[action] = synthetic::segmentOf(gaits[action], withControlPoints);
     }
+    repertoire.response = {.swimDrag = 0.6F, .glideDrag = 0.5F, .brakeDrag = 5.0F};
+    addGlide(repertoire);
     return repertoire;
 }
 

@@ -20,7 +20,7 @@ TEST(MotorTables, knowTheRatesThatWereRecorded) {
     EXPECT_EQ(recordedPhaseRate(sharedTables(), Action::ForwardSlow), 1092);  // 65536 / 60
     EXPECT_EQ(recordedPhaseRate(sharedTables(), Action::ForwardFast), 3277);
     const auto gaits = synthetic::gaits();
-    for (int a = 0; a < kActions; ++a) {
+    for (int a = 0; a < kCapturedActions; ++a) {
         const auto action = static_cast<Action>(a);
         const synthetic::Gait& gait = gaits[static_cast<std::size_t>(a)];
         EXPECT_NEAR(recordedSpeedBodyLengths(sharedTables(), action),

@@ -36,7 +36,7 @@ PresentedFish randomFish(std::mt19937& random) {
 // Eq. 12 with eq. 8 undone: n = o + R (alpha d), where d is what was captured.
 TEST(Reconstruct, nodalPointsAreThoseThatWereCaptured) {
     const auto rest = synthetic::restNodes();
-    for (std::size_t action = 0; action < kActions; ++action) {
+    for (std::size_t action = 0; action < kCapturedActions; ++action) {
         const synthetic::Gait gait = synthetic::gaits()[action];
         for (int k = 0; k < kPhases; k += 5) {
             const double phase = static_cast<double>(k) / kPhases;

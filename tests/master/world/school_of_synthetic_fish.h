@@ -23,16 +23,18 @@ inline Repertoire syntheticScad() {
         gait.turnRadians = -gait.turnRadians;
         return gait;
     };
-    const std::array<Gait, kActions> gaits{Gait{.periodSeconds = 1.0 / 2, .stride = 0.50},
-                                           Gait{.periodSeconds = 1.0 / 3, .stride = 0.65},
-                                           Gait{.periodSeconds = 1.0 / 5, .stride = 0.52},
-                                           gradual,
-                                           sharp,
-                                           right(gradual),
-                                           right(sharp)};
-    Repertoire scad{.species = "synthetic scad", .recordedLengthMetres = 0.24F, .segments = {}};
-    for (std::size_t action = 0; action < kActions; ++action)
+    const std::array<Gait, kCapturedActions> gaits{Gait{.periodSeconds = 1.0 / 2, .stride = 0.50},
+                                                   Gait{.periodSeconds = 1.0 / 3, .stride = 0.65},
+                                                   Gait{.periodSeconds = 1.0 / 5, .stride = 0.52},
+                                                   gradual,
+                                                   sharp,
+                                                   right(gradual),
+                                                   right(sharp)};
+    Repertoire scad{
+        .species = "synthetic scad", .recordedLengthMetres = 0.24F, .response = {}, .segments = {}};
+    for (std::size_t action = 0; action < kCapturedActions; ++action)
         scad.segments[action] = synthetic::segmentOf(gaits[action], false);
+    addGlide(scad);
     return scad;
 }
 

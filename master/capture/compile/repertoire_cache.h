@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Repertoires as files: written whole or not at all, and cached by what they were captured from.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "master/capture/compile/recording.h"
+
+namespace aquarama {
+
+// Throws Error when the folder or the file cannot be written; a reader sees the old file or the
+// new one, never a part.
+void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
+[[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path);
+
+// The encoded repertoire of the species in `speciesText`: from the folder where it was captured
+// before, else captured now and kept there. A damaged file is captured anew.
+[[nodiscard]] std::vector<std::byte> repertoireFor(const std::string& speciesText,
+                                                   const std::string& source,
+                                                   const std::filesystem::path& cacheFolder,
+                                                   const Progress& progress);
+
+}  // namespace aquarama

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The biomechanical fish as plain data, and one step of its dynamics. Units: body lengths, the
+// fish's mass, seconds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "common/config/species.h"
+#include "master/capture/dynamics/anatomy.h"
+
+namespace aquarama {
+
+using NodeVectors = std::array<glm::dvec3, kNodalPoints>;
+
+// How far each group of muscles is contracted, 0 to 1: each group is one pair, above and below.
+struct MuscleActivation {
+    double frontLeft = 0, frontRight = 0;
+    double middleLeft = 0, middleRight = 0;
+    double backLeft = 0, backRight = 0;
+};
+
+struct Spring {
+    std::uint8_t first = 0;
+    std::uint8_t second = 0;  // > first
+    double stiffness = 0;
+    double restLength = 0;
+};
+
+// A face with what its shape, the water and its place on the fish make of it: the force is
+// drag * area * (normal speed)^2.
+struct WettedFace {
+    std::array<std::uint8_t, 3> nodes{};
+    double drag = 0;
+};
+
+struct BiomechanicalFish {
+    NodeVectors restPositions{};
+    std::array<double, kNodalPoints> masses{};  // sum 1
+    std::array<Spring, kUnits> springs{};       // as anatomy().units
+    std::array<WettedFace, kDragFaces> faces{};
+    double damping = 0;            // of every unit
+    double muscleContraction = 0;  // share of its length lost at activation 1
+    double timeScale = 1;          // clocks of controllers run this many times faster
+};
+
+struct FishState {
+    NodeVectors positions{};
+    NodeVectors velocities{};
+};
+
+[[nodiscard]] BiomechanicalFish makeBiomechanicalFish(const Species& species);
+[[nodiscard]] FishState stateAtRest(const BiomechanicalFish& fish);
+
+// One step of linearised backward Euler over the 69 coupled equations of motion (the paper's
+// section 3): stable at any step, but it damps, so that a 60 Hz tick takes 8 * timeScale steps.
+void step(const BiomechanicalFish& fish,
+          const MuscleActivation& muscles,
+          double stepSeconds,
+          FishState& state);
+
+// The step at which the published speeds hold; a longer one damps more.
+[[nodiscard]] inline double longestStepSeconds(const BiomechanicalFish& fish) {
+    return 1 / (480 * fish.timeScale);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "master/capture/dynamics/biomechanical_fish.h"
+#include "master/capture/dynamics/envelope_system.h"
+
+namespace aquarama {
+
+namespace {
+
+double activationOf(const Unit& unit, const MuscleActivation& muscles) {
+    const bool isLeft = unit.side == Side::Left;
+    switch (unit.kind) {
+        case UnitKind::FrontMuscle:
+            return isLeft ? muscles.frontLeft : muscles.frontRight;
+        case UnitKind::MiddleMuscle:
+            return isLeft ? muscles.middleLeft : muscles.middleRight;
+        case UnitKind::BackMuscle:
+            return isLeft ? muscles.backLeft : muscles.backRight;
+        case UnitKind::Normal:
+        case UnitKind::Cross:
+            break;
+    }
+    return 0;
+}
+
+// A Voigt unit: spring and damper side by side, pulling along r / |r|. Its force is linearised in
+// the velocities at the end of the step; in compression the geometric stiffness would be negative
+// and is left out, which keeps the system positive definite at any step.
+void addSpring(const Spring& spring,
+               double length,
+               double damping,
+               double stepSeconds,
+               const FishState& state,
+               EnvelopeSystem& system) {
+    const glm::dvec3 r = state.positions[spring.second] - state.positions[spring.first];
+    const double distance = glm::length(r);
+    const glm::dvec3 u = r / distance;
+    const double force = spring.stiffness * (distance - length);
+    const double geometric = std::max(0.0, force / distance);
+    const double along = stepSeconds * (spring.stiffness - geometric) + damping;
+    const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(stepSeconds * geometric);
+    system.addDiagonalBlock(spring.first, block);
+    system.addDiagonalBlock(spring.second, block);
+    system.addOffDiagonalBlock(spring.first, spring.second, -block);
+    system.addToRightSide(spring.first, force * u);
+    system.addToRightSide(spring.second, -force * u);
+}
+
+// Only a face that advances into the water is pushed back (Tu & Terzopoulos 1994), here by the
+// square of its normal speed: -drag A (n.v)^2 n, a third on each node, one factor (n.v) taken at
+// the end of the step.
+void addDrag(const WettedFace& face, const FishState& state, EnvelopeSystem& system) {
+    const auto [a, b, c] = face.nodes;
+    const glm::dvec3 areaVector = glm::cross(state.positions[b] - state.positions[a],
+                                             state.positions[c] - state.positions[a]) /
+                                  2.0;
+    const glm::dvec3 velocity =
+        (state.velocities[a] + state.velocities[b] + state.velocities[c]) / 3.0;
+    const double flow = glm::dot(areaVector, velocity);  // area * normal speed
+    if (flow <= 0) return;
+    const double areaSquared = glm::dot(areaVector, areaVector);
+    const glm::dvec3 scaled = face.drag / 9 * flow / areaSquared * areaVector;
+    const glm::dmat3 block = glm::outerProduct(scaled, areaVector);
+    for (std::size_t i = 0; i < 3; ++i) {
+        system.addDiagonalBlock(face.nodes[i], block);
+        const auto next = face.nodes[(i + 1) % 3];
+        system.addOffDiagonalBlock(
+            std::min(face.nodes[i], next), std::max(face.nodes[i], next), block);
+    }
+}
+
+}  // namespace
+
+void step(const BiomechanicalFish& fish,
+          const MuscleActivation& muscles,
+          double stepSeconds,
+          FishState& state) {
+    EnvelopeSystem system;
+    for (int i = 0; i < kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        const double inertia = fish.masses[node] / stepSeconds;
+        system.addToDiagonal(i, inertia);
+        system.addToRightSide(i, inertia * state.velocities[node]);
+    }
+    for (std::size_t i = 0; i < kUnits; ++i) {
+        const Spring& spring = fish.springs[i];
+        const double activation = std::clamp(activationOf(anatomy().units[i], muscles), 0.0, 1.0);
+        const double length = spring.restLength * (1 - fish.muscleContraction * activation);
+        addSpring(spring, length, fish.damping, stepSeconds, state, system);
+    }
+    for (const WettedFace& face : fish.faces) addDrag(face, state, system);
+    system.solve();
+    for (int i = 0; i < kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        state.velocities[node] = system.solution(i);
+        state.positions[node] += stepSeconds * state.velocities[node];
+    }
+}
+
+}  // namespace aquarama

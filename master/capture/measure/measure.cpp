@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/measure/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "common/units/ids.h"
+
+namespace aquarama {
+
+namespace {
+
+NodeVectors poseAt(const ActionSegment& segment, std::size_t phase) {
+    NodeVectors pose{};
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+        const auto& integers = segment.nodes.at(phase % kPhases).at(i);
+        pose.at(i) =
+            static_cast<double>(kPoseUnit) * glm::dvec3(integers[0], integers[1], integers[2]);
+    }
+    return pose;
+}
+
+double largestStepOf(const ActionSegment& segment) {
+    const double phasesInTick =
+        kPhases / (static_cast<double>(segment.periodSeconds) * kTicksPerSecond);
+    double largest = 0;
+    for (std::size_t k = 0; k < kPhases; ++k) {
+        const NodeVectors now = poseAt(segment, k);
+        const NodeVectors next = poseAt(segment, k + 1);
+        for (std::size_t i = 0; i < now.size(); ++i)
+            largest = std::max(largest, glm::distance(now.at(i), next.at(i)) * phasesInTick);
+    }
+    return largest;
+}
+
+// The way of a cycle without the sway of the beat: straight on, or along the arc about the point
+// that a turning cycle goes round, at the origin's mean distance from it. A sharp turn has no beat.
+double strideOf(const std::vector<ReplayedPhase>& phases, double turn, bool isSharp) {
+    const glm::dvec3 chord = phases.back().origin - phases.front().origin;
+    constexpr double kStraight = 1e-4;
+    if (!isSharp && std::abs(turn) < kStraight) return glm::length(chord);
+    const glm::dvec3 toTheLeft = glm::cross(glm::dvec3(0, 1, 0), chord);
+    const glm::dvec3 centre =
+        phases.front().origin + (chord + toTheLeft / std::tan(turn / 2)) / 2.0;
+    double way = 0;
+    for (std::size_t k = 0; k + 1 < phases.size(); ++k)
+        way += isSharp ? glm::distance(phases[k].origin, phases[k + 1].origin)
+                       : glm::distance(phases[k].origin, centre) * std::abs(turn) / kPhases;
+    return way;
+}
+
+double peakToPeak(const std::vector<ReplayedPhase>& phases,
+                  const glm::dvec3& across,
+                  const auto& pointOf) {
+    double least = std::numeric_limits<double>::max();
+    double most = -least;
+    for (const ReplayedPhase& phase : phases) {
+        const double at = glm::dot(pointOf(phase.nodes), across);
+        least = std::min(least, at);
+        most = std::max(most, at);
+    }
+    return most - least;
+}
+
+}  // namespace
+
+std::vector<ReplayedPhase> replay(const ActionSegment& segment, int cycles) {
+    std::vector<ReplayedPhase> phases;
+    glm::dvec3 origin{};
+    glm::dquat rotation{1, 0, 0, 0};
+    const auto count = static_cast<std::size_t>(cycles) * kPhases;
+    for (std::size_t k = 0; k <= count; ++k) {
+        ReplayedPhase phase{origin, rotation, poseAt(segment, k)};
+        for (glm::dvec3& node : phase.nodes) node = origin + rotation * node;
+        phases.push_back(phase);
+        const FrameIncrement& increment = segment.increments.at(k % kPhases);
+        origin += rotation * glm::dvec3(increment.translation);
+        rotation = glm::normalize(rotation * glm::dquat(increment.rotation));
+    }
+    return phases;
+}
+
+SegmentMeasures measure(const ActionSegment& segment) {
+    const std::vector<ReplayedPhase> phases = replay(segment, 1);
+    const ReplayedPhase& end = phases.back();
+    const glm::dvec3 up{0, 1, 0};
+    const glm::dvec3 heading = end.worldFromBody * glm::dvec3(1, 0, 0);
+    SegmentMeasures m;
+    m.periodSeconds = static_cast<double>(segment.periodSeconds);
+    m.turnRadians = std::atan2(-heading.z, heading.x);
+    m.turnRate = m.turnRadians / m.periodSeconds;
+    m.strideBodyLengths = strideOf(phases, m.turnRadians, segment.playsToEnd);
+    m.speedBodyLengths = m.strideBodyLengths / m.periodSeconds;
+    m.leanRadians = std::acos(std::min(1.0, glm::dot(end.worldFromBody * up, up)));
+    m.climb = end.origin.y;
+    m.largestStep = largestStepOf(segment);
+
+    const glm::dvec3 across = glm::normalize(glm::cross(end.origin, up));
+    m.tailAmplitude = peakToPeak(
+        phases, across, [](const NodeVectors& nodes) { return (nodes[21] + nodes[22]) / 2.0; });
+    m.noseAmplitude = peakToPeak(phases, across, [](const NodeVectors& nodes) { return nodes[0]; });
+    m.strouhal = m.tailAmplitude / m.strideBodyLengths;
+    return m;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "common/motion/repertoire.h"
+#include "common/units/error.h"
+#include "master/capture/compile/config_folder.h"
+#include "master/capture/compile/repertoire_cache.h"
+#include "master/capture/report/inspect.h"
+#include "tests/support/scad.h"
+
+namespace aquarama {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RepertoireCache : public testing::Test {
+  protected:
+    void SetUp() override {
+        fs::remove_all(folder_);
+        std::ostringstream text;
+        text << std::ifstream(kScadFile).rdbuf();
+        text_ = text.str();
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    // Returns whether it was simulated.
+    bool fetch() {
+        bool simulated = false;
+        bytes_ = repertoireFor(text_, "scad", folder_, [&](double) { simulated = true; });
+        return simulated;
+    }
+    [[nodiscard]] std::vector<fs::path> files() const {
+        return {fs::directory_iterator(folder_), fs::directory_iterator()};
+    }
+
+    fs::path folder_ = fs::path(testing::TempDir()) / "aquarama_repertoire_cache";
+    std::string text_;
+    std::vector<std::byte> bytes_;
+};
+
+TEST_F(RepertoireCache, capturesOnceAndKeepsOneFile) {
+    EXPECT_TRUE(fetch());
+    const auto first = bytes_;
+    EXPECT_FALSE(fetch());
+    EXPECT_EQ(bytes_, first);
+    EXPECT_EQ(files().size(), 1U);
+}
+
+TEST_F(RepertoireCache, aChangedSpeciesIsCapturedAnew) {
+    EXPECT_TRUE(fetch());
+    text_ += "# another word\n";
+    EXPECT_TRUE(fetch());
+    EXPECT_EQ(files().size(), 2U);
+}
+
+TEST_F(RepertoireCache, aDamagedFileIsCapturedAnew) {
+    EXPECT_TRUE(fetch());
+    const auto whole = bytes_;
+    fs::resize_file(files().front(), 1000);
+    EXPECT_TRUE(fetch());
+    EXPECT_EQ(bytes_, whole);
+    EXPECT_FALSE(fetch());
+}
+
+TEST_F(RepertoireCache, aFolderThatCannotBeWrittenIsRefusedByName) {
+    std::ofstream(folder_).put('x');  // a file where the folder should be
+    try {
+        fetch();
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(folder_.string()), std::string::npos);
+    }
+}
+
+TEST(Inspection, namesSpeciesDigestAndSegments) {
+    std::vector<std::byte> bytes = encodeRepertoire(scadRepertoire());
+    const std::string text = inspectRepertoire(bytes, "scad.aqrep");
+    for (const char* word : {"bigeye_scad", "sha256", "forward_fast", "turn_right_sharp"})
+        EXPECT_NE(text.find(word), std::string::npos) << word;
+    bytes[bytes.size() / 2] ^= std::byte{1};
+    EXPECT_THROW(static_cast<void>(inspectRepertoire(bytes, "scad.aqrep")), Error);
+}
+
+TEST(SpeciesFiles, areFoundByNameByPathOrAll) {
+    const fs::path config = AQUARAMA_SOURCE_DIR "/config";
+    EXPECT_EQ(speciesFiles({"bigeye_scad"}, config).front(), fs::path(kScadFile));
+    EXPECT_EQ(speciesFiles({kScadFile}, config).front(), fs::path(kScadFile));
+    EXPECT_FALSE(speciesFiles({}, config).empty());
+    EXPECT_THROW(static_cast<void>(speciesFiles({"mermaid"}, config)), Error);
+    EXPECT_THROW(static_cast<void>(speciesFiles({}, "/nowhere")), Error);
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <gtest/gtest.h>
+
+#include "master/capture/control/muscle_programs.h"
+#include "master/capture/dynamics/biomechanical_fish.h"
+#include "master/capture/dynamics/body_frame.h"
+#include "master/capture/dynamics/envelope_system.h"
+#include "tests/master/capture/dynamics/dense.h"
+#include "tests/support/scad.h"
+
+namespace aquarama {
+namespace {
+
+BiomechanicalFish inVacuum() {
+    BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    for (WettedFace& face : fish.faces) face.drag = 0;
+    return fish;
+}
+
+double energyOf(const BiomechanicalFish& fish, const FishState& state) {
+    double energy = 0;
+    for (std::size_t i = 0; i < state.velocities.size(); ++i)
+        energy += fish.masses.at(i) * glm::dot(state.velocities.at(i), state.velocities.at(i)) / 2;
+    for (const Spring& spring : fish.springs) {
+        const double stretch =
+            glm::distance(state.positions.at(spring.first), state.positions.at(spring.second)) -
+            spring.restLength;
+        energy += spring.stiffness * stretch * stretch / 2;
+    }
+    return energy;
+}
+
+glm::dvec3 momentumOf(const BiomechanicalFish& fish, const FishState& state) {
+    glm::dvec3 momentum{};
+    for (std::size_t i = 0; i < state.velocities.size(); ++i)
+        momentum += fish.masses.at(i) * state.velocities.at(i);
+    return momentum;
+}
+
+// Hit from the side at the tail and stretched: everything that can move does.
+FishState disturbed(const BiomechanicalFish& fish) {
+    FishState state = stateAtRest(fish);
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+        const auto k = static_cast<double>(i);
+        state.positions.at(i) +=
+            0.01 * glm::dvec3(std::sin(3 * k), std::sin(5 * k + 1), std::sin(7 * k + 2));
+        state.velocities.at(i) = 0.5 * glm::dvec3(std::cos(2 * k), std::cos(k), std::sin(4 * k));
+    }
+    return state;
+}
+
+void addBlock(DenseMatrix& matrix, int rowNode, int columnNode, const glm::dmat3& block) {
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q)
+            matrix.at(3 * static_cast<std::size_t>(rowNode) + static_cast<std::size_t>(p))
+                .at(3 * static_cast<std::size_t>(columnNode) + static_cast<std::size_t>(q)) +=
+                block[p][q];
+}
+
+TEST(EnvelopeSystem, solvesWhatADenseSolverSolves) {
+    constexpr std::size_t kSize = EnvelopeSystem::kUnknowns;
+    EnvelopeSystem system;
+    DenseMatrix dense(kSize, std::vector<double>(kSize));
+    std::vector<double> right;
+    for (int i = 0; i < kNodalPoints; ++i) {
+        system.addToDiagonal(i, 1 + 0.1 * i);
+        addBlock(dense, i, i, glm::dmat3(1 + 0.1 * i));
+        const glm::dvec3 value{std::sin(i), std::cos(i), 0.5};
+        system.addToRightSide(i, value);
+        right.insert(right.end(), {value.x, value.y, value.z});
+    }
+    for (const Unit& unit : anatomy().units) {
+        const glm::dvec3 u = glm::normalize(
+            glm::dvec3(std::sin(unit.first), std::cos(unit.second), std::sin(unit.second)));
+        const glm::dmat3 block = glm::outerProduct(u, u) + glm::dmat3(0.1);
+        system.addDiagonalBlock(unit.first, block);
+        system.addDiagonalBlock(unit.second, block);
+        system.addOffDiagonalBlock(unit.first, unit.second, -block);
+        addBlock(dense, unit.first, unit.first, block);
+        addBlock(dense, unit.second, unit.second, block);
+        addBlock(dense, unit.first, unit.second, -block);
+        addBlock(dense, unit.second, unit.first, -block);
+    }
+    system.solve();
+    const std::vector<double> expected = solveDense(dense, right);
+    for (int i = 0; i < kNodalPoints; ++i)
+        for (int p = 0; p < 3; ++p)
+            EXPECT_NEAR(system.solution(i)[p],
+                        expected.at(3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(p)),
+                        1e-12);
+}
+
+TEST(Dynamics, aFishAtRestStaysAtRest) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    FishState state = stateAtRest(fish);
+    for (int i = 0; i < 100; ++i) step(fish, {}, longestStepSeconds(fish), state);
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+        EXPECT_LT(glm::distance(state.positions.at(i), fish.restPositions.at(i)), 1e-12);
+}
+
+TEST(Dynamics, energyNeverGrowsWithoutMuscles) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    // Long steps too: the scheme is stable at any.
+    for (const double seconds : {longestStepSeconds(fish), 1.0 / 60, 1.0 / 30}) {
+        FishState state = disturbed(fish);
+        double energy = energyOf(fish, state);
+        for (int i = 0; i < 300; ++i) {
+            step(fish, {}, seconds, state);
+            const double now = energyOf(fish, state);
+            ASSERT_LE(now, energy * (1 + 1e-12)) << "step " << i << " of " << seconds << " s";
+            energy = now;
+        }
+        EXPECT_LT(energy, 0.1 * energyOf(fish, disturbed(fish)));
+    }
+}
+
+TEST(Dynamics, momentumIsKeptInAVacuumWhateverTheMusclesDo) {
+    const BiomechanicalFish fish = inVacuum();
+    FishState state = disturbed(fish);
+    const glm::dvec3 before = momentumOf(fish, state);
+    for (int i = 0; i < 500; ++i) {
+        const double seconds = i * longestStepSeconds(fish);
+        step(fish, swim(scad(), scad().swim.medium, seconds), longestStepSeconds(fish), state);
+    }
+    EXPECT_LT(glm::distance(momentumOf(fish, state), before), 1e-10);
+}
+
+TEST(Dynamics, waterOnlyEverSlowsAStiffFish) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    FishState state = stateAtRest(fish);
+    for (glm::dvec3& velocity : state.velocities) velocity = {2, 0, 0};
+    double speed = momentumOf(fish, state).x;
+    for (int i = 0; i < 200; ++i) {
+        step(fish, {}, longestStepSeconds(fish), state);
+        const double now = momentumOf(fish, state).x;
+        ASSERT_LT(now, speed);
+        ASSERT_GT(now, 0);
+        speed = now;
+    }
+}
+
+TEST(Dynamics, exchangedMusclesSwimTheMirroredPath) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    FishState left = stateAtRest(fish);
+    FishState right = stateAtRest(fish);
+    for (int i = 0; i < 600; ++i) {
+        const MuscleActivation m =
+            turnLeftGradually(scad(), static_cast<double>(i) * longestStepSeconds(fish));
+        step(fish, m, longestStepSeconds(fish), left);
+        step(fish,
+             {.frontLeft = m.frontRight,
+              .frontRight = m.frontLeft,
+              .middleLeft = m.middleRight,
+              .middleRight = m.middleLeft,
+              .backLeft = m.backRight,
+              .backRight = m.backLeft},
+             longestStepSeconds(fish),
+             right);
+    }
+    for (int i = 0; i < kNodalPoints; ++i) {
+        const glm::dvec3 image = glm::dvec3(1, 1, -1) *
+                                 right.positions.at(static_cast<std::size_t>(mirroredLeftRight(i)));
+        EXPECT_LT(glm::distance(left.positions.at(static_cast<std::size_t>(i)), image), 1e-9);
+    }
+}
+
+TEST(Dynamics, swimsInAPlane) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    FishState state = stateAtRest(fish);
+    for (int i = 0; i < 5000; ++i)
+        step(fish,
+             swim(scad(), scad().swim.fast, i * longestStepSeconds(fish)),
+             longestStepSeconds(fish),
+             state);
+    for (int i = 0; i < kNodalPoints; ++i) {
+        const double height = state.positions.at(static_cast<std::size_t>(i)).y;
+        const double image = state.positions.at(static_cast<std::size_t>(mirroredTopBottom(i))).y;
+        EXPECT_NEAR(height, -image, 1e-9);
+    }
+}
+
+TEST(BodyFrame, isOrthonormalAndPointsForwardUpAndRight) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const PoseFrame rest = frameOf(fish.restPositions);
+    EXPECT_LT(glm::distance(rest.worldFromBody[0], glm::dvec3(1, 0, 0)), 1e-12);
+    EXPECT_LT(glm::distance(rest.worldFromBody[1], glm::dvec3(0, 1, 0)), 1e-12);
+    EXPECT_LT(glm::distance(rest.worldFromBody[2], glm::dvec3(0, 0, 1)), 1e-12);
+    const PoseFrame bent = frameOf(disturbed(fish).positions);
+    const glm::dmat3 square = glm::transpose(bent.worldFromBody) * bent.worldFromBody;
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q) EXPECT_NEAR(square[p][q], p == q ? 1 : 0, 1e-12);
+    EXPECT_GT(glm::determinant(bent.worldFromBody), 0);
+}
+
+}  // namespace
+}  // namespace aquarama
