@@ -156,10 +156,12 @@ Swim readSwim(const TextPlace& at) {
             .fast = readGait(at.in("fast"))};
 }
 
+Bend readBend(const TextPlace& at) {
+    return {.strength = at.number("strength", kShare), .tempo = at.number("tempo", {0.5, 4})};
+}
+
 Turn readTurn(const TextPlace& at) {
-    return {.frontBias = at.number("front_bias", kShare),
-            .middleBias = at.number("middle_bias", kShare),
-            .bend = at.number("bend", kShare)};
+    return {.gradual = readBend(at.in("gradual")), .sharp = readBend(at.in("sharp"))};
 }
 
 SchoolHabits readSchool(const TextPlace& at) {

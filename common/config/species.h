@@ -76,9 +76,14 @@ struct Swim {
     Gait slow, medium, fast;
 };
 
+// Of the whole body to one side, quick to come and slow to go.
+struct Bend {
+    double strength = 0;  // 0 to 1
+    double tempo = 1;     // 1: over in 1.45 of the fish's own seconds
+};
+
 struct Turn {
-    double frontBias = 0, middleBias = 0;  // gradual: one side always drawn in by this much
-    double bend = 0;                       // sharp: strength of the bend, 0 to 1
+    Bend gradual, sharp;
 };
 
 struct SizeRange {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What aquarama-capture can do: each adds itself to the command line and, when it was asked for, runs
-// once that is parsed. Errors are thrown.
+// What aquarama-capture can do: each adds itself to the command line and, when it was asked for,
+// runs once that is parsed. Errors are thrown.
 #pragma once
 
 namespace CLI {

@@ -17,7 +17,7 @@ namespace {
 
 // By then the pose repeats itself from cycle to cycle within 1e-5 body lengths.
 constexpr int kWarmUpCycles = 24;
-// "Straight again" for the end of a sharp turn, and how long it may take: the fish's own seconds.
+// "Straight again" for the end of a turn, and how long it may take: the fish's own seconds.
 constexpr double kStraightBodyLengths = 0.03;
 constexpr double kLongestRecovery = 4;
 
@@ -81,17 +81,16 @@ double bendOf(const NodeVectors& pose, const NodeVectors& straight) {
     return most;
 }
 
-Recording recordSharpTurn(const Species& species,
-                          const BiomechanicalFish& fish,
-                          const Progress& progress) {
+Recording recordTurn(const Species& species,
+                     const Bend& bend,
+                     const BiomechanicalFish& fish,
+                     const Progress& progress) {
     const double beatSeconds = 1 / species.swim.medium.beatHertz;
     const double stepSeconds = beatSeconds / (kPhases * stepsPerPhase(fish, beatSeconds));
     const auto beatSteps = static_cast<int>(std::lround(beatSeconds / stepSeconds));
     const double onset = kWarmUpCycles * beatSeconds;
     Simulation simulation(
-        fish,
-        [&](double seconds) { return turnLeftSharply(species, onset, seconds); },
-        stepSeconds);
+        fish, [&](double seconds) { return turnLeft(species, bend, onset, seconds); }, stepSeconds);
     for (int cycle = 0; cycle < kWarmUpCycles; ++cycle) {
         simulation.advance(beatSteps);
         progress((cycle + 1.0) / (kWarmUpCycles + 4));
@@ -99,14 +98,14 @@ Recording recordSharpTurn(const Species& species,
 
     std::vector<NodeVectors> poses{simulation.pose()};
     const NodeVectors straight = inBodyFrame(fish.restPositions);
-    const double muscleSteps = sharpTurnSeconds(species) / stepSeconds;
+    const double muscleSteps = secondsOf(bend, species) / stepSeconds;
     const double mostSteps = kLongestRecovery / fish.timeScale / stepSeconds;
     while (static_cast<double>(poses.size()) < muscleSteps || (poses.size() - 1) % kPhases != 0 ||
            bendOf(poses.back(), straight) > kStraightBodyLengths) {
         if (static_cast<double>(poses.size()) > mostSteps)
             throw Error(species.name +
-                        ": after a sharp turn the fish does not become straight; "
-                        "change turn.bend or the tissue in its species file");
+                        ": after a turn the fish does not become straight; "
+                        "change `turn` or `tissue` in its species file");
         simulation.advance(1);
         poses.push_back(simulation.pose());
     }
@@ -139,13 +138,9 @@ Recording record(const Species& species, Action action, const Progress& progress
         case Action::ForwardFast:
             return forward(species.swim.fast);
         case Action::TurnLeftGradual:
-            return recordCycle(
-                fish,
-                species.swim.medium.beatHertz,
-                [&](double seconds) { return turnLeftGradually(species, seconds); },
-                progress);
+            return recordTurn(species, species.turn.gradual, fish, progress);
         case Action::TurnLeftSharp:
-            return recordSharpTurn(species, fish, progress);
+            return recordTurn(species, species.turn.sharp, fish, progress);
         case Action::TurnRightGradual:
         case Action::TurnRightSharp:
         case Action::Glide:

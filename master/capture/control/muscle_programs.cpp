@@ -10,15 +10,15 @@ namespace aquarama {
 namespace {
 
 // Of the fish's own seconds (Tissue::timeScale of them in one of ours).
-struct Bend {
+struct Pull {
     double delay, rise, hold, fall;
     double strength;  // activation at a bend of 1
 };
 // Found by a search over manoeuvres: with these the heading changes by 35 to 70 degrees as the bend
 // goes from 0.2 to 1.
-constexpr Bend kFront{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.10};
-constexpr Bend kMiddle{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.55};
-constexpr Bend kBack{.delay = 0.04, .rise = 0.10, .hold = 0.40, .fall = 0.45, .strength = 1.0};
+constexpr Pull kFront{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.10};
+constexpr Pull kMiddle{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.55};
+constexpr Pull kBack{.delay = 0.04, .rise = 0.10, .hold = 0.40, .fall = 0.45, .strength = 1.0};
 constexpr double kSwimFade = 0.04;
 constexpr double kRamp = 1.0;
 
@@ -27,11 +27,11 @@ double smoothStep(double t) {
     return u * u * (3 - 2 * u);
 }
 
-double bendAt(const Bend& bend, double strength, double ownSeconds) {
-    const double since = ownSeconds - bend.delay;
-    const double up = smoothStep(since / bend.rise);
-    const double down = smoothStep((since - bend.rise - bend.hold) / bend.fall);
-    return strength * bend.strength * up * (1 - down);
+double pullAt(const Pull& pull, double strength, double ownSeconds) {
+    const double since = ownSeconds - pull.delay;
+    const double up = smoothStep(since / pull.rise);
+    const double down = smoothStep((since - pull.rise - pull.hold) / pull.fall);
+    return strength * pull.strength * up * (1 - down);
 }
 
 MuscleActivation scaled(const MuscleActivation& muscles, double by) {
@@ -58,31 +58,22 @@ MuscleActivation swim(const Species& species, const Gait& gait, double seconds) 
             .backRight = backDrive * (1 - back)};
 }
 
-MuscleActivation turnLeftGradually(const Species& species, double seconds) {
-    MuscleActivation muscles = swim(species, species.swim.medium, seconds);
-    const double ramp = smoothStep(seconds * species.tissue.timeScale / kRamp);
-    muscles.frontLeft += species.turn.frontBias * ramp;
-    muscles.middleLeft += species.turn.middleBias * ramp;
-    return muscles;
-}
-
-MuscleActivation turnLeftSharply(const Species& species, double onset, double seconds) {
-    const double own = (seconds - onset) * species.tissue.timeScale;
+MuscleActivation turnLeft(const Species& species, const Bend& bend, double onset, double seconds) {
+    const double own = (seconds - onset) * species.tissue.timeScale * bend.tempo;
     const double swimming = std::clamp(1 - own / kSwimFade, 0.0, 1.0);
     MuscleActivation muscles = scaled(swim(species, species.swim.medium, seconds), swimming);
-    const double bend = species.turn.bend;
-    muscles.frontLeft = std::max(muscles.frontLeft, bendAt(kFront, bend, own));
-    muscles.middleLeft = std::max(muscles.middleLeft, bendAt(kMiddle, bend, own));
-    muscles.backLeft = std::max(muscles.backLeft, bendAt(kBack, bend, own));
+    muscles.frontLeft = std::max(muscles.frontLeft, pullAt(kFront, bend.strength, own));
+    muscles.middleLeft = std::max(muscles.middleLeft, pullAt(kMiddle, bend.strength, own));
+    muscles.backLeft = std::max(muscles.backLeft, pullAt(kBack, bend.strength, own));
     return muscles;
 }
 
-double sharpTurnSeconds(const Species& species) {
+double secondsOf(const Bend& bend, const Species& species) {
     constexpr double kOwnSeconds =
         std::max({kFront.delay + kFront.rise + kFront.hold + kFront.fall,
                   kMiddle.delay + kMiddle.rise + kMiddle.hold + kMiddle.fall,
                   kBack.delay + kBack.rise + kBack.hold + kBack.fall});
-    return kOwnSeconds / species.tissue.timeScale;
+    return kOwnSeconds / (species.tissue.timeScale * bend.tempo);
 }
 
 }  // namespace aquarama

@@ -11,16 +11,14 @@ namespace aquarama {
 // runs down the body (Tu 1996, swim-MC). Begins from rest with a ramp of one of the fish's seconds.
 [[nodiscard]] MuscleActivation swim(const Species& species, const Gait& gait, double seconds);
 
-// Swimming at medium speed with front and middle drawn in a little on the left all the time.
-[[nodiscard]] MuscleActivation turnLeftGradually(const Species& species, double seconds);
-
 // A bend of the whole body to the left, quick to come and slow to go, so that the shape recovers
 // without undoing the turn (Tu & Terzopoulos 1994, turn-MC). Until `onset` the fish swims at medium
 // speed.
-[[nodiscard]] MuscleActivation turnLeftSharply(const Species& species,
-                                               double onset,
-                                               double seconds);
+[[nodiscard]] MuscleActivation turnLeft(const Species& species,
+                                        const Bend& bend,
+                                        double onset,
+                                        double seconds);
 // After onset, until all muscles are relaxed.
-[[nodiscard]] double sharpTurnSeconds(const Species& species);
+[[nodiscard]] double secondsOf(const Bend& bend, const Species& species);
 
 }  // namespace aquarama

@@ -148,8 +148,8 @@ TEST(Dynamics, exchangedMusclesSwimTheMirroredPath) {
     FishState left = stateAtRest(fish);
     FishState right = stateAtRest(fish);
     for (int i = 0; i < 600; ++i) {
-        const MuscleActivation m =
-            turnLeftGradually(scad(), static_cast<double>(i) * longestStepSeconds(fish));
+        const MuscleActivation m = turnLeft(
+            scad(), scad().turn.gradual, 0.0, static_cast<double>(i) * longestStepSeconds(fish));
         step(fish, m, longestStepSeconds(fish), left);
         step(fish,
              {.frontLeft = m.frontRight,
