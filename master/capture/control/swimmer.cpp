@@ -38,7 +38,7 @@ void Swimmer::advance(int steps) {
 
 void Swimmer::advanceOne() {
     muscles_ = mix(musclesBefore_, program(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
-    step(fish_, muscles_, stepSeconds_, state_);
+    step(fish_, {.muscles = muscles_, .fins = {}}, stepSeconds_, state_);
     ++steps_;
     const double ownSeconds = stepSeconds_ * fish_.timeScale;
     ownSecondsOfOrder_ += ownSeconds;
