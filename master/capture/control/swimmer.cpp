@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "master/capture/control/fin_programs.h"
 #include "master/capture/control/muscle_programs.h"
 
 namespace aquarama {
@@ -29,6 +30,7 @@ Swimmer::Swimmer(const Species& species)
 void Swimmer::give(const Order& order) {
     order_ = order;
     ownSecondsOfOrder_ = 0;
+    headingOfOrder_ = attitude_.headingRadians;
     musclesBefore_ = muscles_;
 }
 
@@ -37,13 +39,14 @@ void Swimmer::advance(int steps) {
 }
 
 void Swimmer::advanceOne() {
-    muscles_ = mix(musclesBefore_, program(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
-    step(fish_, {.muscles = muscles_, .fins = {}}, stepSeconds_, state_);
+    muscles_ = mix(musclesBefore_, muscleProgram(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
+    step(fish_, {.muscles = muscles_, .fins = finProgram()}, stepSeconds_, state_);
     ++steps_;
+    const double beatHertz = std::max(order_.gait.beatHertz, fish_.timeScale);
+    attitude_ = mix(attitude_, attitudeOf(state_), stepSeconds_ * beatHertz);
     const double ownSeconds = stepSeconds_ * fish_.timeScale;
     ownSecondsOfOrder_ += ownSeconds;
-    if (!swims()) return;
-    ownSecondsSwum_ += ownSeconds;
+    if (swims()) ownSecondsSwum_ += ownSeconds;
     beat_ += stepSeconds_ * order_.gait.beatHertz;
     beat_ -= std::floor(beat_);
 }
@@ -65,7 +68,7 @@ bool Swimmer::swims() const {
     return false;
 }
 
-MuscleActivation Swimmer::program() const {
+MuscleActivation Swimmer::muscleProgram() const {
     if (swims()) {
         const double grown = std::min(1.0, ownSecondsSwum_ / kFirstSecond);
         return beatAt(swim_, order_.gait.gain * grown, beat_);
@@ -73,6 +76,27 @@ MuscleActivation Swimmer::program() const {
     if (order_.controller == Controller::LeftTurn) return bendLeft(order_.bend, ownSecondsOfOrder_);
     if (order_.controller == Controller::RightTurn)
         return mirrored(bendLeft(order_.bend, ownSecondsOfOrder_));
+    return {};
+}
+
+PectoralFins Swimmer::finProgram() const {
+    switch (order_.controller) {
+        case Controller::Ascend:
+            return hold(attitude_, order_.pitchRadians);
+        case Controller::Descend:
+            return hold(attitude_, -order_.pitchRadians);
+        case Controller::Balance:
+            return hold(attitude_, 0);
+        case Controller::Brake:
+            return brake();
+        case Controller::Retreat:
+            return row(order_.gait, beat_, attitude_, headingOfOrder_);
+        case Controller::ForwardSwim:
+        case Controller::LeftTurn:
+        case Controller::RightTurn:
+        case Controller::Glide:
+            break;
+    }
     return {};
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "common/config/species.h"
+#include "master/capture/control/attitude.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
 namespace aquarama {
@@ -48,8 +49,9 @@ class Swimmer {
 
   private:
     void advanceOne();
-    [[nodiscard]] MuscleActivation program() const;
     [[nodiscard]] bool swims() const;
+    [[nodiscard]] MuscleActivation muscleProgram() const;
+    [[nodiscard]] PectoralFins finProgram() const;
 
     BiomechanicalFish fish_;
     Swim swim_;
@@ -60,7 +62,9 @@ class Swimmer {
     Order order_;
     double ownSecondsOfOrder_ = 0;
     double ownSecondsSwum_ = 0;
-    double beat_ = 0;  // 0 to 1
+    double beat_ = 0;  // of tail or fins, 0 to 1
+    double headingOfOrder_ = 0;
+    Attitude attitude_;  // mean over a beat
     MuscleActivation muscles_;
     MuscleActivation musclesBefore_;  // when the order came
 };
