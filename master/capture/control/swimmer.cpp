@@ -12,6 +12,9 @@ namespace aquarama {
 
 namespace {
 
+// A tail that stopped at once would leave the fish with what that beat had turned it.
+constexpr double kLastBeats = 0.5;
+
 // Of the fish's own seconds.
 constexpr double kHandover = 0.04;  // from one order's muscles to the next one's
 constexpr double kFirstSecond = 1;  // the first beats from rest grow
@@ -28,7 +31,9 @@ Swimmer::Swimmer(const Species& species)
     : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
 
 void Swimmer::give(const Order& order) {
+    if (!swims()) beating_.gain = 0;
     order_ = order;
+    if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
     ownSecondsOfOrder_ = 0;
     headingOfOrder_ = attitude_.headingRadians;
     musclesBefore_ = muscles_;
@@ -42,41 +47,46 @@ void Swimmer::advanceOne() {
     muscles_ = mix(musclesBefore_, muscleProgram(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
     step(fish_, {.muscles = muscles_, .fins = finProgram()}, stepSeconds_, state_);
     ++steps_;
-    const double beatHertz = std::max(order_.gait.beatHertz, fish_.timeScale);
-    attitude_ = mix(attitude_, attitudeOf(state_), stepSeconds_ * beatHertz);
+    attitude_ = mix(attitude_,
+                    attitudeOf(state_),
+                    stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
     const double ownSeconds = stepSeconds_ * fish_.timeScale;
     ownSecondsOfOrder_ += ownSeconds;
     if (swims()) ownSecondsSwum_ += ownSeconds;
-    beat_ += stepSeconds_ * order_.gait.beatHertz;
+    beat_ += stepSeconds_ * beating_.beatHertz;
     beat_ -= std::floor(beat_);
 }
 
 bool Swimmer::swims() const {
+    return order_.controller == Controller::ForwardSwim ||
+           order_.controller == Controller::Ascend || order_.controller == Controller::Descend ||
+           order_.controller == Controller::Balance;
+}
+
+MuscleActivation Swimmer::muscleProgram() const {
+    const double beatsOfOrder = ownSecondsOfOrder_ / fish_.timeScale * beating_.beatHertz;
     switch (order_.controller) {
         case Controller::ForwardSwim:
         case Controller::Ascend:
         case Controller::Descend:
         case Controller::Balance:
-            return true;
+            return tailBeat(1);
         case Controller::LeftTurn:
+            return bendLeft(order_.bend, ownSecondsOfOrder_);
         case Controller::RightTurn:
+            return mirrored(bendLeft(order_.bend, ownSecondsOfOrder_));
         case Controller::Glide:
         case Controller::Brake:
+            return tailBeat(std::max(0.0, 1 - beatsOfOrder / kLastBeats));
         case Controller::Retreat:
             break;
     }
-    return false;
+    return {};
 }
 
-MuscleActivation Swimmer::muscleProgram() const {
-    if (swims()) {
-        const double grown = std::min(1.0, ownSecondsSwum_ / kFirstSecond);
-        return beatAt(swim_, order_.gait.gain * grown, beat_);
-    }
-    if (order_.controller == Controller::LeftTurn) return bendLeft(order_.bend, ownSecondsOfOrder_);
-    if (order_.controller == Controller::RightTurn)
-        return mirrored(bendLeft(order_.bend, ownSecondsOfOrder_));
-    return {};
+MuscleActivation Swimmer::tailBeat(double share) const {
+    const double grown = std::min(1.0, ownSecondsSwum_ / kFirstSecond);
+    return beatAt(swim_, share * beating_.gain * grown, beat_);
 }
 
 PectoralFins Swimmer::finProgram() const {
@@ -90,7 +100,7 @@ PectoralFins Swimmer::finProgram() const {
         case Controller::Brake:
             return brake();
         case Controller::Retreat:
-            return row(order_.gait, beat_, attitude_, headingOfOrder_);
+            return row(beating_, beat_, attitude_, headingOfOrder_);
         case Controller::ForwardSwim:
         case Controller::LeftTurn:
         case Controller::RightTurn:
