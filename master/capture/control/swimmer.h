@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The biomechanical fish under its motor controllers: what is captured, and what a replica is
+// measured against.
+#pragma once
+
+#include <cstdint>
+
+#include "common/config/species.h"
+#include "master/capture/dynamics/biomechanical_fish.h"
+
+namespace aquarama {
+
+enum class Controller : std::uint8_t {
+    ForwardSwim,
+    LeftTurn,
+    RightTurn,
+    Glide,
+    Ascend,
+    Descend,
+    Balance,
+    Brake,
+    Retreat
+};
+
+// What the fish is told. It holds until the next order, but a turn is over after secondsOf(bend);
+// then the muscles stay relaxed.
+struct Order {
+    Controller controller = Controller::Glide;
+    Gait gait{};              // ForwardSwim, Ascend, Descend, Balance, Retreat
+    Bend bend{};              // LeftTurn, RightTurn
+    double pitchRadians = 0;  // Ascend, Descend: how steep, positive in both
+};
+
+// From rest at the origin, nose towards +x. Lengths are body lengths.
+class Swimmer {
+  public:
+    explicit Swimmer(const Species& species);  // at the longest step that swims well
+    Swimmer(const Species& species, double stepSeconds);
+
+    // From now on. The beat goes on where it was, whatever came between; muscles change over within
+    // a few hundredths of the fish's second.
+    void give(const Order& order);
+    void advance(int steps);
+
+    [[nodiscard]] double stepSeconds() const { return stepSeconds_; }
+    [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }
+    [[nodiscard]] const FishState& state() const { return state_; }
+
+  private:
+    void advanceOne();
+    [[nodiscard]] MuscleActivation program() const;
+    [[nodiscard]] bool swims() const;
+
+    BiomechanicalFish fish_;
+    Swim swim_;
+    double stepSeconds_;
+    std::int64_t steps_ = 0;
+    FishState state_;
+
+    Order order_;
+    double ownSecondsOfOrder_ = 0;
+    double ownSecondsSwum_ = 0;
+    double beat_ = 0;  // 0 to 1
+    MuscleActivation muscles_;
+    MuscleActivation musclesBefore_;  // when the order came
+};
+
+}  // namespace aquarama
