@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct Fin {
 };
 
 struct Fins {
-    Fin firstDorsal, secondDorsal, anal, caudal, pelvic, pectoral;
+    Fin firstDorsal;  // the only one, along the whole back, where there is no second
+    std::optional<Fin> secondDorsal;
+    Fin anal, caudal, pelvic, pectoral;
 };
 
 struct FishEye {
@@ -114,8 +117,11 @@ struct Species {
     Water water;
     Swim swim;
     Turn turn;
-    SchoolHabits school;
+    std::optional<SchoolHabits> school;
     std::vector<Paint> palette;
+    // The repertoire keeps the control points of every frame (eq. 9) beside the nodal points, which
+    // saves time and costs memory: for those that swim in great numbers.
+    bool recordsControlPoints = false;
 };
 
 // Throws Error with file:line:column for whatever the schema or the animal cannot have.
