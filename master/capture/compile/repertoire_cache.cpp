@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 #include <unistd.h>
 
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Part of every key: raise it when the simulation or its compilation changes what comes out.
-constexpr const char* kCaptureVersion = "aquarama capture 1\n";
+constexpr const char* kCaptureVersion = "aquarama capture 2\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
 
 fs::path cachedPath(const Species& species, const std::string& text, const fs::path& folder) {
@@ -68,16 +69,59 @@ void writeWhole(const fs::path& path, std::span<const std::byte> content) {
     }
 }
 
+SpeciesText readSpeciesText(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw Error(path.string() + ": cannot be read; check the path and its permissions");
+    return {path.string(), text.str()};
+}
+
+std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts,
+                                           const fs::path& cacheFolder,
+                                           const CaptureRun& run) {
+    std::vector<RepertoireFile> files(texts.size());
+    std::vector<Species> missing;
+    std::vector<std::size_t> missingAt;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const auto& [source, text] = texts[i];
+        try {
+            Species species = parseSpecies(text, source);
+            files[i].species = species.name;
+            if (auto cached = findIntact(cachedPath(species, text, cacheFolder))) {
+                files[i].bytes = *std::move(cached);
+                continue;
+            }
+            missing.push_back(std::move(species));
+            missingAt.push_back(i);
+        } catch (const Error& error) {
+            files[i].error = error.what();
+        }
+    }
+    const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+        RepertoireFile& file = files[missingAt[k]];
+        file.error = outcomes[k].error;
+        if (!outcomes[k].repertoire) continue;
+        try {
+            file.bytes = encodeRepertoire(*outcomes[k].repertoire);
+            writeWhole(cachedPath(missing[k], texts[missingAt[k]].text, cacheFolder), file.bytes);
+        } catch (const Error& error) {
+            file = {.species = file.species, .bytes = {}, .error = error.what()};
+        }
+    }
+    return files;
+}
+
 std::vector<std::byte> repertoireFor(const std::string& speciesText,
                                      const std::string& source,
                                      const fs::path& cacheFolder,
                                      const Progress& progress) {
-    const Species species = parseSpecies(speciesText, source);
-    const fs::path path = cachedPath(species, speciesText, cacheFolder);
-    if (auto cached = findIntact(path)) return *std::move(cached);
-    std::vector<std::byte> bytes = encodeRepertoire(captureRepertoire(species, progress));
-    writeWhole(path, bytes);
-    return bytes;
+    RepertoireFile file = std::move(
+        repertoiresFor({{source, speciesText}}, cacheFolder, {.progress = progress, .stop = {}})
+            .front());
+    if (!file.error.empty()) throw Error(file.error);
+    return std::move(file.bytes);
 }
 
 }  // namespace aquarama
