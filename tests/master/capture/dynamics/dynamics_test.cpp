@@ -18,6 +18,7 @@ namespace {
 BiomechanicalFish inVacuum() {
     BiomechanicalFish fish = makeBiomechanicalFish(scad());
     for (WettedFace& face : fish.faces) face.drag = 0;
+    fish.finDrag = 0;
     return fish;
 }
 
