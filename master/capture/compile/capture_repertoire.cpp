@@ -94,8 +94,11 @@ std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& speci
         const std::size_t fish = i % species.size();
         const std::size_t job = i / species.size();
         std::string& error = recordings[fish].errors.at(job);
+        if (run.isStopped()) {
+            error = species[fish].name + ": interrupted";
+            return;
+        }
         try {
-            if (run.stop.stop_requested()) throw Error(species[fish].name + ": interrupted");
             runJob(species[fish], job, recordings[fish]);
         } catch (const std::exception& thrown) {
             error = thrown.what();
@@ -117,7 +120,7 @@ std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& speci
 
 Repertoire captureRepertoire(const Species& species, const Progress& progress) {
     CaptureOutcome outcome =
-        std::move(captureRepertoires({species}, {.progress = progress, .stop = {}}).front());
+        std::move(captureRepertoires({species}, {.progress = progress}).front());
     if (!outcome.repertoire) throw Error(outcome.error);
     return *std::move(outcome.repertoire);
 }

@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,7 +19,7 @@ using Progress = std::function<void(double share)>;
 struct CaptureRun {
     unsigned threads = std::thread::hardware_concurrency();
     Progress progress = [](double) {};
-    std::stop_token stop;  // asked to, it begins nothing more
+    std::function<bool()> isStopped = [] { return false; };  // then it begins nothing more
 };
 
 // A repertoire, or why there is none.

@@ -38,7 +38,42 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     }
 }
 
+// The species, where it must be captured.
+std::optional<Species> lookUp(const SpeciesText& text,
+                              const fs::path& cacheFolder,
+                              RepertoireFile& file) {
+    try {
+        Species species = parseSpecies(text.text, text.source);
+        file.species = species.name;
+        auto cached = findIntact(cachedPath(species, text.text, cacheFolder));
+        if (!cached) return species;
+        file.bytes = *std::move(cached);
+    } catch (const Error& error) {
+        file.error = error.what();
+    }
+    return std::nullopt;
+}
+
+void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& file) {
+    file.error = outcome.error;
+    if (!outcome.repertoire) return;
+    try {
+        std::vector<std::byte> bytes = encodeRepertoire(*outcome.repertoire);
+        writeWhole(path, bytes);
+        file.bytes = std::move(bytes);
+    } catch (const Error& error) {
+        file.error = error.what();
+    }
+}
+
 }  // namespace
+
+void makeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        throw Error(folder.string() + ": is no folder and cannot become one; choose another");
+}
 
 std::vector<std::byte> readWhole(const fs::path& path) {
     std::error_code error;
@@ -83,32 +118,15 @@ std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts
     std::vector<RepertoireFile> files(texts.size());
     std::vector<Species> missing;
     std::vector<std::size_t> missingAt;
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        const auto& [source, text] = texts[i];
-        try {
-            Species species = parseSpecies(text, source);
-            files[i].species = species.name;
-            if (auto cached = findIntact(cachedPath(species, text, cacheFolder))) {
-                files[i].bytes = *std::move(cached);
-                continue;
-            }
-            missing.push_back(std::move(species));
+    for (std::size_t i = 0; i < texts.size(); ++i)
+        if (auto species = lookUp(texts[i], cacheFolder, files[i])) {
+            missing.push_back(*std::move(species));
             missingAt.push_back(i);
-        } catch (const Error& error) {
-            files[i].error = error.what();
         }
-    }
     const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
     for (std::size_t k = 0; k < missing.size(); ++k) {
-        RepertoireFile& file = files[missingAt[k]];
-        file.error = outcomes[k].error;
-        if (!outcomes[k].repertoire) continue;
-        try {
-            file.bytes = encodeRepertoire(*outcomes[k].repertoire);
-            writeWhole(cachedPath(missing[k], texts[missingAt[k]].text, cacheFolder), file.bytes);
-        } catch (const Error& error) {
-            file = {.species = file.species, .bytes = {}, .error = error.what()};
-        }
+        const std::size_t i = missingAt[k];
+        keep(outcomes[k], cachedPath(missing[k], texts[i].text, cacheFolder), files[i]);
     }
     return files;
 }
@@ -118,8 +136,7 @@ std::vector<std::byte> repertoireFor(const std::string& speciesText,
                                      const fs::path& cacheFolder,
                                      const Progress& progress) {
     RepertoireFile file = std::move(
-        repertoiresFor({{source, speciesText}}, cacheFolder, {.progress = progress, .stop = {}})
-            .front());
+        repertoiresFor({{source, speciesText}}, cacheFolder, {.progress = progress}).front());
     if (!file.error.empty()) throw Error(file.error);
     return std::move(file.bytes);
 }
