@@ -210,7 +210,8 @@ Species parseSpecies(const std::string& text, const std::string& source) {
     species.skeleton = readSkeleton(root.in("skeleton"));
     species.tissue = readTissue(root.in("tissue"));
     species.water = {.drag = root.in("water").number("drag", {0, 1e5}),
-                     .frontFactor = root.in("water").number("front_factor", kShare)};
+                     .frontFactor = root.in("water").number("front_factor", kShare),
+                     .finDrag = root.in("water").number("fin_drag", {0, 100})};
     species.swim = readSwim(root.in("swim"));
     species.turn = readTurn(root.in("turn"));
     if (root.has("school")) species.school = readSchool(root.in("school"));

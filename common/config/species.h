@@ -66,6 +66,7 @@ struct Tissue {
 struct Water {
     double drag = 0;         // mu: force on an advancing face = mu * area * (normal speed)^2
     double frontFactor = 1;  // share of that on the head
+    double finDrag = 0;      // of each pectoral fin: force = finDrag * normal speed
 };
 
 struct Gait {

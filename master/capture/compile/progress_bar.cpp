@@ -18,6 +18,10 @@ constexpr const char* kEraseRest = "\033[K";  // of the line
 ProgressBar::ProgressBar(std::string what)
     : what_(std::move(what)), isTerminal_(isatty(STDERR_FILENO) == 1) {}
 
+ProgressBar::~ProgressBar() {
+    if (isTerminal_ && shown_ >= 0 && shown_ < 100) std::cerr << '\n';  // it was broken off
+}
+
 void ProgressBar::show(double share, const std::string& note) {
     const int percent = static_cast<int>(share * 100 + 1e-6);
     if (percent == shown_ && note == note_) return;

@@ -9,6 +9,11 @@ namespace aquarama {
 class ProgressBar {
   public:
     explicit ProgressBar(std::string what);
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    ProgressBar(ProgressBar&&) = delete;
+    ProgressBar& operator=(ProgressBar&&) = delete;
     // 0 to 1, and on a terminal a note behind the bar.
     void show(double share, const std::string& note = "");
 

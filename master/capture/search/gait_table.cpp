@@ -30,9 +30,9 @@ std::string gaitTableRows(const Species& species) {
     std::ostringstream rows;
     rows << std::fixed << std::setprecision(2);
     for (std::size_t i = 0; i < kGaits.size(); ++i) {
-        const GaitFigures& g = figures.at(i);
+        const GaitFigures g = steadyFigures(species, gaits.at(i));
         rows << "| " << (i == 0 ? name : "") << " | " << kGaits.at(i) << " | " << g.beatHertz
-             << " | " << gains.at(i) << " | " << g.swum.speedBodyLengths << " | "
+             << " | " << gaits.at(i).gain << " | " << g.swum.speedBodyLengths << " | "
              << g.swum.strideBodyLengths << " | " << std::setprecision(3) << g.swum.tailAmplitude
              << std::setprecision(2) << " | " << g.swum.strouhal << " | " << g.wave.wavelength
              << " | " << std::setprecision(3) << g.swum.noseAmplitude << std::setprecision(2)

@@ -17,8 +17,8 @@ namespace {
 constexpr double kFlyingStart = 0.62;  // body lengths a beat, as most fish go
 constexpr int kWarmUpBeats = 6;
 
-GaitFigures figuresOf(const FishBody& body, const Gait& gait, const Recording& beat) {
-    const ActionSegment segment = compileForward(body, beat);
+GaitFigures figuresOf(const Gait& gait, const Recording& beat) {
+    const ActionSegment segment = compileForward(beat);
     return {gait.beatHertz, measure(segment), bodyWave(segment)};
 }
 
@@ -34,7 +34,7 @@ Recording quickBeat(const Species& species, const Gait& gait) {
     const auto advance = [&](int count) {
         for (int i = 0; i < count; ++i)
             step(fish,
-                 swim(species, gait, stepSeconds * static_cast<double>(done++)),
+                 {.muscles = swim(species, gait, stepSeconds * static_cast<double>(done++))},
                  stepSeconds,
                  state);
     };
@@ -49,14 +49,14 @@ Recording quickBeat(const Species& species, const Gait& gait) {
 
 }  // namespace
 
-GaitFigures steadyFigures(const Species& species, const FishBody& body, const Gait& gait) {
-    return figuresOf(body, gait, swimUntilSteady(species, gait).beat);
+GaitFigures steadyFigures(const Species& species, const Gait& gait) {
+    return figuresOf(gait, swimUntilSteady(species, gait).beat);
 }
 
-ForwardFigures quickFigures(const Species& species, const FishBody& body) {
+ForwardFigures quickFigures(const Species& species) {
     const auto start = [&](const Gait& gait) {
         return std::async(std::launch::async,
-                          [&] { return figuresOf(body, gait, quickBeat(species, gait)); });
+                          [&species, &gait] { return figuresOf(gait, quickBeat(species, gait)); });
     };
     auto slow = start(species.swim.slow);
     auto medium = start(species.swim.medium);

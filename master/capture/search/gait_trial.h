@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "master/capture/measure/body_wave.h"
 #include "master/capture/measure/measure.h"
@@ -19,12 +18,10 @@ struct GaitFigures {
 using ForwardFigures = std::array<GaitFigures, 3>;  // slow, medium, fast
 
 // As it is captured: when the beat repeats itself. Throws Error when it does not.
-[[nodiscard]] GaitFigures steadyFigures(const Species& species,
-                                        const FishBody& body,
-                                        const Gait& gait);
+[[nodiscard]] GaitFigures steadyFigures(const Species& species, const Gait& gait);
 
 // The same three gaits at a fraction of the cost and within 3 %: from a flying start, after a few
 // beats, side by side on threads of their own.
-[[nodiscard]] ForwardFigures quickFigures(const Species& species, const FishBody& body);
+[[nodiscard]] ForwardFigures quickFigures(const Species& species);
 
 }  // namespace aquarama

@@ -6,7 +6,6 @@
 
 #include <nlopt.hpp>
 
-#include "common/body/fish_body.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
 #include "master/capture/search/gait_objective.h"
@@ -20,10 +19,10 @@ constexpr const char* kSearchVersion = "aquarama search 1";
 constexpr double kFirstStep = 0.1;    // of the range of each parameter
 constexpr double kDoesNotSwim = 1e6;  // the miss of a fish that finds no steady beat
 
-Trial tryAt(const SearchPoint& point, const Species& species, const FishBody& body) {
+Trial tryAt(const SearchPoint& point, const Species& species) {
     Trial trial{.point = point, .miss = kDoesNotSwim};
     try {
-        const ForwardFigures gaits = quickFigures(speciesAt(point, species), body);
+        const ForwardFigures gaits = quickFigures(speciesAt(point, species));
         const auto strouhal = [](const GaitFigures& gait) { return gait.swum.strouhal; };
         const auto stride = [](const GaitFigures& gait) { return gait.swum.strideBodyLengths; };
         trial.miss = missOf(gaits);
@@ -40,10 +39,10 @@ Trial tryAt(const SearchPoint& point, const Species& species, const FishBody& bo
 class TrialRun {
   public:
     TrialRun(const Species& species, SearchJournal& journal, const SearchProgress& progress)
-        : species_(species), body_(makeBody(species)), journal_(journal), progress_(progress) {}
+        : species_(species), journal_(journal), progress_(progress) {}
 
     double missAt(const SearchPoint& point) {
-        if (made_ == journal_.trials().size()) journal_.add(tryAt(point, species_, body_));
+        if (made_ == journal_.trials().size()) journal_.add(tryAt(point, species_));
         const Trial& trial = journal_.trials()[made_++];
         if (trial.point != point)
             throw Error("trial " + std::to_string(made_) +
@@ -57,7 +56,6 @@ class TrialRun {
 
   private:
     const Species& species_;
-    FishBody body_;
     SearchJournal& journal_;
     const SearchProgress& progress_;
     std::size_t made_ = 0;
