@@ -11,5 +11,7 @@ namespace aquarama {
 
 void addCaptureCommand(CLI::App& app);  // the program without a subcommand
 void addInspectCommand(CLI::App& app);
+void addSearchCommand(CLI::App& app);
+void addGaitsCommand(CLI::App& app);
 
 }  // namespace aquarama

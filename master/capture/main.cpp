@@ -14,6 +14,8 @@ int main(int count, char** arguments) {
     try {
         aquarama::addCaptureCommand(app);
         aquarama::addInspectCommand(app);
+        aquarama::addSearchCommand(app);
+        aquarama::addGaitsCommand(app);
         app.parse(count, arguments);
         return 0;
     } catch (const CLI::ParseError& wrong) {
