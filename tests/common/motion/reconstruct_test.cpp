@@ -105,7 +105,7 @@ TEST(Reconstruct, aPresentedFishIsItsTicksAtBothEnds) {
                 return nodes;
             };
             const double length = school.traits[i].lengthMillimetres * 1e-3;
-            const double rounding = 1e-5 * length + 4e-5;  // of floats, some 300 m out
+            const double rounding = 1e-5 * length + 7e-5;  // of floats, some 500 m out
             EXPECT_LT(travel(nodesOf(a, b, 0), nodesOf(a, a, 0)), rounding);
             EXPECT_LT(travel(nodesOf(a, b, 1), nodesOf(b, b, 0)), rounding);
         }
