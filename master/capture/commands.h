@@ -13,5 +13,6 @@ void addCaptureCommand(CLI::App& app);  // the program without a subcommand
 void addInspectCommand(CLI::App& app);
 void addSearchCommand(CLI::App& app);
 void addGaitsCommand(CLI::App& app);
+void addExportCommand(CLI::App& app);
 
 }  // namespace aquarama
