@@ -182,25 +182,20 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-Comparison compare(const Script& script, const Repertoire& repertoire, const Traces& traces) {
+Comparison compare(const Script& script, const Traces& traces) {
     const auto& [fish, replica, loose] = traces;
     Comparison comparison;
-    const auto start = static_cast<std::size_t>(script.front().ticks);
-    double beatBefore = beatTicks(repertoire, script.front().manoeuvre);
-    const double firstBeat = beatBefore;
-    std::size_t first = start;
+    auto first = static_cast<std::size_t>(script.front().ticks);
+    comparison.openLoop =
+        openLoopOf(fish, loose, first, script.front().beatTicks, script.back().beatTicks);
     for (std::size_t i = 1; i < script.size(); ++i) {
         const std::size_t last = first + static_cast<std::size_t>(script[i].ticks);
-        const Passage passage{
-            fish, replica, first, last, beatTicks(repertoire, script[i].manoeuvre)};
-        comparison.commands.push_back(errorsOf(script[i], passage, beatBefore));
+        const Passage passage{fish, replica, first, last, script[i].beatTicks};
+        comparison.commands.push_back(errorsOf(script[i], passage, script[i - 1].beatTicks));
         for (std::size_t tick = first + 1; tick <= last; ++tick)
-            comparison.shape.push_back(
-                std::sqrt(squaredShapeError(passage, tick, comparison.commands.back().lagTicks)));
-        beatBefore = passage.beatTicks;
+            comparison.shape.push_back(std::sqrt(squaredShapeError(passage, tick, 0)));
         first = last;
     }
-    comparison.openLoop = openLoopOf(fish, loose, start, firstBeat, beatBefore);
     return comparison;
 }
 

@@ -48,9 +48,7 @@ struct Comparison {
     OpenLoopErrors openLoop;
 };
 
-[[nodiscard]] Comparison compare(const Script& script,
-                                 const Repertoire& repertoire,
-                                 const Traces& traces);
+[[nodiscard]] Comparison compare(const Script& script, const Traces& traces);
 
 // Over some commands: shapes by the ticks that they took, a path error for each command.
 struct Summary {

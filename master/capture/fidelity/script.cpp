@@ -70,6 +70,10 @@ const ActionSegment& segmentOf(const Repertoire& repertoire, Manoeuvre manoeuvre
     return repertoire.segments.at(static_cast<std::size_t>(manoeuvre));
 }
 
+double ticksOf(const ActionSegment& segment) {
+    return static_cast<double>(segment.periodSeconds) * kTicksPerSecond;
+}
+
 struct Beats {
     double least, most;
 };
@@ -85,16 +89,23 @@ Beats beatsOf(Manoeuvre manoeuvre) {
     }
 }
 
-int ticksFor(const Repertoire& repertoire, Manoeuvre manoeuvre, Random& random) {
+double beatTicks(const Repertoire& repertoire, Manoeuvre manoeuvre) {
+    const bool hasItsOwn = manoeuvre <= Manoeuvre::ForwardFast;
+    return ticksOf(segmentOf(repertoire, hasItsOwn ? manoeuvre : Manoeuvre::ForwardMedium));
+}
+
+Command commandFor(const Repertoire& repertoire, Manoeuvre manoeuvre, Random& random) {
+    Command command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
     if (isTurn(manoeuvre)) {
-        const auto seconds = static_cast<double>(segmentOf(repertoire, manoeuvre).periodSeconds);
-        return static_cast<int>(std::lround(seconds * kTicksPerSecond));
+        command.ticks = static_cast<int>(std::lround(ticksOf(segmentOf(repertoire, manoeuvre))));
+        return command;
     }
     constexpr double kUnit = 1.0 / 4294967296.0;
     const double share = static_cast<double>(random() >> 32U) * kUnit;
     const auto [least, most] = beatsOf(manoeuvre);
-    const double beats = least + share * (most - least);
-    return static_cast<int>(std::ceil(beats * beatTicks(repertoire, manoeuvre)));
+    command.ticks =
+        static_cast<int>(std::ceil((least + share * (most - least)) * command.beatTicks));
+    return command;
 }
 
 }  // namespace
@@ -114,21 +125,14 @@ const char* nameOf(Manoeuvre manoeuvre) {
     }
 }
 
-double beatTicks(const Repertoire& repertoire, Manoeuvre manoeuvre) {
-    const bool hasItsOwn = manoeuvre <= Manoeuvre::ForwardFast;
-    const ActionSegment& segment =
-        segmentOf(repertoire, hasItsOwn ? manoeuvre : Manoeuvre::ForwardMedium);
-    return static_cast<double>(segment.periodSeconds) * kTicksPerSecond;
-}
-
 Script makeScript(const Repertoire& repertoire, std::uint64_t seed, double seconds) {
     Random random(seed);
-    const double runIn = kRunInBeats * beatTicks(repertoire, Manoeuvre::ForwardMedium);
-    Script script{{Manoeuvre::ForwardMedium, static_cast<int>(std::ceil(runIn))}};
-    while (ticksOf(script) < seconds * kTicksPerSecond) {
-        const Manoeuvre next = choose(choicesAfter(script.back().manoeuvre), random);
-        script.push_back({next, ticksFor(repertoire, next, random)});
-    }
+    const double beat = beatTicks(repertoire, Manoeuvre::ForwardMedium);
+    Script script{
+        {Manoeuvre::ForwardMedium, static_cast<int>(std::ceil(kRunInBeats * beat)), beat}};
+    while (ticksOf(script) < seconds * kTicksPerSecond)
+        script.push_back(
+            commandFor(repertoire, choose(choicesAfter(script.back().manoeuvre), random), random));
     return script;
 }
 

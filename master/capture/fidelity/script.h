@@ -36,6 +36,7 @@ inline constexpr double kScriptPitchRadians = 0.35;
 struct Command {
     Manoeuvre manoeuvre = Manoeuvre::ForwardMedium;
     int ticks = 0;
+    double beatTicks = 0;  // of the gait, or else of medium swimming
 };
 using Script = std::vector<Command>;
 
@@ -46,8 +47,5 @@ using Script = std::vector<Command>;
 
 // Of the script without its run-in.
 [[nodiscard]] int ticksOf(const Script& script);
-
-// In ticks, of what beats while the manoeuvre is carried out: of a gait, else of medium swimming.
-[[nodiscard]] double beatTicks(const Repertoire& repertoire, Manoeuvre manoeuvre);
 
 }  // namespace aquarama

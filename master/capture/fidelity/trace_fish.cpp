@@ -74,8 +74,8 @@ Trace traceFish(const Species& species, std::span<const TimedOrder> orders) {
 
 Trace traceFish(const Species& species, const Script& script) {
     std::vector<TimedOrder> orders;
-    for (const auto& [manoeuvre, ticks] : script)
-        orders.push_back({orderFor(species, manoeuvre), ticks});
+    for (const Command& command : script)
+        orders.push_back({orderFor(species, command.manoeuvre), command.ticks});
     return traceFish(species, orders);
 }
 
