@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "common/units/ids.h"
+#include "master/capture/fidelity/overlay.h"
 
 namespace aquarama {
 
@@ -17,18 +16,19 @@ namespace {
 constexpr double kShapeGoal = 0.01;  // body lengths
 constexpr double kLagStep = 0.25;    // ticks
 
+// In its first beat a command is on its way from the one before; of a short one in its first half.
+int transitionTicksOf(const Command& command) {
+    return std::min(static_cast<int>(std::lround(command.beatTicks)), command.ticks / 2);
+}
+
 // One command in both traces.
 struct Passage {
     const Trace& fish;
     const Trace& replica;
     std::size_t first = 0;  // the tick before its first
     std::size_t last = 0;
+    std::size_t transitionEnd = 0;
     double beatTicks = 1;
-
-    [[nodiscard]] std::size_t transitionEnd() const {
-        const auto beat = static_cast<std::size_t>(std::lround(beatTicks));
-        return first + std::min(beat, (last - first) / 2);
-    }
 };
 
 const NodeVectors& mixedPose(const Trace& trace, double tick, NodeVectors& mixed) {
@@ -71,10 +71,10 @@ double shapeError(const Passage& passage, std::size_t from, std::size_t to, doub
 double bestLag(const Passage& passage) {
     const int steps = static_cast<int>(passage.beatTicks / 2 / kLagStep);
     double best = 0;
-    double least = shapeError(passage, passage.transitionEnd(), passage.last, 0);
+    double least = shapeError(passage, passage.transitionEnd, passage.last, 0);
     for (int i = 1; i <= 2 * steps; ++i) {
         const double lag = kLagStep * (i % 2 == 0 ? i / 2 : -(i + 1) / 2);
-        const double error = shapeError(passage, passage.transitionEnd(), passage.last, lag);
+        const double error = shapeError(passage, passage.transitionEnd, passage.last, lag);
         if (error < least) {
             least = error;
             best = lag;
@@ -91,75 +91,22 @@ std::optional<int> agreementOf(const Passage& passage, double lag) {
     return std::nullopt;
 }
 
-// Of the nose, averaged over the beat that ends at the tick; radians, left positive.
-double headingAt(const Trace& trace, std::size_t tick, double beatTicks) {
-    glm::dvec3 sum{};
-    double left = beatTicks;
-    for (std::size_t at = tick; left > 0; --at, left -= 1) {
-        sum += std::min(left, 1.0) * trace[at].frame.worldFromBody[0];
-        if (at == 0) break;
-    }
-    return std::atan2(-sum.z, sum.x);
-}
-
-double wrapped(double radians) {
-    return std::remainder(radians, 2 * std::numbers::pi);
-}
-
-double pathLength(const Trace& trace, std::size_t from, std::size_t to) {
-    double length = 0;
-    for (std::size_t tick = from; tick < to; ++tick)
-        length += glm::distance(trace[tick].frame.origin, trace[tick + 1].frame.origin);
-    return length;
-}
-
-// The replica's way laid over the fish's at one tick, by place and heading.
-class Overlay {
-  public:
-    Overlay(const Trace& fish, const Trace& replica, std::size_t start, double beatTicks)
-        : fish_(fish),
-          replica_(replica),
-          start_(start),
-          turn_(headingAt(fish, start, beatTicks) - headingAt(replica, start, beatTicks)) {}
-
-    [[nodiscard]] double distanceAt(std::size_t tick) const {
-        const glm::dvec3 fishWay = fish_[tick].frame.origin - fish_[start_].frame.origin;
-        const glm::dvec3 way = replica_[tick].frame.origin - replica_[start_].frame.origin;
-        return glm::distance(fishWay, glm::angleAxis(turn_, glm::dvec3(0, 1, 0)) * way);
-    }
-    [[nodiscard]] double mostUntil(std::size_t end) const {
-        double most = 0;
-        for (std::size_t tick = start_; tick <= end; ++tick)
-            most = std::max(most, distanceAt(tick));
-        return most;
-    }
-    [[nodiscard]] double headingErrorAt(std::size_t tick, double beatTicks) const {
-        return wrapped(headingAt(replica_, tick, beatTicks) + turn_ -
-                       headingAt(fish_, tick, beatTicks));
-    }
-
-  private:
-    const Trace& fish_;
-    const Trace& replica_;
-    std::size_t start_;
-    double turn_;
-};
-
 CommandErrors errorsOf(const Command& command, const Passage& passage, double beatBefore) {
-    const auto& [fish, replica, first, last, beat] = passage;
+    const auto& [fish, replica, first, last, transitionEnd, beat] = passage;
     CommandErrors errors{.command = command, .firstTick = static_cast<int>(first)};
     errors.lagTicks = bestLag(passage);
-    errors.shapeTransition = shapeError(passage, first, passage.transitionEnd(), 0);
-    errors.shapeWithin = shapeError(passage, passage.transitionEnd(), last, errors.lagTicks);
+    errors.shapeTransition = shapeError(passage, first, transitionEnd, 0);
+    errors.shapeWithin = shapeError(passage, transitionEnd, last, errors.lagTicks);
     errors.shapeAsPlayed = shapeError(passage, first, last, 0);
     errors.agreesAfterTicks = agreementOf(passage, errors.lagTicks);
 
     const Overlay overlay(fish, replica, first, beatBefore);
     errors.path = pathLength(fish, first, last);
     errors.pathErrorAtEnd = overlay.distanceAt(last) / errors.path;
-    errors.pathErrorMost = overlay.mostUntil(last) / errors.path;
+    errors.pathErrorMost = overlay.mostTo(last) / errors.path;
     errors.turn = wrapped(headingAt(fish, last, beat) - headingAt(fish, first, beatBefore));
     errors.headingError = overlay.headingErrorAt(last, beat);
+    errors.replicaWay = overlay.wayTo(last);
     return errors;
 }
 
@@ -169,9 +116,23 @@ OpenLoopErrors openLoopOf(
     const Overlay overlay(fish, replica, start, firstBeat);
     return {.path = pathLength(fish, start, end),
             .distanceAtEnd = overlay.distanceAt(end),
-            .distanceMost = overlay.mostUntil(end),
-            .headingAtEnd = overlay.headingErrorAt(end, lastBeat)};
+            .distanceMost = overlay.mostTo(end),
+            .headingAtEnd = overlay.headingErrorAt(end, lastBeat),
+            .replicaWay = overlay.wayTo(end)};
 }
+
+class RootMeanSquare {
+  public:
+    void add(double value, double weight) {
+        sum_ += weight * value * value;
+        weight_ += weight;
+    }
+    [[nodiscard]] double value() const { return weight_ > 0 ? std::sqrt(sum_ / weight_) : 0; }
+
+  private:
+    double sum_ = 0;
+    double weight_ = 0;
+};
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -190,7 +151,8 @@ Comparison compare(const Script& script, const Traces& traces) {
         openLoopOf(fish, loose, first, script.front().beatTicks, script.back().beatTicks);
     for (std::size_t i = 1; i < script.size(); ++i) {
         const std::size_t last = first + static_cast<std::size_t>(script[i].ticks);
-        const Passage passage{fish, replica, first, last, script[i].beatTicks};
+        const auto transition = static_cast<std::size_t>(transitionTicksOf(script[i]));
+        const Passage passage{fish, replica, first, last, first + transition, script[i].beatTicks};
         comparison.commands.push_back(errorsOf(script[i], passage, script[i - 1].beatTicks));
         for (std::size_t tick = first + 1; tick <= last; ++tick)
             comparison.shape.push_back(std::sqrt(squaredShapeError(passage, tick, 0)));
@@ -201,16 +163,15 @@ Comparison compare(const Script& script, const Traces& traces) {
 
 Summary summarise(std::span<const CommandErrors> commands) {
     Summary summary{.commands = commands.size()};
-    double ticks = 0;
+    RootMeanSquare within, transition, asPlayed, heading;
     std::vector<double> paths;
     std::vector<double> agreements;
     for (const CommandErrors& errors : commands) {
-        const double weight = errors.command.ticks;
-        ticks += weight;
-        summary.shapeWithin += weight * errors.shapeWithin * errors.shapeWithin;
-        summary.shapeTransition += weight * errors.shapeTransition * errors.shapeTransition;
-        summary.shapeAsPlayed += weight * errors.shapeAsPlayed * errors.shapeAsPlayed;
-        summary.headingErrorRms += errors.headingError * errors.headingError;
+        const int transitionTicks = transitionTicksOf(errors.command);
+        within.add(errors.shapeWithin, errors.command.ticks - transitionTicks);
+        transition.add(errors.shapeTransition, transitionTicks);
+        asPlayed.add(errors.shapeAsPlayed, errors.command.ticks);
+        heading.add(errors.headingError, 1);
         paths.push_back(errors.pathErrorAtEnd);
         summary.pathErrorWorst = std::max(summary.pathErrorWorst, errors.pathErrorAtEnd);
         if (errors.agreesAfterTicks)
@@ -218,10 +179,10 @@ Summary summarise(std::span<const CommandErrors> commands) {
         else
             ++summary.neverAgree;
     }
-    for (double* square : {&summary.shapeWithin, &summary.shapeTransition, &summary.shapeAsPlayed})
-        *square = std::sqrt(*square / std::max(ticks, 1.0));
-    summary.headingErrorRms = std::sqrt(
-        summary.headingErrorRms / static_cast<double>(std::max<std::size_t>(paths.size(), 1)));
+    summary.shapeWithin = within.value();
+    summary.shapeTransition = transition.value();
+    summary.shapeAsPlayed = asPlayed.value();
+    summary.headingErrorRms = heading.value();
     summary.pathErrorMedian = median(std::move(paths));
     summary.agreesAfterSeconds = median(std::move(agreements));
     return summary;

@@ -30,8 +30,9 @@ struct CommandErrors {
     double path = 0;            // length of the fish's own way, body lengths
     double pathErrorAtEnd = 0;  // shares of that
     double pathErrorMost = 0;
-    double turn = 0;          // of the fish, radians, left positive
-    double headingError = 0;  // at the end, of the replica against the fish, radians
+    double turn = 0;                       // of the fish, radians, left positive
+    double headingError = 0;               // at the end, of the replica against the fish, radians
+    std::vector<glm::dvec3> replicaWay{};  // laid over the fish's: at firstTick and each tick after
 };
 
 // From the start of the script on, never laid over each other again.
@@ -39,7 +40,8 @@ struct OpenLoopErrors {
     double path = 0;  // body lengths
     double distanceAtEnd = 0;
     double distanceMost = 0;
-    double headingAtEnd = 0;  // radians
+    double headingAtEnd = 0;               // radians
+    std::vector<glm::dvec3> replicaWay{};  // from the end of the run-in on
 };
 
 struct Comparison {
