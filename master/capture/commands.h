@@ -11,5 +11,6 @@ namespace aquarama {
 
 void addCaptureCommand(CLI::App& app);  // the program without a subcommand
 void addInspectCommand(CLI::App& app);
+void addFidelityCommand(CLI::App& app);
 
 }  // namespace aquarama

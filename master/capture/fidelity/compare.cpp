@@ -53,14 +53,16 @@ double squaredShapeError(const Passage& passage, std::size_t tick, double lag) {
     return sum / kNodalPoints;
 }
 
+bool has(const Passage& passage, double tick) {
+    return tick >= static_cast<double>(passage.first) && tick <= static_cast<double>(passage.last);
+}
+
 // Root mean square over the ticks (from, to], as far as the command has them at that lag.
 double shapeError(const Passage& passage, std::size_t from, std::size_t to, double lag) {
-    const auto most = static_cast<double>(passage.last);
     double sum = 0;
     int ticks = 0;
     for (std::size_t tick = from + 1; tick <= to; ++tick) {
-        const double other = static_cast<double>(tick) + lag;
-        if (other < static_cast<double>(passage.first) || other > most) continue;
+        if (!has(passage, static_cast<double>(tick) + lag)) continue;
         sum += squaredShapeError(passage, tick, lag);
         ++ticks;
     }
@@ -134,11 +136,21 @@ class RootMeanSquare {
     double weight_ = 0;
 };
 
-double median(std::vector<double> values) {
+// So large that this share of the values is not larger; 0 of none.
+double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
+    std::ranges::sort(values);
+    const double rank = std::ceil(share * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+void addShapes(const Passage& passage, double lag, Comparison& comparison) {
+    for (std::size_t tick = passage.first + 1; tick <= passage.last; ++tick) {
+        const bool isThere = has(passage, static_cast<double>(tick) + lag);
+        comparison.shapeAsPlayed.push_back(std::sqrt(squaredShapeError(passage, tick, 0)));
+        comparison.shapeInPhase.push_back(
+            std::sqrt(squaredShapeError(passage, tick, isThere ? lag : 0)));
+    }
 }
 
 }  // namespace
@@ -154,8 +166,7 @@ Comparison compare(const Script& script, const Traces& traces) {
         const auto transition = static_cast<std::size_t>(transitionTicksOf(script[i]));
         const Passage passage{fish, replica, first, last, first + transition, script[i].beatTicks};
         comparison.commands.push_back(errorsOf(script[i], passage, script[i - 1].beatTicks));
-        for (std::size_t tick = first + 1; tick <= last; ++tick)
-            comparison.shape.push_back(std::sqrt(squaredShapeError(passage, tick, 0)));
+        addShapes(passage, comparison.commands.back().lagTicks, comparison);
         first = last;
     }
     return comparison;
@@ -173,7 +184,6 @@ Summary summarise(std::span<const CommandErrors> commands) {
         asPlayed.add(errors.shapeAsPlayed, errors.command.ticks);
         heading.add(errors.headingError, 1);
         paths.push_back(errors.pathErrorAtEnd);
-        summary.pathErrorWorst = std::max(summary.pathErrorWorst, errors.pathErrorAtEnd);
         if (errors.agreesAfterTicks)
             agreements.push_back(*errors.agreesAfterTicks / kTicksPerSecond);
         else
@@ -183,8 +193,10 @@ Summary summarise(std::span<const CommandErrors> commands) {
     summary.shapeTransition = transition.value();
     summary.shapeAsPlayed = asPlayed.value();
     summary.headingErrorRms = heading.value();
-    summary.pathErrorMedian = median(std::move(paths));
-    summary.agreesAfterSeconds = median(std::move(agreements));
+    summary.pathErrorMedian = quantile(paths, 0.5);
+    summary.pathErrorNinth = quantile(paths, 0.9);
+    summary.pathErrorWorst = quantile(paths, 1);
+    summary.agreesAfterSeconds = quantile(agreements, 0.5);
     return summary;
 }
 

@@ -46,7 +46,8 @@ struct OpenLoopErrors {
 
 struct Comparison {
     std::vector<CommandErrors> commands;  // without the run-in
-    std::vector<double> shape;            // at each tick of them, at no lag
+    std::vector<double> shapeAsPlayed;    // at each tick of them, at no lag
+    std::vector<double> shapeInPhase;     // at the command's lag, and where it has none, that
     OpenLoopErrors openLoop;
 };
 
@@ -59,6 +60,7 @@ struct Summary {
     double shapeTransition = 0;
     double shapeAsPlayed = 0;
     double pathErrorMedian = 0;  // at the end, share of the path
+    double pathErrorNinth = 0;   // nine of ten are within it
     double pathErrorWorst = 0;
     double headingErrorRms = 0;     // radians
     double agreesAfterSeconds = 0;  // median, of those that come to agree

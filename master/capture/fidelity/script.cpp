@@ -18,13 +18,13 @@ struct Choice {
     Manoeuvre manoeuvre;
     std::uint64_t weight;
 };
-// After medium swimming half of what comes are turns: they are what the minute is about.
-constexpr std::array kAfterMedium{Choice{Manoeuvre::ForwardSlow, 14},
-                                  Choice{Manoeuvre::ForwardFast, 14},
-                                  Choice{Manoeuvre::TurnLeftGradual, 14},
-                                  Choice{Manoeuvre::TurnRightGradual, 14},
-                                  Choice{Manoeuvre::TurnLeftSharp, 11},
-                                  Choice{Manoeuvre::TurnRightSharp, 11},
+// After medium swimming more than half of what comes are turns.
+constexpr std::array kAfterMedium{Choice{Manoeuvre::ForwardSlow, 12},
+                                  Choice{Manoeuvre::ForwardFast, 12},
+                                  Choice{Manoeuvre::TurnLeftGradual, 15},
+                                  Choice{Manoeuvre::TurnRightGradual, 15},
+                                  Choice{Manoeuvre::TurnLeftSharp, 12},
+                                  Choice{Manoeuvre::TurnRightSharp, 12},
                                   Choice{Manoeuvre::Glide, 10},
                                   Choice{Manoeuvre::Ascend, 4},
                                   Choice{Manoeuvre::Descend, 4},
@@ -85,7 +85,7 @@ Beats beatsOf(Manoeuvre manoeuvre) {
         case Manoeuvre::Retreat:
             return {2, 4};
         default:
-            return {4, 9};
+            return {3, 7};
     }
 }
 
