@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "common/config/species.h"
+#include "master/capture/control/attitude.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
 namespace aquarama {
@@ -37,8 +38,8 @@ class Swimmer {
     explicit Swimmer(const Species& species);  // at the longest step that swims well
     Swimmer(const Species& species, double stepSeconds);
 
-    // From now on. The beat goes on where it was, whatever came between; muscles change over within
-    // a few hundredths of the fish's second.
+    // From now on. The beat keeps time through all orders; muscles change over within a few
+    // hundredths of the fish's second, and a fish that stops swimming lets half a beat die away.
     void give(const Order& order);
     void advance(int steps);
 
@@ -48,8 +49,10 @@ class Swimmer {
 
   private:
     void advanceOne();
-    [[nodiscard]] MuscleActivation program() const;
     [[nodiscard]] bool swims() const;
+    [[nodiscard]] MuscleActivation muscleProgram() const;
+    [[nodiscard]] MuscleActivation tailBeat(double share) const;
+    [[nodiscard]] PectoralFins finProgram() const;
 
     BiomechanicalFish fish_;
     Swim swim_;
@@ -60,7 +63,10 @@ class Swimmer {
     Order order_;
     double ownSecondsOfOrder_ = 0;
     double ownSecondsSwum_ = 0;
+    Gait beating_{};   // of tail or fins
     double beat_ = 0;  // 0 to 1
+    double headingOfOrder_ = 0;
+    Attitude attitude_;  // mean over a beat
     MuscleActivation muscles_;
     MuscleActivation musclesBefore_;  // when the order came
 };
