@@ -14,5 +14,6 @@ void addInspectCommand(CLI::App& app);
 void addSearchCommand(CLI::App& app);
 void addGaitsCommand(CLI::App& app);
 void addExportCommand(CLI::App& app);
+void addFidelityCommand(CLI::App& app);
 
 }  // namespace aquarama
