@@ -33,6 +33,7 @@ class CageShape {
 
     MonotoneCurve dorsal_, ventral_, halfWidth_;
     FinPatch firstDorsal_, secondDorsal_, anal_, caudal_, pelvic_, pectoral_;
+    bool isOneDorsal_;
     // Rings slant, so that the base of every fin lies on them: their stations on back, flank,
     // belly.
     RingStations back_{}, flank_{}, belly_{};

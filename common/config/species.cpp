@@ -10,6 +10,7 @@ namespace aquarama {
 namespace {
 
 constexpr Range kStation{0, 1.2};
+constexpr float kHead = 0.05F;  // no fin stands before it
 constexpr Range kHeight{-1, 1};
 constexpr Range kExtent{0.0005, 0.5};  // body lengths; thinner would fold the springs or the skin
 constexpr Range kShare{0, 1};
@@ -82,8 +83,29 @@ Fin readMedianFin(const TextPlace& fins, const std::string& field) {
     return fin;
 }
 
-// Along back and belly the bases of the fins come one after the other, before the root of the tail.
+// A fin that stands off the flank turns about its base.
+Fin readPectoral(const TextPlace& fins, float tailRoot) {
+    Fin fin = readFin(fins, "pectoral");
+    const TextPlace at = fins.in("pectoral");
+    if (fin.base.front() == fin.base.back())
+        at.refuse("base", "the base of pectoral ends where it begins: spread it", 0);
+    for (std::size_t i = 0; i < fin.base.size(); ++i)
+        if (fin.base[i].x < kHead || fin.base[i].x >= tailRoot)
+            at.refuse("base",
+                      "the base of pectoral must lie behind the head and before the tail, from s: "
+                      "0.05 to the last profile station: move it",
+                      static_cast<int>(i));
+    return fin;
+}
+
+// Along back and belly the bases of the fins come one after the other, between the head and the
+// root of the tail.
 void checkOrder(const TextPlace& fins, const Fins& read, float tailRoot) {
+    if (read.firstDorsal.base.front().x < kHead)
+        fins.refuse("first_dorsal",
+                    "first_dorsal begins on the head, before s: 0.05: move it back");
+    if (read.pelvic.base.front().x < 2 * kHead)
+        fins.refuse("pelvic", "pelvic begins on the head, before s: 0.1: move it back");
     if (read.secondDorsal && read.secondDorsal->base.front().x <= read.firstDorsal.base.back().x)
         fins.refuse("second_dorsal", "second_dorsal begins before first_dorsal ends: move it back");
     const char* const last = read.secondDorsal ? "second_dorsal" : "first_dorsal";
@@ -101,7 +123,7 @@ Fins readFins(const TextPlace& at, float tailRoot) {
               .anal = readMedianFin(at, "anal"),
               .caudal = readFin(at, "caudal"),
               .pelvic = readMedianFin(at, "pelvic"),
-              .pectoral = readFin(at, "pectoral")};
+              .pectoral = readPectoral(at, tailRoot)};
     if (at.has("second_dorsal")) fins.secondDorsal = readMedianFin(at, "second_dorsal");
     checkOrder(at, fins, tailRoot);
     return fins;
@@ -166,14 +188,24 @@ Turn readTurn(const TextPlace& at) {
 }
 
 SchoolHabits readSchool(const TextPlace& at) {
-    return {.neighbours = static_cast<std::uint32_t>(at.number("neighbours", {1, 7})),
-            .repelBodyLengths = at.number("repel_bl", kBodyLengths),
-            .alignBodyLengths = at.number("align_bl", kBodyLengths),
-            .attractBodyLengths = at.number("attract_bl", kBodyLengths),
-            .blindRadians = radiansOf(at.number("blind_deg", {0, 180})),
-            .leastDepthMetres = at.number("least_depth_m", kDepth),
-            .bestDepthMetres = at.number("best_depth_m", kDepth),
-            .mostDepthMetres = at.number("most_depth_m", kDepth)};
+    const SchoolHabits school{
+        .neighbours = static_cast<std::uint32_t>(at.number("neighbours", {1, 7})),
+        .repelBodyLengths = at.number("repel_bl", kBodyLengths),
+        .alignBodyLengths = at.number("align_bl", kBodyLengths),
+        .attractBodyLengths = at.number("attract_bl", kBodyLengths),
+        .blindRadians = radiansOf(at.number("blind_deg", {0, 180})),
+        .leastDepthMetres = at.number("least_depth_m", kDepth),
+        .bestDepthMetres = at.number("best_depth_m", kDepth),
+        .mostDepthMetres = at.number("most_depth_m", kDepth)};
+    if (school.alignBodyLengths <= school.repelBodyLengths)
+        at.refuse("align_bl", "align_bl must be more than repel_bl: exchange them");
+    if (school.attractBodyLengths <= school.alignBodyLengths)
+        at.refuse("attract_bl", "attract_bl must be more than align_bl: exchange them");
+    if (school.bestDepthMetres < school.leastDepthMetres)
+        at.refuse("best_depth_m", "best_depth_m is less than least_depth_m: exchange them");
+    if (school.mostDepthMetres < school.bestDepthMetres)
+        at.refuse("most_depth_m", "most_depth_m is less than best_depth_m: exchange them");
+    return school;
 }
 
 std::vector<Paint> readPalette(const TextPlace& root) {

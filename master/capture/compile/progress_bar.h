@@ -14,12 +14,14 @@ class ProgressBar {
     ProgressBar& operator=(const ProgressBar&) = delete;
     ProgressBar(ProgressBar&&) = delete;
     ProgressBar& operator=(ProgressBar&&) = delete;
-    void show(double share);  // 0 to 1
+    // 0 to 1, and on a terminal a note behind the bar.
+    void show(double share, const std::string& note = "");
 
   private:
     std::string what_;
     bool isTerminal_;
     int shown_ = -1;  // per cent
+    std::string note_;
 };
 
 }  // namespace aquarama

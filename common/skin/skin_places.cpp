@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/surface/skin_places.h"
+#include "common/skin/skin_places.h"
 
 #include <algorithm>
 #include <array>

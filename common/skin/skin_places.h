@@ -2,8 +2,8 @@
 // Where each vertex and triangle of the surface is on the fish: the painter's coordinates.
 #pragma once
 
-#include "render_node/surface/face_grid.h"
-#include "render_node/surface/limit_table.h"
+#include "common/skin/face_grid.h"
+#include "common/skin/limit_table.h"
 
 namespace aquarama {
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/surface/limit_table.h"
+#include "common/skin/limit_table.h"
 
 #include <algorithm>
 #include <memory>
 #include <span>
 
+#include <glm/geometric.hpp>
 #include <opensubdiv/far/stencilTableFactory.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
+#include "common/skin/face_grid.h"
+#include "common/skin/skin_places.h"
 #include "common/units/error.h"
-#include "render_node/surface/face_grid.h"
-#include "render_node/surface/skin_places.h"
 
 namespace aquarama {
 
@@ -101,6 +102,19 @@ void holdToControlPoint(std::vector<StencilEntry>& entries, std::uint32_t contro
 }
 
 }  // namespace
+
+SkinPoint skinPoint(const LimitTable& table,
+                    std::size_t vertex,
+                    std::span<const glm::vec3> controlPoints) {
+    glm::vec3 position{}, u{}, v{};
+    for (std::uint32_t k = table.firstEntry[vertex]; k < table.firstEntry[vertex + 1]; ++k) {
+        const StencilEntry& entry = table.entries[k];
+        position += entry.position * controlPoints[entry.controlPoint];
+        u += entry.tangentU * controlPoints[entry.controlPoint];
+        v += entry.tangentV * controlPoints[entry.controlPoint];
+    }
+    return {position, glm::normalize(glm::cross(u, v))};
+}
 
 LimitTable makeLimitTable(const FishBody& body, int level) {
     const FaceGrid grid{body.cage, 1 << level};

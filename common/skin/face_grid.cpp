@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/surface/face_grid.h"
+#include "common/skin/face_grid.h"
 
 #include <map>
 #include <utility>

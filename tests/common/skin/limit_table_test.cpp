@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/surface/limit_table.h"
+#include "common/skin/limit_table.h"
 
 #include <map>
 #include <memory>
@@ -19,23 +19,6 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
-
-struct SurfacePoint {
-    glm::vec3 position{}, normal{};
-};
-
-SurfacePoint evaluate(const LimitTable& table,
-                      std::size_t vertex,
-                      const std::vector<glm::vec3>& controlPoints) {
-    glm::vec3 position{}, u{}, v{};
-    for (std::uint32_t k = table.firstEntry[vertex]; k < table.firstEntry[vertex + 1]; ++k) {
-        const StencilEntry& entry = table.entries[k];
-        position += entry.position * controlPoints[entry.controlPoint];
-        u += entry.tangentU * controlPoints[entry.controlPoint];
-        v += entry.tangentV * controlPoints[entry.controlPoint];
-    }
-    return {position, glm::normalize(glm::cross(u, v))};
-}
 
 std::vector<glm::vec3> bentCage(const FishBody& body) {
     std::vector<glm::vec3> points(kControlPoints);
@@ -142,9 +125,9 @@ TEST_P(LimitTableOf, everyEdgeJoinsTwoTriangles) {
 
 TEST_P(LimitTableOf, normalsPointOutOfAClosedSkin) {
     const std::vector<glm::vec3> cage = bentCage(body_);
-    std::vector<SurfacePoint> points;
+    std::vector<SkinPoint> points;
     for (std::size_t i = 0; i < table_.vertices.size(); ++i)
-        points.push_back(evaluate(table_, i, cage));
+        points.push_back(skinPoint(table_, i, cage));
     double volume = 0;
     std::vector<glm::vec3> around(points.size());
     for (std::size_t t = 0; t < table_.indices.size(); t += 3) {
@@ -185,7 +168,7 @@ TEST(LimitTable, level0IsTheControlMesh) {
     const std::vector<glm::vec3> cage = bentCage(body);
     ASSERT_EQ(table.vertices.size(), cage.size());
     for (std::size_t i = 0; i < cage.size(); ++i)
-        EXPECT_EQ(evaluate(table, i, cage).position, cage[i]);
+        EXPECT_EQ(skinPoint(table, i, cage).position, cage[i]);
 }
 
 // Where the control mesh takes over a fish fills some 160 pixels: the tips of its fins, which
@@ -195,9 +178,9 @@ TEST(LimitTable, aChangeOfLevelMovesNoVertexFar) {
     const std::vector<glm::vec3> cage = bentCage(body);
     const LimitTable coarse = makeLimitTable(body, 1), fine = makeLimitTable(body, 2);
     for (std::size_t i = 0; i < kControlPoints; ++i) {
-        const glm::vec3 limit = evaluate(coarse, i, cage).position;
+        const glm::vec3 limit = skinPoint(coarse, i, cage).position;
         EXPECT_LT(glm::distance(limit, cage[i]), 3.0F / 160.0F) << "vertex " << i;
-        EXPECT_LT(glm::distance(limit, evaluate(fine, i, cage).position), 1e-6F) << "vertex " << i;
+        EXPECT_LT(glm::distance(limit, skinPoint(fine, i, cage).position), 1e-6F) << "vertex " << i;
     }
 }
 
@@ -208,7 +191,7 @@ TEST(LimitTable, finerLevelsLieWhereEndlessRefinementLeads) {
     for (const int level : {1, 2}) {
         const LimitTable table = makeLimitTable(body, level);
         for (std::size_t i = 0; i < kControlPoints; ++i) {
-            const glm::vec3 limit = evaluate(table, i, cage).position;
+            const glm::vec3 limit = skinPoint(table, i, cage).position;
             ASSERT_LT(glm::distance(limit, far.ofVertices[i]), 1e-4F) << "vertex " << i;
         }
     }
@@ -216,7 +199,7 @@ TEST(LimitTable, finerLevelsLieWhereEndlessRefinementLeads) {
     const LimitTable table = makeLimitTable(body, 1);
     std::size_t found = 0;
     for (std::size_t i = kControlPoints; i < table.vertices.size(); ++i) {
-        const glm::vec3 limit = evaluate(table, i, cage).position;
+        const glm::vec3 limit = skinPoint(table, i, cage).position;
         for (const glm::vec3 middle : far.ofFaces) {
             if (glm::distance(limit, middle) < 1e-4F) {
                 ++found;

@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "common/body/fish_body.h"
@@ -45,6 +47,15 @@ struct LimitTable {
         indices;  // counter-clockwise triangles: first the body's, then the fins'
     std::size_t bodyIndices = 0;
 };
+
+struct SkinPoint {
+    glm::vec3 position{};
+    glm::vec3 normal{};  // outward
+};
+// A vertex of the surface over these control points.
+[[nodiscard]] SkinPoint skinPoint(const LimitTable& table,
+                                  std::size_t vertex,
+                                  std::span<const glm::vec3> controlPoints);
 
 // Takes 5 to 50 ms, so it is built at start and not kept in files.
 [[nodiscard]] LimitTable makeLimitTable(const FishBody& body, int level);
