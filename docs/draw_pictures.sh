@@ -10,6 +10,6 @@ build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$
 
 mkdir -p docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
-for figure in forward_medium turn_right_sharp midlines-forward_medium; do
-    cp "$drawn/report/bigeye_scad-$figure.svg" "docs/pictures/${figure//-/_}.svg"
+for figure in forward_medium turn_right_sharp midlines_forward_medium; do
+    sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"
 done

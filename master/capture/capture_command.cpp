@@ -37,7 +37,7 @@ void capture(const fs::path& speciesFile, const CaptureOptions& options) {
     writeWhole(path, encodeRepertoire(repertoire));
     std::cout << path.string() << '\n';
     if (!options.report.empty())
-        std::cout << writeReport(repertoire, makeBody(species), options.report).string() << '\n';
+        std::cout << writeReport(repertoire, options.report).string() << '\n';
 }
 
 void captureAll(const CaptureOptions& options) {
