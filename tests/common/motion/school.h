@@ -36,9 +36,18 @@ struct School {
         for (std::size_t i = 0; i < fish; ++i) setBodyFrame(states, i, {});
     }
 
+    // As recorded, from now on and for long.
     void play(std::size_t fish, Action action) {
         states.segment[fish] = static_cast<std::uint8_t>(action);
         command(fish, action);
+        setSpeedBodyLengths(states, fish, recordedSpeedBodyLengths(sharedTables(), action));
+    }
+    void playAtRate(std::size_t fish, Action action, int phaseRate) {
+        play(fish, action);
+        const double share = 1.0 * phaseRate / commands.phaseRate[fish];
+        commands.phaseRate[fish] = static_cast<std::int16_t>(phaseRate);
+        setSpeedBodyLengths(
+            states, fish, static_cast<float>(share) * speedBodyLengths(states, fish));
     }
     void command(std::size_t fish, Action action) {
         commands.segment[fish] = static_cast<std::uint8_t>(action);
@@ -90,6 +99,7 @@ inline void scatter(School& school, std::mt19937& random) {
         setBodyFrame(school.states, i, {100.0F * place, glm::normalize(turn)});
         school.states.segment[i] = static_cast<std::uint8_t>(random() % kActions);
         school.states.phase[i] = static_cast<std::uint16_t>(random());
+        school.states.speed[i] = static_cast<std::int32_t>(random() % 4000000) - 2000000;
         school.traits[i].lengthMillimetres = static_cast<std::uint16_t>(20 + random() % 5000);
     }
 }
@@ -98,7 +108,8 @@ inline void commandAtRandom(School& school, std::mt19937& random) {
     for (std::size_t i = 0; i < school.traits.size(); ++i) {
         if (random() % 20 != 0) continue;  // a decision every third of a second
         school.commands.segment[i] = static_cast<std::uint8_t>(random() % kActions);
-        school.commands.phaseRate[i] = static_cast<std::uint16_t>(random() % 6000);
+        school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 8000 - 2000);
+        school.commands.brake[i] = static_cast<std::uint8_t>(random() % 2 == 0 ? 0 : random());
         school.commands.pitch[i] = static_cast<std::int16_t>(random());
         school.commands.yawRate[i] = static_cast<std::int16_t>(random());
     }
