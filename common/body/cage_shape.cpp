@@ -67,6 +67,12 @@ bool isPectoralRoot(int ring, int column) {
     return isPectoralRing(ring) && !isRidge(column) && column != 2 && column != 11;
 }
 
+// The unit vector square to a fin's base on the side that its rays run to.
+glm::vec2 awayFrom(glm::vec2 base, const FinPatch& fin) {
+    const glm::vec2 square{-base.y, base.x};
+    return glm::dot(fin.at(0.5F, 1) - fin.at(0.5F, 0), square) < 0 ? -square : square;
+}
+
 // Columns 3-5 and 10-8 are the front, the middle and the rear ray of a pectoral fin.
 float pectoralRay(int column) {
     return static_cast<float>(column < 6 ? column - 3 : 10 - column) / 2;
@@ -163,20 +169,32 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
         return {s,
                 height * std::sin(at.angle) * kGrow,
                 at.side * section.halfWidth * std::cos(at.angle) * kGrow};
-    const float y = pectoral_.at(pectoralRay(column), 0).y;
-    const float relative = y / (y > 0 ? section.dorsal : section.ventral);
-    return {
-        s, y, at.side * section.halfWidth * std::sqrt(std::max(0.05F, 1 - relative * relative))};
+    return onPectoralRoot(ring, column);
 }
 
+glm::vec3 CageShape::onPectoralRoot(int ring, int column) const {
+    const glm::vec2 base = pectoral_.at(pectoralRay(column), 0);
+    const float s = base.x + (ring == 5 ? -kRootHalfLength : kRootHalfLength);
+    const Section section = sectionAt(s);
+    const float relative = base.y / (base.y > 0 ? section.dorsal : section.ventral);
+    return {s,
+            base.y,
+            placeOf(column).side * section.halfWidth *
+                std::sqrt(std::max(0.05F, 1 - relative * relative))};
+}
+
+// Its rays start where the body ends.
 CageVertex CageShape::onCaudal(int ring, int column) const {
     const ColumnPlace at = placeOf(column);
     const float q = static_cast<float>(ring - kBodyEndRing) / (kTubeRings - 1 - kBodyEndRing);
-    return {.rest = {caudal_.at(at.ray, q), at.side * finHalfThickness(q)},
+    const glm::vec2 root{back_[kBodyEndRing], caudal_.at(at.ray, 0).y};
+    return {.rest = {glm::mix(root, caudal_.at(at.ray, 1), q), at.side * finHalfThickness(q)},
             .part = CagePart::Caudal,
             .fin = {at.ray, q}};
 }
 
+// Its rays start at the ridge itself: a base drawn a little too deep would hide the fin's margins
+// inside the body.
 CageVertex CageShape::onMedianFin(const CageSite& site) const {
     const bool isAnal = site.part == CagePart::Anal;
     const FinPatch& fin = isAnal                               ? anal_
@@ -186,30 +204,39 @@ CageVertex CageShape::onMedianFin(const CageSite& site) const {
     const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
     const bool isCut = isOneDorsal_ && site.part == CagePart::FirstDorsal && site.ring == 13;
     const float p = fin.rayAtStation(s) + (isCut ? kStripOverlap : 0);
-    return {.rest = {fin.at(p, q), placeOf(site.column).side * finHalfThickness(q)},
-            .part = isOneDorsal_ && !isAnal ? CagePart::FirstDorsal : site.part,
-            .fin = {p, q}};
+    const Section section = sectionAt(s);
+    const glm::vec2 ridge{fin.at(p, 0).x, isAnal ? -section.ventral : section.dorsal};
+    return {
+        .rest = {glm::mix(ridge, fin.at(p, 1), q), placeOf(site.column).side * finHalfThickness(q)},
+        .part = isOneDorsal_ && !isAnal ? CagePart::FirstDorsal : site.part,
+        .fin = {p, q}};
 }
 
-// A paired fin stands off the flank by its angle, turned about its base.
+// A paired fin is flat and stands off the flank by its angle, turned about its base.
 CageVertex CageShape::onPairedFin(const CageSite& site) const {
     const bool isPelvic = site.part == CagePart::Pelvic;
     const FinPatch& fin = isPelvic ? pelvic_ : pectoral_;
     const float p = isPelvic ? static_cast<float>(site.ring - 7) : pectoralRay(site.column);
     const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
-    const bool isOuter = isPelvic ? site.column == 5 || site.column == 8 : site.ring == 5;
-    const glm::vec2 base = fin.at(p, 0);
-    const glm::vec2 ray = fin.at(p, q) - base;
     const glm::vec2 hinge = glm::normalize(fin.baseRear() - fin.baseFront());
-    const glm::vec2 along = hinge * glm::dot(ray, hinge);
-    const glm::vec2 across = ray - along;
-    const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(base.x).halfWidth;
-    const float off = glm::length(across) * std::sin(fin.angleRadians());
-    const float thickness = (isOuter ? 0.002F : -0.002F) * (1 - 0.7F * q);
-    return {.rest = {base + along + across * std::cos(fin.angleRadians()),
-                     placeOf(site.column).side * (root + off + thickness)},
-            .part = site.part,
-            .fin = {p, q}};
+    const glm::vec2 outwards = awayFrom(hinge, fin);
+    const glm::vec2 drawn = fin.at(p, q) - fin.baseFront();
+    const float reach = glm::dot(drawn, outwards);
+    const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(fin.at(0.5F, 0).x).halfWidth;
+    // Its root twists by a quarter, so that the front of the root of a fin that points back becomes
+    // its outer side, but that of a fin which points down its inner.
+    const bool pointsDown = hinge.x * outwards.y < hinge.y * outwards.x;
+    const bool isOuter =
+        isPelvic ? site.column == 5 || site.column == 8 : (site.ring == 5) != pointsDown;
+    const float thickness = (isOuter ? 0.003F : -0.003F) * (1 - 0.7F * q);
+    const float sine = std::sin(fin.angleRadians());
+    const float cosine = std::cos(fin.angleRadians());
+    const glm::vec2 inFlank = fin.baseFront() + hinge * glm::dot(drawn, hinge) +
+                              outwards * (reach * cosine - thickness * sine);
+    return {
+        .rest = {inFlank, placeOf(site.column).side * (root + reach * sine + thickness * cosine)},
+        .part = site.part,
+        .fin = {p, q}};
 }
 
 }  // namespace aquarama

@@ -26,6 +26,7 @@ class CageShape {
     void slantRings(const Species& species);
     [[nodiscard]] Section sectionAt(float s) const;
     [[nodiscard]] glm::vec3 onBody(int ring, int column) const;
+    [[nodiscard]] glm::vec3 onPectoralRoot(int ring, int column) const;
     [[nodiscard]] CageVertex onCaudal(int ring, int column) const;
     [[nodiscard]] glm::vec3 onNose(int row, int column) const;
     [[nodiscard]] CageVertex onMedianFin(const CageSite& site) const;

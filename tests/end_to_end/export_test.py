@@ -1,4 +1,4 @@
-"""What `aquarama export` writes, read by programs of others, and what it refuses."""
+"""What `aquarama export` and `aquarama inspect` write, read by programs of others, and what they refuse."""
 
 import csv
 import json
@@ -78,6 +78,27 @@ class Export(unittest.TestCase):
             table = self.table(segment, 3)
             self.assertEqual(len(frames), len(table))
             self.assert_same(table, lambda frame, node, axis: frames[frame][node][axis])
+
+    def test_inspect_writes_one_page_from_the_file_alone(self):
+        alone = self.folder / "elsewhere.file"  # told by its first bytes
+        alone.write_bytes(self.repertoire.read_bytes())
+        run = aquarama("inspect", "--report", self.folder / "report", alone)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        pages = list((self.folder / "report").iterdir())
+        self.assertEqual([page.name for page in pages], ["bigeye_scad.html"])
+        self.assertIn(str(pages[0]), run.stdout)
+        page = pages[0].read_text()
+        for segment in SEGMENTS:
+            self.assertIn(segment, run.stdout)
+            self.assertIn(f'<figure id="{segment}">', page)
+
+    def test_a_report_that_cannot_be_written_is_an_error(self):
+        blocked = self.folder / "not-a-folder"
+        blocked.write_text("")
+        run = aquarama("inspect", self.repertoire, "--report", blocked)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn(str(blocked), run.stderr)
+        self.assertEqual(aquarama("inspect", self.repertoire, "--reprot", blocked).returncode, 2)
 
     def test_a_glb_is_as_long_as_it_says_and_holds_json(self):
         content = self.export("gltf", "fish.glb", "forward_medium", 2).read_bytes()

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama_draw_species FOLDER SPECIES.txtpb...: writes FOLDER/species.png, each fish from its
-// right, from above, bent to one side, and from the front, all of one length; and FOLDER/sizes.png,
-// all at one scale.
+// right, from above, bent to one side, and from the front, all of one length; and
+// FOLDER/species_sizes.png, all at one scale.
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <iostream>
 #include <span>
@@ -13,6 +12,7 @@
 #include <glm/common.hpp>
 
 #include "common/wall/png_file.h"
+#include "tests/common/body/bend.h"
 #include "tests/support/portrait.h"
 
 namespace aquarama {
@@ -41,15 +41,9 @@ void save(const Light& fine, const std::string& path) {
     std::cout << path << '\n';
 }
 
-// Bent to its right, along a curve that no cycle of a captured fish exceeds by much.
 NodalPoints bent(const FishBody& body) {
     NodalPoints nodes = body.restNodes;
-    for (glm::vec3& node : nodes) {
-        const float curvature = 1.1F;
-        const float angle = -node.x * curvature;
-        const float radius = 1 / curvature - node.z;
-        node = {-radius * std::sin(angle), node.y, 1 / curvature - radius * std::cos(angle)};
-    }
+    for (glm::vec3& node : nodes) node = bentToTheRight(node, 0.9F);
     return nodes;
 }
 
@@ -141,7 +135,7 @@ int main(int count, char** arguments) {
         for (const std::string& path : std::span(words).subspan(1))
             fish.emplace_back(aquarama::readSpecies(path));
         aquarama::drawViews(fish, words[0] + "/species.png");
-        aquarama::drawSizes(fish, words[0] + "/sizes.png");
+        aquarama::drawSizes(fish, words[0] + "/species_sizes.png");
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "aquarama_draw_species: " << error.what() << '\n';

@@ -6,9 +6,9 @@
 
 #include <glm/common.hpp>
 
-#include "common/motion/gait_path.h"
 #include "common/units/error.h"
 #include "common/units/ids.h"
+#include "master/capture/measure/course.h"
 
 namespace aquarama {
 
@@ -34,10 +34,9 @@ TakeFrame frameAt(const std::vector<ReplayedPhase>& phases, double at) {
         phases[before], phases[before + 1], std::min(at - static_cast<double>(before), 1.0));
 }
 
-void place(TakeFrame& frame, const glm::dquat& rotation, double metres) {
-    frame.origin = rotation * frame.origin * metres;
-    frame.worldFromBody = rotation * frame.worldFromBody;
-    for (glm::dvec3& node : frame.nodes) node = rotation * node * metres;
+void scale(TakeFrame& frame, double metres) {
+    frame.origin *= metres;
+    for (glm::dvec3& node : frame.nodes) node *= metres;
 }
 
 Take makeTake(const Repertoire& repertoire,
@@ -50,24 +49,19 @@ Take makeTake(const Repertoire& repertoire,
               .segment = nameOf(action),
               .lengthMetres = static_cast<double>(repertoire.recordedLengthMetres),
               .frames = {}};
-    const std::vector<ReplayedPhase> phases = replay(segment, cycles);
-    const glm::dquat rotation = takeFromReplay(segment);
+    const std::vector<ReplayedPhase> phases = replayAlongX(segment, cycles);
     for (std::size_t i = 0; i < frames; ++i) {
         const double seconds = static_cast<double>(i) * secondsPerFrame;
         TakeFrame frame =
             frameAt(phases, seconds * kPhases / static_cast<double>(segment.periodSeconds));
         frame.seconds = seconds;
-        place(frame, rotation, take.lengthMetres);
+        scale(frame, take.lengthMetres);
         take.frames.push_back(frame);
     }
     return take;
 }
 
 }  // namespace
-
-glm::dquat takeFromReplay(const ActionSegment& segment) {
-    return glm::conjugate(pathOf(segment).bodyFromMean[0]);
-}
 
 Take takeAtTicks(const Repertoire& repertoire, Action action, int cycles) {
     constexpr double kRounding = 1e-6;  // of a tick

@@ -31,8 +31,8 @@ struct Take {
 inline constexpr std::size_t kMostFrames = 65535;  // as many as a C3D file can count
 inline constexpr int kMostCycles = 1000;
 
-// Some cycles from phase 0, as replay() plays them, in the world of a take; between the 64 phases
-// of a cycle everything goes straight.
+// Some cycles from phase 0, as replayAlongX() plays them; between the 64 phases of a cycle
+// everything goes straight.
 // At the ticks of 1/60 s within the cycles. Throws Error for more than kMostFrames.
 [[nodiscard]] Take takeAtTicks(const Repertoire& repertoire, Action action, int cycles);
 // At so many phases of each cycle, and at the end of the last.
@@ -40,10 +40,5 @@ inline constexpr int kMostCycles = 1000;
                                 Action action,
                                 int cycles,
                                 int framesPerCycle);
-
-// Turns the world of replay(), which is the body frame at phase 0, into that of a take: what beats
-// on heads along +x in the mean over a cycle, since the tail sways the body frame; a turn that
-// plays to its end does at its start.
-[[nodiscard]] glm::dquat takeFromReplay(const ActionSegment& segment);
 
 }  // namespace aquarama

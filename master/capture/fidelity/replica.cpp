@@ -23,7 +23,7 @@ Action actionOf(Manoeuvre manoeuvre) {
         case Manoeuvre::Brake:
             return Action::Glide;
         case Manoeuvre::Retreat:
-            return Action::ForwardSlow;
+            return Action::ForwardSlow;  // backwards
         default:
             return static_cast<Action>(manoeuvre);
     }
@@ -67,10 +67,12 @@ Replica::Replica(const Repertoire& repertoire)
     commands_.resize(1);
     setBodyFrame(states_, 0, {});
     states_.segment[0] = static_cast<std::uint8_t>(Action::ForwardMedium);
+    setSpeedBodyLengths(states_, 0, recordedSpeedBodyLengths(*tables_, Action::ForwardMedium));
 }
 
 void Replica::command(Manoeuvre manoeuvre) {
-    play(actionOf(manoeuvre), 1);
+    play(actionOf(manoeuvre), manoeuvre == Manoeuvre::Retreat ? -1 : 1);
+    commands_.brake[0] = manoeuvre == Manoeuvre::Brake ? 255 : 0;
     commands_.pitch[0] =
         static_cast<std::int16_t>(std::lround(std::sin(pitchOf(manoeuvre)) * 32768));
 }
@@ -78,7 +80,7 @@ void Replica::command(Manoeuvre manoeuvre) {
 void Replica::play(Action action, double tempo) {
     commands_.segment[0] = static_cast<std::uint8_t>(action);
     commands_.phaseRate[0] =
-        static_cast<std::uint16_t>(std::lround(tempo * recordedPhaseRate(*tables_, action)));
+        static_cast<std::int16_t>(std::lround(tempo * recordedPhaseRate(*tables_, action)));
 }
 
 void Replica::tick() {

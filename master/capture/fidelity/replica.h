@@ -18,7 +18,7 @@ class Replica {
     explicit Replica(const Repertoire& repertoire);
 
     void command(Manoeuvre manoeuvre);
-    // A segment at so many times its recorded tempo.
+    // A segment at so many times its recorded tempo; backwards when that is negative.
     void play(Action action, double tempo);
     void tick();
 

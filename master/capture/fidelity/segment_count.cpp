@@ -9,7 +9,7 @@
 
 #include "common/units/ids.h"
 #include "master/capture/compile/compile_segment.h"
-#include "master/capture/compile/recording.h"
+#include "master/capture/compile/turn.h"
 #include "master/capture/fidelity/compare.h"
 #include "master/capture/fidelity/replica.h"
 
@@ -123,7 +123,7 @@ class GradedScript {
 // Segments of all grades, captured when they are first asked for.
 class Library {
   public:
-    explicit Library(const Species& species) : species_(species), body_(makeBody(species)) {}
+    explicit Library(const Species& species) : species_(species) {}
 
     const ActionSegment& segment(const Grade& grade) {
         const auto known = segments_.find(grade);
@@ -132,21 +132,16 @@ class Library {
     }
 
   private:
-    ActionSegment capture(const Grade& grade) {
-        const auto silent = [](double) {};
-        Species one = species_;
+    [[nodiscard]] ActionSegment capture(const Grade& grade) const {
         if (grade.way == Way::Ahead) {
-            one.swim.slow = gaitAt(species_.swim, grade.value);
-            return compileForward(body_, record(one, Action::ForwardSlow, silent));
+            const Gait gait = gaitAt(species_.swim, grade.value);
+            return compileForward(swimUntilSteady(species_, gait).beat);
         }
-        one.turn.gradual = bendAt(species_.turn, grade.value);
-        const Recording recording = record(one, Action::TurnLeftGradual, silent);
-        return grade.way == Way::Left ? compileLeftTurn(body_, recording)
-                                      : compileRightTurn(body_, recording);
+        const Recording turn = recordTypicalLeftTurn(species_, bendAt(species_.turn, grade.value));
+        return grade.way == Way::Left ? compileLeftTurn(turn) : compileRightTurn(turn);
     }
 
     const Species& species_;
-    FishBody body_;
     std::map<Grade, ActionSegment> segments_;
 };
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "common/motion/gait_path.h"
 #include "common/units/error.h"
 #include "master/capture/exchange/markers.h"
 #include "tests/support/scad.h"
@@ -28,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Segments,
 TEST_P(TakeOf, atThePhasesItIsTheReplayInMetresAndTurned) {
     const Take take = takeAtPhases(scadRepertoire(), action_, 3, kPhases);
     const auto replayed = replay(segment_, 3);
-    const glm::dquat turned = takeFromReplay(segment_);
+    const glm::dquat turned = glm::conjugate(pathOf(segment_).bodyFromMean[0]);
     ASSERT_EQ(take.frames.size(), replayed.size());
     for (std::size_t k = 0; k < replayed.size(); ++k) {
         for (std::size_t i = 0; i < kNodalPoints; ++i) {
