@@ -40,14 +40,13 @@ std::vector<RepertoireFile> captured(const std::vector<SpeciesText>& texts) {
                            .isStopped = [&] { return isStopped.load(); }});
 }
 
-void write(const RepertoireFile& file, const SpeciesText& text, const CaptureOptions& options) {
+void write(const RepertoireFile& file, const CaptureOptions& options) {
     const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
     writeWhole(path, file.bytes);
     std::cout << path.string() << '\n';
     if (options.report.empty()) return;
     const Repertoire repertoire = decodeRepertoire(file.bytes, path.string());
-    const FishBody body = makeBody(parseSpecies(text.text, text.source));
-    std::cout << writeReport(repertoire, body, options.report).string() << '\n';
+    std::cout << writeReport(repertoire, options.report).string() << '\n';
 }
 
 // A species that fails is named, and the others still come out.
@@ -61,11 +60,11 @@ void captureAll(const CaptureOptions& options) {
 
     const std::vector<RepertoireFile> files = captured(texts);
     std::size_t failed = 0;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        if (files[i].error.empty()) {
-            write(files[i], texts[i], options);
+    for (const RepertoireFile& file : files) {
+        if (file.error.empty()) {
+            write(file, options);
         } else {
-            std::cerr << "aquarama-capture: " << files[i].error << '\n';
+            std::cerr << "aquarama-capture: " << file.error << '\n';
             ++failed;
         }
     }

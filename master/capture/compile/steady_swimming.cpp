@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/capture/compile/steady_swimming.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -51,12 +50,15 @@ glm::dvec3 wayOf(const Recording& beat, std::size_t phase) {
 
 double differenceOf(const Recording& beat, const Recording& next) {
     double most = 0;
+    const auto note = [&](const glm::dvec3& a, const glm::dvec3& b) {
+        const double difference = glm::distance(a, b);
+        if (difference > most || std::isnan(difference)) most = difference;
+    };
     for (std::size_t phase = 0; phase < beat.poses.size(); ++phase) {
         const NodeVectors a = inBodyFrame(beat.poses.at(phase));
         const NodeVectors b = inBodyFrame(next.poses.at(phase));
-        for (std::size_t i = 0; i < a.size(); ++i)
-            most = std::max(most, glm::distance(a.at(i), b.at(i)));
-        most = std::max(most, glm::distance(wayOf(beat, phase), wayOf(next, phase)));
+        for (std::size_t i = 0; i < a.size(); ++i) note(a.at(i), b.at(i));
+        note(wayOf(beat, phase), wayOf(next, phase));
     }
     return most;
 }
@@ -71,9 +73,10 @@ SteadySwimming swimUntilSteady(const Species& species, const Gait& gait) {
     steady.beat = recordBeat(steady.swimmer, periodSeconds, steps);
     for (steady.beats = 2; steady.beats <= kMostBeats; ++steady.beats) {
         Recording next = recordBeat(steady.swimmer, periodSeconds, steps);
-        const bool repeats = differenceOf(steady.beat, next) <= kRepeatsBodyLengths;
+        const double difference = differenceOf(steady.beat, next);
         steady.beat = std::move(next);
-        if (repeats) return steady;
+        if (difference <= kRepeatsBodyLengths) return steady;
+        if (std::isnan(difference)) break;
     }
     refuse(species, gait);
 }

@@ -25,7 +25,7 @@ struct SteadySwimming {
 // Throws Error, naming species and gait, when kMostBeats do not bring two that are alike.
 [[nodiscard]] SteadySwimming swimUntilSteady(const Species& species, const Gait& gait);
 
-// The criterion's measure for two beats of one gait, in body lengths.
+// The criterion's measure for two beats of one gait, in body lengths; NaN where a fish flew apart.
 [[nodiscard]] double differenceOf(const Recording& beat, const Recording& next);
 
 }  // namespace aquarama
