@@ -34,7 +34,8 @@ Recording quickBeat(const Species& species, const Gait& gait) {
     const auto advance = [&](int count) {
         for (int i = 0; i < count; ++i)
             step(fish,
-                 {.muscles = swim(species, gait, stepSeconds * static_cast<double>(done++))},
+                 {.muscles = swim(species, gait, stepSeconds * static_cast<double>(done++)),
+                  .fins = {}},
                  stepSeconds,
                  state);
     };
