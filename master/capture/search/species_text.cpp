@@ -111,6 +111,8 @@ std::string withGaitsOf(const Species& species, std::string text) {
     set({"swim", "back_lag_deg"}, swim.backLagRadians * 180 / std::numbers::pi);
     set({"swim", "slow", "gain"}, swim.slow.gain);
     set({"swim", "fast", "gain"}, swim.fast.gain);
+    set({"turn", "gradual", "strength"}, species.turn.gradual.strength);
+    set({"turn", "sharp", "strength"}, species.turn.sharp.strength);
     return text;
 }
 
