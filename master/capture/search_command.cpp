@@ -19,6 +19,7 @@
 #include "master/capture/search/gait_table.h"
 #include "master/capture/search/search.h"
 #include "master/capture/search/species_text.h"
+#include "master/capture/search/turn_strength.h"
 
 namespace aquarama {
 
@@ -63,7 +64,9 @@ void search(const SearchOptions& options) {
         });
     bar.show(1, told(journal.trials().size(), best));
 
-    const std::string found = withGaitsOf(speciesAt(best.point, species), text);
+    Species swimmer = speciesAt(best.point, species);
+    swimmer.turn = withFittingStrengths(swimmer);
+    const std::string found = withGaitsOf(swimmer, text);
     writeWhole(options.out, std::as_bytes(std::span(found)));
     std::cout << options.out << "\n\n"
               << gaitTableHead() << gaitTableRows(parseSpecies(found, options.out));

@@ -17,8 +17,10 @@ constexpr double kAny = std::numeric_limits<double>::infinity();
 // Swimming animals keep a Strouhal number of 0.2 to 0.4, efficient ones of 0.25 to 0.35 (Taylor,
 // Nudds & Thomas 2003; Triantafyllou et al. 1993).
 constexpr Band kStrouhal{0.24, 0.35, 0.02};
-// Fish go 0.5 to 0.7 of their length in a beat, at any speed (Videler & Wardle 1991).
+// Fish go 0.5 to 0.7 of their length in a beat (Videler & Wardle 1991), ...
 constexpr Band kStride{0.53, 0.67, 0.02};
+// ... the same at any speed, so that speed goes with the beat.
+constexpr Band kStrideSpread{0, 0.06, 0.02};
 // The tail swings through 0.2 of the length (Bainbridge 1958), in slow swimming through less.
 constexpr Band kTail{0.15, 0.22, 0.01};
 // The nose swings through 0.01 to 0.04 of it (Jayne & Lauder 1995; Videler & Hess 1984); a body of
@@ -50,7 +52,9 @@ double missOf(const GaitFigures& gait) {
 }  // namespace
 
 double missOf(const ForwardFigures& gaits) {
-    double sum = 0;
+    const auto strideOf = [](const GaitFigures& gait) { return gait.swum.strideBodyLengths; };
+    const auto [least, most] = std::ranges::minmax(gaits, {}, strideOf);
+    double sum = squaredMiss(strideOf(most) - strideOf(least), kStrideSpread);
     for (const GaitFigures& gait : gaits) sum += missOf(gait);
     return sum;
 }

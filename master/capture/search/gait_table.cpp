@@ -22,9 +22,7 @@ std::string gaitTableHead() {
 }
 
 std::string gaitTableRows(const Species& species) {
-    const ForwardFigures figures = tryForwardGaits(species, makeBody(species));
-    const std::array gains{
-        species.swim.slow.gain, species.swim.medium.gain, species.swim.fast.gain};
+    const std::array gaits{species.swim.slow, species.swim.medium, species.swim.fast};
     std::string name = species.name;
     std::ranges::replace(name, '_', ' ');
     std::ostringstream rows;

@@ -15,7 +15,7 @@ namespace {
 
 // Speed takes dozens of beats to settle, the wave only a few.
 constexpr double kFlyingStart = 0.62;  // body lengths a beat, as most fish go
-constexpr int kWarmUpBeats = 6;
+constexpr int kWarmUpBeats = 12;
 
 GaitFigures figuresOf(const Gait& gait, const Recording& beat) {
     const ActionSegment segment = compileForward(beat);
@@ -34,7 +34,8 @@ Recording quickBeat(const Species& species, const Gait& gait) {
     const auto advance = [&](int count) {
         for (int i = 0; i < count; ++i)
             step(fish,
-                 {.muscles = swim(species, gait, stepSeconds * static_cast<double>(done++))},
+                 {.muscles = swim(species, gait, stepSeconds * static_cast<double>(done++)),
+                  .fins = {}},
                  stepSeconds,
                  state);
     };

@@ -103,7 +103,6 @@ std::string withGaitsOf(const Species& species, std::string text) {
     set({"tissue", "muscle_stiffness"}, tissue.muscleStiffness);
     set({"tissue", "tail_stiffening"}, tissue.tailStiffening);
     set({"tissue", "damping"}, tissue.damping);
-    set({"tissue", "muscle_contraction"}, tissue.muscleContraction);
     set({"water", "drag"}, water.drag);
     set({"water", "front_factor"}, water.frontFactor);
     set({"swim", "middle_drive"}, swim.middleDrive);
@@ -111,6 +110,8 @@ std::string withGaitsOf(const Species& species, std::string text) {
     set({"swim", "back_lag_deg"}, swim.backLagRadians * 180 / std::numbers::pi);
     set({"swim", "slow", "gain"}, swim.slow.gain);
     set({"swim", "fast", "gain"}, swim.fast.gain);
+    set({"turn", "gradual", "strength"}, species.turn.gradual.strength);
+    set({"turn", "sharp", "strength"}, species.turn.sharp.strength);
     return text;
 }
 

@@ -29,8 +29,10 @@ struct School {
     MotionStates states;
     MotorCommands commands;
     std::vector<FishTraits> traits;
+    const MotorTables* tables;
 
-    explicit School(std::size_t fish) : traits(fish, {.id = 0, .lengthMillimetres = 200}) {
+    explicit School(std::size_t fish, const MotorTables& motorTables = sharedTables())
+        : traits(fish, {.id = 0, .lengthMillimetres = 200}), tables(&motorTables) {
         states.resize(fish);
         commands.resize(fish);
         for (std::size_t i = 0; i < fish; ++i) setBodyFrame(states, i, {});
@@ -40,7 +42,7 @@ struct School {
     void play(std::size_t fish, Action action) {
         states.segment[fish] = static_cast<std::uint8_t>(action);
         command(fish, action);
-        setSpeedBodyLengths(states, fish, recordedSpeedBodyLengths(sharedTables(), action));
+        setSpeedBodyLengths(states, fish, recordedSpeedBodyLengths(*tables, action));
     }
     void playAtRate(std::size_t fish, Action action, int phaseRate) {
         play(fish, action);
@@ -51,11 +53,11 @@ struct School {
     }
     void command(std::size_t fish, Action action) {
         commands.segment[fish] = static_cast<std::uint8_t>(action);
-        commands.phaseRate[fish] = recordedPhaseRate(sharedTables(), action);
+        commands.phaseRate[fish] = recordedPhaseRate(*tables, action);
     }
 
     [[nodiscard]] MotorStep step() {
-        return {.tables = &sharedTables(),
+        return {.tables = tables,
                 .traits = traits,
                 .commands = &commands,
                 .states = &states,
@@ -70,7 +72,7 @@ struct School {
         return glm::dvec3(states.x[fish], states.y[fish], states.z[fish]) / 65536.0;
     }
     [[nodiscard]] glm::dquat mean(std::size_t fish) const {
-        return glm::dquat(meanRotation(sharedTables(), states, fish));
+        return glm::dquat(meanRotation(*tables, states, fish));
     }
     // Degrees: of the mean frame; heading left positive, pitch up positive.
     [[nodiscard]] double heading(std::size_t fish) const {
