@@ -17,7 +17,6 @@ constexpr double kLastBeats = 0.5;
 
 // Of the fish's own seconds.
 constexpr double kHandover = 0.04;  // from one order's muscles to the next one's
-constexpr double kFirstSecond = 1;  // the first beats from rest grow
 
 }  // namespace
 
@@ -85,7 +84,7 @@ MuscleActivation Swimmer::muscleProgram() const {
 }
 
 MuscleActivation Swimmer::tailBeat(double share) const {
-    const double grown = std::min(1.0, ownSecondsSwum_ / kFirstSecond);
+    const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
     return beatAt(swim_, share * beating_.gain * grown, beat_);
 }
 
