@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "master/capture/control/fin_programs.h"
 #include "master/capture/control/muscle_programs.h"
@@ -20,8 +19,8 @@ constexpr double kHandover = 0.04;  // from one order's muscles to the next one'
 
 }  // namespace
 
-Swimmer::Swimmer(BiomechanicalFish fish, const Swim& swim, double stepSeconds)
-    : fish_(std::move(fish)), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
+Swimmer::Swimmer(const BiomechanicalFish& fish, const Swim& swim, double stepSeconds)
+    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
 
 Swimmer::Swimmer(const Species& species, double stepSeconds)
     : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
