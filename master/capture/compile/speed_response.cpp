@@ -117,7 +117,7 @@ SpeedResponse fitResponse(const Transitions& transitions) {
     const double glide = fitDrag({transitions.glide});
     const double brake = fitDrag({transitions.brake});
     return {
-        .swimDrag = static_cast<float>(fitDrag({transitions.slowToFast, transitions.mediumToSlow})),
+        .swimDrag = static_cast<float>(fitDrag({transitions.slowToFast})),
         .glideDrag = static_cast<float>(glide),
         .brakeDrag = static_cast<float>(std::max(0.0, brake - glide))};
 }

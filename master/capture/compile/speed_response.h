@@ -35,8 +35,9 @@ struct Transitions {
 // The speeds of a fish that obeys the law, from the transition's first speed on.
 [[nodiscard]] std::vector<double> replayLaw(const Transition& transition, double drag);
 
-// swimDrag from both changes of gait at once, glideDrag from the glide, brakeDrag from what the
-// brake needs beyond that.
+// swimDrag from the change to a faster gait: most changes are, since every turn slows the fish
+// down. (To a slower one the speed falls more slowly than it rises.) glideDrag from the glide,
+// brakeDrag from what the brake needs beyond that.
 [[nodiscard]] SpeedResponse fitResponse(const Transitions& transitions);
 
 }  // namespace aquarama
