@@ -1,67 +1,122 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/capture/compile/capture_repertoire.h"
 
+#include <algorithm>
 #include <array>
-#include <future>
+#include <exception>
 #include <mutex>
-#include <numeric>
+#include <optional>
 
+#include "common/units/error.h"
 #include "master/capture/compile/compile_segment.h"
+#include "master/capture/compile/speed_response.h"
+#include "master/capture/compile/steady_swimming.h"
+#include "master/capture/compile/turn.h"
+#include "master/capture/compile/work_queue.h"
 
 namespace aquarama {
 
 namespace {
 
-constexpr std::array kSimulated{Action::ForwardSlow,
-                                Action::ForwardMedium,
-                                Action::ForwardFast,
-                                Action::TurnLeftGradual,
-                                Action::TurnLeftSharp};
+constexpr std::size_t kGaits = 3;  // slow, medium, fast
+constexpr std::size_t kJobs = 2 * kGaits;
 
-// The mean of the actions' progress, told under a lock.
-class SharedProgress {
-  public:
-    explicit SharedProgress(const Progress& progress) : progress_(progress) {}
-    void tell(std::size_t action, double share) {
-        const std::lock_guard lock(mutex_);
-        shares_.at(action) = share;
-        progress_(std::accumulate(shares_.begin(), shares_.end(), 0.0) / kSimulated.size());
-    }
-
-  private:
-    const Progress& progress_;
-    std::mutex mutex_;
-    std::array<double, kSimulated.size()> shares_{};
+// What one species' jobs leave behind. The first three swim its gaits and do not need one another;
+// nor do the last three, but they set out from those gaits.
+struct Swum {
+    std::array<std::optional<SteadySwimming>, kGaits> forward;
+    std::array<Recording, 2> leftTurn;  // gradual, sharp
+    SpeedResponse response;
+    std::array<std::string, kJobs> errors;  // of each job
 };
 
-}  // namespace
+void runJob(const Species& species, std::size_t job, Swum& swum) {
+    const auto& [slow, medium, fast] = swum.forward;
+    const Swim& swim = species.swim;
+    const std::array gaits{&swim.slow, &swim.medium, &swim.fast};
+    if (job < kGaits)
+        swum.forward.at(job) = swimUntilSteady(species, *gaits.at(job));
+    else if (!slow || !medium || !fast)
+        return;
+    else if (job == 3)
+        swum.leftTurn[0] = recordTypicalLeftTurn(species, *medium, species.turn.gradual);
+    else if (job == 4)
+        swum.leftTurn[1] = recordTypicalLeftTurn(species, *medium, species.turn.sharp);
+    else
+        swum.response = fitResponse(swimTransitions(species, *slow, *medium, *fast));
+}
 
-Repertoire captureRepertoire(const Species& species, const Progress& progress) {
-    SharedProgress shared(progress);
-    std::array<std::future<Recording>, kSimulated.size()> recordings;
-    for (std::size_t i = 0; i < kSimulated.size(); ++i)
-        recordings.at(i) = std::async(std::launch::async, [&shared, &species, i] {
-            return record(species, kSimulated.at(i), [&](double share) { shared.tell(i, share); });
-        });
-
+Repertoire compile(const Species& species, const Swum& swum) {
     const FishBody body = makeBody(species);
     Repertoire repertoire;
     repertoire.species = species.name;
     repertoire.recordedLengthMetres = body.typicalLengthMetres;
+    repertoire.response = swum.response;
     const auto segment = [&](Action action) -> ActionSegment& {
         return repertoire.segments.at(static_cast<std::size_t>(action));
     };
-    segment(Action::ForwardSlow) = compileForward(body, recordings[0].get());
-    segment(Action::ForwardMedium) = compileForward(body, recordings[1].get());
-    segment(Action::ForwardFast) = compileForward(body, recordings[2].get());
-    const Recording gradual = recordings[3].get();
-    segment(Action::TurnLeftGradual) = compileLeftTurn(body, gradual);
-    segment(Action::TurnRightGradual) = compileRightTurn(body, gradual);
-    const Recording sharp = recordings[4].get();
-    segment(Action::TurnLeftSharp) = compileLeftTurn(body, sharp);
-    segment(Action::TurnRightSharp) = compileRightTurn(body, sharp);
+    segment(Action::ForwardSlow) = compileForward(swum.forward[0]->beat);
+    segment(Action::ForwardMedium) = compileForward(swum.forward[1]->beat);
+    segment(Action::ForwardFast) = compileForward(swum.forward[2]->beat);
+    segment(Action::TurnLeftGradual) = compileLeftTurn(swum.leftTurn[0]);
+    segment(Action::TurnLeftSharp) = compileLeftTurn(swum.leftTurn[1]);
+    segment(Action::TurnRightGradual) = compileRightTurn(swum.leftTurn[0]);
+    segment(Action::TurnRightSharp) = compileRightTurn(swum.leftTurn[1]);
+    if (species.recordsControlPoints)
+        for (int action = 0; action < kCapturedActions; ++action)
+            addControlPoints(body, segment(static_cast<Action>(action)));
     addGlide(repertoire);
     return repertoire;
+}
+
+CaptureOutcome outcomeOf(const Species& species, const Swum& swum) {
+    const auto error = std::ranges::find_if_not(swum.errors, &std::string::empty);
+    if (error != swum.errors.end()) return {.repertoire = {}, .error = *error};
+    try {
+        return {.repertoire = compile(species, swum), .error = {}};
+    } catch (const std::exception& thrown) {
+        return {.repertoire = {}, .error = thrown.what()};
+    }
+}
+
+}  // namespace
+
+std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& species,
+                                               const CaptureRun& run) {
+    std::vector<Swum> swum(species.size());
+    std::mutex telling;
+    std::size_t done = 0;
+    const auto runOne = [&](std::size_t job, std::size_t fish) {
+        std::string& error = swum[fish].errors.at(job);
+        if (run.isStopped()) {
+            error = species[fish].name + ": interrupted";
+            return;
+        }
+        try {
+            runJob(species[fish], job, swum[fish]);
+        } catch (const std::exception& thrown) {
+            error = thrown.what();
+        }
+        const std::lock_guard lock(telling);
+        run.progress(static_cast<double>(++done) / static_cast<double>(kJobs * species.size()));
+    };
+    for (const std::size_t first : {std::size_t{0}, kGaits})
+        shareOut(kGaits * species.size(), run.threads, [&](std::size_t i) {
+            runOne(first + i / species.size(), i % species.size());
+        });
+
+    std::vector<CaptureOutcome> outcomes(species.size());
+    shareOut(species.size(), run.threads, [&](std::size_t i) {
+        outcomes[i] = outcomeOf(species[i], swum[i]);
+    });
+    return outcomes;
+}
+
+Repertoire captureRepertoire(const Species& species, const Progress& progress) {
+    CaptureOutcome outcome =
+        std::move(captureRepertoires({species}, {.progress = progress}).front());
+    if (!outcome.repertoire) throw Error(outcome.error);
+    return *std::move(outcome.repertoire);
 }
 
 }  // namespace aquarama

@@ -66,11 +66,12 @@ TEST(Reconstruct, everyInstructionSetIsWithinAMillionthOfTheReference) {
     std::vector<NodalPoints> nodes(school.size());
     std::vector<glm::vec3> points(school.size() * kControlPoints);
     std::vector<glm::vec3> expectedPoints(kControlPoints);
+    const ReconstructTables tables = makeReconstructTables(sharedRepertoire());
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        nodalPoints(sharedRepertoire(), school, nodes);
-        controlPoints(sharedRepertoire(), school, points);
+        nodalPoints(tables, school, nodes);
+        controlPoints(tables, school, points);
         for (std::size_t f = 0; f < school.size(); ++f) {
             NodalPoints expected;
             nodalPoints(sharedRepertoire(), school[f], expected);
