@@ -6,6 +6,7 @@
 
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
+#include "master/capture/compile/steady_swimming.h"
 
 namespace aquarama {
 
@@ -21,7 +22,10 @@ struct Transitions {
     Transition slowToFast, mediumToSlow;  // swimming
     Transition glide, brake;              // out of medium swimming
 };
-[[nodiscard]] Transitions swimTransitions(const Species& species);
+[[nodiscard]] Transitions swimTransitions(const Species& species,
+                                          const SteadySwimming& slow,
+                                          const SteadySwimming& medium,
+                                          const SteadySwimming& fast);
 
 // The drag k of dv/dt = k (s|s| - v|v|) that explains transitions best. Integrated over time,
 // v(t) - v(0) = k X(t) with X the integral of s|s| - v|v|: a straight line through the origin,
