@@ -17,8 +17,8 @@ constexpr const char* kHead =
 body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36; max-width: 1110px; margin: 2em auto; padding: 0 1em; }
 h1, h2 { font-weight: 600; } h2 { margin-top: 2.5em; border-top: 1px solid #dbe5ea; padding-top: 1em; }
 table { border-collapse: collapse; font-size: 14px; }
-th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #dbe5ea; white-space: nowrap; }
-th { font-weight: 600; color: #4a606c; } th:first-child, td:first-child { text-align: left; }
+th, td { padding: .2em .7em; text-align: right; border-bottom: 1px solid #dbe5ea; white-space: nowrap; }
+th { font-weight: 600; color: #4a606c; white-space: normal; } th:first-child, td:first-child { text-align: left; }
 tr.all td { font-weight: 600; } .over { color: #c0392b; }
 svg { max-width: 100%; height: auto; display: block; margin: 1em 0; } summary { cursor: pointer; margin: 1em 0; }
 </style></head><body>
@@ -26,7 +26,8 @@ svg { max-width: 100%; height: auto; display: block; margin: 1em 0; } summary { 
 <p>The biomechanical fish and its kinematic replica obey the same commands. Shape: root mean square distance of the
 23 nodal points in the body frame, in per cent of a body length (BL); within a segment, after the first beat, at the lag
 of its beat; and in the transition, the first beat as it was played. Path: distance at the end of a command, in
-per cent of the way, laid over each other at its start by place and heading. <span class="over">Over the goal</span>:
+per cent of the way, laid over each other at its start by place and heading; along the way it is the speed's, across it the heading's
+(medians). <span class="over">Over the goal</span>:
 shape 1 % within a segment, path 5 %.</p>
 )";
 constexpr double kShapeGoal = 0.01;
@@ -50,7 +51,8 @@ std::string degrees(double radians) {
 
 constexpr const char* kSummaryHead =
     "<table><tr><th>command</th><th>count</th><th>shape within, %</th><th>in transition, %</th>"
-    "<th>agrees after, s</th><th>path, median, %</th><th>9 of 10 within, %</th><th>worst, %</th>"
+    "<th>agrees after, s</th><th>path, median, %</th><th>9 of 10 within, %</th><th>worst, "
+    "%</th><th>along, %</th><th>across, %</th>"
     "<th>heading, rms, deg</th></tr>\n";
 
 std::string summaryRow(const std::string& name,
@@ -65,6 +67,8 @@ std::string summaryRow(const std::string& name,
                 percent(s.pathErrorMedian, kPathGoal),
                 percent(s.pathErrorNinth, kPathGoal),
                 percent(s.pathErrorWorst, kPathGoal),
+                percent(s.pathErrorAlong),
+                percent(s.pathErrorAcross),
                 degrees(s.headingErrorRms)},
                attributes);
 }
@@ -123,31 +127,6 @@ std::string fidelityPage(std::span<const Fidelity> species,
                 openLoopText(fidelity) + drawTimes(fidelity) + summaryTable(fidelity) +
                 commandTable(fidelity);
     return html + "</body></html>\n";
-}
-
-std::string fidelityMarkdown(std::span<const Fidelity> species) {
-    std::string table =
-        "| species | commands | shape within a segment, % BL | shape in transitions, % BL "
-        "| path, median, % | path, 9 of 10 within, % | heading, rms, deg | open loop: way, BL "
-        "| off at the end, BL | heading off, deg |\n|---|---|---|---|---|---|---|---|---|---|\n"
-        "| *goal* | | *1* | | *5* | *5* | | | | |\n";
-    for (const Fidelity& fidelity : species) {
-        const Summary s = summarise(fidelity.comparison.commands);
-        const OpenLoopErrors& e = fidelity.comparison.openLoop;
-        for (const std::string& cell : {fidelity.species,
-                                        std::to_string(s.commands),
-                                        percent(s.shapeWithin),
-                                        percent(s.shapeTransition),
-                                        fixed(s.pathErrorMedian * 100, 1),
-                                        fixed(s.pathErrorNinth * 100, 1),
-                                        degrees(s.headingErrorRms),
-                                        fixed(e.path, 0),
-                                        fixed(e.distanceAtEnd, 1),
-                                        degrees(e.headingAtEnd)})
-            table += "| " + cell + " ";
-        table += "|\n";
-    }
-    return table;
 }
 
 }  // namespace aquarama

@@ -28,14 +28,15 @@ constexpr std::array kAfterMedium{Choice{Manoeuvre::ForwardSlow, 12},
                                   Choice{Manoeuvre::Glide, 10},
                                   Choice{Manoeuvre::Ascend, 4},
                                   Choice{Manoeuvre::Descend, 4},
-                                  Choice{Manoeuvre::Brake, 2},
-                                  Choice{Manoeuvre::Retreat, 2}};
+                                  Choice{Manoeuvre::Brake, 4},
+                                  Choice{Manoeuvre::Retreat, 4}};
 constexpr std::array kAfterSlow{Choice{Manoeuvre::ForwardMedium, 7},
                                 Choice{Manoeuvre::ForwardFast, 2},
                                 Choice{Manoeuvre::Glide, 1}};
 constexpr std::array kAfterFast{Choice{Manoeuvre::ForwardMedium, 7},
                                 Choice{Manoeuvre::ForwardSlow, 2},
                                 Choice{Manoeuvre::Glide, 1}};
+constexpr std::array kAfterSlope{Choice{Manoeuvre::Balance, 1}};
 constexpr std::array kAfterOthers{Choice{Manoeuvre::ForwardMedium, 8},
                                   Choice{Manoeuvre::ForwardSlow, 1},
                                   Choice{Manoeuvre::ForwardFast, 1}};
@@ -48,6 +49,9 @@ std::span<const Choice> choicesAfter(Manoeuvre manoeuvre) {
             return kAfterSlow;
         case Manoeuvre::ForwardFast:
             return kAfterFast;
+        case Manoeuvre::Ascend:
+        case Manoeuvre::Descend:
+            return kAfterSlope;
         default:
             return kAfterOthers;
     }
@@ -84,6 +88,8 @@ Beats beatsOf(Manoeuvre manoeuvre) {
         case Manoeuvre::Glide:
         case Manoeuvre::Retreat:
             return {2, 4};
+        case Manoeuvre::Balance:
+            return {6, 9};
         default:
             return {3, 7};
     }
@@ -116,6 +122,8 @@ const char* nameOf(Manoeuvre manoeuvre) {
             return "ascend";
         case Manoeuvre::Descend:
             return "descend";
+        case Manoeuvre::Balance:
+            return "balance";
         case Manoeuvre::Brake:
             return "brake";
         case Manoeuvre::Retreat:

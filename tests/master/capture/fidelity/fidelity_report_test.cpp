@@ -26,7 +26,7 @@ TEST(FidelityReport, csvHasALineForEachCommandAndOneForTheWhole) {
     const std::string csv = fidelityCsv(fidelities());
     const std::size_t lines = count(csv, "\n");
     EXPECT_EQ(lines, 1 + fidelities().front().comparison.commands.size() + 1);
-    EXPECT_EQ(count(csv, ","), 13 * lines);
+    EXPECT_EQ(count(csv, ","), 15 * lines);
     EXPECT_EQ(count(csv, "open_loop"), 1U);
 }
 
@@ -41,10 +41,11 @@ TEST(FidelityReport, pageHoldsItsPicturesAndTables) {
     EXPECT_EQ(count(page, "nan"), 0U);
 }
 
-TEST(FidelityReport, tableInMarkdownHasARowForEachSpecies) {
-    const std::string table = fidelityMarkdown(fidelities());
-    EXPECT_EQ(count(table, "\n"), 3 + fidelities().size());
-    EXPECT_EQ(count(table, "| bigeye_scad |"), 1U);
+TEST(FidelityReport, tablesInMarkdownHaveARowForEachSpeciesAndManoeuvre) {
+    const std::string tables = fidelityMarkdown(fidelities());
+    EXPECT_EQ(count(tables, "| bigeye_scad |"), 1U);
+    for (const Command& command : fidelities().front().script)
+        EXPECT_EQ(count(tables, std::string("| ") + nameOf(command.manoeuvre) + " |"), 1U);
 }
 
 }  // namespace
