@@ -10,9 +10,6 @@
 namespace aquarama {
 namespace {
 
-// Wholly spread fins take half of a slow fish's speed in a third of a second.
-constexpr float kBrakeLinear = 2.0F;  // 1 / s
-
 Quaternion narrow(const glm::dquat& q) {
     return {static_cast<float>(q.w),
             static_cast<float>(q.x),
@@ -67,11 +64,15 @@ float squareLoss(float drag) {
 }
 
 SpeedLoss lossOf(const SpeedResponse& response) {
-    const bool followsAtOnce = response.swimDrag <= 0.0F;
-    return {.swimSquare = followsAtOnce ? 1.0F : squareLoss(response.swimDrag),
-            .glideSquare = squareLoss(response.glideDrag),
-            .brakeSquare = squareLoss(response.brakeDrag),
-            .brakeLinear = kBrakeLinear / static_cast<float>(kTicksPerSecond)};
+    const auto& [slow, medium, fast] = response.swimDrag;
+    const bool followsAtOnce = slow + medium + fast + response.glideDrag <= 0.0F;
+    SpeedLoss loss{.swimSquare = followsAtOnce ? 1.0F : squareLoss(response.glideDrag),
+                   .glideSquare = squareLoss(response.glideDrag),
+                   .brake = response.brakeRate / static_cast<float>(kTicksPerSecond)};
+    loss.swimProduct.fill(squareLoss(medium));
+    loss.swimProduct[static_cast<std::size_t>(Action::ForwardSlow)] = squareLoss(slow);
+    loss.swimProduct[static_cast<std::size_t>(Action::ForwardFast)] = squareLoss(fast);
+    return loss;
 }
 
 void fill(const ActionSegment& segment, SegmentTables& tables) {
