@@ -96,21 +96,21 @@ float approached(float v, float target, float step) {
 
 // The speed after a tick, from v and the path's at the tick's start and end; all in whole units.
 // On a turn the speed changes as was recorded. What is faster or slower than the recorded fish
-// goes after it by the law of SpeedResponse, where a glide has no thrust: there the path's speed
-// counts as nothing. Spread fins brake what comes of that.
+// goes after it by the law of SpeedResponse; in a glide the path's speed counts as nothing, and
+// a fish whose tail rests glides. Spread fins brake what comes of that.
 float speedAfter(const SpeedLoss& loss,
                  float v,
                  float pathAtStart,
                  float pathAtEnd,
                  std::uint8_t segment,
                  float brake) {
-    const bool glides = segment == static_cast<std::uint8_t>(Action::Glide);
+    constexpr auto kGlide = static_cast<std::uint8_t>(Action::Glide);
+    const bool glides = segment == kGlide || pathAtEnd == 0.0F;
     const float carried = bounded(v + (pathAtEnd - pathAtStart), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
-    const float square = glides ? loss.glideSquare : loss.swimSquare;
-    const float surplus = target * std::abs(target) - carried * std::abs(carried);
-    const float lack = target * (target - carried);
-    const float step = square * std::abs(surplus) + loss.swimProduct[segment] * std::abs(lack);
+    const float against = glides ? carried : target;
+    const float drag = loss.drag[glides ? kGlide : segment];
+    const float step = drag * std::abs(against * (target - carried));
     const float swum = approached(carried, target, step);
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }

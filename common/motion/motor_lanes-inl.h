@@ -245,10 +245,6 @@ HWY_INLINE Lanes approached(Lanes v, Lanes target, Lanes step) {
         hn::Lt(v, target), hn::Min(hn::Add(v, whole), target), hn::Max(hn::Sub(v, whole), target));
 }
 
-HWY_INLINE Lanes timesMagnitude(Lanes v) {
-    return hn::Mul(v, hn::Abs(v));
-}
-
 HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
                             Lanes v,
                             Lanes pathAtStart,
@@ -256,15 +252,14 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
                             IntLanes segment,
                             Lanes brake) {
     const IntLanes glide = hn::Set(kInts, static_cast<int>(Action::Glide));
-    const auto glides = hn::RebindMask(kFloats, hn::Eq(segment, glide));
+    const auto glides = hn::Or(hn::RebindMask(kFloats, hn::Eq(segment, glide)),
+                               hn::Eq(pathAtEnd, hn::Zero(kFloats)));
     const Lanes carried = bounded(hn::Add(v, hn::Sub(pathAtEnd, pathAtStart)), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
-    const Lanes square = hn::IfThenElse(
-        glides, hn::Set(kFloats, loss.glideSquare), hn::Set(kFloats, loss.swimSquare));
-    const Lanes surplus = hn::Sub(timesMagnitude(target), timesMagnitude(carried));
-    const Lanes lack = hn::Mul(target, hn::Sub(target, carried));
-    const Lanes product = hn::GatherIndex(kFloats, loss.swimProduct.data(), segment);
-    const Lanes step = hn::Add(hn::Mul(square, hn::Abs(surplus)), hn::Mul(product, hn::Abs(lack)));
+    const Lanes against = hn::IfThenElse(glides, carried, target);
+    const Lanes drag = hn::GatherIndex(
+        kFloats, loss.drag.data(), hn::IfThenElse(hn::RebindMask(kInts, glides), glide, segment));
+    const Lanes step = hn::Mul(drag, hn::Abs(hn::Mul(against, hn::Sub(target, carried))));
     const Lanes swum = approached(carried, target, step);
     const Lanes spread = hn::Mul(brake, hn::Set(kFloats, loss.brake));
     return approached(swum, hn::Zero(kFloats), hn::Mul(spread, hn::Abs(swum)));

@@ -66,14 +66,18 @@ float squareLoss(float drag) {
 // By the rate over 1 + rate, each tick, a braking fish comes as far as by exp(-rate) all the time.
 SpeedLoss lossOf(const SpeedResponse& response) {
     const auto& [slow, medium, fast] = response.swimDrag;
-    const bool followsAtOnce = slow + medium + fast + response.glideDrag <= 0.0F;
-    SpeedLoss loss{
-        .swimSquare = followsAtOnce ? 1.0F : squareLoss(response.glideDrag),
-        .glideSquare = squareLoss(response.glideDrag),
-        .brake = response.brakeRate / (static_cast<float>(kTicksPerSecond) + response.brakeRate)};
-    loss.swimProduct.fill(squareLoss(medium));
-    loss.swimProduct[static_cast<std::size_t>(Action::ForwardSlow)] = squareLoss(slow);
-    loss.swimProduct[static_cast<std::size_t>(Action::ForwardFast)] = squareLoss(fast);
+    const bool followsAtOnce = slow + medium + fast <= 0.0F;
+    SpeedLoss loss{.brake = response.brakeRate /
+                            (static_cast<float>(kTicksPerSecond) + response.brakeRate)};
+    const auto drag = [&](Action action) -> float& {
+        return loss.drag[static_cast<std::size_t>(action)];
+    };
+    loss.drag.fill(followsAtOnce ? 1.0F : squareLoss(medium));
+    if (!followsAtOnce) {
+        drag(Action::ForwardSlow) = squareLoss(slow);
+        drag(Action::ForwardFast) = squareLoss(fast);
+    }
+    drag(Action::Glide) = squareLoss(response.glideDrag);
     return loss;
 }
 

@@ -38,13 +38,12 @@ struct SegmentTables {
     bool playsToEnd = false;
 };
 
-// By how many speed units the speed changes in a tick, for each square of a unit, and for each
-// unit: SpeedResponse in the motor's units.
+// By how many speed units the speed changes in a tick: SpeedResponse in the motor's units.
 struct SpeedLoss {
-    float swimSquare = 0.0F;  // 1 where no response was measured: the speed follows at once
-    float glideSquare = 0.0F;
-    std::array<float, kActions> swimProduct{};  // of the segment's speed and what the fish lacks
-    float brake = 0.0F;                         // of wholly spread fins
+    // For each square of a unit, while a segment plays; 1 where no response was measured, so that
+    // the speed follows at once.
+    std::array<float, kActions> drag{};
+    float brake = 0.0F;  // for each unit, of wholly spread fins
 };
 
 class MotorTables {

@@ -59,11 +59,10 @@ struct ActionSegment {
 };
 
 // How the speed v of a fish goes after that of what it plays, p, in body lengths and seconds:
-//     dv/dt = glideDrag (p |p| - v |v|) + swimDrag |p| (p - v) - share brakeRate v.
-// The body drags by the square of the speed, thrust holding it at p; a beating tail pushes or drags
-// in proportion to how fast it beats and to what the fish lacks or has too much; fins that are
-// spread to a share brake in proportion to the speed. In a glide p is 0. (The paper leaves this
-// open; the law is ours.)
+//     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p,
+//     dv/dt = -glideDrag v |v|         in a glide or at rest, by the square of the speed;
+// in both, fins that are spread to a share of one take away share * brakeRate * v. (The paper
+// leaves this open; the law is ours.)
 struct SpeedResponse {
     std::array<float, kForwardGaits> swimDrag{};  // 1 / body length; turns have that of medium
     float glideDrag = 0.0F;                       // 1 / body length

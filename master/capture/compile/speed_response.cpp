@@ -91,9 +91,8 @@ Transitions swimTransitions(const Species& species, const SteadyGaits& gaits) {
 }
 
 double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
-    const double thrust = std::abs(segmentSpeed);
-    return law.glideDrag * (segmentSpeed * thrust - speed * std::abs(speed)) +
-           law.swimDrag * thrust * (segmentSpeed - speed) - law.brakeRate * speed;
+    return law.swimDrag * std::abs(segmentSpeed) * (segmentSpeed - speed) -
+           law.glideDrag * speed * std::abs(speed) - law.brakeRate * speed;
 }
 
 double fitTerm(const std::vector<Transition>& transitions,
@@ -138,7 +137,7 @@ SpeedResponse fitResponse(const Transitions& transitions) {
     SpeedResponse response{.glideDrag = static_cast<float>(gliding.glideDrag)};
     for (std::size_t gait = 0; gait < transitions.swim.size(); ++gait)
         response.swimDrag.at(gait) =
-            static_cast<float>(fitTerm(transitions.swim.at(gait), &SpeedLaw::swimDrag, gliding));
+            static_cast<float>(fitTerm(transitions.swim.at(gait), &SpeedLaw::swimDrag, {}));
     response.brakeRate =
         static_cast<float>(fitTerm({transitions.brake}, &SpeedLaw::brakeRate, gliding));
     return response;

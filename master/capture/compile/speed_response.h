@@ -28,10 +28,11 @@ using SteadyGaits = std::array<const SteadySwimming*, kForwardGaits>;
 [[nodiscard]] Transitions swimTransitions(const Species& species, const SteadyGaits& gaits);
 
 // The law of SpeedResponse while one segment plays, p being its speed:
-//     dv/dt = glideDrag (p |p| - v |v|) + swimDrag |p| (p - v) - brakeRate v.
+//     dv/dt = swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
+// where glideDrag is 0 while the fish swims.
 struct SpeedLaw {
-    double glideDrag = 0;
     double swimDrag = 0;
+    double glideDrag = 0;
     double brakeRate = 0;
 };
 [[nodiscard]] double acceleration(const SpeedLaw& law, double segmentSpeed, double speed);
@@ -47,8 +48,8 @@ struct SpeedLaw {
 // The speeds of a fish that obeys the law, from the transition's first speed on.
 [[nodiscard]] std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law);
 
-// glideDrag from the glide; with it swimDrag of a gait from the changes to it, whether they gather
-// speed or lose it; brakeRate from the brake.
+// swimDrag of a gait from the changes to it, whether they gather speed or lose it; glideDrag from
+// the glide, and with it brakeRate from the brake.
 [[nodiscard]] SpeedResponse fitResponse(const Transitions& transitions);
 
 }  // namespace aquarama

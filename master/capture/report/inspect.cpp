@@ -74,7 +74,7 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
                  hasCage ? "426 control points recorded" : "control points not recorded");
     const auto& [swim, glide, brake] = repertoire.response;
     text += line(
-        "speed response: drag %.3f gliding, %.3f, %.3f, %.3f more swimming, per BL;"
+        "speed response: drag %.3f, %.3f, %.3f swimming, %.3f gliding, per BL;"
         " brake %.3f per s\n\n",
         static_cast<double>(glide),
         static_cast<double>(swim[0]),

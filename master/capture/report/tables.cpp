@@ -124,9 +124,9 @@ std::string fileTable(const Repertoire& repertoire) {
                     (hasCage ? " and " + std::to_string(kControlPoints) + " control points"
                              : "; control points are computed from them, not recorded")}) +
            row({"speed response",
-                isMeasured ? "drag " + threeDigits(glide) + " gliding, " + threeDigits(swim[0]) +
-                                 ", " + threeDigits(swim[1]) + ", " + threeDigits(swim[2]) +
-                                 " more swimming, per BL; brake " + threeDigits(brake) + " per s"
+                isMeasured ? "drag " + threeDigits(swim[0]) + ", " + threeDigits(swim[1]) + ", " +
+                                 threeDigits(swim[2]) + " swimming, " + threeDigits(glide) +
+                                 " gliding, per BL; brake " + threeDigits(brake) + " per s"
                            : "not measured"}) +
            row({"file",
                 std::to_string(bytes.size()) + " bytes, format version " +

@@ -15,9 +15,8 @@ INSTANTIATE_TEST_SUITE_P(Of,
                          testing::Range(std::size_t{0}, allSpecies().size()),
                          nameOfSpecies);
 
-SpeedLaw lawOf(const SpeedResponse& response, std::size_t gait) {
-    return {.glideDrag = static_cast<double>(response.glideDrag),
-            .swimDrag = static_cast<double>(response.swimDrag.at(gait))};
+SpeedLaw swimOf(const SpeedResponse& response, std::size_t gait) {
+    return {.swimDrag = static_cast<double>(response.swimDrag.at(gait))};
 }
 
 SpeedLaw brakeOf(const SpeedResponse& response) {
@@ -52,10 +51,10 @@ TEST_P(Response, theLawReplaysEveryChangeOfSpeed) {
     const SpeedResponse response = fitResponse(swum);
     for (std::size_t gait = 0; gait < swum.swim.size(); ++gait)
         for (const Transition& change : swum.swim.at(gait)) {
-            EXPECT_LT(errorOf(change, lawOf(response, gait)), 0.04) << "to gait " << gait;
-            EXPECT_LT(wayErrorOf(change, lawOf(response, gait)), 0.04) << "to gait " << gait;
+            EXPECT_LT(errorOf(change, swimOf(response, gait)), 0.04) << "to gait " << gait;
+            EXPECT_LT(wayErrorOf(change, swimOf(response, gait)), 0.05) << "to gait " << gait;
         }
-    EXPECT_LT(errorOf(swum.glide, lawOf(response, 1)), 0.05);
+    EXPECT_LT(errorOf(swum.glide, {.glideDrag = static_cast<double>(response.glideDrag)}), 0.05);
     EXPECT_LT(errorOf(swum.brake, brakeOf(response)), 0.03);
     EXPECT_LT(wayErrorOf(swum.brake, brakeOf(response)), 0.03);
 }
@@ -81,9 +80,9 @@ TEST(SpeedResponse, findsTheNumbersOfAFishThatObeysTheLaw) {
     for (const double number : {0.05, 0.3, 4.0}) {
         const SpeedLaw glide{.glideDrag = number};
         EXPECT_NEAR(fitTerm({obeying(glide, 1.5, 0)}, &SpeedLaw::glideDrag, {}) / number, 1, 0.01);
-        const SpeedLaw swim{.glideDrag = 0.3, .swimDrag = number};
+        const SpeedLaw swim{.swimDrag = number};
         const std::vector<Transition> both{obeying(swim, 0.5, 2), obeying(swim, 2, 0.5)};
-        EXPECT_NEAR(fitTerm(both, &SpeedLaw::swimDrag, gliding) / number, 1, 0.01);
+        EXPECT_NEAR(fitTerm(both, &SpeedLaw::swimDrag, {}) / number, 1, 0.01);
         const SpeedLaw brake{.glideDrag = 0.3, .brakeRate = number};
         EXPECT_NEAR(
             fitTerm({obeying(brake, 1.5, 0)}, &SpeedLaw::brakeRate, gliding) / number, 1, 0.01);
@@ -92,7 +91,7 @@ TEST(SpeedResponse, findsTheNumbersOfAFishThatObeysTheLaw) {
 
 // dv/dt = -k v^2 has the closed form v = v0 / (1 + k v0 t).
 TEST(SpeedResponse, coastsAsTheClosedFormDoes) {
-    const Transition glide = obeying({.glideDrag = 0.4, .swimDrag = 9}, 2, 0);
+    const Transition glide = obeying({.glideDrag = 0.4}, 2, 0);
     for (std::size_t i = 0; i < glide.speeds.size(); i += 100)
         EXPECT_NEAR(glide.speeds[i], 2 / (1 + 0.4 * 2 * 1e-3 * static_cast<double>(i)), 2e-3);
 }

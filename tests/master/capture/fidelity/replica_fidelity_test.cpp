@@ -19,15 +19,14 @@ constexpr double kSeconds = 30;
 class ReplicaFidelity : public testing::TestWithParam<std::filesystem::path> {};
 
 // The goals are 1 % of a body length and 5 % of the path. The second is what the median command
-// keeps to, give or take a script; only a trumpetfish slows down three times as slowly as it
-// gathers speed, which one drag cannot say.
+// keeps to, give or take a script.
 TEST_P(ReplicaFidelity, staysWithinTheBounds) {
     const Species species = readSpecies(GetParam().string());
     const Repertoire repertoire = captureRepertoire(species, [](double) {});
     const Summary summary =
         summarise(measureFidelity(species, repertoire, 1, kSeconds).comparison.commands);
     EXPECT_LE(summary.shapeWithin, 0.01);
-    EXPECT_LE(summary.pathErrorMedian, species.name == "trumpetfish" ? 0.15 : 0.075);
+    EXPECT_LE(summary.pathErrorMedian, 0.055);
     EXPECT_LE(summary.headingErrorRms, 6 * kRadiansPerDegree);
 }
 
