@@ -76,10 +76,10 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
     text += line(
         "speed response: drag %.3f, %.3f, %.3f swimming, %.3f gliding, per BL;"
         " brake %.3f per s\n\n",
-        static_cast<double>(glide),
         static_cast<double>(swim[0]),
         static_cast<double>(swim[1]),
         static_cast<double>(swim[2]),
+        static_cast<double>(glide),
         static_cast<double>(brake));
     text +=
         "                       period    speed   stride    turn     turn   radius     tail "

@@ -11,7 +11,7 @@ constexpr std::array<Action, 3> kForward{
     Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast};
 constexpr SpeedResponse kAtOnce{};
 constexpr SpeedResponse kResponse{
-    .swimDrag = {0.3F, 0.4F, 0.5F}, .glideDrag = 0.4F, .brakeRate = 2.0F};
+    .swimDrag = {0.6F, 0.5F, 0.4F}, .glideDrag = 0.4F, .brakeRate = 2.0F};
 
 void reverse(School& school) {
     school.commands.phaseRate[0] = static_cast<std::int16_t>(-school.commands.phaseRate[0]);

@@ -34,7 +34,7 @@ inline Repertoire syntheticScad() {
     Repertoire scad{
         .species = "synthetic scad",
         .recordedLengthMetres = 0.24F,
-        .response = {.swimDrag = {0.3F, 0.4F, 0.5F}, .glideDrag = 0.4F, .brakeRate = 4.0F},
+        .response = {.swimDrag = {1.0F, 1.0F, 1.0F}, .glideDrag = 0.4F, .brakeRate = 4.0F},
         .segments = {}};
     for (std::size_t action = 0; action < kCapturedActions; ++action)
         scad.segments[action] = synthetic::segmentOf(gaits[action], false);
