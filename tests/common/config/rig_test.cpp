@@ -24,8 +24,7 @@ network {
   state: "tcp://127.0.0.1:7401"
 }
 timing { refresh_hz: 50 membership_s: 0.5 }
-species: "fish.txtpb"
-fish: 12
+cast { species: "fish.txtpb" fish: 12 }
 channels {
   id: 4
   name: "left"
@@ -55,8 +54,9 @@ TEST(Rig, everyValueArrivesInItsPlace) {
     EXPECT_EQ(rig.stateAddress, "tcp://127.0.0.1:7401");
     EXPECT_EQ(rig.timing.refreshHertz, 50);
     EXPECT_EQ(rig.timing.membershipSeconds, 0.5);
-    EXPECT_EQ(rig.species, "fish.txtpb");
-    EXPECT_EQ(rig.fish, 12U);
+    ASSERT_EQ(rig.cast.size(), 1U);
+    EXPECT_EQ(rig.cast[0].species, "fish.txtpb");
+    EXPECT_EQ(rig.cast[0].fish, 12U);
     ASSERT_EQ(rig.channels.size(), 2U);
 
     const Channel& left = rig.channels[0];

@@ -44,7 +44,9 @@ TEST(Envelope, aWelcomeKeepsItsFields) {
     EXPECT_EQ(welcome.seed, sent.seed);
     EXPECT_EQ(welcome.pace, Pace::Lockstep);
     EXPECT_EQ(welcome.pattern, Pattern::Grey);
-    EXPECT_EQ(welcome.repertoire, sent.repertoire);
+    ASSERT_EQ(welcome.cast.size(), 2U);
+    EXPECT_EQ(welcome.cast[1].repertoire, sent.cast[1].repertoire);
+    EXPECT_EQ(welcome.cast[1].fish, 1U);
     ASSERT_EQ(welcome.school.size(), 2U);
     EXPECT_EQ(welcome.school[1].id, 4000000000U);
     EXPECT_EQ(welcome.school[1].lengthMillimetres, 65535);

@@ -93,7 +93,7 @@ class SchoolSurfaceTest : public testing::Test {
 };
 
 TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
-    SchoolSurface surface{body_, repertoire_, {}};
+    SchoolSurface surface{body_, repertoire_, {}, makeSkinPrograms()};
     std::mt19937 random{7};
     std::uniform_real_distribution<float> unit;
     bool levelSeen[3] = {};
@@ -117,7 +117,7 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
 }
 
 TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
-    SchoolSurface surface{body_, repertoire_, {}};
+    SchoolSurface surface{body_, repertoire_, {}, makeSkinPrograms()};
     std::mt19937 random{11};
     std::uniform_real_distribution<float> unit{-1.0F, 1.0F};
     std::vector<glm::vec3> points(kControlPoints);
@@ -148,7 +148,8 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
 }
 
 TEST_F(SchoolSurfaceTest, neighbouringChannelsChooseTheSameLevel) {
-    SchoolSurface left{body_, repertoire_, {}}, right{body_, repertoire_, {}};
+    SchoolSurface left{body_, repertoire_, {}, makeSkinPrograms()};
+    SchoolSurface right{body_, repertoire_, {}, makeSkinPrograms()};
     const glm::vec3 up{0, 1, 0}, eye{0.1F, 0.2F, 0.3F};
     // One channel looks from the shared eye, the other from beside it and with a longer lens.
     const glm::mat4 leftClip = clip_ * glm::lookAt(eye, eye + glm::vec3{-0.3F, 0, -1}, up);
@@ -170,7 +171,8 @@ TEST_F(SchoolSurfaceTest, neighbouringChannelsChooseTheSameLevel) {
 }
 
 TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
-    SchoolSurface surface{body_, repertoire_, {.culling = false, .levelsOfDetail = false}};
+    SchoolSurface surface{
+        body_, repertoire_, {.culling = false, .levelsOfDetail = false}, makeSkinPrograms()};
     const std::size_t vertices = makeLimitTable(body_, 2).vertices.size();
     const std::size_t roomFor = (std::size_t{64} << 20U) / 16 / vertices;
     std::vector<PresentedFish> school;
@@ -197,7 +199,7 @@ TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
 }
 
 TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
-    SchoolSurface surface{body_, repertoire_, {}};
+    SchoolSurface surface{body_, repertoire_, {}, makeSkinPrograms()};
     surface.update({}, clip_, glm::vec3{0});
     surface.draw();
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
@@ -207,7 +209,7 @@ TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
 TEST_F(SchoolSurfaceTest, aRepertoireWithoutControlPointsIsRefused) {
     Repertoire bare = repertoire_;
     bare.segments[2].controlPoints.clear();
-    EXPECT_ANY_THROW((SchoolSurface{body_, bare, {}}));
+    EXPECT_ANY_THROW((SchoolSurface{body_, bare, {}, makeSkinPrograms()}));
 }
 
 }  // namespace
