@@ -48,8 +48,9 @@ float luminance(glm::vec3 c) {
 // The fish swims to the left, so the eye sees its left side.
 Picture portrait() {
     const FishBody body = test::scad();
-    const Repertoire still = test::swaying(body, 0.0F);
-    Scene scene{{.seed = 1, .samples = 4}, body, still};
+    const std::vector<SceneSpecies> cast{
+        {.body = body, .skin = {}, .repertoire = test::swaying(body, 0.0F), .fish = 1}};
+    Scene scene{{.seed = 1, .samples = 4}, cast};
     const PresentedFish fish = test::fishAt(kEyePosition + glm::vec3{0, 0, -kAway},
                                             glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0}),
                                             kLength);
