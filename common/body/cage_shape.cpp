@@ -15,6 +15,10 @@ namespace {
 constexpr float kGrow = 1.045F;  // a Catmull-Clark limit surface is smaller than its cage by this
 constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly that fins grow from
 constexpr float kNoseStation = 0.004F;     // of ring 0
+// A lone dorsal fin takes both strips: the first one this share of it, with hardly a gap between.
+constexpr float kFirstStripShare = 0.54F;
+constexpr float kStripGap = 0.004F;
+constexpr float kRootHalfLength = 0.012F;  // of the pectoral fins
 constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
 // Where a column is on its ring: how far down from back (0) over flank (1) to belly (2), at what
@@ -49,8 +53,9 @@ float between(float from, float to, int step, int steps) {
 }
 
 // Rings crowd towards the nose, where the head curves most.
-float headStation(int ring, float firstFin) {
-    return glm::mix(kNoseStation, firstFin, std::pow(static_cast<float>(ring) / 6, 1.35F));
+float headStation(int ring, int lastRing, float lastStation) {
+    const float share = static_cast<float>(ring) / static_cast<float>(lastRing);
+    return glm::mix(kNoseStation, lastStation, std::pow(share, 1.35F));
 }
 
 bool isPectoralRoot(int ring, int column) {
@@ -69,36 +74,45 @@ CageShape::CageShape(const Species& species)
       ventral_(species.profile.stations, species.profile.ventral),
       halfWidth_(species.profile.stations, species.profile.halfWidth),
       firstDorsal_(species.fins.firstDorsal),
-      secondDorsal_(species.fins.secondDorsal),
+      secondDorsal_(species.fins.secondDorsal.value_or(species.fins.firstDorsal)),
       anal_(species.fins.anal),
       caudal_(species.fins.caudal),
       pelvic_(species.fins.pelvic),
       pectoral_(species.fins.pectoral) {
+    slantRings(species);
+}
+
+void CageShape::slantRings(const Species& species) {
     const float end = species.profile.stations.back();
     const auto fill = [](RingStations& rings, int first, int last, float from, float to) {
         for (int r = first; r <= last; ++r)
             rings.at(static_cast<std::size_t>(r)) = between(from, to, r - first, last - first);
     };
-    fill(back_, 6, 13, firstDorsal_.baseFront().x, firstDorsal_.baseRear().x);
-    fill(back_, 14, 20, secondDorsal_.baseFront().x, secondDorsal_.baseRear().x);
-    fill(belly_, 8, 15, pelvic_.baseRear().x, anal_.baseFront().x);
-    fill(belly_, 15, 20, anal_.baseFront().x, anal_.baseRear().x);
-    belly_[7] = pelvic_.baseFront().x;
-    belly_[6] = belly_[7] - 0.03F;  // clear of the pectoral root on rings 5 and 6
-    for (std::size_t r = 0; r < 6; ++r) {
-        back_.at(r) = headStation(static_cast<int>(r), back_[6]);
-        belly_.at(r) = headStation(static_cast<int>(r), belly_[6]);
-    }
-    back_[kBodyEndRing] = belly_[kBodyEndRing] = end;
+    const float first = firstDorsal_.baseFront().x;
+    const float last = secondDorsal_.baseRear().x;
+    const float cut = glm::mix(first, last, kFirstStripShare);
+    const bool isOne = !species.fins.secondDorsal;
+    fill(back_, 6, 13, first, isOne ? cut - kStripGap / 2 : firstDorsal_.baseRear().x);
+    fill(back_, 14, 20, isOne ? cut + kStripGap / 2 : secondDorsal_.baseFront().x, last);
 
-    for (std::size_t r = 0; r < flank_.size(); ++r) flank_.at(r) = (back_.at(r) + belly_.at(r)) / 2;
     float root = 0;  // mean station of the pectoral's root, which rings 5 and 6 embrace
     for (const glm::vec2& point : species.fins.pectoral.base)
         root += point.x / static_cast<float>(species.fins.pectoral.base.size());
-    flank_[5] = root - 0.012F;
-    flank_[6] = root + 0.012F;
-    for (std::size_t r = 1; r < flank_.size(); ++r)
-        flank_.at(r) = std::max(flank_.at(r), flank_.at(r - 1));
+    belly_[7] = pelvic_.baseFront().x;
+    belly_[6] = std::min(belly_[7] - 0.03F, std::max(back_[6], root + 0.03F));
+    fill(belly_, 8, 15, pelvic_.baseRear().x, anal_.baseFront().x);
+    fill(belly_, 15, 20, anal_.baseFront().x, anal_.baseRear().x);
+    back_[kBodyEndRing] = belly_[kBodyEndRing] = flank_[kBodyEndRing] = end;
+    for (int r = 0; r < 6; ++r) {
+        back_.at(r) = headStation(r, 6, back_[6]);
+        belly_.at(r) = headStation(r, 6, belly_[6]);
+        flank_.at(r) = headStation(r, 5, root - kRootHalfLength);
+    }
+    flank_[6] = root + kRootHalfLength;
+    const float middle = (back_[6] + belly_[6]) / 2;
+    for (int r = 7; r < kBodyEndRing; ++r)
+        flank_.at(r) =
+            glm::mix(flank_[6], end, ((back_.at(r) + belly_.at(r)) / 2 - middle) / (end - middle));
 }
 
 CageVertex CageShape::place(const CageSite& site) const {

@@ -23,6 +23,7 @@ class CageShape {
     };
     using RingStations = std::array<float, kBodyEndRing + 1>;
 
+    void slantRings(const Species& species);
     [[nodiscard]] Section sectionAt(float s) const;
     [[nodiscard]] glm::vec3 onBody(int ring, int column) const;
     [[nodiscard]] CageVertex onCaudal(int ring, int column) const;

@@ -84,11 +84,11 @@ Fin readMedianFin(const TextPlace& fins, const std::string& field) {
 
 // Along back and belly the bases of the fins come one after the other, before the root of the tail.
 void checkOrder(const TextPlace& fins, const Fins& read, float tailRoot) {
-    if (read.secondDorsal.base.front().x <= read.firstDorsal.base.back().x)
+    if (read.secondDorsal && read.secondDorsal->base.front().x <= read.firstDorsal.base.back().x)
         fins.refuse("second_dorsal", "second_dorsal begins before first_dorsal ends: move it back");
-    if (read.secondDorsal.base.back().x >= tailRoot)
-        fins.refuse("second_dorsal",
-                    "second_dorsal ends behind the last profile station: shorten it");
+    const char* const last = read.secondDorsal ? "second_dorsal" : "first_dorsal";
+    if (read.secondDorsal.value_or(read.firstDorsal).base.back().x >= tailRoot)
+        fins.refuse(last, std::string(last) + " ends behind the last profile station: shorten it");
     if (read.anal.base.front().x <= read.pelvic.base.back().x)
         fins.refuse("anal", "anal begins before pelvic ends: move it back");
     if (read.anal.base.back().x >= tailRoot)
@@ -97,11 +97,12 @@ void checkOrder(const TextPlace& fins, const Fins& read, float tailRoot) {
 
 Fins readFins(const TextPlace& at, float tailRoot) {
     Fins fins{.firstDorsal = readMedianFin(at, "first_dorsal"),
-              .secondDorsal = readMedianFin(at, "second_dorsal"),
+              .secondDorsal = {},
               .anal = readMedianFin(at, "anal"),
               .caudal = readFin(at, "caudal"),
               .pelvic = readMedianFin(at, "pelvic"),
               .pectoral = readFin(at, "pectoral")};
+    if (at.has("second_dorsal")) fins.secondDorsal = readMedianFin(at, "second_dorsal");
     checkOrder(at, fins, tailRoot);
     return fins;
 }
@@ -209,11 +210,13 @@ Species parseSpecies(const std::string& text, const std::string& source) {
     species.skeleton = readSkeleton(root.in("skeleton"));
     species.tissue = readTissue(root.in("tissue"));
     species.water = {.drag = root.in("water").number("drag", {0, 1e5}),
-                     .frontFactor = root.in("water").number("front_factor", kShare)};
+                     .frontFactor = root.in("water").number("front_factor", kShare),
+                     .finDrag = root.in("water").number("fin_drag", {0, 100})};
     species.swim = readSwim(root.in("swim"));
     species.turn = readTurn(root.in("turn"));
-    species.school = readSchool(root.in("school"));
+    if (root.has("school")) species.school = readSchool(root.in("school"));
     species.palette = readPalette(root);
+    species.recordsControlPoints = message.recorded_control_points();
     return species;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct Fin {
 };
 
 struct Fins {
-    Fin firstDorsal, secondDorsal, anal, caudal, pelvic, pectoral;
+    Fin firstDorsal;  // the only one, along the whole back, where there is no second
+    std::optional<Fin> secondDorsal;
+    Fin anal, caudal, pelvic, pectoral;
 };
 
 struct FishEye {
@@ -63,6 +66,7 @@ struct Tissue {
 struct Water {
     double drag = 0;         // mu: force on an advancing face = mu * area * (normal speed)^2
     double frontFactor = 1;  // share of that on the head
+    double finDrag = 0;      // of each pectoral fin: force = finDrag * normal speed
 };
 
 struct Gait {
@@ -113,8 +117,11 @@ struct Species {
     Water water;
     Swim swim;
     Turn turn;
-    SchoolHabits school;
+    std::optional<SchoolHabits> school;
     std::vector<Paint> palette;
+    // The repertoire keeps the control points of every frame (eq. 9) beside the nodal points, which
+    // saves time and costs memory: for those that swim in great numbers.
+    bool recordsControlPoints = false;
 };
 
 // Throws Error with file:line:column for whatever the schema or the animal cannot have.

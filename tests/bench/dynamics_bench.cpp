@@ -23,7 +23,10 @@ struct SwimmingScad {
         while (seconds < 2) advance();
     }
     void advance() {
-        step(fish, swim(species, species.swim.medium, seconds), longestStepSeconds(fish), state);
+        step(fish,
+             {.muscles = swim(species, species.swim.medium, seconds), .fins = {}},
+             longestStepSeconds(fish),
+             state);
         seconds += longestStepSeconds(fish);
     }
 };

@@ -34,7 +34,7 @@ class Simulation {
     void advance(int steps) {
         for (int i = 0; i < steps; ++i)
             step(fish_,
-                 muscles_(stepSeconds_ * static_cast<double>(steps_++)),
+                 {.muscles = muscles_(stepSeconds_ * static_cast<double>(steps_++)), .fins = {}},
                  stepSeconds_,
                  state_);
     }

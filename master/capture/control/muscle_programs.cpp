@@ -34,38 +34,55 @@ double pullAt(const Pull& pull, double strength, double ownSeconds) {
     return strength * pull.strength * up * (1 - down);
 }
 
-MuscleActivation scaled(const MuscleActivation& muscles, double by) {
-    return {.frontLeft = muscles.frontLeft * by,
-            .frontRight = muscles.frontRight * by,
-            .middleLeft = muscles.middleLeft * by,
-            .middleRight = muscles.middleRight * by,
-            .backLeft = muscles.backLeft * by,
-            .backRight = muscles.backRight * by};
-}
-
 }  // namespace
 
-MuscleActivation swim(const Species& species, const Gait& gait, double seconds) {
-    const double ramp = std::min(1.0, seconds * species.tissue.timeScale / kRamp);
-    const double beat = 2 * std::numbers::pi * gait.beatHertz * seconds;
-    const double middle = (1 + std::sin(beat)) / 2;
-    const double back = (1 + std::sin(beat - species.swim.backLagRadians)) / 2;
-    const double middleDrive = species.swim.middleDrive * gait.gain * ramp;
-    const double backDrive = species.swim.backDrive * gait.gain * ramp;
+MuscleActivation mix(const MuscleActivation& from, const MuscleActivation& to, double share) {
+    return {.frontLeft = std::lerp(from.frontLeft, to.frontLeft, share),
+            .frontRight = std::lerp(from.frontRight, to.frontRight, share),
+            .middleLeft = std::lerp(from.middleLeft, to.middleLeft, share),
+            .middleRight = std::lerp(from.middleRight, to.middleRight, share),
+            .backLeft = std::lerp(from.backLeft, to.backLeft, share),
+            .backRight = std::lerp(from.backRight, to.backRight, share)};
+}
+
+MuscleActivation mirrored(const MuscleActivation& muscles) {
+    return {.frontLeft = muscles.frontRight,
+            .frontRight = muscles.frontLeft,
+            .middleLeft = muscles.middleRight,
+            .middleRight = muscles.middleLeft,
+            .backLeft = muscles.backRight,
+            .backRight = muscles.backLeft};
+}
+
+MuscleActivation beatAt(const Swim& swim, double gain, double beat) {
+    const double phase = 2 * std::numbers::pi * beat;
+    const double middle = (1 + std::sin(phase)) / 2;
+    const double back = (1 + std::sin(phase - swim.backLagRadians)) / 2;
+    const double middleDrive = swim.middleDrive * gain;
+    const double backDrive = swim.backDrive * gain;
     return {.middleLeft = middleDrive * middle,
             .middleRight = middleDrive * (1 - middle),
             .backLeft = backDrive * back,
             .backRight = backDrive * (1 - back)};
 }
 
+MuscleActivation bendLeft(const Bend& bend, double ownSeconds) {
+    const double own = ownSeconds * bend.tempo;
+    return {.frontLeft = pullAt(kFront, bend.strength, own),
+            .middleLeft = pullAt(kMiddle, bend.strength, own),
+            .backLeft = pullAt(kBack, bend.strength, own)};
+}
+
+MuscleActivation swim(const Species& species, const Gait& gait, double seconds) {
+    const double ramp = std::min(1.0, seconds * species.tissue.timeScale / kRamp);
+    return beatAt(species.swim, gait.gain * ramp, gait.beatHertz * seconds);
+}
+
 MuscleActivation turnLeft(const Species& species, const Bend& bend, double onset, double seconds) {
-    const double own = (seconds - onset) * species.tissue.timeScale * bend.tempo;
-    const double swimming = std::clamp(1 - own / kSwimFade, 0.0, 1.0);
-    MuscleActivation muscles = scaled(swim(species, species.swim.medium, seconds), swimming);
-    muscles.frontLeft = std::max(muscles.frontLeft, pullAt(kFront, bend.strength, own));
-    muscles.middleLeft = std::max(muscles.middleLeft, pullAt(kMiddle, bend.strength, own));
-    muscles.backLeft = std::max(muscles.backLeft, pullAt(kBack, bend.strength, own));
-    return muscles;
+    const double own = (seconds - onset) * species.tissue.timeScale;
+    return mix(swim(species, species.swim.medium, std::min(seconds, onset)),
+               bendLeft(bend, std::max(0.0, own)),
+               std::clamp(own / kSwimFade, 0.0, 1.0));
 }
 
 double secondsOf(const Bend& bend, const Species& species) {

@@ -7,13 +7,25 @@
 
 namespace aquarama {
 
-// Swimming: middle and back muscles beat left against right, the back ones later, so that a wave
-// runs down the body (Tu 1996, swim-MC). Begins from rest with a ramp of one of the fish's seconds.
-[[nodiscard]] MuscleActivation swim(const Species& species, const Gait& gait, double seconds);
+// Between the two, muscle by muscle.
+[[nodiscard]] MuscleActivation mix(const MuscleActivation& from,
+                                   const MuscleActivation& to,
+                                   double share);
+// Left for right.
+[[nodiscard]] MuscleActivation mirrored(const MuscleActivation& muscles);
+
+// Swimming, at a point of the beat from 0 to 1: middle and back muscles beat left against right,
+// the back ones later, so that a wave runs down the body (Tu 1996, swim-MC).
+[[nodiscard]] MuscleActivation beatAt(const Swim& swim, double gain, double beat);
 
 // A bend of the whole body to the left, quick to come and slow to go, so that the shape recovers
-// without undoing the turn (Tu & Terzopoulos 1994, turn-MC). Until `onset` the fish swims at medium
-// speed.
+// without undoing the turn (Tu & Terzopoulos 1994, turn-MC).
+[[nodiscard]] MuscleActivation bendLeft(const Bend& bend, double ownSeconds);
+
+// Swimming from rest, with a ramp of one of the fish's seconds.
+[[nodiscard]] MuscleActivation swim(const Species& species, const Gait& gait, double seconds);
+
+// Until `onset` the fish swims at medium speed, then it turns.
 [[nodiscard]] MuscleActivation turnLeft(const Species& species,
                                         const Bend& bend,
                                         double onset,

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 
 #include <glm/vec3.hpp>
 
@@ -20,6 +21,26 @@ struct MuscleActivation {
     double frontLeft = 0, frontRight = 0;
     double middleLeft = 0, middleRight = 0;
     double backLeft = 0, backRight = 0;
+};
+
+// A plate of which only the normal moves water (Tu & Terzopoulos 1994).
+struct PectoralFin {
+    // gamma: the normal is cos(gamma) x + sin(gamma) y of the body frame. At pi/2 the fin lies flat
+    // in the stream; above, it lifts the head of a fish that swims; at pi it stands across and
+    // brakes.
+    double angleRadians = std::numbers::pi / 2;
+    // Of the fin against the body, forward, body lengths a second: rowing. Tu's fins do not row.
+    double sweepSpeed = 0;
+};
+
+struct PectoralFins {
+    PectoralFin left, right;
+};
+
+// All that a fish can do.
+struct MotorControl {
+    MuscleActivation muscles;
+    PectoralFins fins;
 };
 
 struct Spring {
@@ -41,6 +62,10 @@ struct BiomechanicalFish {
     std::array<double, kNodalPoints> masses{};  // sum 1
     std::array<Spring, kUnits> springs{};       // as anatomy().units
     std::array<WettedFace, kDragFaces> faces{};
+    // What the water carries of each node beyond its weight. None: like Tu's, a fish of ours floats
+    // where it is and rights itself with its fins alone.
+    std::array<double, kNodalPoints> lifts{};
+    double finDrag = 0;            // of each pectoral fin: force per normal speed
     double damping = 0;            // of every unit
     double muscleContraction = 0;  // share of its length lost at activation 1
     double timeScale = 1;          // clocks of controllers run this many times faster
@@ -57,7 +82,7 @@ struct FishState {
 // One step of linearised backward Euler over the 69 coupled equations of motion (the paper's
 // section 3): stable at any step, but it damps, so that a 60 Hz tick takes 8 * timeScale steps.
 void step(const BiomechanicalFish& fish,
-          const MuscleActivation& muscles,
+          const MotorControl& control,
           double stepSeconds,
           FishState& state);
 

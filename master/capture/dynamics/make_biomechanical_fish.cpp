@@ -56,6 +56,7 @@ BiomechanicalFish makeBiomechanicalFish(const Species& species) {
     fish.restPositions = restPositionsOf(species.skeleton);
     fish.masses = massesOf(species.skeleton);
     fish.timeScale = species.tissue.timeScale;
+    fish.finDrag = species.water.finDrag * species.tissue.timeScale;
     fish.damping = species.tissue.damping * species.tissue.timeScale;
     fish.muscleContraction = species.tissue.muscleContraction;
     for (std::size_t i = 0; i < fish.springs.size(); ++i) {

@@ -6,11 +6,15 @@
 #include <glm/matrix.hpp>
 
 #include "master/capture/dynamics/biomechanical_fish.h"
+#include "master/capture/dynamics/body_frame.h"
 #include "master/capture/dynamics/envelope_system.h"
 
 namespace aquarama {
 
 namespace {
+
+constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
+constexpr std::array<int, 4> kRightFinRoot{2, 3, 6, 7};
 
 double activationOf(const Unit& unit, const MuscleActivation& muscles) {
     const bool isLeft = unit.side == Side::Left;
@@ -74,10 +78,29 @@ void addDrag(const WettedFace& face, const FishState& state, EnvelopeSystem& sys
     }
 }
 
+// -A (n.v) n, linear as Tu's, spread over the nodes at its root, of which v is the mean at the end
+// of the step. Tu spreads it over rings 1 to 3; over the first two it pitches the fish twice as
+// much.
+void addFin(const PectoralFin& fin,
+            const std::array<int, 4>& root,
+            double drag,
+            const glm::dmat3& worldFromBody,
+            EnvelopeSystem& system) {
+    const double across = std::cos(fin.angleRadians);
+    const glm::dvec3 normal = worldFromBody * glm::dvec3(across, std::sin(fin.angleRadians), 0);
+    const glm::dmat3 block = glm::outerProduct(drag / 16 * normal, normal);
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        system.addDiagonalBlock(root[i], block);
+        for (std::size_t j = i + 1; j < root.size(); ++j)
+            system.addOffDiagonalBlock(root[i], root[j], block);
+        system.addToRightSide(root[i], -drag / 4 * fin.sweepSpeed * across * normal);
+    }
+}
+
 }  // namespace
 
 void step(const BiomechanicalFish& fish,
-          const MuscleActivation& muscles,
+          const MotorControl& control,
           double stepSeconds,
           FishState& state) {
     EnvelopeSystem system;
@@ -85,15 +108,20 @@ void step(const BiomechanicalFish& fish,
         const auto node = static_cast<std::size_t>(i);
         const double inertia = fish.masses[node] / stepSeconds;
         system.addToDiagonal(i, inertia);
-        system.addToRightSide(i, inertia * state.velocities[node]);
+        system.addToRightSide(
+            i, inertia * state.velocities[node] + glm::dvec3(0, fish.lifts[node], 0));
     }
     for (std::size_t i = 0; i < kUnits; ++i) {
         const Spring& spring = fish.springs[i];
-        const double activation = std::clamp(activationOf(anatomy().units[i], muscles), 0.0, 1.0);
+        const double activation =
+            std::clamp(activationOf(anatomy().units[i], control.muscles), 0.0, 1.0);
         const double length = spring.restLength * (1 - fish.muscleContraction * activation);
         addSpring(spring, length, fish.damping, stepSeconds, state, system);
     }
     for (const WettedFace& face : fish.faces) addDrag(face, state, system);
+    const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
+    addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, system);
+    addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, system);
     system.solve();
     for (int i = 0; i < kNodalPoints; ++i) {
         const auto node = static_cast<std::size_t>(i);

@@ -18,6 +18,7 @@ namespace {
 BiomechanicalFish inVacuum() {
     BiomechanicalFish fish = makeBiomechanicalFish(scad());
     for (WettedFace& face : fish.faces) face.drag = 0;
+    fish.finDrag = 0;
     return fish;
 }
 
@@ -124,7 +125,10 @@ TEST(Dynamics, momentumIsKeptInAVacuumWhateverTheMusclesDo) {
     const glm::dvec3 before = momentumOf(fish, state);
     for (int i = 0; i < 500; ++i) {
         const double seconds = i * longestStepSeconds(fish);
-        step(fish, swim(scad(), scad().swim.medium, seconds), longestStepSeconds(fish), state);
+        step(fish,
+             {.muscles = swim(scad(), scad().swim.medium, seconds), .fins = {}},
+             longestStepSeconds(fish),
+             state);
     }
     EXPECT_LT(glm::distance(momentumOf(fish, state), before), 1e-10);
 }
@@ -150,16 +154,8 @@ TEST(Dynamics, exchangedMusclesSwimTheMirroredPath) {
     for (int i = 0; i < 600; ++i) {
         const MuscleActivation m = turnLeft(
             scad(), scad().turn.gradual, 0.0, static_cast<double>(i) * longestStepSeconds(fish));
-        step(fish, m, longestStepSeconds(fish), left);
-        step(fish,
-             {.frontLeft = m.frontRight,
-              .frontRight = m.frontLeft,
-              .middleLeft = m.middleRight,
-              .middleRight = m.middleLeft,
-              .backLeft = m.backRight,
-              .backRight = m.backLeft},
-             longestStepSeconds(fish),
-             right);
+        step(fish, {.muscles = m, .fins = {}}, longestStepSeconds(fish), left);
+        step(fish, {.muscles = mirrored(m), .fins = {}}, longestStepSeconds(fish), right);
     }
     for (int i = 0; i < kNodalPoints; ++i) {
         const glm::dvec3 image = glm::dvec3(1, 1, -1) *
@@ -173,7 +169,7 @@ TEST(Dynamics, swimsInAPlane) {
     FishState state = stateAtRest(fish);
     for (int i = 0; i < 5000; ++i)
         step(fish,
-             swim(scad(), scad().swim.fast, i * longestStepSeconds(fish)),
+             {.muscles = swim(scad(), scad().swim.fast, i * longestStepSeconds(fish)), .fins = {}},
              longestStepSeconds(fish),
              state);
     for (int i = 0; i < kNodalPoints; ++i) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/control/attitude.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "master/capture/dynamics/body_frame.h"
+
+namespace aquarama {
+
+namespace {
+
+double mixAngles(double from, double to, double share) {
+    return from + share * std::remainder(to - from, 2 * std::numbers::pi);
+}
+
+}  // namespace
+
+Attitude attitudeOf(const FishState& state) {
+    const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
+    const glm::dvec3& x = worldFromBody[0];
+    return {.headingRadians = std::atan2(-x.z, x.x),
+            .pitchRadians = std::asin(std::clamp(x.y, -1.0, 1.0)),
+            .rollRadians = std::atan2(worldFromBody[2].y, worldFromBody[1].y)};
+}
+
+Attitude mix(const Attitude& from, const Attitude& to, double share) {
+    return {.headingRadians = mixAngles(from.headingRadians, to.headingRadians, share),
+            .pitchRadians = mixAngles(from.pitchRadians, to.pitchRadians, share),
+            .rollRadians = mixAngles(from.rollRadians, to.rollRadians, share)};
+}
+
+}  // namespace aquarama

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/control/swimmer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "master/capture/control/fin_programs.h"
+#include "master/capture/control/muscle_programs.h"
+
+namespace aquarama {
+
+namespace {
+
+// A tail that stopped at once would leave the fish with what that beat had turned it.
+constexpr double kLastBeats = 0.5;
+
+// Of the fish's own seconds.
+constexpr double kHandover = 0.04;  // from one order's muscles to the next one's
+constexpr double kFirstSecond = 1;  // the first beats from rest grow
+
+}  // namespace
+
+Swimmer::Swimmer(const Species& species, double stepSeconds)
+    : fish_(makeBiomechanicalFish(species)),
+      swim_(species.swim),
+      stepSeconds_(stepSeconds),
+      state_(stateAtRest(fish_)) {}
+
+Swimmer::Swimmer(const Species& species)
+    : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
+
+void Swimmer::give(const Order& order) {
+    if (!swims()) beating_.gain = 0;
+    order_ = order;
+    if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
+    ownSecondsOfOrder_ = 0;
+    headingOfOrder_ = attitude_.headingRadians;
+    musclesBefore_ = muscles_;
+}
+
+void Swimmer::advance(int steps) {
+    for (int i = 0; i < steps; ++i) advanceOne();
+}
+
+void Swimmer::advanceOne() {
+    muscles_ = mix(musclesBefore_, muscleProgram(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
+    step(fish_, {.muscles = muscles_, .fins = finProgram()}, stepSeconds_, state_);
+    ++steps_;
+    attitude_ = mix(attitude_,
+                    attitudeOf(state_),
+                    stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
+    const double ownSeconds = stepSeconds_ * fish_.timeScale;
+    ownSecondsOfOrder_ += ownSeconds;
+    if (swims()) ownSecondsSwum_ += ownSeconds;
+    beat_ += stepSeconds_ * beating_.beatHertz;
+    beat_ -= std::floor(beat_);
+}
+
+bool Swimmer::swims() const {
+    return order_.controller == Controller::ForwardSwim ||
+           order_.controller == Controller::Ascend || order_.controller == Controller::Descend ||
+           order_.controller == Controller::Balance;
+}
+
+MuscleActivation Swimmer::muscleProgram() const {
+    const double beatsOfOrder = ownSecondsOfOrder_ / fish_.timeScale * beating_.beatHertz;
+    switch (order_.controller) {
+        case Controller::ForwardSwim:
+        case Controller::Ascend:
+        case Controller::Descend:
+        case Controller::Balance:
+            return tailBeat(1);
+        case Controller::LeftTurn:
+            return bendLeft(order_.bend, ownSecondsOfOrder_);
+        case Controller::RightTurn:
+            return mirrored(bendLeft(order_.bend, ownSecondsOfOrder_));
+        case Controller::Glide:
+        case Controller::Brake:
+            return tailBeat(std::max(0.0, 1 - beatsOfOrder / kLastBeats));
+        case Controller::Retreat:
+            break;
+    }
+    return {};
+}
+
+MuscleActivation Swimmer::tailBeat(double share) const {
+    const double grown = std::min(1.0, ownSecondsSwum_ / kFirstSecond);
+    return beatAt(swim_, share * beating_.gain * grown, beat_);
+}
+
+PectoralFins Swimmer::finProgram() const {
+    switch (order_.controller) {
+        case Controller::Ascend:
+            return hold(attitude_, order_.pitchRadians);
+        case Controller::Descend:
+            return hold(attitude_, -order_.pitchRadians);
+        case Controller::Balance:
+            return hold(attitude_, 0);
+        case Controller::Brake:
+            return brake();
+        case Controller::Retreat:
+            return row(beating_, beat_, attitude_, headingOfOrder_);
+        case Controller::ForwardSwim:
+        case Controller::LeftTurn:
+        case Controller::RightTurn:
+        case Controller::Glide:
+            break;
+    }
+    return {};
+}
+
+}  // namespace aquarama

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The biomechanical fish under its motor controllers: what is captured, and what a replica is
+// measured against.
+#pragma once
+
+#include <cstdint>
+
+#include "common/config/species.h"
+#include "master/capture/control/attitude.h"
+#include "master/capture/dynamics/biomechanical_fish.h"
+
+namespace aquarama {
+
+enum class Controller : std::uint8_t {
+    ForwardSwim,
+    LeftTurn,
+    RightTurn,
+    Glide,
+    Ascend,
+    Descend,
+    Balance,
+    Brake,
+    Retreat
+};
+
+// What the fish is told. It holds until the next order, but a turn is over after secondsOf(bend);
+// then the muscles stay relaxed.
+struct Order {
+    Controller controller = Controller::Glide;
+    Gait gait{};              // ForwardSwim, Ascend, Descend, Balance, Retreat
+    Bend bend{};              // LeftTurn, RightTurn
+    double pitchRadians = 0;  // Ascend, Descend: how steep, positive in both
+};
+
+// From rest at the origin, nose towards +x. Lengths are body lengths.
+class Swimmer {
+  public:
+    explicit Swimmer(const Species& species);  // at the longest step that swims well
+    Swimmer(const Species& species, double stepSeconds);
+
+    // From now on. The beat keeps time through all orders; muscles change over within a few
+    // hundredths of the fish's second, and a fish that stops swimming lets half a beat die away.
+    void give(const Order& order);
+    void advance(int steps);
+
+    [[nodiscard]] double stepSeconds() const { return stepSeconds_; }
+    [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }
+    [[nodiscard]] const FishState& state() const { return state_; }
+
+  private:
+    void advanceOne();
+    [[nodiscard]] bool swims() const;
+    [[nodiscard]] MuscleActivation muscleProgram() const;
+    [[nodiscard]] MuscleActivation tailBeat(double share) const;
+    [[nodiscard]] PectoralFins finProgram() const;
+
+    BiomechanicalFish fish_;
+    Swim swim_;
+    double stepSeconds_;
+    std::int64_t steps_ = 0;
+    FishState state_;
+
+    Order order_;
+    double ownSecondsOfOrder_ = 0;
+    double ownSecondsSwum_ = 0;
+    Gait beating_{};   // of tail or fins
+    double beat_ = 0;  // 0 to 1
+    double headingOfOrder_ = 0;
+    Attitude attitude_;  // mean over a beat
+    MuscleActivation muscles_;
+    MuscleActivation musclesBefore_;  // when the order came
+};
+
+}  // namespace aquarama
