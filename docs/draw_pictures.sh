@@ -8,8 +8,13 @@ trap 'rm -rf "$drawn"' EXIT
 build/show/bin/aquarama run config/theatre.txtpb --headless --frames 150 --snapshot "$drawn/theatre"
 build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
 
+cmake --build build/show --target aquarama_draw_species
+
 mkdir -p docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
-for figure in forward_medium turn_right_sharp midlines-forward_medium; do
-    cp "$drawn/report/bigeye_scad-$figure.svg" "docs/pictures/${figure//-/_}.svg"
+for figure in forward_medium turn_right_sharp midlines_forward_medium; do
+    sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"
 done
+cast=(blacktip_reef_shark trumpetfish parrotfish bigeye_scad blue_tang moorish_idol clownfish)
+files=("${cast[@]/%/.txtpb}")
+build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/}"

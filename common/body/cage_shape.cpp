@@ -17,7 +17,8 @@ constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly
 constexpr float kNoseStation = 0.004F;     // of ring 0
 // A lone dorsal fin takes both strips: the first one this share of it, with hardly a gap between.
 constexpr float kFirstStripShare = 0.54F;
-constexpr float kStripGap = 0.004F;
+constexpr float kStripGap = 0.001F;
+constexpr float kStripOverlap = 0.02F;  // of the rays, above the gap, which therefore does not show
 constexpr float kRootHalfLength = 0.012F;  // of the pectoral fins
 constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
@@ -58,8 +59,18 @@ float headStation(int ring, int lastRing, float lastStation) {
     return glm::mix(kNoseStation, lastStation, std::pow(share, 1.35F));
 }
 
+bool isPectoralRing(int ring) {
+    return ring == 5 || ring == 6;
+}
+
 bool isPectoralRoot(int ring, int column) {
-    return (ring == 5 || ring == 6) && !isRidge(column) && column != 2 && column != 11;
+    return isPectoralRing(ring) && !isRidge(column) && column != 2 && column != 11;
+}
+
+// The unit vector square to a fin's base on the side that its rays run to.
+glm::vec2 awayFrom(glm::vec2 base, const FinPatch& fin) {
+    const glm::vec2 square{-base.y, base.x};
+    return glm::dot(fin.at(0.5F, 1) - fin.at(0.5F, 0), square) < 0 ? -square : square;
 }
 
 // Columns 3-5 and 10-8 are the front, the middle and the rear ray of a pectoral fin.
@@ -78,7 +89,8 @@ CageShape::CageShape(const Species& species)
       anal_(species.fins.anal),
       caudal_(species.fins.caudal),
       pelvic_(species.fins.pelvic),
-      pectoral_(species.fins.pectoral) {
+      pectoral_(species.fins.pectoral),
+      isOneDorsal_(!species.fins.secondDorsal) {
     slantRings(species);
 }
 
@@ -91,9 +103,8 @@ void CageShape::slantRings(const Species& species) {
     const float first = firstDorsal_.baseFront().x;
     const float last = secondDorsal_.baseRear().x;
     const float cut = glm::mix(first, last, kFirstStripShare);
-    const bool isOne = !species.fins.secondDorsal;
-    fill(back_, 6, 13, first, isOne ? cut - kStripGap / 2 : firstDorsal_.baseRear().x);
-    fill(back_, 14, 20, isOne ? cut + kStripGap / 2 : secondDorsal_.baseFront().x, last);
+    fill(back_, 6, 13, first, isOneDorsal_ ? cut - kStripGap / 2 : firstDorsal_.baseRear().x);
+    fill(back_, 14, 20, isOneDorsal_ ? cut + kStripGap / 2 : secondDorsal_.baseFront().x, last);
 
     float root = 0;  // mean station of the pectoral's root, which rings 5 and 6 embrace
     for (const glm::vec2& point : species.fins.pectoral.base)
@@ -147,6 +158,9 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
                                 : glm::mix(flank_.at(r), belly_.at(r), at.down - 1);
     const Section section = sectionAt(s);
     const float height = at.down < 1 ? section.dorsal : section.ventral;
+    // No fin grows from the belly there: it rounds off what the pectoral root takes from the flank.
+    if (isPectoralRing(ring) && isRidge(column) && at.down > 1)
+        return {s, -0.98F * section.ventral, at.side * 0.3F * section.halfWidth};
     if (isRidge(column))
         return {s,
                 at.down < 1 ? section.dorsal : -section.ventral,
@@ -155,50 +169,74 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
         return {s,
                 height * std::sin(at.angle) * kGrow,
                 at.side * section.halfWidth * std::cos(at.angle) * kGrow};
-    const float y = pectoral_.at(pectoralRay(column), 0).y;
-    const float relative = y / (y > 0 ? section.dorsal : section.ventral);
-    return {
-        s, y, at.side * section.halfWidth * std::sqrt(std::max(0.05F, 1 - relative * relative))};
+    return onPectoralRoot(ring, column);
 }
 
+glm::vec3 CageShape::onPectoralRoot(int ring, int column) const {
+    const glm::vec2 base = pectoral_.at(pectoralRay(column), 0);
+    const float s = base.x + (ring == 5 ? -kRootHalfLength : kRootHalfLength);
+    const Section section = sectionAt(s);
+    const float relative = base.y / (base.y > 0 ? section.dorsal : section.ventral);
+    return {s,
+            base.y,
+            placeOf(column).side * section.halfWidth *
+                std::sqrt(std::max(0.05F, 1 - relative * relative))};
+}
+
+// Its rays start where the body ends.
 CageVertex CageShape::onCaudal(int ring, int column) const {
     const ColumnPlace at = placeOf(column);
     const float q = static_cast<float>(ring - kBodyEndRing) / (kTubeRings - 1 - kBodyEndRing);
-    return {.rest = {caudal_.at(at.ray, q), at.side * finHalfThickness(q)},
+    const glm::vec2 root{back_[kBodyEndRing], caudal_.at(at.ray, 0).y};
+    return {.rest = {glm::mix(root, caudal_.at(at.ray, 1), q), at.side * finHalfThickness(q)},
             .part = CagePart::Caudal,
             .fin = {at.ray, q}};
 }
 
+// Its rays start at the ridge itself: a base drawn a little too deep would hide the fin's margins
+// inside the body.
 CageVertex CageShape::onMedianFin(const CageSite& site) const {
     const bool isAnal = site.part == CagePart::Anal;
     const FinPatch& fin = isAnal                               ? anal_
                           : site.part == CagePart::FirstDorsal ? firstDorsal_
                                                                : secondDorsal_;
     const float s = (isAnal ? belly_ : back_).at(static_cast<std::size_t>(site.ring));
-    const float p = fin.rayAtStation(s);
     const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
-    return {.rest = {fin.at(p, q), placeOf(site.column).side * finHalfThickness(q)},
-            .part = site.part,
-            .fin = {p, q}};
+    const bool isCut = isOneDorsal_ && site.part == CagePart::FirstDorsal && site.ring == 13;
+    const float p = fin.rayAtStation(s) + (isCut ? kStripOverlap : 0);
+    const Section section = sectionAt(s);
+    const glm::vec2 ridge{fin.at(p, 0).x, isAnal ? -section.ventral : section.dorsal};
+    return {
+        .rest = {glm::mix(ridge, fin.at(p, 1), q), placeOf(site.column).side * finHalfThickness(q)},
+        .part = isOneDorsal_ && !isAnal ? CagePart::FirstDorsal : site.part,
+        .fin = {p, q}};
 }
 
-// A paired fin stands off the flank by its angle, in a plane that holds its rays.
+// A paired fin is flat and stands off the flank by its angle, turned about its base.
 CageVertex CageShape::onPairedFin(const CageSite& site) const {
     const bool isPelvic = site.part == CagePart::Pelvic;
     const FinPatch& fin = isPelvic ? pelvic_ : pectoral_;
     const float p = isPelvic ? static_cast<float>(site.ring - 7) : pectoralRay(site.column);
     const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
-    const bool isOuter = isPelvic ? site.column == 5 || site.column == 8 : site.ring == 5;
-    const glm::vec2 base = fin.at(p, 0);
-    const glm::vec2 tip = fin.at(p, q);
-    const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(base.x).halfWidth;
-    const float off = glm::distance(tip, base) * std::sin(fin.angleRadians());
-    const float thickness = (isOuter ? 0.002F : -0.002F) * (1 - 0.7F * q);
-    return {.rest = {base.x + (tip.x - base.x) * std::cos(fin.angleRadians()),
-                     tip.y,
-                     placeOf(site.column).side * (root + off + thickness)},
-            .part = site.part,
-            .fin = {p, q}};
+    const glm::vec2 hinge = glm::normalize(fin.baseRear() - fin.baseFront());
+    const glm::vec2 outwards = awayFrom(hinge, fin);
+    const glm::vec2 drawn = fin.at(p, q) - fin.baseFront();
+    const float reach = glm::dot(drawn, outwards);
+    const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(fin.at(0.5F, 0).x).halfWidth;
+    // Its root twists by a quarter, so that the front of the root of a fin that points back becomes
+    // its outer side, but that of a fin which points down its inner.
+    const bool pointsDown = hinge.x * outwards.y < hinge.y * outwards.x;
+    const bool isOuter =
+        isPelvic ? site.column == 5 || site.column == 8 : (site.ring == 5) != pointsDown;
+    const float thickness = (isOuter ? 0.003F : -0.003F) * (1 - 0.7F * q);
+    const float sine = std::sin(fin.angleRadians());
+    const float cosine = std::cos(fin.angleRadians());
+    const glm::vec2 inFlank = fin.baseFront() + hinge * glm::dot(drawn, hinge) +
+                              outwards * (reach * cosine - thickness * sine);
+    return {
+        .rest = {inFlank, placeOf(site.column).side * (root + reach * sine + thickness * cosine)},
+        .part = site.part,
+        .fin = {p, q}};
 }
 
 }  // namespace aquarama

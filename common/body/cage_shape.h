@@ -26,6 +26,7 @@ class CageShape {
     void slantRings(const Species& species);
     [[nodiscard]] Section sectionAt(float s) const;
     [[nodiscard]] glm::vec3 onBody(int ring, int column) const;
+    [[nodiscard]] glm::vec3 onPectoralRoot(int ring, int column) const;
     [[nodiscard]] CageVertex onCaudal(int ring, int column) const;
     [[nodiscard]] glm::vec3 onNose(int row, int column) const;
     [[nodiscard]] CageVertex onMedianFin(const CageSite& site) const;
@@ -33,6 +34,7 @@ class CageShape {
 
     MonotoneCurve dorsal_, ventral_, halfWidth_;
     FinPatch firstDorsal_, secondDorsal_, anal_, caudal_, pelvic_, pectoral_;
+    bool isOneDorsal_;
     // Rings slant, so that the base of every fin lies on them: their stations on back, flank,
     // belly.
     RingStations back_{}, flank_{}, belly_{};

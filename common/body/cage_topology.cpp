@@ -76,6 +76,7 @@ class Builder {
         for (const Cell& cell : cells)
             for (const Vertex v : tube_.at(cell)) below[v] = v;
         for (const auto& [a, b] : outline) crease(a, b, kRootSharpness);
+        const std::vector<Vertex> corners = cornersOf(cells);
         for (int level = 1; level <= levels; ++level) {
             std::map<Vertex, Vertex> above;
             for (const auto& [foot, _] : below)
@@ -87,6 +88,8 @@ class Builder {
                                    .levels = levels});
             for (const auto& [a, b] : outline)
                 faces_.push_back({below.at(a), below.at(b), above.at(b), above.at(a)});
+            for (const Vertex corner : corners)
+                crease(below.at(corner), above.at(corner), kMarginSharpness);
             below = std::move(above);
         }
         for (const auto& [a, b] : outline) crease(below.at(a), below.at(b), kMarginSharpness);
@@ -125,6 +128,17 @@ class Builder {
         for (const auto& [a, b] : edges)
             if (!edges.contains({b, a})) outline.emplace_back(a, b);
         return outline;
+    }
+
+    // The vertices that only one of the cells has: where a fin's front and rear margin rise.
+    [[nodiscard]] std::vector<Vertex> cornersOf(const std::vector<Cell>& cells) const {
+        std::map<Vertex, int> uses;
+        for (const Cell& cell : cells)
+            for (const Vertex v : tube_.at(cell)) ++uses[v];
+        std::vector<Vertex> corners;
+        for (const auto& [vertex, count] : uses)
+            if (count == 1) corners.push_back(vertex);
+        return corners;
     }
 
     std::vector<CageSite> sites_;

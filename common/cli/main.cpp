@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command `aquarama`: runs a show, or hands over to the program that does what was asked.
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <fstream>
@@ -35,16 +36,34 @@ constexpr std::array kDelegations{
                "capture",
                "",
                "simulate the biomechanical fish and compile repertoires: --out DIR"},
+    Delegation{"export",
+               "capture",
+               "export",
+               "a segment as C3D, glTF or CSV: aquarama export FILE --segment NAME --c3d OUT"},
+    Delegation{"search", "capture", "search", "gait parameters with which a species swims"},
+    Delegation{"fidelity",
+               "capture",
+               "fidelity",
+               "the same commands to the biomechanical fish and to its replica"},
+    Delegation{"controllers",
+               "capture",
+               "controllers",
+               "what each motor controller makes the biomechanical fish do"},
     Delegation{"check", "calibrate", "check", "validate a rig: aquarama check RIG"},
     Delegation{"status", "master", "status", "what the running wall is doing"},
 };
 
-// A repertoire is told by its first bytes; every other file that we know is about walls.
-std::string_view inspectorOf(const std::string& path) {
+// By its name or, whatever that is, by its first bytes.
+bool isRepertoire(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::array<char, 5> magic{};
     file.read(magic.data(), magic.size());
-    return std::string_view(magic.data(), magic.size()) == "AQREP" ? "capture" : "calibrate";
+    return path.ends_with(".aqrep") || std::string_view(magic.data(), magic.size()) == "AQREP";
+}
+
+// Every other file that we know is about walls.
+std::string_view inspectorOf(std::span<char*> arguments) {
+    return std::ranges::any_of(arguments, isRepertoire) ? "capture" : "calibrate";
 }
 
 [[noreturn]] void delegate(std::string_view program,
@@ -84,10 +103,7 @@ int dispatch(int count, char** arguments) {
         if (first == delegation.command)
             delegate(delegation.program, delegation.subcommand, all.subspan(2));
     }
-    if (first == "inspect") {
-        const std::string file = count > 2 ? all[2] : "";
-        delegate(inspectorOf(file), "inspect", all.subspan(2));
-    }
+    if (first == "inspect") delegate(inspectorOf(all.subspan(2)), "inspect", all.subspan(2));
 
     if (!first.empty() && first != "run" && !first.starts_with('-')) {
         throw Error("there is no command \"" + first + "\"; aquarama --help lists them");
@@ -102,7 +118,8 @@ int dispatch(int count, char** arguments) {
         app.add_subcommand(std::string(delegation.command), std::string(delegation.what));
     }
     app.add_subcommand("inspect",
-                       "what a repertoire or a wall's file holds: aquarama inspect FILE");
+                       "what a repertoire or a wall's file holds: aquarama inspect FILE; of a "
+                       "repertoire also as a page, --report DIR");
     try {
         app.parse(count, arguments);
     } catch (const CLI::ParseError& wrong) {

@@ -3,24 +3,18 @@
 
 #include "common/config/angle.h"
 #include "common/config/species.pb.h"
+#include "common/config/species_shape.h"
 #include "common/config/text_reader.h"
 
 namespace aquarama {
 
 namespace {
 
-constexpr Range kStation{0, 1.2};
-constexpr Range kHeight{-1, 1};
-constexpr Range kExtent{0.0005, 0.5};  // body lengths; thinner would fold the springs or the skin
 constexpr Range kShare{0, 1};
 constexpr Range kStrength{0.001, 1e6};
 constexpr Range kMetres{0.005, 20};
 constexpr Range kBodyLengths{0.01, 100};
 constexpr Range kDepth{0, 1000};
-
-float real(const TextPlace& at, const std::string& field, Range range) {
-    return static_cast<float>(at.number(field, range));
-}
 
 SizeRange readSize(const TextPlace& at) {
     SizeRange size;
@@ -33,84 +27,6 @@ SizeRange readSize(const TextPlace& at) {
     if (size.mostMetres < size.meanMetres)
         at.refuse("most_m", "most_m is less than mean_m: exchange them");
     return size;
-}
-
-BodyProfile readProfile(const TextPlace& root) {
-    BodyProfile profile;
-    const int count = root.count("profile");
-    if (count < 4 || count > 64)
-        root.refuse("the file has " + std::to_string(count) + " profile stations: give 4 to 64");
-    for (int i = 0; i < count; ++i) {
-        const TextPlace at = root.in("profile", i);
-        const float s = real(at, "s", {0, 0.95});
-        if (i == 0 ? s != 0.0F : s <= profile.stations.back())
-            at.refuse("s", "profile stations must begin at s: 0 and rise: sort them");
-        profile.stations.push_back(s);
-        profile.dorsal.push_back(real(at, "up", kExtent));
-        profile.ventral.push_back(real(at, "down", kExtent));
-        profile.halfWidth.push_back(real(at, "half_width", kExtent));
-    }
-    return profile;
-}
-
-std::vector<glm::vec2> readPolyline(const TextPlace& fin, const std::string& field) {
-    const int count = fin.count(field);
-    if (count < 2 || count > 32) fin.refuse(field, field + " needs 2 to 32 points");
-    std::vector<glm::vec2> points;
-    for (int i = 0; i < count; ++i) {
-        const TextPlace at = fin.in(field, i);
-        points.emplace_back(real(at, "s", kStation), real(at, "y", kHeight));
-    }
-    return points;
-}
-
-Fin readFin(const TextPlace& fins, const std::string& field) {
-    const TextPlace at = fins.in(field);
-    return {.base = readPolyline(at, "base"),
-            .edge = readPolyline(at, "edge"),
-            .angleRadians = static_cast<float>(radiansOf(at.numberOr("angle_deg", {0, 90}, 0)))};
-}
-
-// A fin along the back or the belly: the skin's rings follow its base, so that must run tailwards.
-Fin readMedianFin(const TextPlace& fins, const std::string& field) {
-    Fin fin = readFin(fins, field);
-    for (std::size_t i = 1; i < fin.base.size(); ++i)
-        if (fin.base[i].x <= fin.base[i - 1].x)
-            fins.in(field).refuse("base",
-                                  "the base of " + field + " must run from head to tail: sort it",
-                                  static_cast<int>(i));
-    return fin;
-}
-
-// Along back and belly the bases of the fins come one after the other, before the root of the tail.
-void checkOrder(const TextPlace& fins, const Fins& read, float tailRoot) {
-    if (read.secondDorsal && read.secondDorsal->base.front().x <= read.firstDorsal.base.back().x)
-        fins.refuse("second_dorsal", "second_dorsal begins before first_dorsal ends: move it back");
-    const char* const last = read.secondDorsal ? "second_dorsal" : "first_dorsal";
-    if (read.secondDorsal.value_or(read.firstDorsal).base.back().x >= tailRoot)
-        fins.refuse(last, std::string(last) + " ends behind the last profile station: shorten it");
-    if (read.anal.base.front().x <= read.pelvic.base.back().x)
-        fins.refuse("anal", "anal begins before pelvic ends: move it back");
-    if (read.anal.base.back().x >= tailRoot)
-        fins.refuse("anal", "anal ends behind the last profile station: shorten it");
-}
-
-Fins readFins(const TextPlace& at, float tailRoot) {
-    Fins fins{.firstDorsal = readMedianFin(at, "first_dorsal"),
-              .secondDorsal = {},
-              .anal = readMedianFin(at, "anal"),
-              .caudal = readFin(at, "caudal"),
-              .pelvic = readMedianFin(at, "pelvic"),
-              .pectoral = readFin(at, "pectoral")};
-    if (at.has("second_dorsal")) fins.secondDorsal = readMedianFin(at, "second_dorsal");
-    checkOrder(at, fins, tailRoot);
-    return fins;
-}
-
-FishEye readEye(const TextPlace& at) {
-    return {.s = real(at, "s", {0, 0.5}),
-            .y = real(at, "y", {-0.4, 0.4}),
-            .radius = real(at, "radius", {0.001, 0.2})};
 }
 
 Skeleton readSkeleton(const TextPlace& at) {
@@ -166,14 +82,24 @@ Turn readTurn(const TextPlace& at) {
 }
 
 SchoolHabits readSchool(const TextPlace& at) {
-    return {.neighbours = static_cast<std::uint32_t>(at.number("neighbours", {1, 7})),
-            .repelBodyLengths = at.number("repel_bl", kBodyLengths),
-            .alignBodyLengths = at.number("align_bl", kBodyLengths),
-            .attractBodyLengths = at.number("attract_bl", kBodyLengths),
-            .blindRadians = radiansOf(at.number("blind_deg", {0, 180})),
-            .leastDepthMetres = at.number("least_depth_m", kDepth),
-            .bestDepthMetres = at.number("best_depth_m", kDepth),
-            .mostDepthMetres = at.number("most_depth_m", kDepth)};
+    const SchoolHabits school{
+        .neighbours = static_cast<std::uint32_t>(at.number("neighbours", {1, 7})),
+        .repelBodyLengths = at.number("repel_bl", kBodyLengths),
+        .alignBodyLengths = at.number("align_bl", kBodyLengths),
+        .attractBodyLengths = at.number("attract_bl", kBodyLengths),
+        .blindRadians = radiansOf(at.number("blind_deg", {0, 180})),
+        .leastDepthMetres = at.number("least_depth_m", kDepth),
+        .bestDepthMetres = at.number("best_depth_m", kDepth),
+        .mostDepthMetres = at.number("most_depth_m", kDepth)};
+    if (school.alignBodyLengths <= school.repelBodyLengths)
+        at.refuse("align_bl", "align_bl must be more than repel_bl: exchange them");
+    if (school.attractBodyLengths <= school.alignBodyLengths)
+        at.refuse("attract_bl", "attract_bl must be more than align_bl: exchange them");
+    if (school.bestDepthMetres < school.leastDepthMetres)
+        at.refuse("best_depth_m", "best_depth_m is less than least_depth_m: exchange them");
+    if (school.mostDepthMetres < school.bestDepthMetres)
+        at.refuse("most_depth_m", "most_depth_m is less than best_depth_m: exchange them");
+    return school;
 }
 
 std::vector<Paint> readPalette(const TextPlace& root) {
@@ -182,7 +108,8 @@ std::vector<Paint> readPalette(const TextPlace& root) {
         const TextPlace at = root.in("palette", i);
         palette.push_back(
             {at.text("part"),
-             {real(at, "red", kShare), real(at, "green", kShare), real(at, "blue", kShare)}});
+             glm::dvec3(
+                 at.number("red", kShare), at.number("green", kShare), at.number("blue", kShare))});
     }
     return palette;
 }

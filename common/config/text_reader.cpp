@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/text_reader.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fstream>
@@ -163,9 +164,11 @@ std::string TextPlace::choice(const std::string& name) const {
 }
 
 void TextPlace::refuse(const std::string& name, const std::string& why, int index) const {
-    const bool there = index == kSingle ? has(name) : index < count(name);
+    const Field& field = fieldNamed(name);
+    if (field.is_repeated()) index = std::max(index, 0);
+    const bool there = field.is_repeated() ? index < count(name) : has(name);
     if (!there) refuse(why);
-    const auto at = tree_->GetLocation(&fieldNamed(name), index);
+    const auto at = tree_->GetLocation(&field, index);
     throw Error(placed(*source_, at.line + 1, at.column + 1, why));
 }
 

@@ -41,8 +41,8 @@ class TextPlace {
     [[nodiscard]] int line() const { return line_; }  // from 1
     [[nodiscard]] int column() const { return column_; }
 
-    // Throws Error "file:line:column: why", placed at the field if it is there, else at the
-    // message.
+    // Throws Error "file:line:column: why", placed at the field if it is there (a repeated one
+    // without an index: at its first), else at the message.
     [[noreturn]] void refuse(const std::string& field,
                              const std::string& why,
                              int index = kSingle) const;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/gait_path.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace aquarama {
 namespace {
 
 constexpr std::size_t kCycle = kPhases;
+constexpr double kNoWayBodyLengths = 1e-6;  // over some phases: too short to have a direction
 
 void integrate(const ActionSegment& segment, GaitPath& path) {
     path.rotation[0] = glm::dquat(1, 0, 0, 0);
@@ -35,11 +39,35 @@ glm::dquat meanAt(const GaitPath& path, int phase) {
     return glm::normalize(sum);
 }
 
-// A turn that plays to its end is no cycle, and has no mean over one: its body frame is its mean.
+// The least rotation that brings the body's x axis along the path at phase k; the path is taken
+// over a sixteenth of a turn, less at its ends.
+glm::dquat alongPath(const GaitPath& path, std::size_t k) {
+    const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
+    const std::size_t from = k < reach ? k : k - reach;
+    const std::size_t to = std::min(k + reach, kCycle);
+    const glm::dvec3 way =
+        glm::conjugate(path.rotation[k]) * (path.translation[to] - path.translation[from]);
+    if (way.x < kNoWayBodyLengths) return {1, 0, 0, 0};
+    const double length = std::sqrt(glm::dot(way, way));
+    return glm::normalize(glm::dquat(1 + way.x / length, 0, -way.z / length, way.y / length));
+}
+
+// A turn that plays to its end is no cycle, and has no mean over one. Its frame looks along its
+// path, from which the bent body points away; but at the end where the straight body does, since
+// there the water soon takes what is left of a slip.
+glm::dquat courseAt(const GaitPath& path, std::size_t k) {
+    constexpr std::size_t kLastQuarter = kCycle / 4;
+    const double left =
+        std::min(1.0, static_cast<double>(kCycle - k) / static_cast<double>(kLastQuarter));
+    const double share = left * left * (3 - 2 * left);
+    const glm::dquat straight(1, 0, 0, 0);
+    return path.rotation[k] * glm::normalize(straight * (1 - share) + alongPath(path, k) * share);
+}
+
 std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsToEnd) {
     std::array<glm::dquat, kCycleSamples> means{};
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
-        means[k] = playsToEnd ? path.rotation[k] : meanAt(path, static_cast<int>(k));
+        means[k] = playsToEnd ? courseAt(path, k) : meanAt(path, static_cast<int>(k));
     }
     return means;
 }

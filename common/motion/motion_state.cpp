@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/motion_state.h"
 
+#include <algorithm>
+
 #include "common/motion/orientation.h"
 
 namespace aquarama {
@@ -54,6 +56,7 @@ void MotionStates::resize(std::size_t fish) {
     for (auto* column : {&x, &y, &z, &orientationA, &orientationB, &orientationC}) {
         column->resize(fish);
     }
+    speed.resize(fish);
     for (auto* column : {&phase, &fromPhase}) column->resize(fish);
     for (auto* column : {&orientationLargest, &segment, &fromSegment, &warpFrame, &warpLength}) {
         column->resize(fish);
@@ -63,6 +66,7 @@ void MotionStates::resize(std::size_t fish) {
 void MotorCommands::resize(std::size_t fish) {
     segment.resize(fish);
     phaseRate.resize(fish);
+    brake.resize(fish);
     pitch.resize(fish);
     yawRate.resize(fish);
 }
@@ -82,7 +86,8 @@ FishRecord recordOf(const MotionStates& states, std::size_t fish) {
             .segment = states.segment[fish],
             .fromSegment = states.fromSegment[fish],
             .warpFrame = states.warpFrame[fish],
-            .warpLength = states.warpLength[fish]};
+            .warpLength = states.warpLength[fish],
+            .speed = states.speed[fish]};
 }
 
 PackedOrientation orientationOf(const FishRecord& record) {
@@ -107,11 +112,13 @@ void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& rec
     states.fromSegment[fish] = record.fromSegment;
     states.warpFrame[fish] = record.warpFrame;
     states.warpLength[fish] = record.warpLength;
+    states.speed[fish] = record.speed;
 }
 
 bool isPlayable(const FishRecord& record) {
     return record.segment < kActions && record.fromSegment < kActions &&
-           record.warpFrame <= record.warpLength && record.orientationHigh >> 30U == 0;
+           record.warpFrame <= record.warpLength && record.speed <= kFastestUnits &&
+           record.speed >= -kFastestUnits && record.orientationHigh >> 30U == 0;
 }
 
 BodyFrame bodyFrameOf(const FishRecord& record) {
@@ -134,17 +141,28 @@ void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame
     states.orientationLargest[fish] = packed.largest;
 }
 
+float speedBodyLengths(const MotionStates& states, std::size_t fish) {
+    return static_cast<float>(states.speed[fish]) / kSpeedUnitsPerBodyLength;
+}
+
+void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed) {
+    constexpr auto kFastest = static_cast<float>(kFastestUnits);
+    const float units = std::clamp(speed * kSpeedUnitsPerBodyLength, -kFastest, kFastest);
+    states.speed[fish] = static_cast<std::int32_t>(roundToEven(units));
+}
+
 std::uint64_t hashOf(const MotionStates& states) {
     const auto wide = [](auto field) { return static_cast<std::uint64_t>(field); };
     std::uint64_t hash = mix(states.size());
     for (std::size_t fish = 0; fish < states.size(); ++fish) {
         const FishRecord r = recordOf(states, fish);
         // Four independent words a fish, so that only the last line waits for the fish before.
-        const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, r.phase));
+        const std::int32_t phases = r.phase | static_cast<std::int32_t>(wide(r.fromPhase) << 16U);
+        const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, phases));
         const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);
         const std::uint64_t warp = wide(r.segment) | wide(r.fromSegment) << 8U |
                                    wide(r.warpFrame) << 16U | wide(r.warpLength) << 24U |
-                                   wide(r.fromPhase) << 32U;
+                                   wide(static_cast<std::uint32_t>(r.speed)) << 32U;
         hash = hash * 0x9E3779B97F4A7C15U + (place + 5 * turn + 7 * mix(warp + 1));
     }
     return mix(hash);

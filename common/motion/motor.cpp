@@ -12,24 +12,17 @@ namespace {
 
 using Vector = std::array<float, 3>;
 
-// Along the recorded path from one phase to another, up to a cycle later.
-Travel playedTravel(const SegmentTables& tables, std::uint32_t from, std::uint32_t to) {
-    const std::size_t a = from >> kPhaseCellBits;
-    const std::size_t b = to >> kPhaseCellBits;
-    const std::size_t c = b % kPhases;
-    const float atStart = fractionOf(from);
-    const float atEnd = fractionOf(to);
-    Travel travel{.start = lerp(tables.path[a].rotation, tables.path[a + 1].rotation, atStart),
-                  .end = lerp(tables.path[b].rotation, tables.path[b + 1].rotation, atEnd),
-                  .bodyFromMean = lerp(tables.bodyFromMean[c], tables.bodyFromMean[c + 1], atEnd)};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto place = [&](std::size_t cell, float share) {
-            const float here = tables.path[cell].translation[axis];
-            return here + share * (tables.path[cell + 1].translation[axis] - here);
-        };
-        travel.translation[axis] = place(b, atEnd) - place(a, atStart);
-    }
-    return travel;
+// Along the recorded path from one phase to another, up to a cycle later or earlier.
+Travel playedTravel(const SegmentTables& tables, const Playing& playing) {
+    const auto placeAt = [&](std::int32_t phase) {
+        const auto at = static_cast<std::uint32_t>(phase);
+        const PathSample* cell = &tables.path[at >> kPhaseCellBits];
+        return lerp(cell[0], cell[1], fractionOf(at));
+    };
+    return {.start = placeAt(playing.from),
+            .end = placeAt(playing.to),
+            .bodyFromMean = swayAt(tables, static_cast<std::uint32_t>(playing.to) & 0xFFFFU),
+            .rate = playing.to - playing.from};
 }
 
 Vector rotated(const Quaternion& q, const Vector& v) {
@@ -53,24 +46,59 @@ float levellingRoll(float up, float right) {
     return bounded(kRollGain * right, kRollRate);
 }
 
+// Where the mean frame looks, in world axes, and the heights of its up and right.
+struct Attitude {
+    Vector forward;
+    float up, right;
+};
+
+Attitude attitudeOf(const Quaternion& m) {
+    return {{1.0F - 2.0F * (m.y * m.y + m.z * m.z),
+             2.0F * (m.x * m.y + m.w * m.z),
+             2.0F * (m.x * m.z - m.w * m.y)},
+            1.0F - 2.0F * (m.x * m.x + m.z * m.z),
+            2.0F * (m.y * m.z - m.w * m.x)};
+}
+
 // Half the turn that the fish adds in this tick, about world axes: commanded yaw about up, pitch
 // about the level axis to its right, roll about its nose. Measured on the mean frame, else the tail
 // beat would be steered against.
-Vector halfSteering(const Quaternion& m, float pitchSine, float yaw) {
-    const float forwardX = 1.0F - 2.0F * (m.y * m.y + m.z * m.z);
-    const float forwardY = 2.0F * (m.x * m.y + m.w * m.z);
-    const float forwardZ = 2.0F * (m.x * m.z - m.w * m.y);
-    const float up = 1.0F - 2.0F * (m.x * m.x + m.z * m.z);
-    const float right = 2.0F * (m.y * m.z - m.w * m.x);
+Vector halfSteering(const Attitude& attitude, float pitchSine, float yaw) {
+    const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const float wanted = bounded(pitchSine, kSteepestPitch);
     const float pitch = bounded(kPitchGain * (wanted - forwardY), kPitchRate);
     const float levelZ = forwardX + kLevelAxisBias;
     const float squared = levelZ * levelZ + forwardZ * forwardZ;
     const float alongLevel = pitch / std::sqrt(std::max(squared, kTiniest));
-    const float roll = levellingRoll(up, right);
+    const float roll = levellingRoll(attitude.up, attitude.right);
     return {0.5F * (roll * forwardX - alongLevel * forwardZ),
             0.5F * (roll * forwardY + yaw),
             0.5F * (roll * forwardZ + alongLevel * levelZ)};
+}
+
+// Goes from v towards target and not beyond, by a whole step if there is any at all: so rounding
+// never lets it stall short of the target.
+float approached(float v, float target, float step) {
+    const float whole = std::ceil(step);
+    return v < target ? std::min(v + whole, target) : std::max(v - whole, target);
+}
+
+// The speed after a tick, from v and the path's at the tick's start and end; all in whole units.
+// On a turn the speed changes as was recorded. What is faster or slower than the recorded fish
+// loses the difference to the water, by
+//     dv/dt = drag (path |path| - v |v|),
+// where a glide has no thrust: there the path's speed counts as nothing. Spread fins then take
+//     dv/dt = -share (brakeDrag v |v| + kBrakeLinear v);
+// the linear term is ours: by the square alone a fish would never stop.
+float speedAfter(
+    const SpeedLoss& loss, float v, float pathAtStart, float pathAtEnd, bool glides, float brake) {
+    const float carried = bounded(v + (pathAtEnd - pathAtStart), kFastest);
+    const float target = glides ? 0.0F : pathAtEnd;
+    const float square = glides ? loss.glideSquare : loss.swimSquare;
+    const float surplus = target * std::abs(target) - carried * std::abs(carried);
+    const float swum = approached(carried, target, square * std::abs(surplus));
+    const float fast = std::abs(swum);
+    return approached(swum, 0.0F, brake * (fast * (loss.brakeSquare * fast + loss.brakeLinear)));
 }
 
 std::int32_t stepUnits(float units) {
@@ -91,19 +119,34 @@ Quaternion orientationOf(const MotionStates& s, std::size_t i) {
 void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i) {
     MotionStates& s = *step.states;
     const Playing playing = advanceSegment(*step.tables, columns, i);
-    const SegmentTables& segment = step.tables->segments[s.segment[i]];
-    const Travel travel = playing.glides ? glidingTravel(*step.tables, columns, i)
-                                         : playedTravel(segment, playing.from, playing.to);
-    // The frame from which the path is seen, in the world; eq. 11 with the fish's own length.
-    const Quaternion seenFrom = renormalised(orientationOf(s, i) * conjugate(travel.start));
-    const Vector moves = rotated(seenFrom, travel.translation);
+    const Travel travel = playing.warps
+                              ? warpingTravel(*step.tables, columns, i)
+                              : playedTravel(step.tables->segments[s.segment[i]], playing);
+    const auto& a = travel.start.translationAndSpeed;
+    const auto& b = travel.end.translationAndSpeed;
+    const auto rate = static_cast<float>(travel.rate);
+    const float pathAtEnd = pathSpeed(b[3], rate);
+    const float speed = speedAfter(step.tables->loss,
+                                   static_cast<float>(s.speed[i]),
+                                   pathSpeed(a[3], rate),
+                                   pathAtEnd,
+                                   s.segment[i] == static_cast<std::uint8_t>(Action::Glide),
+                                   static_cast<float>(step.commands->brake[i]) * kBrakeUnit);
+    s.speed[i] = static_cast<std::int32_t>(speed);
+    // Eq. 10 in body axes; the frame from which the path is seen, in the world, comes first.
+    const Quaternion seenFrom =
+        renormalised(orientationOf(s, i) * conjugate(travel.start.rotation));
+    const Quaternion swum = seenFrom * travel.end.rotation;
+    const Attitude attitude = attitudeOf(swum * travel.bodyFromMean);
+    // Eq. 11 with the fish's own length, and what it is faster than the path.
+    const Vector moves = rotated(seenFrom, {b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+    const float faster = (speed - pathAtEnd) * kLengthsPerSpeedUnit;
     const float units = static_cast<float>(step.traits[i].lengthMillimetres) * kUnitsPerMillimetre;
-    s.x[i] = moved(s.x[i], stepUnits(moves[0] * units));
-    s.y[i] = moved(s.y[i], stepUnits(moves[1] * units));
-    s.z[i] = moved(s.z[i], stepUnits(moves[2] * units));
-    // Eq. 10 in body axes, then the fish's own steering.
-    const Quaternion swum = seenFrom * travel.end;
-    const Vector steering = halfSteering(swum * travel.bodyFromMean,
+    s.x[i] = moved(s.x[i], stepUnits((moves[0] + faster * attitude.forward[0]) * units));
+    s.y[i] = moved(s.y[i], stepUnits((moves[1] + faster * attitude.forward[1]) * units));
+    s.z[i] = moved(s.z[i], stepUnits((moves[2] + faster * attitude.forward[2]) * units));
+    // Then the fish's own steering.
+    const Vector steering = halfSteering(attitude,
                                          static_cast<float>(step.commands->pitch[i]) * kPitchUnit,
                                          static_cast<float>(step.commands->yawRate[i]) * kYawUnit);
     const Quaternion turn{1.0F, steering[0], steering[1], steering[2]};
@@ -125,7 +168,7 @@ glm::quat meanRotation(const MotorTables& tables, const MotionStates& states, st
     const float share = static_cast<float>(states.warpFrame[fish] + 1) /
                         static_cast<float>(states.warpLength[fish] + 1);
     const auto swayOf = [&](std::uint8_t segment, std::uint16_t phase) {
-        return glideAt(tables.segments[segment], phase).bodyFromMean;
+        return swayAt(tables.segments[segment], phase);
     };
     const Quaternion played = swayOf(states.segment[fish], states.phase[fish]);
     const bool warps = states.warpFrame[fish] != states.warpLength[fish];

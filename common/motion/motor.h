@@ -18,9 +18,20 @@ class MotorTables;
 [[nodiscard]] std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire);
 
 // Advances fish [first, last) of one species by one tick: new segment and motion warp where the
-// command asks for one, body frame by the recorded increment over the tick, commanded yaw and
-// pitch, balancing roll; then rounds to integers. Bit-identical for any split into ranges, any
+// command asks for one, speed, body frame by the recorded increment over the tick, commanded yaw
+// and pitch, balancing roll; then rounds to integers. Bit-identical for any split into ranges, any
 // compiler optimisation and any instruction set.
+//
+// Of the nine patterns (section 3.2) these are played: swimming and turning as recorded; ascending
+// and descending by commanded pitch; balancing by roll; gliding by a warp to Action::Glide;
+// retreating by a negative phase rate; braking by MotorCommands::brake. The speed v of a fish goes
+// after the path's, p, which is the recorded speed times the phase rate over the recorded one:
+//     dv/dt = drag (p |p| - v |v|) - share (brakeDrag v |v| + 2/s v)
+// with drag = swimDrag; in Action::Glide it is glideDrag, and p counts as 0. While a turn plays, v
+// changes besides as p does. Where swimDrag is 0, v follows p at once. Each tick the body frame
+// goes by the path's translation and, along the mean frame's x axis, by (v - p) a tick: added, not
+// scaled, so that a fish whose tail rests still coasts and the sway stays that of the pose; a
+// steady fish plays exactly what was recorded. (The paper leaves open how the speed changes.)
 struct MotorStep {
     const MotorTables* tables = nullptr;
     std::span<const FishTraits> traits;
@@ -41,7 +52,7 @@ struct MotorStep {
 
 // Phase units a tick at which a segment plays as recorded, and the body lengths a second it then
 // travels.
-[[nodiscard]] std::uint16_t recordedPhaseRate(const MotorTables& tables, Action action);
+[[nodiscard]] std::int16_t recordedPhaseRate(const MotorTables& tables, Action action);
 [[nodiscard]] float recordedSpeedBodyLengths(const MotorTables& tables, Action action);
 // Mean rate of turn as recorded, radians a second, left positive.
 [[nodiscard]] float recordedTurnRate(const MotorTables& tables, Action action);

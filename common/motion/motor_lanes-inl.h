@@ -33,6 +33,10 @@ struct QuaternionLanes {
 struct VectorLanes {
     Lanes x, y, z;
 };
+struct PlaceLanes {  // on a path
+    VectorLanes translation;
+    Lanes speed;
+};
 
 HWY_INLINE Lanes sumOfProducts(Lanes a, Lanes b, Lanes c, Lanes d) {
     return hn::Add(hn::Mul(a, b), hn::Mul(c, d));
@@ -54,6 +58,13 @@ HWY_INLINE QuaternionLanes load(const float* quaternions) {
     QuaternionLanes q{};
     hn::LoadInterleaved4(kFloats, quaternions, q.w, q.x, q.y, q.z);
     return q;
+}
+
+HWY_INLINE PlaceLanes loadPlace(const float* translationsAndSpeeds) {
+    PlaceLanes p{};
+    hn::LoadInterleaved4(
+        kFloats, translationsAndSpeeds, p.translation.x, p.translation.y, p.translation.z, p.speed);
+    return p;
 }
 
 HWY_INLINE QuaternionLanes product(const QuaternionLanes& a, const QuaternionLanes& b) {
@@ -155,31 +166,79 @@ HWY_INLINE Lanes levellingRoll(Lanes up, Lanes right) {
                               hn::IfThenElse(bellyUp, hn::CopySign(rate, right), gentle));
 }
 
-HWY_INLINE VectorLanes halfSteering(const QuaternionLanes& m, Lanes pitchSine, Lanes yaw) {
+struct AttitudeLanes {
+    VectorLanes forward;
+    Lanes up, right;
+};
+
+HWY_INLINE AttitudeLanes attitudeOf(const QuaternionLanes& m) {
     const Lanes one = hn::Set(kFloats, 1.0F);
     const Lanes two = hn::Set(kFloats, 2.0F);
+    return {{hn::Sub(one, hn::Mul(two, sumOfProducts(m.y, m.y, m.z, m.z))),
+             hn::Mul(two, sumOfProducts(m.x, m.y, m.w, m.z)),
+             hn::Mul(two, differenceOfProducts(m.x, m.z, m.w, m.y))},
+            hn::Sub(one, hn::Mul(two, sumOfProducts(m.x, m.x, m.z, m.z))),
+            hn::Mul(two, differenceOfProducts(m.y, m.z, m.w, m.x))};
+}
+
+HWY_INLINE VectorLanes halfSteering(const AttitudeLanes& attitude, Lanes pitchSine, Lanes yaw) {
+    const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const Lanes half = hn::Set(kFloats, 0.5F);
-    const Lanes forwardX = hn::Sub(one, hn::Mul(two, sumOfProducts(m.y, m.y, m.z, m.z)));
-    const Lanes forwardY = hn::Mul(two, sumOfProducts(m.x, m.y, m.w, m.z));
-    const Lanes forwardZ = hn::Mul(two, differenceOfProducts(m.x, m.z, m.w, m.y));
-    const Lanes up = hn::Sub(one, hn::Mul(two, sumOfProducts(m.x, m.x, m.z, m.z)));
-    const Lanes right = hn::Mul(two, differenceOfProducts(m.y, m.z, m.w, m.x));
     const Lanes wanted = bounded(pitchSine, kSteepestPitch);
     const Lanes pitch =
         bounded(hn::Mul(hn::Set(kFloats, kPitchGain), hn::Sub(wanted, forwardY)), kPitchRate);
     const Lanes levelZ = hn::Add(forwardX, hn::Set(kFloats, kLevelAxisBias));
     const Lanes squared = sumOfProducts(levelZ, levelZ, forwardZ, forwardZ);
     const Lanes alongLevel = hn::Div(pitch, hn::Sqrt(hn::Max(squared, hn::Set(kFloats, kTiniest))));
-    const Lanes roll = levellingRoll(up, right);
+    const Lanes roll = levellingRoll(attitude.up, attitude.right);
     return {hn::Mul(half, differenceOfProducts(roll, forwardX, alongLevel, forwardZ)),
             hn::Mul(half, hn::Add(hn::Mul(roll, forwardY), yaw)),
             hn::Mul(half, sumOfProducts(roll, forwardZ, alongLevel, levelZ))};
+}
+
+// To the nearest even integer: |value| up to 2^22.
+HWY_INLINE Lanes pathSpeed(Lanes perRate, Lanes rate) {
+    const Lanes shift = hn::Set(kFloats, 12582912.0F);  // 1.5 * 2^23
+    return hn::Sub(hn::Add(bounded(hn::Mul(perRate, rate), kFastest), shift), shift);
+}
+
+HWY_INLINE Lanes approached(Lanes v, Lanes target, Lanes step) {
+    const Lanes whole = hn::Ceil(step);
+    return hn::IfThenElse(
+        hn::Lt(v, target), hn::Min(hn::Add(v, whole), target), hn::Max(hn::Sub(v, whole), target));
+}
+
+HWY_INLINE Lanes timesMagnitude(Lanes v) {
+    return hn::Mul(v, hn::Abs(v));
+}
+
+HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
+                            Lanes v,
+                            Lanes pathAtStart,
+                            Lanes pathAtEnd,
+                            hn::Mask<Floats> glides,
+                            Lanes brake) {
+    const Lanes carried = bounded(hn::Add(v, hn::Sub(pathAtEnd, pathAtStart)), kFastest);
+    const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
+    const Lanes square = hn::IfThenElse(
+        glides, hn::Set(kFloats, loss.glideSquare), hn::Set(kFloats, loss.swimSquare));
+    const Lanes surplus = hn::Sub(timesMagnitude(target), timesMagnitude(carried));
+    const Lanes swum = approached(carried, target, hn::Mul(square, hn::Abs(surplus)));
+    const Lanes fast = hn::Abs(swum);
+    const Lanes share = hn::Add(hn::Mul(hn::Set(kFloats, loss.brakeSquare), fast),
+                                hn::Set(kFloats, loss.brakeLinear));
+    return approached(swum, hn::Zero(kFloats), hn::Mul(brake, hn::Mul(fast, share)));
 }
 
 HWY_INLINE Lanes commanded(const std::vector<std::int16_t>& column, std::size_t fish, float unit) {
     const hn::Rebind<std::int16_t, Ints> shorts;
     const IntLanes integers = hn::PromoteTo(kInts, hn::LoadU(shorts, column.data() + fish));
     return hn::Mul(hn::ConvertTo(kFloats, integers), hn::Set(kFloats, unit));
+}
+
+HWY_INLINE IntLanes bytesAt(const std::vector<std::uint8_t>& column, std::size_t fish) {
+    const hn::Rebind<std::uint8_t, Ints> bytes;
+    return hn::PromoteTo(kInts, hn::LoadU(bytes, column.data() + fish));
 }
 
 HWY_INLINE void move(std::vector<std::int32_t>& column, std::size_t fish, Lanes units) {

@@ -2,6 +2,7 @@
 // The vectorised step: what motor.cpp does to a fish, on as many as the processor has lanes.
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "common/motion/motor.h"
 #include "common/motion/motor_tick.h"
@@ -22,78 +23,93 @@ namespace {
 constexpr std::size_t kBlockFish = 64;
 using FishSet = std::uint64_t;  // bit i: fish i of the block
 
-// What a block of fish does in this tick: phases and fractions of their cells, and the travels,
-// four floats a fish, to be read as columns.
+// What a block of fish does in this tick: phases and fractions of their cells, phase rates, and the
+// travels, four floats a fish, to be read as columns.
 struct Block {
     HWY_ALIGN std::int32_t from[kBlockFish];
     HWY_ALIGN std::int32_t to[kBlockFish];
     HWY_ALIGN float atStart[kBlockFish];
     HWY_ALIGN float atEnd[kBlockFish];
+    HWY_ALIGN std::int32_t rate[kBlockFish];
     HWY_ALIGN float start[4 * kBlockFish];
     HWY_ALIGN float end[4 * kBlockFish];
     HWY_ALIGN float bodyFromMean[4 * kBlockFish];
-    HWY_ALIGN float translation[4 * kBlockFish];
+    HWY_ALIGN float left[4 * kBlockFish];  // translation and speed at the start
+    HWY_ALIGN float reached[4 * kBlockFish];
     HWY_ALIGN std::int32_t lengthMillimetres[kBlockFish];
 };
 
 void store(const Travel& travel, Block& block, std::size_t i) {
-    const auto put = [i](const Quaternion& q, float* column) {
-        column[4 * i] = q.w;
-        column[4 * i + 1] = q.x;
-        column[4 * i + 2] = q.y;
-        column[4 * i + 3] = q.z;
+    const auto put = [i](const auto& four, float* column) {
+        static_assert(sizeof(four) == 4 * sizeof(float));
+        std::memcpy(column + 4 * i, &four, sizeof(four));
     };
-    put(travel.start, block.start);
-    put(travel.end, block.end);
+    put(travel.start.rotation, block.start);
+    put(travel.end.rotation, block.end);
     put(travel.bodyFromMean, block.bodyFromMean);
-    const auto& [x, y, z] = travel.translation;
-    put({x, y, z, 0.0F}, block.translation);
+    put(travel.start.translationAndSpeed, block.left);
+    put(travel.end.translationAndSpeed, block.reached);
+    block.rate[i] = travel.rate;
 }
 
-// Every fish of the block plays on at its commanded rate. Returns those that should not have: they
-// are in a motion warp, or another segment is wanted.
+template <class Tag>
+HWY_INLINE FishSet setOf(Tag tag, hn::Mask<Tag> mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, mask, bits);
+    return bits[0] | FishSet{bits[1]} << 8U;
+}
+
+// Every fish of the block plays on at its commanded rate. Returns those that perhaps should not
+// have: they are in a motion warp, or another segment is wanted, or they came to an end of theirs,
+// or go backwards.
 HWY_INLINE FishSet playOn(const MotorColumns& columns,
                           std::size_t first,
                           std::size_t count,
                           Block& block) {
     const hn::Rebind<std::uint16_t, Ints> shorts;
+    const hn::Rebind<std::int16_t, Ints> rates;
     const hn::Rebind<std::uint8_t, Ints> bytes;
     FishSet restless = 0;
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kInts)) {
         const std::size_t fish = first + lane;
         const auto phase = hn::LoadU(shorts, columns.phase + fish);
-        const auto rate = hn::LoadU(shorts, columns.phaseRate + fish);
+        const auto rate = hn::LoadU(rates, columns.phaseRate + fish);
         const IntLanes from = hn::PromoteTo(kInts, phase);
+        const IntLanes step = hn::PromoteTo(kInts, rate);
+        const IntLanes to = hn::Add(from, step);
         hn::Store(from, kInts, block.from + lane);
-        hn::Store(hn::Add(from, hn::PromoteTo(kInts, rate)), kInts, block.to + lane);
-        hn::StoreU(hn::Add(phase, rate), shorts, columns.phase + fish);
+        hn::Store(to, kInts, block.to + lane);
+        hn::Store(step, kInts, block.rate + lane);
+        hn::StoreU(hn::Add(phase, hn::BitCast(shorts, rate)), shorts, columns.phase + fish);
         const auto warps = hn::Ne(hn::LoadU(bytes, columns.warpFrame + fish),
                                   hn::LoadU(bytes, columns.warpLength + fish));
         const auto leaves = hn::Ne(hn::LoadU(bytes, columns.wanted + fish),
                                    hn::LoadU(bytes, columns.segment + fish));
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(bytes, hn::Or(warps, leaves), bits);
-        restless |= (bits[0] | FishSet{bits[1]} << 8U) << lane;
+        // Past an end of the cycle there are bits above the 16 of a phase.
+        const auto passes =
+            hn::Or(hn::Lt(step, hn::Zero(kInts)), hn::Gt(to, hn::Set(kInts, 0xFFFF)));
+        restless |= (setOf(bytes, hn::Or(warps, leaves)) | setOf(kInts, passes)) << lane;
     }
     return restless;
 }
 
-// Takes the restless fish back, to do what they should. Returns those of them that glide.
+// Takes the restless fish back, to do what they should. Returns those of them that warp.
 HWY_INLINE FishSet settle(const MotorStep& step,
                           const MotorColumns& columns,
                           std::size_t first,
                           FishSet restless,
                           Block& block) {
-    FishSet gliding = 0;
+    FishSet warping = 0;
     for (; restless != 0; restless &= restless - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(restless));
         columns.phase[first + i] = static_cast<std::uint16_t>(block.from[i]);
         const Playing playing = advanceSegment(*step.tables, columns, first + i);
-        block.to[i] = static_cast<std::int32_t>(playing.to);
-        block.from[i] = static_cast<std::int32_t>(playing.from);
-        gliding |= FishSet{playing.glides} << i;
+        block.to[i] = playing.to;
+        block.from[i] = playing.from;
+        block.rate[i] = playing.to - playing.from;
+        warping |= FishSet{playing.warps} << i;
     }
-    return gliding;
+    return warping;
 }
 
 HWY_INLINE void fractionsOf(const std::int32_t* phases, std::size_t count, float* fractions) {
@@ -125,34 +141,37 @@ HWY_INLINE void storePlayed(const SegmentTables& tables, Block& block, std::size
     const float atEnd = block.atEnd[i];
     for (std::size_t c = 0; c < 4; c += hn::Lanes(kComponents)) {
         const std::size_t to = 4 * i + c;
-        const auto left = between(&a->translation[c], &a[1].translation[c], atStart);
-        const auto reached = between(&b->translation[c], &b[1].translation[c], atEnd);
+        const auto left =
+            between(&a->translationAndSpeed[c], &a[1].translationAndSpeed[c], atStart);
+        const auto reached =
+            between(&b->translationAndSpeed[c], &b[1].translationAndSpeed[c], atEnd);
         const auto start = between(&a->rotation.w + c, &a[1].rotation.w + c, atStart);
         const auto ended = between(&b->rotation.w + c, &b[1].rotation.w + c, atEnd);
-        hn::Store(hn::Sub(reached, left), kComponents, block.translation + to);
+        hn::Store(left, kComponents, block.left + to);
+        hn::Store(reached, kComponents, block.reached + to);
         hn::Store(start, kComponents, block.start + to);
         hn::Store(ended, kComponents, block.end + to);
         hn::Store(between(&m->w + c, &m[1].w + c, atEnd), kComponents, block.bodyFromMean + to);
     }
 }
 
-// The gliding fish play too, which costs less than asking each, and are then put right.
+// The warping fish play too, which costs less than asking each, and are then put right.
 HWY_INLINE void travelBlock(const MotorStep& step,
                             const MotorColumns& columns,
                             std::size_t first,
                             std::size_t count,
                             Block& block) {
     const FishSet restless = playOn(columns, first, count, block);
-    FishSet gliding = settle(step, columns, first, restless, block);
+    FishSet warping = settle(step, columns, first, restless, block);
     fractionsOf(block.from, count, block.atStart);
     fractionsOf(block.to, count, block.atEnd);
     for (std::size_t i = 0; i < count; ++i) {
         storePlayed(step.tables->segments[columns.segment[first + i]], block, i);
         block.lengthMillimetres[i] = step.traits[first + i].lengthMillimetres;
     }
-    for (; gliding != 0; gliding &= gliding - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(gliding));
-        store(glidingTravel(*step.tables, columns, first + i), block, i);
+    for (; warping != 0; warping &= warping - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(warping));
+        store(warpingTravel(*step.tables, columns, first + i), block, i);
     }
 }
 
@@ -165,20 +184,36 @@ HWY_INLINE void stepLanes(const MotorStep& step,
     const QuaternionLanes start = load(block.start + 4 * lane);
     const QuaternionLanes end = load(block.end + 4 * lane);
     const QuaternionLanes bodyFromMean = load(block.bodyFromMean + 4 * lane);
-    VectorLanes travel{};
-    Lanes padding{};
-    hn::LoadInterleaved4(
-        kFloats, block.translation + 4 * lane, travel.x, travel.y, travel.z, padding);
+    const PlaceLanes a = loadPlace(block.left + 4 * lane);
+    const PlaceLanes b = loadPlace(block.reached + 4 * lane);
+    const Lanes rate = hn::ConvertTo(kFloats, hn::Load(kInts, block.rate + lane));
+    const Lanes pathAtEnd = pathSpeed(b.speed, rate);
+    const Lanes speed = speedAfter(
+        step.tables->loss,
+        hn::ConvertTo(kFloats, hn::LoadU(kInts, s.speed.data() + fish)),
+        pathSpeed(a.speed, rate),
+        pathAtEnd,
+        hn::RebindMask(
+            kFloats,
+            hn::Eq(bytesAt(s.segment, fish), hn::Set(kInts, static_cast<int>(Action::Glide)))),
+        hn::Mul(hn::ConvertTo(kFloats, bytesAt(step.commands->brake, fish)),
+                hn::Set(kFloats, kBrakeUnit)));
+    hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);
     const QuaternionLanes seenFrom = renormalisedLanes(quotient(orientationOf(s, fish), start));
-    const VectorLanes moves = rotated(seenFrom, travel);
+    const QuaternionLanes swum = product(seenFrom, end);
+    const AttitudeLanes attitude = attitudeOf(product(swum, bodyFromMean));
+    const VectorLanes moves = rotated(seenFrom,
+                                      {hn::Sub(b.translation.x, a.translation.x),
+                                       hn::Sub(b.translation.y, a.translation.y),
+                                       hn::Sub(b.translation.z, a.translation.z)});
+    const Lanes faster = hn::Mul(hn::Sub(speed, pathAtEnd), hn::Set(kFloats, kLengthsPerSpeedUnit));
     const Lanes units =
         hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, block.lengthMillimetres + lane)),
                 hn::Set(kFloats, kUnitsPerMillimetre));
-    move(s.x, fish, hn::Mul(moves.x, units));
-    move(s.y, fish, hn::Mul(moves.y, units));
-    move(s.z, fish, hn::Mul(moves.z, units));
-    const QuaternionLanes swum = product(seenFrom, end);
-    const VectorLanes steering = halfSteering(product(swum, bodyFromMean),
+    move(s.x, fish, hn::Mul(hn::Add(moves.x, hn::Mul(faster, attitude.forward.x)), units));
+    move(s.y, fish, hn::Mul(hn::Add(moves.y, hn::Mul(faster, attitude.forward.y)), units));
+    move(s.z, fish, hn::Mul(hn::Add(moves.z, hn::Mul(faster, attitude.forward.z)), units));
+    const VectorLanes steering = halfSteering(attitude,
                                               commanded(step.commands->pitch, fish, kPitchUnit),
                                               commanded(step.commands->yawRate, fish, kYawUnit));
     const QuaternionLanes turn{hn::Set(kFloats, 1.0F), steering.x, steering.y, steering.z};

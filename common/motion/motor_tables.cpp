@@ -10,6 +10,9 @@
 namespace aquarama {
 namespace {
 
+// Wholly spread fins take half of a slow fish's speed in a third of a second.
+constexpr float kBrakeLinear = 2.0F;  // 1 / s
+
 Quaternion narrow(const glm::dquat& q) {
     return {static_cast<float>(q.w),
             static_cast<float>(q.x),
@@ -21,9 +24,9 @@ std::array<float, 3> narrow(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-std::uint16_t phaseRateOf(const ActionSegment& segment) {
+std::int16_t phaseRateOf(const ActionSegment& segment) {
     const double rate = 65536.0 / (static_cast<double>(segment.periodSeconds) * kTicksPerSecond);
-    return static_cast<std::uint16_t>(std::clamp(roundToEven(rate), 1.0, 65535.0));
+    return static_cast<std::int16_t>(std::clamp(roundToEven(rate), 1.0, 32767.0));
 }
 
 // atan by its series: one part in 10^9 for the turn of 1/64 cycle.
@@ -43,45 +46,62 @@ void measure(const GaitPath& path, double periodSeconds, SegmentTables& tables) 
     tables.turnRate = static_cast<float>(turn / periodSeconds);
 }
 
-GlideSample glideOf(const GaitPath& path, std::size_t k, double cellsPerTick, bool playsToEnd) {
-    const MeanMotion& mean = path.mean[k];
-    // A turn that plays to its end is entered and left on a straight course.
-    const glm::dvec3 halfTurn = playsToEnd ? glm::dvec3(0) : mean.halfTurn * cellsPerTick;
-    return {narrow(path.bodyFromMean[k]),
-            narrow(halfTurn),
-            static_cast<float>(mean.forward * cellsPerTick)};
+// Speed units for each unit of phase rate, 1/65536 of a cycle in a tick: of a turn at phase k, of a
+// cycle its mean.
+float speedOf(const GaitPath& path, std::size_t k, bool playsToEnd) {
+    double forward = path.mean[std::min(k, kCycleSamples - 1)].forward;
+    if (!playsToEnd) {
+        forward = 0;
+        for (std::size_t phase = 0; phase < kPhases; ++phase) forward += path.mean[phase].forward;
+        forward /= kPhases;
+    }
+    constexpr double kUnitsPerCellInTick =
+        static_cast<double>(kSpeedUnitsPerBodyLength) * kTicksPerSecond;
+    return static_cast<float>(forward * kUnitsPerCellInTick / 1024);
+}
+
+// dv = drag v^2 dt, in units u of which there are U to a body length a second: du = drag u^2 dt /
+// U.
+float squareLoss(float drag) {
+    return drag / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));
+}
+
+SpeedLoss lossOf(const SpeedResponse& response) {
+    const bool followsAtOnce = response.swimDrag <= 0.0F;
+    return {.swimSquare = followsAtOnce ? 1.0F : squareLoss(response.swimDrag),
+            .glideSquare = squareLoss(response.glideDrag),
+            .brakeSquare = squareLoss(response.brakeDrag),
+            .brakeLinear = kBrakeLinear / static_cast<float>(kTicksPerSecond)};
 }
 
 void fill(const ActionSegment& segment, SegmentTables& tables) {
     const GaitPath path = pathOf(segment);
     tables.phaseRate = phaseRateOf(segment);
-    tables.inversePhaseRate = 1.0F / static_cast<float>(tables.phaseRate);
     tables.playsToEnd = segment.playsToEnd;
     measure(path, static_cast<double>(segment.periodSeconds), tables);
     for (std::size_t k = 0; k < kPathSamples; ++k) {
         const auto [x, y, z] = narrow(path.translation[k]);
-        tables.path[k] = {narrow(path.rotation[k]), {x, y, z, 0.0F}};
+        const float speed = speedOf(path, k, segment.playsToEnd);
+        tables.path[k] = {narrow(path.rotation[k]), {x, y, z, speed}};
     }
-    const double cellsPerTick = static_cast<double>(tables.phaseRate) / 1024.0;
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         tables.bodyFromMean[k] = narrow(path.bodyFromMean[k]);
-        tables.glide[k] = glideOf(path, k, cellsPerTick, segment.playsToEnd);
     }
     if (segment.playsToEnd) return;
     // The mean frame repeats with the cycle to rounding; here it does so to the bit.
     tables.bodyFromMean.back() = tables.bodyFromMean.front();
-    tables.glide.back() = tables.glide.front();
 }
 
 }  // namespace
 
 std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
     auto tables = std::make_shared<MotorTables>();
-    std::array<std::uint16_t, kActions> phaseRates{};
+    std::array<std::int16_t, kActions> phaseRates{};
     for (std::size_t action = 0; action < kActions; ++action) {
         fill(repertoire.segments[action], tables->segments[action]);
         phaseRates[action] = tables->segments[action].phaseRate;
     }
+    tables->loss = lossOf(repertoire.response);
     const WarpPlans plans = planWarps(repertoire, phaseRates);
     for (std::size_t action = 0; action < kActions; ++action) {
         tables->segments[action].warpTo = plans[action];
@@ -89,7 +109,7 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
     return tables;
 }
 
-std::uint16_t recordedPhaseRate(const MotorTables& tables, Action action) {
+std::int16_t recordedPhaseRate(const MotorTables& tables, Action action) {
     return tables.segments[static_cast<std::size_t>(action)].phaseRate;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the motor step reads of a species: about 70 kB, of which a steady school touches 36.
+// What the motor step reads of a species: about 60 kB, of which a steady school touches 36.
 #pragma once
 
 #include <array>
@@ -15,17 +15,11 @@ namespace aquarama {
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
 
-// The body frame at a phase as seen from phase 0; body lengths.
+// The body frame at a phase as seen from phase 0, in body lengths; and how fast the path is there:
+// speed units for each unit of phase rate. Swimming, that is the mean of the cycle at every phase.
 struct alignas(32) PathSample {
     Quaternion rotation;
-    std::array<float, 4> translation{};  // the fourth is padding
-};
-
-// How the cycle-mean frame goes on at a phase, at the recorded rate, in a tick (for motion warps).
-struct alignas(32) GlideSample {
-    Quaternion bodyFromMean;
-    std::array<float, 3> halfTurn{};
-    float forward = 0.0F;  // body lengths
+    std::array<float, 4> translationAndSpeed{};
 };
 
 // How to go from a segment, within a cell of its phases, to another.
@@ -36,19 +30,27 @@ struct WarpPlan {
 
 struct SegmentTables {
     std::array<PathSample, kPathSamples> path;
-    std::array<GlideSample, kCycleSamples> glide;
     std::array<Quaternion, kCycleSamples> bodyFromMean;
     std::array<std::array<WarpPlan, kActions>, kPhases> warpTo;
-    float inversePhaseRate = 0.0F;
     float speedBodyLengths = 0.0F;  // a second
     float turnRate = 0.0F;          // radians a second, left positive
-    std::uint16_t phaseRate = 0;    // as recorded
+    std::int16_t phaseRate = 0;     // as recorded
     bool playsToEnd = false;
+};
+
+// By how many speed units the speed falls in a tick, for a speed of v units and its square: the
+// drags of SpeedResponse in the motor's units.
+struct SpeedLoss {
+    float swimSquare = 0.0F;  // 1 where no response was measured: the speed follows at once
+    float glideSquare = 0.0F;
+    float brakeSquare = 0.0F;  // of wholly spread fins
+    float brakeLinear = 0.0F;
 };
 
 class MotorTables {
   public:
     std::array<SegmentTables, kActions> segments;
+    SpeedLoss loss;
 };
 
 }  // namespace aquarama

@@ -3,11 +3,13 @@
 // frame. Shared by the plain and the vectorised step.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "common/motion/motion_state.h"
 #include "common/motion/motor_tables.h"
+#include "common/units/ids.h"
 
 namespace aquarama {
 
@@ -25,6 +27,11 @@ inline constexpr float kUnitsPerMillimetre = 65.536F;   // position
 inline constexpr float kLongestStepUnits = 4194304.0F;  // 2^22, 64 m: rounds exactly up to there
 inline constexpr float kLevelAxisBias = 0.0009765625F;  // gives a vertical nose a way to fall
 inline constexpr float kTiniest = 5.9604645e-08F;       // 2^-24: divides where nothing is left
+inline constexpr float kFastest = 4194303.0F;           // kFastestUnits
+inline constexpr float kBrakeUnit = 1.0F / 255.0F;      // of MotorCommands::brake
+// Body lengths in a tick for each speed unit.
+inline constexpr float kLengthsPerSpeedUnit =
+    1.0F / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));
 
 // A range is stepped in whole vectors of this many fish on every machine, and what is left plainly.
 inline constexpr std::size_t kWidestLanes = 16;
@@ -32,7 +39,7 @@ inline constexpr std::size_t kWidestLanes = 16;
 // The columns of the states and commands, as plain pointers: their stores alias nothing.
 struct MotorColumns {
     const std::uint8_t* wanted;
-    const std::uint16_t* phaseRate;
+    const std::int16_t* phaseRate;
     std::uint16_t *phase, *fromPhase;
     std::uint8_t *segment, *fromSegment, *warpFrame, *warpLength;
 };
@@ -48,12 +55,11 @@ struct MotorColumns {
             states.warpLength.data()};
 }
 
-// One tick's travel along the recorded path: the body frame leaves `start` for `end`, both as seen
-// from a frame that the fish carries along, in which it moves by `translation` (body lengths).
+// One tick's travel along the recorded path, as seen from a frame that the fish carries along.
 struct Travel {
-    Quaternion start, end;
+    PathSample start, end;
     Quaternion bodyFromMean;  // at the end
-    std::array<float, 3> translation{};
+    std::int32_t rate = 0;    // by which the path's speeds are multiplied
 };
 
 [[nodiscard]] inline Quaternion lerp(const Quaternion& a, const Quaternion& b, float share) {
@@ -63,15 +69,17 @@ struct Travel {
             a.z + share * (b.z - a.z)};
 }
 
-[[nodiscard]] inline float fractionOf(std::uint32_t phase) {
-    return static_cast<float>(phase & 1023U) * kPhaseCellUnit;
+[[nodiscard]] inline PathSample lerp(const PathSample& a, const PathSample& b, float share) {
+    PathSample at{.rotation = lerp(a.rotation, b.rotation, share)};
+    for (std::size_t i = 0; i < at.translationAndSpeed.size(); ++i) {
+        const float here = a.translationAndSpeed[i];
+        at.translationAndSpeed[i] = here + share * (b.translationAndSpeed[i] - here);
+    }
+    return at;
 }
 
-// Whether the fish may leave its segment in this tick: a turn only plays to its end.
-[[nodiscard]] inline bool mayLeave(const SegmentTables& tables,
-                                   std::uint32_t phase,
-                                   std::uint32_t rate) {
-    return !tables.playsToEnd || phase + rate > 0xFFFFU;
+[[nodiscard]] inline float fractionOf(std::uint32_t phase) {
+    return static_cast<float>(phase & 1023U) * kPhaseCellUnit;
 }
 
 inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::size_t i) {
@@ -85,15 +93,21 @@ inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::
     fish.warpLength[i] = plan.frames;
 }
 
-// What a fish does in a tick: it glides in a motion warp, or plays its segment between two phases
-// of the two-cycle path.
+// The rate at which a fish plays its segment: a turn has no way back.
+[[nodiscard]] inline std::int32_t commandedRate(const SegmentTables& playing, std::int32_t rate) {
+    return playing.playsToEnd && rate < 0 ? -rate : rate;
+}
+
+// What a fish does in a tick: it warps, or plays its segment between two phases of the two-cycle
+// path.
 struct Playing {
-    bool glides = true;
-    std::uint32_t from = 0, to = 0;
+    bool warps = true;
+    std::int32_t from = 0, to = 0;
 };
 
 // Advances segment, phase and warp counter by a tick. Counters run whether or not anyone looks. The
-// commanded rate is that of the commanded segment; a turn that others wait for plays as recorded.
+// commanded rate is that of the commanded segment; a turn that others wait for plays as recorded. A
+// turn is left at its end only, and by a warp even if the same turn follows.
 [[nodiscard]] inline Playing advanceSegment(const MotorTables& tables,
                                             const MotorColumns& fish,
                                             std::size_t i) {
@@ -101,60 +115,52 @@ struct Playing {
         ++fish.warpFrame[i];
         return {};
     }
-    const std::uint32_t phase = fish.phase[i];
-    std::uint32_t rate = fish.phaseRate[i];
-    if (fish.wanted[i] != fish.segment[i]) {
-        const SegmentTables& playing = tables.segments[fish.segment[i]];
-        rate = playing.phaseRate;
-        if (fish.wanted[i] < kActions && mayLeave(playing, phase, rate)) {
-            startWarp(tables, fish, i);
-            return {};
-        }
+    const SegmentTables& playing = tables.segments[fish.segment[i]];
+    const bool leaves = fish.wanted[i] != fish.segment[i];
+    const std::int32_t phase = fish.phase[i];
+    const std::int32_t rate =
+        leaves ? playing.phaseRate : commandedRate(playing, fish.phaseRate[i]);
+    const bool mayEnter = fish.wanted[i] < kActions;
+    if (mayEnter && (playing.playsToEnd ? phase + rate > 0xFFFF : leaves)) {
+        startWarp(tables, fish, i);
+        return {};
     }
     fish.phase[i] = static_cast<std::uint16_t>(phase + rate);
-    return {.glides = false, .from = phase, .to = phase + rate};
+    const std::int32_t from = rate < 0 ? phase + 65536 : phase;
+    return {.warps = false, .from = from, .to = from + rate};
 }
 
-[[nodiscard]] inline GlideSample glideAt(const SegmentTables& tables, std::uint32_t phase) {
+[[nodiscard]] inline Quaternion swayAt(const SegmentTables& tables, std::uint32_t phase) {
     const std::size_t cell = phase >> kPhaseCellBits;
-    const float share = fractionOf(phase);
-    const GlideSample& a = tables.glide[cell];
-    const GlideSample& b = tables.glide[cell + 1];
-    GlideSample at{.bodyFromMean = lerp(a.bodyFromMean, b.bodyFromMean, share)};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        at.halfTurn[axis] = a.halfTurn[axis] + share * (b.halfTurn[axis] - a.halfTurn[axis]);
-    }
-    at.forward = a.forward + share * (b.forward - a.forward);
-    return at;
+    return lerp(tables.bodyFromMean[cell], tables.bodyFromMean[cell + 1], fractionOf(phase));
+}
+
+// The path's speed in units, at a phase rate.
+[[nodiscard]] inline float pathSpeed(float perRate, float rate) {
+    return roundToEven(std::min(std::max(perRate * rate, -kFastest), kFastest));
 }
 
 // The paper does not say what the body frame does during a warp; frozen, the fish would halt. Here
-// its mean frame glides on, from the speed and turn of the last pose to those of the first, while
-// the body's sway goes over from the one's to the other's: so a warp never turns the course.
-[[nodiscard]] inline Travel glidingTravel(const MotorTables& tables,
+// its mean frame goes straight on, while the body's sway goes over from that of the last pose to
+// that of the first: so a warp never turns the course.
+[[nodiscard]] inline Travel warpingTravel(const MotorTables& tables,
                                           const MotorColumns& fish,
                                           std::size_t i) {
     const SegmentTables& next = tables.segments[fish.segment[i]];
-    const GlideSample a = glideAt(tables.segments[fish.fromSegment[i]], fish.fromPhase[i]);
-    const GlideSample b = glideAt(next, fish.phase[i]);
-    const float tempo = static_cast<float>(fish.phaseRate[i]) * next.inversePhaseRate;
+    const Quaternion last = swayAt(tables.segments[fish.fromSegment[i]], fish.fromPhase[i]);
+    const Quaternion first = swayAt(next, fish.phase[i]);
     const float steps = 1.0F / static_cast<float>(fish.warpLength[i] + 1);
-    const float before = static_cast<float>(fish.warpFrame[i]) * steps;
-    const float after = static_cast<float>(fish.warpFrame[i] + 1) * steps;
-    const float half = 0.5F * (before + after);
-    const auto blended = [&](float from, float to) { return tempo * (from + half * (to - from)); };
-    const Quaternion turn{1.0F,
-                          blended(a.halfTurn[0], b.halfTurn[0]),
-                          blended(a.halfTurn[1], b.halfTurn[1]),
-                          blended(a.halfTurn[2], b.halfTurn[2])};
-    const auto swayAt = [&](float share) {
-        return normalised(lerp(a.bodyFromMean, b.bodyFromMean, share));
+    const auto swayAfter = [&](int frames) {
+        return normalised(lerp(last, first, static_cast<float>(frames) * steps));
     };
-    const Quaternion sway = swayAt(after);
-    return {.start = conjugate(swayAt(before)),
-            .end = turn * conjugate(sway),
+    const Quaternion sway = swayAfter(fish.warpFrame[i] + 1);
+    const std::int32_t rate = commandedRate(next, fish.phaseRate[i]);
+    const float speed = next.path[fish.phase[i] >> kPhaseCellBits].translationAndSpeed[3];
+    const float way = pathSpeed(speed, static_cast<float>(rate)) * kLengthsPerSpeedUnit;
+    return {.start = {conjugate(swayAfter(fish.warpFrame[i])), {0.0F, 0.0F, 0.0F, speed}},
+            .end = {conjugate(sway), {way, 0.0F, 0.0F, speed}},
             .bodyFromMean = sway,
-            .translation = {blended(a.forward, b.forward), 0.0F, 0.0F}};
+            .rate = rate};
 }
 
 }  // namespace aquarama

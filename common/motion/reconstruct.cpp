@@ -56,9 +56,11 @@ float metres(std::int32_t before, std::int32_t after, float fraction) {
 }
 
 float presentedPhase(std::uint16_t before, std::uint16_t after, float fraction) {
-    const auto played = static_cast<std::uint16_t>(after - before);
+    // The shorter way round: a retreating fish plays its cycle backwards.
+    const auto played = static_cast<std::int16_t>(static_cast<std::uint16_t>(after - before));
     const float phase = static_cast<float>(before) + fraction * static_cast<float>(played);
-    return (phase < 65536.0F ? phase : phase - 65536.0F) * kPhaseUnit;
+    const float cycle = phase < 0.0F ? 65536.0F : phase < 65536.0F ? 0.0F : -65536.0F;
+    return (phase + cycle) * kPhaseUnit;
 }
 
 // A fish that left its segment in this tick glides from the pose in which it was last seen.

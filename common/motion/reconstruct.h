@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/motion/motion_state.h"
+#include "common/motion/pose_tables.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama {
@@ -48,10 +49,10 @@ void controlPoints(const Repertoire& repertoire,
 
 // The same for many fish at once, vectorised: world frame, metres; nodes[fish], and
 // points[fish * kControlPoints + i].
-void nodalPoints(const Repertoire& repertoire,
+void nodalPoints(const ReconstructTables& tables,
                  std::span<const PresentedFish> fish,
                  std::span<NodalPoints> nodes);
-void controlPoints(const Repertoire& repertoire,
+void controlPoints(const ReconstructTables& tables,
                    std::span<const PresentedFish> fish,
                    std::span<glm::vec3> points);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eq. 12 and 13 for many fish: a pose is a weighted sum of two samples, or of four in a motion
-// warp, taken over its numbers as they lie; then each point is turned and placed.
+// Eq. 12 and 13 for many fish. A pose is a weighted sum of two samples, or of four in a motion
+// warp; it is turned, grown and placed in the same registers and written once.
 #include "common/motion/phase_sample.h"
+#include "common/motion/pose_tables.h"
 #include "common/motion/reconstruct.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -15,38 +16,57 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, 16>;  // no more lanes than a fish has nodal points
+using Floats = hn::CappedTag<float, kPointGroup>;
+using Ints = hn::RebindToSigned<Floats>;
 using Lanes = hn::Vec<Floats>;
+using Places = decltype(hn::SetTableIndices(Floats(), static_cast<std::int32_t*>(nullptr)));
 constexpr Floats kFloats;
+constexpr Ints kInts;
 
-// A stored pose and its share of what is shown, in metres a unit.
-struct Term {
-    const std::int16_t* pose;
-    float weight;
+HWY_INLINE Lanes load(const float* numbers) {
+    return hn::Load(kFloats, numbers);
+}
+
+HWY_INLINE Lanes load(const std::int16_t* numbers) {
+    const hn::Rebind<std::int16_t, Floats> shorts;
+    return hn::ConvertTo(kFloats, hn::PromoteTo(kInts, hn::Load(shorts, numbers)));
+}
+
+// Writes lanes of x, y and z as points. Vector j of the three that come of it holds, in lane l,
+// axis (j N + l) mod 3 of point (j N + l) / 3.
+class Interleave {
+  public:
+    HWY_INLINE Interleave() {
+        const std::size_t lanes = hn::Lanes(kFloats);
+        HWY_ALIGN std::int32_t point[kPointGroup];
+        HWY_ALIGN std::int32_t axis[kPointGroup];
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t l = 0; l < lanes; ++l) {
+                point[l] = static_cast<std::int32_t>((j * lanes + l) / 3);
+                axis[l] = static_cast<std::int32_t>((j * lanes + l) % 3);
+            }
+            point_[j] = hn::SetTableIndices(kFloats, point);
+            const auto axes = hn::Load(kInts, axis);
+            isY_[j] = hn::RebindMask(kFloats, hn::Eq(axes, hn::Set(kInts, 1)));
+            isZ_[j] = hn::RebindMask(kFloats, hn::Eq(axes, hn::Set(kInts, 2)));
+        }
+    }
+    HWY_INLINE void store(Lanes x, Lanes y, Lanes z, float* points) const {
+        for (std::size_t j = 0; j < 3; ++j) {
+            Lanes v = hn::TableLookupLanes(x, point_[j]);
+            v = hn::IfThenElse(isY_[j], hn::TableLookupLanes(y, point_[j]), v);
+            v = hn::IfThenElse(isZ_[j], hn::TableLookupLanes(z, point_[j]), v);
+            hn::StoreU(v, kFloats, points + j * hn::Lanes(kFloats));
+        }
+    }
+
+  private:
+    Places point_[3];
+    hn::Mask<Floats> isY_[3];
+    hn::Mask<Floats> isZ_[3];
 };
 
-HWY_INLINE Lanes weighted(const Term& term, std::size_t at) {
-    const hn::Rebind<std::int16_t, Floats> shorts;
-    const hn::RebindToSigned<Floats> ints;
-    const auto stored = hn::PromoteTo(ints, hn::LoadU(shorts, term.pose + at));
-    return hn::Mul(hn::ConvertTo(kFloats, stored), hn::Set(kFloats, term.weight));
-}
-
-// sums[i] = sum over terms of weight * pose[i]. The last vector overlaps the one before it: nothing
-// is read or written beyond the pose.
-template <std::size_t kNumbers, std::size_t kTerms>
-HWY_INLINE void sumPoses(const std::array<Term, kTerms>& terms, float* sums) {
-    const std::size_t lanes = hn::Lanes(kFloats);
-    for (std::size_t i = 0; i < kNumbers; i += lanes) {
-        const std::size_t at = std::min(i, kNumbers - lanes);
-        Lanes sum = weighted(terms[0], at);
-        for (std::size_t term = 1; term < kTerms; ++term) {
-            sum = hn::Add(sum, weighted(terms[term], at));
-        }
-        hn::StoreU(sum, kFloats, sums + at);
-    }
-}
-
+// o + R alpha p, for p in units of kPoseUnit.
 struct Placement {
     Lanes row[3][3];
     Lanes origin[3];
@@ -54,15 +74,16 @@ struct Placement {
 
 HWY_INLINE Placement placementOf(const PresentedFish& fish) {
     const auto& q = fish.rotation;
-    const float rows[3][3] = {{1.0F - 2.0F * (q.y * q.y + q.z * q.z),
-                               2.0F * (q.x * q.y - q.w * q.z),
-                               2.0F * (q.x * q.z + q.w * q.y)},
-                              {2.0F * (q.x * q.y + q.w * q.z),
-                               1.0F - 2.0F * (q.x * q.x + q.z * q.z),
-                               2.0F * (q.y * q.z - q.w * q.x)},
-                              {2.0F * (q.x * q.z - q.w * q.y),
-                               2.0F * (q.y * q.z + q.w * q.x),
-                               1.0F - 2.0F * (q.x * q.x + q.y * q.y)}};
+    const float a = fish.lengthMetres * kPoseUnit;
+    const float rows[3][3] = {{a * (1.0F - 2.0F * (q.y * q.y + q.z * q.z)),
+                               a * (2.0F * (q.x * q.y - q.w * q.z)),
+                               a * (2.0F * (q.x * q.z + q.w * q.y))},
+                              {a * (2.0F * (q.x * q.y + q.w * q.z)),
+                               a * (1.0F - 2.0F * (q.x * q.x + q.z * q.z)),
+                               a * (2.0F * (q.y * q.z - q.w * q.x))},
+                              {a * (2.0F * (q.x * q.z - q.w * q.y)),
+                               a * (2.0F * (q.y * q.z + q.w * q.x)),
+                               a * (1.0F - 2.0F * (q.x * q.x + q.y * q.y))}};
     Placement placement{};
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) placement.row[i][j] = hn::Set(kFloats, rows[i][j]);
@@ -71,73 +92,85 @@ HWY_INLINE Placement placementOf(const PresentedFish& fish) {
     return placement;
 }
 
-template <std::size_t kPoints>
-HWY_INLINE void place(const Placement& placement, const float* posed, float* placed) {
+// A stored pose and its share of what is shown.
+template <class Pose>
+struct Term {
+    const Pose* pose;
+    float weight;
+};
+
+template <class Table, std::size_t kTerms>
+HWY_INLINE void reconstruct(const std::array<Term<typename Table::Pose>, kTerms>& terms,
+                            const Placement& placement,
+                            const Interleave& interleave,
+                            float* placed) {
+    Lanes weights[kTerms];
+    for (std::size_t term = 0; term < kTerms; ++term)
+        weights[term] = hn::Set(kFloats, terms[term].weight);
     const std::size_t lanes = hn::Lanes(kFloats);
-    for (std::size_t i = 0; i < kPoints; i += lanes) {
-        const std::size_t at = 3 * std::min(i, kPoints - lanes);
-        Lanes x{};
-        Lanes y{};
-        Lanes z{};
-        hn::LoadInterleaved3(kFloats, posed + at, x, y, z);
-        const auto component = [&](int axis) HWY_ATTR {
-            const auto& row = placement.row[axis];
-            return hn::MulAdd(
-                row[0], x, hn::MulAdd(row[1], y, hn::MulAdd(row[2], z, placement.origin[axis])));
-        };
-        hn::StoreInterleaved3(component(0), component(1), component(2), kFloats, placed + at);
+    for (std::size_t group = 0; group < Table::kGroups; ++group) {
+        for (std::size_t first = 0; first < kPointGroup; first += lanes) {
+            Lanes p[3];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto lanesOf = [&](std::size_t term) HWY_ATTR {
+                    return load(&(*terms[term].pose)[group].axes[axis][first]);
+                };
+                p[axis] = hn::Mul(weights[0], lanesOf(0));
+                for (std::size_t term = 1; term < kTerms; ++term)
+                    p[axis] = hn::MulAdd(weights[term], lanesOf(term), p[axis]);
+            }
+            const auto component = [&](int axis) HWY_ATTR {
+                const auto& row = placement.row[axis];
+                const Lanes far = hn::MulAdd(row[2], p[2], placement.origin[axis]);
+                return hn::MulAdd(row[0], p[0], hn::MulAdd(row[1], p[1], far));
+            };
+            interleave.store(component(0),
+                             component(1),
+                             component(2),
+                             placed + 3 * (Table::firstPointOf(group) + first));
+        }
     }
 }
 
-// posesOf(segment)[phase] is an array of points of three 16-bit numbers.
-template <std::size_t kPoints, class PosesOf>
-HWY_INLINE void reconstruct(const Repertoire& repertoire,
+template <class Table>
+HWY_INLINE void reconstruct(const Table& table,
                             const PresentedFish& fish,
-                            const PosesOf& posesOf,
+                            const Interleave& interleave,
                             float* placed) {
+    using Pose = typename Table::Pose;
     const auto termsOf = [&](std::uint32_t segment, float phase, float share) HWY_ATTR {
-        const auto& poses = posesOf(segmentOf(repertoire, segment));
         const PhaseSample sample = sampleAt(phase);
-        const float metresAUnit = share * fish.lengthMetres * kPoseUnit;
-        return std::array<Term, 2>{
-            {{poses[sample.before][0].data(), metresAUnit * (1.0F - sample.share)},
-             {poses[sample.after][0].data(), metresAUnit * sample.share}}};
+        const Pose* pose = table.at(segment, sample.before);
+        return std::array<Term<Pose>, 2>{
+            {{pose, share * (1.0F - sample.share)}, {pose + 1, share * sample.share}}};
     };
-    HWY_ALIGN float posed[3 * kPoints];
     const auto to = termsOf(fish.segment, fish.phase, fish.warpWeight);
+    const Placement placement = placementOf(fish);
     if (fish.warpWeight < 1.0F) {
         const auto from = termsOf(fish.fromSegment, fish.fromPhase, 1.0F - fish.warpWeight);
-        const std::array<Term, 4> terms{to[0], to[1], from[0], from[1]};
-        sumPoses<3 * kPoints>(terms, posed);
+        const std::array<Term<Pose>, 4> terms{to[0], to[1], from[0], from[1]};
+        reconstruct<Table>(terms, placement, interleave, placed);
     } else {
-        sumPoses<3 * kPoints>(to, posed);
+        reconstruct<Table>(to, placement, interleave, placed);
     }
-    place<kPoints>(placementOf(fish), posed, placed);
 }
 
 }  // namespace
 
-void reconstructNodes(const Repertoire& repertoire,
+void reconstructNodes(const ReconstructTables& tables,
                       std::span<const PresentedFish> fish,
                       NodalPoints* nodes) {
-    const auto nodesOf = [](const ActionSegment& segment) HWY_ATTR -> const auto& {
-        return segment.nodes;
-    };
-    for (std::size_t i = 0; i < fish.size(); ++i) {
-        reconstruct<kNodalPoints>(repertoire, fish[i], nodesOf, &nodes[i][0].x);
-    }
+    const Interleave interleave;
+    for (std::size_t i = 0; i < fish.size(); ++i)
+        reconstruct(tables.nodes, fish[i], interleave, &nodes[i][0].x);
 }
 
-void reconstructControlPoints(const Repertoire& repertoire,
+void reconstructControlPoints(const ReconstructTables& tables,
                               std::span<const PresentedFish> fish,
                               glm::vec3* points) {
-    const auto controlPointsOf = [](const ActionSegment& segment) HWY_ATTR -> const auto& {
-        return segment.controlPoints;
-    };
-    for (std::size_t i = 0; i < fish.size(); ++i) {
-        reconstruct<kControlPoints>(
-            repertoire, fish[i], controlPointsOf, &points[i * kControlPoints].x);
-    }
+    const Interleave interleave;
+    for (std::size_t i = 0; i < fish.size(); ++i)
+        reconstruct(tables.controlPoints, fish[i], interleave, &points[i * kControlPoints].x);
 }
 
 }  // namespace aquarama::HWY_NAMESPACE
@@ -149,16 +182,16 @@ namespace aquarama {
 HWY_EXPORT(reconstructNodes);
 HWY_EXPORT(reconstructControlPoints);
 
-void nodalPoints(const Repertoire& repertoire,
+void nodalPoints(const ReconstructTables& tables,
                  std::span<const PresentedFish> fish,
                  std::span<NodalPoints> nodes) {
-    HWY_DYNAMIC_DISPATCH(reconstructNodes)(repertoire, fish, nodes.data());
+    HWY_DYNAMIC_DISPATCH(reconstructNodes)(tables, fish, nodes.data());
 }
 
-void controlPoints(const Repertoire& repertoire,
+void controlPoints(const ReconstructTables& tables,
                    std::span<const PresentedFish> fish,
                    std::span<glm::vec3> points) {
-    HWY_DYNAMIC_DISPATCH(reconstructControlPoints)(repertoire, fish, points.data());
+    HWY_DYNAMIC_DISPATCH(reconstructControlPoints)(tables, fish, points.data());
 }
 
 }  // namespace aquarama

@@ -212,7 +212,12 @@ Repertoire decodeRepertoire(std::span<const std::byte> bytes, const std::string&
     if (head.characters(kMagic.size()) != kMagic) refuse(source, "does not begin with AQREP");
     const auto version = head.unsignedNumber<std::uint16_t>();
     const auto length = head.unsignedNumber<std::uint32_t>();
-    if (head.ok() && version != kVersion) {
+    if (head.ok() && version > kVersion) {
+        throw Error(source + ": repertoire is of version " + std::to_string(version) +
+                    ", written by a newer Aquarama; update this one, which reads version " +
+                    std::to_string(kVersion));
+    }
+    if (head.ok() && version < kVersion) {
         refuse(source,
                "is of version " + std::to_string(version) + ", this program reads version " +
                    std::to_string(kVersion));

@@ -50,11 +50,12 @@ Pose poseAt(const Cycle& cycle, unsigned phase) {
 
 // The furthest that any nodal point moves in a tick of any segment: what the eye knows already.
 float largestStep(const std::vector<Cycle>& cycles,
-                  const std::array<std::uint16_t, kActions>& phaseRates) {
+                  const std::array<std::int16_t, kActions>& phaseRates) {
     float most = kSmallestStepBodyLengths * kSmallestStepBodyLengths;
     for (std::size_t action = 0; action < cycles.size(); ++action) {
         for (unsigned k = 0; k < kPhases; ++k) {
-            const Pose next = poseAt(cycles[action], (k << kPhaseCellBits) + phaseRates[action]);
+            const Pose next = poseAt(
+                cycles[action], (k << kPhaseCellBits) + static_cast<unsigned>(phaseRates[action]));
             most = std::max(most, squaredTravel(cycles[action][k], next));
         }
     }
@@ -88,7 +89,7 @@ WarpPlan planFor(const Travels& travels, std::size_t cell, bool enterAtStart, fl
 }  // namespace
 
 WarpPlans planWarps(const Repertoire& repertoire,
-                    const std::array<std::uint16_t, kActions>& phaseRates) {
+                    const std::array<std::int16_t, kActions>& phaseRates) {
     std::vector<Cycle> cycles;
     for (const ActionSegment& segment : repertoire.segments) cycles.push_back(cycleOf(segment));
     const float step = largestStep(cycles, phaseRates);

@@ -12,6 +12,6 @@ using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>
 
 // [from][cell of its phase][to]. phaseRates: as recorded, 1/65536 of a cycle in a tick.
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
-                                  const std::array<std::uint16_t, kActions>& phaseRates);
+                                  const std::array<std::int16_t, kActions>& phaseRates);
 
 }  // namespace aquarama

@@ -17,7 +17,7 @@ namespace {
 // The records are copied as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::uint32_t kLayoutVersion = 1;
+constexpr std::uint32_t kLayoutVersion = 2;
 constexpr std::size_t kStride = sizeof(FishRecord);
 constexpr int kEyeNumbers = 7;
 
@@ -26,17 +26,11 @@ void writeRecords(const std::vector<FishRecord>& records, std::string& bytes) {
     if (!records.empty()) std::memcpy(bytes.data(), records.data(), bytes.size());
 }
 
-// Segments index the repertoire and a warp is a quotient of its two counters, so neither may lie.
-bool isSound(const FishRecord& record) {
-    return record.segment < kActions && record.fromSegment < kActions &&
-           record.warpFrame <= record.warpLength;
-}
-
 std::optional<std::vector<FishRecord>> readRecords(const std::string& bytes) {
     if (bytes.size() % kStride != 0 || bytes.size() / kStride > kMaxFish) return std::nullopt;
     std::vector<FishRecord> records(bytes.size() / kStride);
     if (!records.empty()) std::memcpy(records.data(), bytes.data(), bytes.size());
-    if (!std::ranges::all_of(records, isSound)) return std::nullopt;
+    if (!std::ranges::all_of(records, isPlayable)) return std::nullopt;
     return records;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -7,8 +8,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/signals.h"
+#include "common/net/blob.h"
+#include "common/units/error.h"
 #include "master/capture/commands.h"
-#include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
@@ -27,22 +30,47 @@ struct CaptureOptions {
     std::string config;
 };
 
-void capture(const fs::path& speciesFile, const CaptureOptions& options) {
-    const Species species = readSpecies(speciesFile.string());
-    ProgressBar bar("capturing " + species.name);
-    bar.show(0);
-    const Repertoire repertoire =
-        captureRepertoire(species, [&](double share) { bar.show(share); });
-    const fs::path path = fs::path(options.out) / (species.name + ".aqrep");
-    writeWhole(path, encodeRepertoire(repertoire));
-    std::cout << path.string() << '\n';
-    if (!options.report.empty())
-        std::cout << writeReport(repertoire, makeBody(species), options.report).string() << '\n';
+std::vector<RepertoireFile> captured(const std::vector<SpeciesText>& texts) {
+    std::atomic<bool> isStopped = false;
+    const SignalWatch watch([&] { isStopped = true; });
+    ProgressBar bar("capturing");
+    return repertoiresFor(texts,
+                          defaultBlobDirectory().parent_path() / "repertoires",
+                          {.progress = [&](double share) { bar.show(share); },
+                           .isStopped = [&] { return isStopped.load(); }});
 }
 
+void write(const RepertoireFile& file, const CaptureOptions& options) {
+    const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
+    writeWhole(path, file.bytes);
+    std::cout << path.string() << '\n';
+    if (options.report.empty()) return;
+    const Repertoire repertoire = decodeRepertoire(file.bytes, path.string());
+    std::cout << writeReport(repertoire, options.report).string() << '\n';
+}
+
+// A species that fails is named, and the others still come out.
 void captureAll(const CaptureOptions& options) {
+    holdSignals();
     const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
-    for (const fs::path& file : speciesFiles(options.species, config)) capture(file, options);
+    std::vector<SpeciesText> texts;
+    for (const fs::path& file : speciesFiles(options.species, config))
+        texts.push_back(readSpeciesText(file));
+    makeFolder(options.out);
+
+    const std::vector<RepertoireFile> files = captured(texts);
+    std::size_t failed = 0;
+    for (const RepertoireFile& file : files) {
+        if (file.error.empty()) {
+            write(file, options);
+        } else {
+            std::cerr << "aquarama-capture: " << file.error << '\n';
+            ++failed;
+        }
+    }
+    if (failed > 0)
+        throw Error(std::to_string(failed) + " of " + std::to_string(files.size()) +
+                    " species were not captured");
 }
 
 }  // namespace

@@ -11,5 +11,9 @@ namespace aquarama {
 
 void addCaptureCommand(CLI::App& app);  // the program without a subcommand
 void addInspectCommand(CLI::App& app);
+void addSearchCommand(CLI::App& app);
+void addGaitsCommand(CLI::App& app);
+void addExportCommand(CLI::App& app);
+void addFidelityCommand(CLI::App& app);
 
 }  // namespace aquarama

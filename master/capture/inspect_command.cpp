@@ -8,14 +8,33 @@
 #include "master/capture/commands.h"
 #include "master/capture/compile/repertoire_cache.h"
 #include "master/capture/report/inspect.h"
+#include "master/capture/report/report.h"
 
 namespace aquarama {
 
+namespace {
+
+struct InspectOptions {
+    std::string file;
+    std::string report;
+};
+
+void inspect(const InspectOptions& options) {
+    const std::vector<std::byte> bytes = readWhole(options.file);
+    std::cout << inspectRepertoire(bytes, options.file);
+    if (options.report.empty()) return;
+    const Repertoire repertoire = decodeRepertoire(bytes, options.file);
+    std::cout << '\n' << writeReport(repertoire, options.report).string() << '\n';
+}
+
+}  // namespace
+
 void addInspectCommand(CLI::App& app) {
-    const auto file = std::make_shared<std::string>();
-    CLI::App& inspect = *app.add_subcommand("inspect", "what a repertoire holds");
-    inspect.add_option("FILE", *file, "a repertoire")->required();
-    inspect.callback([file] { std::cout << inspectRepertoire(readWhole(*file), *file); });
+    const auto options = std::make_shared<InspectOptions>();
+    CLI::App& command = *app.add_subcommand("inspect", "what a repertoire holds");
+    command.add_option("FILE", options->file, "a repertoire")->required();
+    command.add_option("--report", options->report, "folder for a page with pictures and figures");
+    command.callback([options] { inspect(*options); });
 }
 
 }  // namespace aquarama

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// aquarama-capture: captures the repertoires of species, and says what they hold.
+// aquarama-capture: captures the repertoires of species, says what they hold, exports it, finds gaits
+// and compares replicas with the fish.
 #include <exception>
 #include <iostream>
 
@@ -14,6 +15,10 @@ int main(int count, char** arguments) {
     try {
         aquarama::addCaptureCommand(app);
         aquarama::addInspectCommand(app);
+        aquarama::addSearchCommand(app);
+        aquarama::addGaitsCommand(app);
+        aquarama::addExportCommand(app);
+        aquarama::addFidelityCommand(app);
         app.parse(count, arguments);
         return 0;
     } catch (const CLI::ParseError& wrong) {

@@ -13,7 +13,7 @@ Gaits gaitsOf(const MotorTables& tables) {
         gaits.speed[i] = recordedSpeedBodyLengths(tables, action);
         const float secondsOfCycle = 65536.0F / (static_cast<float>(gaits.phaseRate[i]) *
                                                  static_cast<float>(kTicksPerSecond));
-        gaits.turnOfCycle[i] = recordedTurnRate(tables, action) * secondsOfCycle;
+        gaits.turn[i] = recordedTurnRate(tables, action) * secondsOfCycle;
     }
     return gaits;
 }

@@ -11,9 +11,9 @@ namespace aquarama {
 
 // Indexed by Action.
 struct Gaits {
-    std::array<std::uint16_t, kActions> phaseRate{};  // as recorded, 1/65536 of a cycle in a tick
-    std::array<float, kActions> speed{};              // body lengths a second
-    std::array<float, kActions> turnOfCycle{};        // radians in one cycle, left positive
+    std::array<std::int16_t, kActions> phaseRate{};  // as recorded, 1/65536 of a cycle in a tick
+    std::array<float, kActions> speed{};             // body lengths a second
+    std::array<float, kActions> turn{};              // radians from start to end, left positive
 };
 [[nodiscard]] Gaits gaitsOf(const MotorTables& tables);
 
@@ -23,7 +23,10 @@ struct Gaits {
 [[nodiscard]] constexpr bool isForward(Action action) {
     return action <= Action::ForwardFast;
 }
-// Sharp turns are played from their first phase to their last.
+// Played from the first phase to the last.
+[[nodiscard]] constexpr bool isTurn(Action action) {
+    return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
+}
 [[nodiscard]] constexpr bool isSharp(Action action) {
     return action == Action::TurnLeftSharp || action == Action::TurnRightSharp;
 }

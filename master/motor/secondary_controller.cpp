@@ -14,8 +14,7 @@ namespace {
 enum Draw : std::uint32_t { Tempo = 101, Patience, Recommended, Hold };
 
 constexpr float kGradualFrom = 22.0F * kRadiansPerDegree;  // error at which a turn begins
-constexpr float kGradualTo = 6.0F * kRadiansPerDegree;     // and at which it ends
-constexpr float kSharpFrom = 85.0F * kRadiansPerDegree;
+constexpr float kSharpFrom = 70.0F * kRadiansPerDegree;
 constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree;
 constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree;  // beyond, either side serves
 
@@ -26,6 +25,7 @@ constexpr float kUnitsOfPitchSine = 32768.0F;          // MotorCommands::pitch
 constexpr float kRateMargin = 0.15F;                   // of the recorded phase rate
 constexpr float kTempoMargin = 0.08F;                  // about a fish's own tempo
 constexpr float kSpeedHysteresis = 0.12F;              // body lengths a second
+constexpr float kBrakeFrom = 0.6F;                     // of these too fast; by one more, wholly
 constexpr std::uint64_t kShortestGaitTicks = 36;
 constexpr float kSpeedMayDiffer = 0.9F;  // of a recommended gait, body lengths a second
 constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree;
@@ -66,9 +66,9 @@ Action gaitFor(const Gaits& gaits, float speed, Action present) {
 // The situation of one fish at its decision.
 struct SecondaryController::Moment {
     Action present;       // segment that was asked for last
-    Action playing;       // and the one that plays
     float yawError;       // radians, left positive
     float speed;          // wanted, body lengths a second
+    float swims;          // at present
     float urgency;        // of the surroundings
     std::uint64_t since;  // ticks that the present segment has been pursued
 };
@@ -79,13 +79,13 @@ using Moment = SecondaryController::Moment;
 
 Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
-    const bool turning = !isForward(moment.present);
+    const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
     if (error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
-    const bool sameTurn = turning && isLeft(moment.present) == left;
-    if (error > (sameTurn ? kGradualTo : kGradualFrom)) return gradual(left);
+    if (error > kGradualFrom) return gradual(left);
     const Action gait = gaitFor(gaits, moment.speed, moment.present);
-    const bool tooSoon = !turning && moment.since < kShortestGaitTicks && moment.urgency < 1;
+    const bool tooSoon =
+        isForward(moment.present) && moment.since < kShortestGaitTicks && moment.urgency < 1;
     return tooSoon ? moment.present : gait;
 }
 
@@ -95,15 +95,20 @@ std::int16_t yawRateFor(float yawError) {
                                      kRadiansOfYawUnit);
 }
 
+std::uint8_t brakeFor(const Moment& moment) {
+    const float excess = moment.swims - moment.speed - kBrakeFrom;
+    return static_cast<std::uint8_t>(255 * std::clamp(excess, 0.0F, 1.0F));
+}
+
 // The intention generator's word on a recommendation.
 bool accepts(const Gaits& gaits, const Moment& moment, Action recommended) {
     if (moment.urgency > kCalm || isSharp(recommended)) return false;
-    if (isForward(recommended))
-        return std::abs(moment.yawError) < kGradualFrom &&
-               std::abs(gaits.speed[indexOf(recommended)] - moment.speed) < kSpeedMayDiffer;
-    const float left = isLeft(recommended) ? 1.0F : -1.0F;
-    const float after = moment.yawError - left * 0.5F * kCourseMayDiffer;
-    return std::abs(after) < kCourseMayDiffer;
+    if (isTurn(recommended))
+        return std::abs(moment.yawError - gaits.turn[indexOf(recommended)]) < kCourseMayDiffer;
+    if (std::abs(moment.yawError) > kGradualFrom) return false;
+    return recommended == Action::Glide
+               ? moment.swims > moment.speed
+               : std::abs(gaits.speed[indexOf(recommended)] - moment.speed) < kSpeedMayDiffer;
 }
 
 }  // namespace
@@ -129,6 +134,7 @@ void startCommands(const Gaits& gaits,
         commands.phaseRate[fish] = gaits.phaseRate[indexOf(Action::ForwardMedium)];
         commands.pitch[fish] = 0;
         commands.yawRate[fish] = 0;
+        commands.brake[fish] = 0;
         memory.chosenAt[fish] = 0;
         memory.heldUntil[fish] = 0;
         memory.patience[fish] = patienceOf(seed, fish, 0);
@@ -137,12 +143,14 @@ void startCommands(const Gaits& gaits,
 
 void SecondaryController::run(std::size_t first, std::size_t last) const {
     for (std::size_t fish = first; fish < last; ++fish)
-        if (thinksAt(tick, fish) || endsSharpTurn(fish)) decide(fish);
+        if (thinksAt(tick, fish) || endsTurn(fish)) decide(fish);
 }
 
-bool SecondaryController::endsSharpTurn(std::size_t fish) const {
-    return isSharp(static_cast<Action>(states->segment[fish])) &&
-           states->phase[fish] + commands->phaseRate[fish] > 0xffff;
+bool SecondaryController::endsTurn(std::size_t fish) const {
+    const std::size_t playing = states->segment[fish];
+    const bool goesOn = commands->segment[fish] == playing;
+    const int rate = goesOn ? commands->phaseRate[fish] : gaits->phaseRate[playing];
+    return isTurn(static_cast<Action>(playing)) && states->phase[fish] + rate > 0xffff;
 }
 
 void SecondaryController::decide(std::size_t fish) const {
@@ -153,21 +161,21 @@ void SecondaryController::decide(std::size_t fish) const {
     commands->phaseRate[fish] = phaseRateFor(fish, chosen, moment);
     commands->pitch[fish] =
         static_cast<std::int16_t>(intentions->directionY[fish] * kUnitsOfPitchSine);
-    commands->yawRate[fish] = isForward(chosen) ? yawRateFor(moment.yawError) : std::int16_t{0};
+    commands->yawRate[fish] = isTurn(chosen) ? std::int16_t{0} : yawRateFor(moment.yawError);
+    commands->brake[fish] = isTurn(chosen) ? std::uint8_t{0} : brakeFor(moment);
 }
 
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
     Moment moment{static_cast<Action>(commands->segment[fish]),
-                  static_cast<Action>(states->segment[fish]),
                   yawBetween(view->heading(fish), intentions->direction(fish)),
                   intentions->speed[fish],
+                  speedBodyLengths(*states, fish),
                   intentions->urgency[fish],
                   tick.value - memory->chosenAt[fish]};
-    // A sharp turn will be played to its end: what is chosen comes after it.
-    if (isSharp(moment.playing)) {
-        const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
-        moment.yawError -= gaits->turnOfCycle[indexOf(moment.playing)] * toCome;
-    }
+    // A turn will be played to its end: what is chosen comes after it.
+    const std::size_t playing = states->segment[fish];
+    const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
+    if (isTurn(static_cast<Action>(playing))) moment.yawError -= gaits->turn[playing] * toCome;
     return moment;
 }
 
@@ -179,24 +187,22 @@ Action SecondaryController::choose(std::size_t fish, const Moment& moment) const
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);
     const auto recommended = static_cast<Action>(drawn(seed, fish, Recommended, tick.value) %
-                                                 static_cast<std::uint32_t>(kCapturedActions));
+                                                 static_cast<std::uint32_t>(kActions));
     if (!accepts(*gaits, moment, recommended)) return chosen;
+    if (isTurn(recommended)) return recommended;  // it holds by itself
     memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, Hold, tick.value) % 46;
     return recommended;
 }
 
-std::uint16_t SecondaryController::phaseRateFor(std::size_t fish,
-                                                Action chosen,
-                                                const Moment& moment) const {
-    // The rate is that of what plays: a sharp turn has its own until its last tick.
-    const bool turnsOn = isSharp(moment.playing) && !endsSharpTurn(fish);
-    const std::size_t action = indexOf(turnsOn ? moment.playing : chosen);
+std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
+                                               Action chosen,
+                                               const Moment& moment) const {
+    const std::size_t action = indexOf(chosen);
     const float tempo = tempoOf(seed, fish);
-    const bool swims = isForward(static_cast<Action>(action));
-    const float rate = std::clamp(swims ? moment.speed / gaits->speed[action] : tempo,
+    const float rate = std::clamp(isForward(chosen) ? moment.speed / gaits->speed[action] : tempo,
                                   std::max(1 - kRateMargin, tempo - kTempoMargin),
                                   std::min(1 + kRateMargin, tempo + kTempoMargin));
-    return static_cast<std::uint16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);
+    return static_cast<std::int16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);
 }
 
 }  // namespace aquarama

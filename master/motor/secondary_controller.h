@@ -50,14 +50,14 @@ struct SecondaryController {
     struct Moment;
 
   private:
-    // What follows a sharp turn begins in this tick, whosever turn it is to think.
-    [[nodiscard]] bool endsSharpTurn(std::size_t fish) const;
+    // What follows a turn begins in this tick, whoever's time it is to think.
+    [[nodiscard]] bool endsTurn(std::size_t fish) const;
     void decide(std::size_t fish) const;
     [[nodiscard]] Moment momentOf(std::size_t fish) const;
     [[nodiscard]] Action choose(std::size_t fish, const Moment& moment) const;
-    [[nodiscard]] std::uint16_t phaseRateFor(std::size_t fish,
-                                             Action chosen,
-                                             const Moment& moment) const;
+    [[nodiscard]] std::int16_t phaseRateFor(std::size_t fish,
+                                            Action chosen,
+                                            const Moment& moment) const;
 };
 
 }  // namespace aquarama

@@ -76,6 +76,9 @@ void World::begin() {
     placeWanderers(seed_, surroundings_.water, kinds_.front().last, states_);
     for (const Kind& kind : kinds_) {
         startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
+        const float speed = kind.gaits.speed[indexOf(Action::ForwardMedium)];
+        for (std::size_t fish = kind.first; fish < kind.last; ++fish)
+            setSpeedBodyLengths(states_, fish, speed);
         look(kind, kind.first, kind.last);
     }
     for (std::size_t fish = 0; fish < traits_.size(); ++fish) {
@@ -110,9 +113,6 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
     for (std::size_t fish = first; fish < last; ++fish) {
         const glm::vec3 position = bodyFrameOf(states_, fish).position;
         const glm::vec3 heading = meanRotation(*kind.tables, states_, fish) * glm::vec3{1, 0, 0};
-        const std::size_t action = states_.segment[fish];
-        const float tempo = static_cast<float>(commands_.phaseRate[fish]) /
-                            static_cast<float>(kind.gaits.phaseRate[action]);
         view_.x[fish] = position.x;
         view_.y[fish] = position.y;
         view_.z[fish] = position.z;
@@ -120,7 +120,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
         view_.headingY[fish] = heading.y;
         view_.headingZ[fish] = heading.z;
         view_.length[fish] = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
-        view_.speed[fish] = kind.gaits.speed[action] * tempo * view_.length[fish];
+        view_.speed[fish] = speedBodyLengths(states_, fish) * view_.length[fish];
     }
 }
 
@@ -159,6 +159,7 @@ std::uint64_t World::hash() const {
     hash = folded(hash, commands_.phaseRate);
     hash = folded(hash, commands_.pitch);
     hash = folded(hash, commands_.yawRate);
+    hash = folded(hash, commands_.brake);
     for (const auto* values : {&intentions_.directionX,
                                &intentions_.directionY,
                                &intentions_.directionZ,
@@ -178,7 +179,8 @@ std::size_t World::bytes() const {
     return grid_.bytes() + bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
            bytesIn(s.x, s.y, s.z, s.orientationA, s.orientationB, s.orientationC) +
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
-           bytesIn(s.warpFrame, s.warpLength, c.segment, c.phaseRate, c.pitch, c.yawRate) +
+           bytesIn(s.warpFrame, s.warpLength, s.speed) +
+           bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
            bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency) +
            bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length);
 }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/motion/repertoire.h"
+#include "common/skin/limit_table.h"
 #include "render_node/gl/handle.h"
-#include "render_node/surface/limit_table.h"
 
 namespace aquarama {
 

@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES dynamics_bench.cpp LINK aquarama_compile)
+aquarama_bench(SOURCES dynamics_bench.cpp LINK aquarama_control Eigen3::Eigen)

@@ -70,8 +70,12 @@ TEST(House, protobufStaysInConfigAndWire) {
 }
 
 TEST(House, openGlStaysInTheRenderNode) {
-    const std::regex library("^(epoxy|GL|EGL|GLFW|opensubdiv)/");
+    const std::regex library("^(epoxy|GL|EGL|GLFW)/");
     EXPECT_EQ(strangers(library, {"render_node/"}), std::vector<std::string>{});
+}
+
+TEST(House, openSubdivStaysInSkin) {
+    EXPECT_EQ(strangers(std::regex("^opensubdiv/"), {"common/skin/"}), std::vector<std::string>{});
 }
 
 TEST(House, theThreePartsNeverIncludeOneAnother) {
@@ -89,6 +93,7 @@ TEST(House, commonIsLayered) {
         {"common/units/", {}},
         {"common/config/", {"common/units/"}},
         {"common/body/", {"common/units/", "common/config/"}},
+        {"common/skin/", {"common/units/", "common/body/"}},
         {"common/motion/", {"common/units/", "common/body/"}},
         {"common/place/", {"common/units/", "common/config/"}},
         {"common/wall/", {"common/units/", "common/config/"}},

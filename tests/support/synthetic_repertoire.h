@@ -23,14 +23,15 @@ struct Gait {
     double periodSeconds = 1.0;
     double turnRadians = 0.0;  // of one cycle, left positive
     double stride = kStrideBodyLengths;
-    bool sharp = false;  // the turn begins and ends straight
+    bool bends = false;  // a C-bend: the turn begins and ends straight
 };
 
 inline std::array<Gait, kCapturedActions> gaits() {
     constexpr double kDegree = std::numbers::pi / 180.0;
-    const Gait gradual{.periodSeconds = 0.5, .turnRadians = 15 * kDegree, .stride = 0.55};
+    const Gait gradual{
+        .periodSeconds = 0.6, .turnRadians = 30 * kDegree, .stride = 0.8, .bends = true};
     const Gait sharp{
-        .periodSeconds = 1.0, .turnRadians = 60 * kDegree, .stride = 1.0, .sharp = true};
+        .periodSeconds = 1.0, .turnRadians = 60 * kDegree, .stride = 1.0, .bends = true};
     const auto right = [](Gait gait) {
         gait.turnRadians = -gait.turnRadians;
         return gait;
@@ -45,7 +46,7 @@ inline std::array<Gait, kCapturedActions> gaits() {
 }
 
 inline double headingAt(const Gait& gait, double phase) {
-    return gait.turnRadians * (gait.sharp ? phase * phase * (3 - 2 * phase) : phase);
+    return gait.turnRadians * (gait.bends ? phase * phase * (3 - 2 * phase) : phase);
 }
 
 // The course of the cycle-mean frame, by Simpson's rule over its heading.
@@ -61,11 +62,11 @@ inline glm::dvec3 courseAt(const Gait& gait, double phase) {
 }
 
 // Sideways place of the midline at station s (0 nose, 1 tail): Videler and Hess's carangiform
-// envelope, plus a bend towards the inside of a turn.
+// envelope; or, without a beat, a bend towards the inside of a turn.
 inline double midline(const Gait& gait, double s, double phase) {
-    const double envelope = 0.02 - 0.0825 * s + 0.1625 * s * s;
+    const double envelope = gait.bends ? 0 : 0.02 - 0.0825 * s + 0.1625 * s * s;
     const double swing = std::sin(std::numbers::pi * phase);
-    const double bend = gait.sharp ? 0.7 * swing * swing : 0.15;
+    const double bend = gait.bends ? 0.67 * std::abs(gait.turnRadians) * swing * swing : 0;
     const double side = gait.turnRadians > 0 ? -1 : gait.turnRadians < 0 ? 1 : 0;  // z is right
     return envelope * std::sin(2 * std::numbers::pi * (s - phase)) +
            side * bend * (s - kOriginStation) * (s - kOriginStation);
@@ -161,7 +162,7 @@ std::array<std::array<std::int16_t, 3>, kPoints> poseOf(
 inline ActionSegment segmentOf(const Gait& gait, bool withControlPoints) {
     ActionSegment segment;
     segment.periodSeconds = static_cast<float>(gait.periodSeconds);
-    segment.playsToEnd = gait.sharp;
+    segment.playsToEnd = gait.bends;
     const auto points = restControlPoints();
     for (std::size_t k = 0; k < kPhases; ++k) {
         const double phase = static_cast<double>(k) / kPhases;

@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Captures a species: simulates its actions and compiles its repertoire (the paper's section 3).
+// Captures species: simulates their actions and compiles their repertoires (the paper's section 3).
 #pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
-#include "master/capture/compile/recording.h"
 
 namespace aquarama {
 
-// The same bytes each time on one machine, however many cores it has. Another machine's sine may
-// differ in the last bit, which is why only the master captures. Progress comes from several
-// threads, but from one at a time.
+// Told the share that is done, from 0 to 1; from several threads, but from one at a time.
+using Progress = std::function<void(double share)>;
+
+struct CaptureRun {
+    unsigned threads = std::thread::hardware_concurrency();
+    Progress progress = [](double) {};
+    std::function<bool()> isStopped = [] { return false; };  // then it begins nothing more
+};
+
+// A repertoire, or why there is none.
+struct CaptureOutcome {
+    std::optional<Repertoire> repertoire;
+    std::string error;
+};
+
+// Of each species, in their order. A species that fails leaves the others alone. The same bytes
+// each time on one machine, on any number of threads; another machine's sine may differ in the last
+// bit, which is why only the master captures.
+[[nodiscard]] std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& species,
+                                                             const CaptureRun& run);
+
+// Of one; throws Error.
 [[nodiscard]] Repertoire captureRepertoire(const Species& species, const Progress& progress);
 
 }  // namespace aquarama

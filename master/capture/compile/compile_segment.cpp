@@ -15,7 +15,7 @@ namespace aquarama {
 namespace {
 
 constexpr std::size_t kCount = kPhases;
-// Share of a sharp turn in which its first pose, a swimming one, is faded out.
+// Share of a turn in which its first pose, a swimming one, is faded out.
 constexpr double kEntryShare = 0.2;
 
 // A fish and its muscles are their own mirror images top to bottom, so it moves in a plane: its
@@ -24,6 +24,7 @@ constexpr double kEntryShare = 0.2;
 struct PlanarMotion {
     double periodSeconds = 0;
     bool playsToEnd = false;
+    double yawOffCourse = 0;           // of the first pose, left positive, radians
     std::array<double, kCount> yaw{};  // from phase k to k + 1, left positive, radians
     std::array<glm::dvec3, kCount> translation{};
     std::array<NodeVectors, kCount + 1> poses{};  // body frame
@@ -54,7 +55,9 @@ NodeVectors blended(const NodeVectors& a, const NodeVectors& b, double shareOfB)
 // which is right only for a fish that swims level).
 PlanarMotion planarMotionOf(const Recording& recording) {
     PlanarMotion motion{.periodSeconds = recording.periodSeconds,
-                        .playsToEnd = recording.playsToEnd};
+                        .playsToEnd = recording.playsToEnd,
+                        .yawOffCourse = yawRadians(
+                            recording.course, frameOf(recording.poses.front()).worldFromBody[0])};
     for (std::size_t k = 0; k <= kCount; ++k) {
         const NodeVectors pose = inBodyFrame(recording.poses.at(k));
         motion.poses.at(k) = blended(pose, swappedTopBottom(pose), 0.5);
@@ -63,8 +66,7 @@ PlanarMotion planarMotionOf(const Recording& recording) {
         const PoseFrame now = frameOf(recording.poses.at(k));
         const PoseFrame next = frameOf(recording.poses.at(k + 1));
         const glm::dmat3 bodyFromWorld = glm::transpose(now.worldFromBody);
-        const glm::dvec3 heading = bodyFromWorld * next.worldFromBody[0];
-        motion.yaw.at(k) = std::atan2(-heading.z, heading.x);
+        motion.yaw.at(k) = yawRadians(now.worldFromBody[0], next.worldFromBody[0]);
         motion.translation.at(k) =
             glm::dvec3(1, 0, 1) * (bodyFromWorld * (next.origin - now.origin));
     }
@@ -87,34 +89,35 @@ PlanarMotion straightened(const PlanarMotion& motion) {
     return straight;
 }
 
-// Makes the last pose the first one again. A cycle lacks only what its warm-up left, so the gap is
-// spread over all of it; a sharp turn begins in a swimming pose and ends straight, so it fades in
-// from straight.
-PlanarMotion closed(const PlanarMotion& motion) {
+// How much of the entry is replaced at a phase: all of it at first, nothing from kEntryShare on.
+double fadeAt(std::size_t k) {
+    const double left = std::max(0.0, 1 - static_cast<double>(k) / kCount / kEntryShare);
+    return left * left * (3 - 2 * left);
+}
+
+// A turn begins in a swimming pose, at whatever angle to its course the beat has there, and ends
+// straight. So that its last pose is its first one again and the whole of it is the change of
+// course, it fades in from a straight fish on course.
+PlanarMotion fadedIn(const PlanarMotion& motion) {
     PlanarMotion result = motion;
     for (std::size_t k = 0; k <= kCount; ++k) {
-        const double phase = static_cast<double>(k) / kCount;
-        const double fade = std::max(0.0, 1 - phase / kEntryShare);
-        const double share = motion.playsToEnd ? fade * fade * (3 - 2 * fade) : -phase;
         for (std::size_t i = 0; i < std::size_t{kNodalPoints}; ++i)
             result.poses.at(k).at(i) +=
-                share * (motion.poses.back().at(i) - motion.poses.front().at(i));
+                fadeAt(k) * (motion.poses.back().at(i) - motion.poses.front().at(i));
+        if (k == kCount) break;
+        result.yaw.at(k) += motion.yawOffCourse * (fadeAt(k) - fadeAt(k + 1));
+        result.translation.at(k) =
+            glm::angleAxis(motion.yawOffCourse * fadeAt(k), glm::dvec3(0, 1, 0)) *
+            motion.translation.at(k);
     }
     return result;
 }
 
-// A turn to the other side. A cyclic one begins half a beat later, so that the same phase still
-// means the same stroke of the tail.
-PlanarMotion mirroredTurn(const PlanarMotion& motion) {
+PlanarMotion mirrored(const PlanarMotion& motion) {
     PlanarMotion mirror = motion;
-    const std::size_t shift = motion.playsToEnd ? 0 : kCount / 2;
-    for (std::size_t k = 0; k < kCount; ++k) {
-        const std::size_t from = (k + shift) % kCount;
-        mirror.yaw.at(k) = -motion.yaw.at(from);
-        mirror.translation.at(k) = glm::dvec3(1, 1, -1) * motion.translation.at(from);
-        mirror.poses.at(k) = swappedLeftRight(motion.poses.at(from));
-    }
-    mirror.poses.back() = mirror.poses.front();
+    for (double& yaw : mirror.yaw) yaw = -yaw;
+    for (glm::dvec3& translation : mirror.translation) translation.z = -translation.z;
+    for (NodeVectors& pose : mirror.poses) pose = swappedLeftRight(pose);
     return mirror;
 }
 
@@ -130,41 +133,47 @@ std::array<std::int16_t, 3> quantised(const glm::vec3& point) {
     return integers;
 }
 
-NodalPoints toFloats(const NodeVectors& pose) {
+NodalPoints nodesOf(const NodalPose& pose) {
     NodalPoints nodes{};
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes.at(i) = glm::vec3(pose.at(i));
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes.at(i) = kPoseUnit * glm::vec3(pose.at(i)[0], pose.at(i)[1], pose.at(i)[2]);
     return nodes;
 }
 
-ActionSegment segmentOf(const FishBody& body, const PlanarMotion& motion) {
+ActionSegment segmentOf(const PlanarMotion& motion) {
     ActionSegment segment;
     segment.periodSeconds = static_cast<float>(motion.periodSeconds);
     segment.playsToEnd = motion.playsToEnd;
-    std::vector<glm::vec3> cage(body.cage.vertices.size());
     for (std::size_t k = 0; k < kCount; ++k) {
         segment.increments.at(k) = {
             glm::quat(glm::angleAxis(motion.yaw.at(k), glm::dvec3(0, 1, 0))),
             glm::vec3(motion.translation.at(k))};
-        const NodalPoints nodes = toFloats(motion.poses.at(k));
-        std::ranges::transform(nodes, segment.nodes.at(k).begin(), quantised);
-        poseCage(body, nodes, cage);  // eq. 9
-        std::ranges::transform(cage, segment.controlPoints.emplace_back().begin(), quantised);
+        std::ranges::transform(motion.poses.at(k), segment.nodes.at(k).begin(), quantised);
     }
     return segment;
 }
 
 }  // namespace
 
-ActionSegment compileForward(const FishBody& body, const Recording& recording) {
-    return segmentOf(body, straightened(planarMotionOf(recording)));
+ActionSegment compileForward(const Recording& recording) {
+    return segmentOf(straightened(planarMotionOf(recording)));
 }
 
-ActionSegment compileLeftTurn(const FishBody& body, const Recording& recording) {
-    return segmentOf(body, closed(planarMotionOf(recording)));
+ActionSegment compileLeftTurn(const Recording& recording) {
+    return segmentOf(fadedIn(planarMotionOf(recording)));
 }
 
-ActionSegment compileRightTurn(const FishBody& body, const Recording& leftTurn) {
-    return segmentOf(body, mirroredTurn(closed(planarMotionOf(leftTurn))));
+ActionSegment compileRightTurn(const Recording& leftTurn) {
+    return segmentOf(mirrored(fadedIn(planarMotionOf(leftTurn))));
+}
+
+void addControlPoints(const FishBody& body, ActionSegment& segment) {
+    std::vector<glm::vec3> cage(body.cage.vertices.size());
+    segment.controlPoints.resize(kPhases);
+    for (std::size_t k = 0; k < kCount; ++k) {
+        poseCage(body, nodesOf(segment.nodes.at(k)), cage);
+        std::ranges::transform(cage, segment.controlPoints.at(k).begin(), quantised);
+    }
 }
 
 }  // namespace aquarama

@@ -9,8 +9,12 @@
 
 namespace aquarama {
 
-[[nodiscard]] ActionSegment compileForward(const FishBody& body, const Recording& recording);
-[[nodiscard]] ActionSegment compileLeftTurn(const FishBody& body, const Recording& recording);
-[[nodiscard]] ActionSegment compileRightTurn(const FishBody& body, const Recording& leftTurn);
+// Without control points. All throw Error where a fish reaches further than its own length.
+[[nodiscard]] ActionSegment compileForward(const Recording& recording);
+[[nodiscard]] ActionSegment compileLeftTurn(const Recording& recording);
+[[nodiscard]] ActionSegment compileRightTurn(const Recording& leftTurn);
+
+// Eq. 9: those of each phase's nodal points.
+void addControlPoints(const FishBody& body, ActionSegment& segment);
 
 }  // namespace aquarama

@@ -9,12 +9,19 @@ namespace aquarama {
 class ProgressBar {
   public:
     explicit ProgressBar(std::string what);
-    void show(double share);  // 0 to 1
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    ProgressBar(ProgressBar&&) = delete;
+    ProgressBar& operator=(ProgressBar&&) = delete;
+    // 0 to 1, and on a terminal a note behind the bar.
+    void show(double share, const std::string& note = "");
 
   private:
     std::string what_;
     bool isTerminal_;
     int shown_ = -1;  // per cent
+    std::string note_;
 };
 
 }  // namespace aquarama

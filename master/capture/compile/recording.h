@@ -2,10 +2,11 @@
 // An action as the simulation swam it: nodal points in the world at each phase.
 #pragma once
 
-#include <functional>
+#include <cmath>
 #include <vector>
 
-#include "common/config/species.h"
+#include <glm/geometric.hpp>
+
 #include "common/motion/repertoire.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
@@ -14,15 +15,14 @@ namespace aquarama {
 struct Recording {
     double periodSeconds = 0;
     bool playsToEnd = false;
+    glm::dvec3 course{1, 0, 0};  // where it swam: over the beat, or over the last one before a turn
     std::vector<NodeVectors>
         poses;  // at phases 0 .. kPhases, in body lengths: one more than kPhases
 };
 
-// Told the share that is done, from 0 to 1.
-using Progress = std::function<void(double share)>;
-
-// Simulates from rest until the gait repeats itself, then records one cycle; or the whole of a
-// sharp turn, until the fish is straight again. Right turns are not simulated: they are mirrored.
-[[nodiscard]] Recording record(const Species& species, Action action, const Progress& progress);
+// About the vertical, left positive.
+[[nodiscard]] inline double yawRadians(const glm::dvec3& from, const glm::dvec3& to) {
+    return std::atan2(glm::cross(from, to).y, glm::dot(from, to));
+}
 
 }  // namespace aquarama

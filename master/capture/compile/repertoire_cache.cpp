@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 #include <unistd.h>
 
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Part of every key: raise it when the simulation or its compilation changes what comes out.
-constexpr const char* kCaptureVersion = "aquarama capture 1\n";
+constexpr const char* kCaptureVersion = "aquarama capture 2\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
 
 fs::path cachedPath(const Species& species, const std::string& text, const fs::path& folder) {
@@ -37,7 +38,42 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     }
 }
 
+// The species, where it must be captured.
+std::optional<Species> lookUp(const SpeciesText& text,
+                              const fs::path& cacheFolder,
+                              RepertoireFile& file) {
+    try {
+        Species species = parseSpecies(text.text, text.source);
+        file.species = species.name;
+        auto cached = findIntact(cachedPath(species, text.text, cacheFolder));
+        if (!cached) return species;
+        file.bytes = *std::move(cached);
+    } catch (const Error& error) {
+        file.error = error.what();
+    }
+    return std::nullopt;
+}
+
+void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& file) {
+    file.error = outcome.error;
+    if (!outcome.repertoire) return;
+    try {
+        std::vector<std::byte> bytes = encodeRepertoire(*outcome.repertoire);
+        writeWhole(path, bytes);
+        file.bytes = std::move(bytes);
+    } catch (const Error& error) {
+        file.error = error.what();
+    }
+}
+
 }  // namespace
+
+void makeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        throw Error(folder.string() + ": is no folder and cannot become one; choose another");
+}
 
 std::vector<std::byte> readWhole(const fs::path& path) {
     std::error_code error;
@@ -68,16 +104,41 @@ void writeWhole(const fs::path& path, std::span<const std::byte> content) {
     }
 }
 
+SpeciesText readSpeciesText(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw Error(path.string() + ": cannot be read; check the path and its permissions");
+    return {path.string(), text.str()};
+}
+
+std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts,
+                                           const fs::path& cacheFolder,
+                                           const CaptureRun& run) {
+    std::vector<RepertoireFile> files(texts.size());
+    std::vector<Species> missing;
+    std::vector<std::size_t> missingAt;
+    for (std::size_t i = 0; i < texts.size(); ++i)
+        if (auto species = lookUp(texts[i], cacheFolder, files[i])) {
+            missing.push_back(*std::move(species));
+            missingAt.push_back(i);
+        }
+    const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+        const std::size_t i = missingAt[k];
+        keep(outcomes[k], cachedPath(missing[k], texts[i].text, cacheFolder), files[i]);
+    }
+    return files;
+}
+
 std::vector<std::byte> repertoireFor(const std::string& speciesText,
                                      const std::string& source,
                                      const fs::path& cacheFolder,
                                      const Progress& progress) {
-    const Species species = parseSpecies(speciesText, source);
-    const fs::path path = cachedPath(species, speciesText, cacheFolder);
-    if (auto cached = findIntact(path)) return *std::move(cached);
-    std::vector<std::byte> bytes = encodeRepertoire(captureRepertoire(species, progress));
-    writeWhole(path, bytes);
-    return bytes;
+    RepertoireFile file = std::move(
+        repertoiresFor({{source, speciesText}}, cacheFolder, {.progress = progress}).front());
+    if (!file.error.empty()) throw Error(file.error);
+    return std::move(file.bytes);
 }
 
 }  // namespace aquarama

@@ -8,17 +8,39 @@
 #include <string>
 #include <vector>
 
-#include "master/capture/compile/recording.h"
+#include "master/capture/compile/capture_repertoire.h"
 
 namespace aquarama {
+
+// Throws Error where there can be none.
+void makeFolder(const std::filesystem::path& folder);
 
 // Throws Error when the folder or the file cannot be written; a reader sees the old file or the
 // new one, never a part.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
 [[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path);
 
-// The encoded repertoire of the species in `speciesText`: from the folder where it was captured
-// before, else captured now and kept there. A damaged file is captured anew.
+// A species file and where it is from.
+struct SpeciesText {
+    std::string source;
+    std::string text;
+};
+[[nodiscard]] SpeciesText readSpeciesText(const std::filesystem::path& path);
+
+// The encoded repertoire of a species, or why there is none.
+struct RepertoireFile {
+    std::string species;
+    std::vector<std::byte> bytes;
+    std::string error;
+};
+
+// Of each species, in their order: from the folder where it was captured before, else captured now
+// and kept there. A damaged file is captured anew.
+[[nodiscard]] std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts,
+                                                         const std::filesystem::path& cacheFolder,
+                                                         const CaptureRun& run);
+
+// Of one; throws Error.
 [[nodiscard]] std::vector<std::byte> repertoireFor(const std::string& speciesText,
                                                    const std::string& source,
                                                    const std::filesystem::path& cacheFolder,

@@ -25,10 +25,11 @@ Attitude attitudeOf(const FishState& state) {
             .rollRadians = std::atan2(worldFromBody[2].y, worldFromBody[1].y)};
 }
 
-Attitude mix(const Attitude& from, const Attitude& to, double share) {
-    return {.headingRadians = mixAngles(from.headingRadians, to.headingRadians, share),
-            .pitchRadians = mixAngles(from.pitchRadians, to.pitchRadians, share),
-            .rollRadians = mixAngles(from.rollRadians, to.rollRadians, share)};
+Attitude sense(const Attitude& before, const FishState& state, double share) {
+    const Attitude now = attitudeOf(state);
+    return {.headingRadians = mixAngles(before.headingRadians, now.headingRadians, share),
+            .pitchRadians = std::lerp(before.pitchRadians, now.pitchRadians, share),
+            .rollRadians = now.rollRadians};
 }
 
 }  // namespace aquarama

@@ -14,8 +14,9 @@ struct Attitude {
 
 [[nodiscard]] Attitude attitudeOf(const FishState& state);
 
-// A share of the way from one to the other, by the short way round: the low pass that takes the
-// tail beat out of what is sensed.
-[[nodiscard]] Attitude mix(const Attitude& from, const Attitude& to, double share);
+// What is sensed now, after what was sensed before: heading and pitch by a low pass, which goes a
+// share of the way, for the tail beat sways them. It does not roll the fish, and roll that is
+// sensed late would rock it.
+[[nodiscard]] Attitude sense(const Attitude& before, const FishState& state, double share);
 
 }  // namespace aquarama

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <utility>
 
 #include "master/capture/control/fin_programs.h"
 #include "master/capture/control/muscle_programs.h"
@@ -21,11 +21,11 @@ constexpr double kFirstSecond = 1;  // the first beats from rest grow
 
 }  // namespace
 
+Swimmer::Swimmer(BiomechanicalFish fish, const Swim& swim, double stepSeconds)
+    : fish_(std::move(fish)), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
+
 Swimmer::Swimmer(const Species& species, double stepSeconds)
-    : fish_(makeBiomechanicalFish(species)),
-      swim_(species.swim),
-      stepSeconds_(stepSeconds),
-      state_(stateAtRest(fish_)) {}
+    : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
 
 Swimmer::Swimmer(const Species& species)
     : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
@@ -47,9 +47,8 @@ void Swimmer::advanceOne() {
     muscles_ = mix(musclesBefore_, muscleProgram(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
     step(fish_, {.muscles = muscles_, .fins = finProgram()}, stepSeconds_, state_);
     ++steps_;
-    attitude_ = mix(attitude_,
-                    attitudeOf(state_),
-                    stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
+    attitude_ =
+        sense(attitude_, state_, stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
     const double ownSeconds = stepSeconds_ * fish_.timeScale;
     ownSecondsOfOrder_ += ownSeconds;
     if (swims()) ownSecondsSwum_ += ownSeconds;

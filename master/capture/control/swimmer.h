@@ -37,6 +37,7 @@ class Swimmer {
   public:
     explicit Swimmer(const Species& species);  // at the longest step that swims well
     Swimmer(const Species& species, double stepSeconds);
+    Swimmer(BiomechanicalFish fish, const Swim& swim, double stepSeconds);
 
     // From now on. The beat keeps time through all orders; muscles change over within a few
     // hundredths of the fish's second, and a fish that stops swimming lets half a beat die away.
@@ -66,7 +67,7 @@ class Swimmer {
     Gait beating_{};   // of tail or fins
     double beat_ = 0;  // 0 to 1
     double headingOfOrder_ = 0;
-    Attitude attitude_;  // mean over a beat
+    Attitude attitude_;  // as sensed
     MuscleActivation muscles_;
     MuscleActivation musclesBefore_;  // when the order came
 };

@@ -76,6 +76,7 @@ struct FishState {
     NodeVectors velocities{};
 };
 
+// Throws Error when the springs do not hold the skeleton's shape.
 [[nodiscard]] BiomechanicalFish makeBiomechanicalFish(const Species& species);
 [[nodiscard]] FishState stateAtRest(const BiomechanicalFish& fish);
 

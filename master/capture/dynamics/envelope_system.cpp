@@ -58,29 +58,51 @@ void EnvelopeSystem::solve() {
     substituteBack();
 }
 
-// Afterwards each row holds the inverse of its pivot and, right of it, its row of L^T.
+// Node by node: its three rows end at the same column, so that one pass takes them out of each row
+// behind. Afterwards each row holds the inverse of its pivot and, right of it, its row of D L^T.
 void EnvelopeSystem::eliminate() {
-    for (std::size_t i = 0; i < kUnknowns; ++i) {
-        std::array<double, kLongestRow>& pivotRow = rows_[i];
-        const std::size_t width = kWidths[i];
-        const double inverse = 1 / pivotRow[0];
-        for (std::size_t k = 1; k <= width; ++k) {
-            const double factor = pivotRow[k] * inverse;
-            double* target = rows_[i + k].data();
-            const double* source = pivotRow.data() + k;
-            for (std::size_t j = 0; j <= width - k; ++j) target[j] -= factor * source[j];
-            right_[i + k] -= factor * right_[i];
-        }
-        for (std::size_t k = 1; k <= width; ++k) pivotRow[k] *= inverse;
-        pivotRow[0] = inverse;
+    for (std::size_t row = 0; row < kUnknowns; row += 3) {
+        const std::size_t end = row + kWidths[row] + 1;
+        invertPivot(row);
+        subtract<1>(row, row + 1, end);
+        invertPivot(row + 1);
+        subtract<2>(row, row + 2, end);
+        invertPivot(row + 2);
+        for (std::size_t target = row + 3; target < end; ++target) subtract<3>(row, target, end);
     }
 }
 
+void EnvelopeSystem::invertPivot(std::size_t row) {
+    rows_[row][0] = 1 / rows_[row][0];
+}
+
+// Takes the first `count` unknowns from `row` on, whose pivots are inverted, out of a row behind.
+template <std::size_t count>
+void EnvelopeSystem::subtract(std::size_t row, std::size_t target, std::size_t end) {
+    std::array<double, count> factors;
+    std::array<const double*, count> sources;
+    for (std::size_t i = 0; i < count; ++i) {
+        sources[i] = rows_[row + i].data() + (target - row - i);
+        factors[i] = sources[i][0] * rows_[row + i][0];
+        right_[target] -= factors[i] * right_[row + i];
+    }
+    double* const elements = rows_[target].data();
+    for (std::size_t k = 0; k < end - target; ++k)
+        for (std::size_t i = 0; i < count; ++i) elements[k] -= factors[i] * sources[i][k];
+}
+
 void EnvelopeSystem::substituteBack() {
-    for (std::size_t i = kUnknowns; i-- > 0;) {
-        double value = right_[i] * rows_[i][0];
-        for (std::size_t k = 1; k <= kWidths[i]; ++k) value -= rows_[i][k] * right_[i + k];
-        right_[i] = value;
+    for (std::size_t row = kUnknowns; row > 0;) {
+        row -= 3;
+        const std::size_t end = row + kWidths[row] + 1;
+        for (std::size_t column = row + 3; column < end; ++column)
+            for (std::size_t p = 0; p < 3; ++p)
+                right_[row + p] -= rows_[row + p][column - row - p] * right_[column];
+        for (std::size_t p = 3; p-- > 0;) {
+            for (std::size_t q = p + 1; q < 3; ++q)
+                right_[row + p] -= rows_[row + p][q - p] * right_[row + q];
+            right_[row + p] *= rows_[row + p][0];
+        }
     }
 }
 

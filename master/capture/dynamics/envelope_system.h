@@ -34,6 +34,9 @@ class EnvelopeSystem {
 
   private:
     void eliminate();
+    void invertPivot(std::size_t row);
+    template <std::size_t count>
+    void subtract(std::size_t row, std::size_t target, std::size_t end);
     void substituteBack();
 
     std::array<std::array<double, kLongestRow>, kUnknowns>

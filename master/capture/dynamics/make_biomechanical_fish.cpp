@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <string>
 
 #include <glm/geometric.hpp>
 
+#include "common/units/error.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
+#include "master/capture/dynamics/rigidity.h"
 
 namespace aquarama {
 
@@ -54,6 +57,12 @@ double stiffnessOf(const Unit& unit, const Tissue& tissue) {
 BiomechanicalFish makeBiomechanicalFish(const Species& species) {
     BiomechanicalFish fish;
     fish.restPositions = restPositionsOf(species.skeleton);
+    const int free = freeShapeChanges(fish.restPositions, anatomy().units);
+    if (free > 0)
+        throw Error(species.name + ": its skeleton is not rigid: the springs leave " +
+                    std::to_string(free) +
+                    " changes of shape free; give each ring of `skeleton` a height, a width and a "
+                    "place of its own");
     fish.masses = massesOf(species.skeleton);
     fish.timeScale = species.tissue.timeScale;
     fish.finDrag = species.water.finDrag * species.tissue.timeScale;

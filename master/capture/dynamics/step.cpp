@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -16,20 +17,18 @@ namespace {
 constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
 constexpr std::array<int, 4> kRightFinRoot{2, 3, 6, 7};
 
-double activationOf(const Unit& unit, const MuscleActivation& muscles) {
-    const bool isLeft = unit.side == Side::Left;
-    switch (unit.kind) {
-        case UnitKind::FrontMuscle:
-            return isLeft ? muscles.frontLeft : muscles.frontRight;
-        case UnitKind::MiddleMuscle:
-            return isLeft ? muscles.middleLeft : muscles.middleRight;
-        case UnitKind::BackMuscle:
-            return isLeft ? muscles.backLeft : muscles.backRight;
-        case UnitKind::Normal:
-        case UnitKind::Cross:
-            break;
-    }
-    return 0;
+// Shares of rest length left, by UnitKind and Side.
+using RestShares = std::array<std::array<double, 3>, 5>;
+
+RestShares restShares(const MuscleActivation& muscles, double contraction) {
+    const auto left = [&](double activation) {
+        return 1 - contraction * std::clamp(activation, 0.0, 1.0);
+    };
+    return {{{1, 1, 1},
+             {1, 1, 1},
+             {1, left(muscles.frontLeft), left(muscles.frontRight)},
+             {1, left(muscles.middleLeft), left(muscles.middleRight)},
+             {1, left(muscles.backLeft), left(muscles.backRight)}}};
 }
 
 // A Voigt unit: spring and damper side by side, pulling along r / |r|. Its force is linearised in
@@ -111,11 +110,13 @@ void step(const BiomechanicalFish& fish,
         system.addToRightSide(
             i, inertia * state.velocities[node] + glm::dvec3(0, fish.lifts[node], 0));
     }
+    const RestShares shares = restShares(control.muscles, fish.muscleContraction);
+    const auto& units = anatomy().units;
     for (std::size_t i = 0; i < kUnits; ++i) {
         const Spring& spring = fish.springs[i];
-        const double activation =
-            std::clamp(activationOf(anatomy().units[i], control.muscles), 0.0, 1.0);
-        const double length = spring.restLength * (1 - fish.muscleContraction * activation);
+        const double share = shares.at(static_cast<std::size_t>(units[i].kind))
+                                 .at(static_cast<std::size_t>(units[i].side));
+        const double length = spring.restLength * share;
         addSpring(spring, length, fish.damping, stepSeconds, state, system);
     }
     for (const WettedFace& face : fish.faces) addDrag(face, state, system);

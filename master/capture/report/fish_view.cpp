@@ -10,17 +10,40 @@ namespace aquarama {
 
 namespace {
 
-// The column of either side that is widest, and how the pectoral fins' vertices follow each other
-// round their margin (see common/body/cage_topology.h).
-constexpr std::size_t kRightFlank = 3;
-constexpr std::size_t kLeftFlank = 10;
+constexpr std::size_t kRings = 5;
+constexpr std::size_t kSpan = 8;  // points of a smooth curve from one knot to the next
 
-std::vector<glm::vec3> cageAt(const FishBody& body, const NodeVectors& nodes) {
-    NodalPoints points{};
-    std::ranges::transform(nodes, points.begin(), [](const glm::dvec3& n) { return glm::vec3(n); });
-    std::vector<glm::vec3> cage(body.cage.vertices.size());
-    poseCage(body, points, cage);
-    return cage;
+// The column of either side that is widest (see common/body/cage_topology.h).
+constexpr int kRightFlank = 3;
+constexpr int kLeftFlank = 10;
+
+std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& knots) {
+    std::vector<glm::dvec2> curve;
+    const std::size_t last = knots.size() - 1;
+    for (std::size_t i = 0; i < last; ++i) {
+        const glm::dvec2 before = i == 0 ? knots[0] * 2.0 - knots[1] : knots[i - 1];
+        const glm::dvec2 after = i + 1 == last ? knots[last] * 2.0 - knots[last - 1] : knots[i + 2];
+        for (std::size_t step = 0; step < kSpan; ++step) {
+            const double t = static_cast<double>(step) / kSpan;
+            curve.push_back(((2.0 * knots[i]) + (knots[i + 1] - before) * t +
+                             (2.0 * before - 5.0 * knots[i] + 4.0 * knots[i + 1] - after) * t * t +
+                             (3.0 * knots[i] - before - 3.0 * knots[i + 1] + after) * t * t * t) *
+                            0.5);
+        }
+    }
+    curve.push_back(knots[last]);
+    return curve;
+}
+
+// One side of the nodal network, from nose to tail; `upper` and `lower` are places in a ring.
+std::vector<glm::dvec2> sideOf(const NodeVectors& nodes, std::size_t upper, std::size_t lower) {
+    std::vector<glm::dvec2> knots{fromAbove(nodes[0])};
+    for (std::size_t ring = 0; ring < kRings; ++ring) {
+        const std::size_t first = 1 + 4 * ring;
+        knots.push_back(fromAbove((nodes.at(first + upper) + nodes.at(first + lower)) / 2.0));
+    }
+    knots.push_back(fromAbove((nodes[21] + nodes[22]) / 2.0));
+    return smooth(knots);
 }
 
 // Convex enough: its corners sorted round their middle.
@@ -44,16 +67,23 @@ std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
     return hull;
 }
 
-std::vector<glm::dvec2> pectoral(const FishBody& body,
-                                 const std::vector<glm::vec3>& cage,
-                                 bool isRight) {
-    std::vector<glm::dvec2> points;
-    for (std::size_t i = 0; i < cage.size(); ++i) {
-        const CageVertex& vertex = body.cage.vertices[i];
-        if (vertex.part == CagePart::Pectoral && (vertex.rest.z > 0) == isRight)
-            points.push_back(fromAbove(glm::dvec3(cage[i])));
+void addRecorded(FishView& view, const std::vector<glm::dvec2>& cage) {
+    const auto at = [&](int ring, int column) {
+        return cage.at(static_cast<std::size_t>(ring * kTubeColumns + column));
+    };
+    view.outline = {view.midline.front()};
+    for (int ring = 0; ring < kTubeRings; ++ring) view.outline.push_back(at(ring, kRightFlank));
+    for (int ring = kTubeRings; ring-- > 0;) view.outline.push_back(at(ring, kLeftFlank));
+    static const std::vector<CageSite> kSites = makeCageTopology().sites;
+    std::array<std::vector<glm::dvec2>, 2> fins;  // left, right
+    for (std::size_t i = 0; i < kSites.size(); ++i) {
+        const CageSite& site = kSites[i];
+        if (site.part != CagePart::Pectoral) continue;
+        auto& fin = fins.at(site.column < kTubeColumns / 2 ? 1 : 0);
+        fin.push_back(cage.at(i));
+        fin.push_back(at(site.ring, site.column));  // its root
     }
-    return hullOf(std::move(points));
+    for (auto& fin : fins) view.pectorals.push_back(hullOf(std::move(fin)));
 }
 
 }  // namespace
@@ -62,27 +92,28 @@ glm::dvec2 fromAbove(const glm::dvec3& world) {
     return {world.x, world.z};
 }
 
-FishView viewFromAbove(const FishBody& body, const ReplayedPhase& phase) {
-    const std::vector<glm::vec3> cage = cageAt(body, phase.nodes);
-    const auto ringPoint = [&](std::size_t ring, std::size_t column) {
-        return fromAbove(glm::dvec3(cage.at(ring * kTubeColumns + column)));
-    };
-    const glm::dvec2 nose = fromAbove(phase.nodes[0]);
-    FishView view{.outline = {nose}, .pectorals = {}, .midline = {nose}, .eyes = {}};
-    for (std::size_t ring = 0; ring < kTubeRings; ++ring) {
-        view.outline.push_back(ringPoint(ring, kRightFlank));
-        view.midline.push_back((ringPoint(ring, kRightFlank) + ringPoint(ring, kLeftFlank)) / 2.0);
+std::vector<glm::dvec2> midlineFromAbove(const ReplayedPhase& replayed) {
+    std::vector<glm::dvec2> left = sideOf(replayed.nodes, 0, 3);
+    const std::vector<glm::dvec2> right = sideOf(replayed.nodes, 1, 2);
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] = (left[i] + right[i]) / 2.0;
+    return left;
+}
+
+FishView viewFromAbove(const ActionSegment& segment, const ReplayedPhase& replayed, std::size_t k) {
+    FishView view{.outline = {}, .pectorals = {}, .midline = midlineFromAbove(replayed)};
+    if (segment.controlPoints.empty()) {
+        view.outline = sideOf(replayed.nodes, 1, 2);
+        const std::vector<glm::dvec2> left = sideOf(replayed.nodes, 0, 3);
+        view.outline.insert(view.outline.end(), left.rbegin(), left.rend());
+        return view;
     }
-    for (std::size_t ring = kTubeRings; ring-- > 0;)
-        view.outline.push_back(ringPoint(ring, kLeftFlank));
-    view.midline.push_back(fromAbove((phase.nodes[21] + phase.nodes[22]) / 2.0));
-    view.pectorals = {pectoral(body, cage, false), pectoral(body, cage, true)};
-    for (const std::size_t column : {kLeftFlank, kRightFlank}) {
-        std::size_t ring = 0;  // the ring nearest to the eye
-        while (body.cage.vertices.at((ring + 1) * kTubeColumns + column).rest.x < body.eye.x)
-            ++ring;
-        view.eyes.push_back(ringPoint(ring, column));
+    std::vector<glm::dvec2> cage;
+    for (const auto& point : segment.controlPoints.at(k % kPhases)) {
+        const glm::dvec3 inBody =
+            glm::dvec3(point[0], point[1], point[2]) * static_cast<double>(kPoseUnit);
+        cage.push_back(fromAbove(replayed.origin + replayed.worldFromBody * inBody));
     }
+    addRecorded(view, cage);
     return view;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A captured fish seen from above: outlines for drawing.
+// A captured fish seen from above, for drawing: all from its repertoire.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
-#include "common/body/fish_body.h"
 #include "common/motion/repertoire.h"
 #include "master/capture/measure/measure.h"
 
@@ -17,10 +17,19 @@ namespace aquarama {
 
 struct FishView {
     std::vector<glm::dvec2> outline;                 // of body and tail
-    std::vector<std::vector<glm::dvec2>> pectorals;  // left and right
+    std::vector<std::vector<glm::dvec2>> pectorals;  // left and right, where recorded
     std::vector<glm::dvec2> midline;                 // from nose to tip of the tail
-    std::vector<glm::dvec2> eyes;
 };
-[[nodiscard]] FishView viewFromAbove(const FishBody& body, const ReplayedPhase& phase);
+
+// Of a segment as `replayed` at phase k of any cycle. The outline is that of the recorded control
+// points, or where the segment has none that of the rings of nodal points, which is slimmer.
+[[nodiscard]] FishView viewFromAbove(const ActionSegment& segment,
+                                     const ReplayedPhase& replayed,
+                                     std::size_t k);
+
+// The smooth curve (Catmull-Rom) through nose, centres of the five rings and middle of the tail's
+// tips, evenly between them.
+inline constexpr std::size_t kMidlinePoints = 49;
+[[nodiscard]] std::vector<glm::dvec2> midlineFromAbove(const ReplayedPhase& replayed);
 
 }  // namespace aquarama

@@ -9,6 +9,7 @@
 #include "common/motion/repertoire.h"
 #include "common/units/digest.h"
 #include "master/capture/measure/measure.h"
+#include "master/capture/report/tables.h"
 
 namespace aquarama {
 
@@ -22,11 +23,6 @@ std::string line(const char* format, Values... values) {
     return text.data();
 }
 
-// Little-endian, behind the five bytes "AQREP".
-int versionOf(std::span<const std::byte> intact) {
-    return std::to_integer<int>(intact[5]) | std::to_integer<int>(intact[6]) << 8;
-}
-
 // No "-0.00" for what is zero but for rounding.
 double cleaned(double value) {
     return std::abs(value) < 1e-5 ? 0 : value;
@@ -35,21 +31,33 @@ double cleaned(double value) {
 std::string rowOf(Action action, const ActionSegment& segment) {
     const SegmentMeasures m = measure(segment);
     const bool isForward = action <= Action::ForwardFast;
-    std::string row = line("  %-18s %8.4f %9.3f %8.3f %9.2f %8.1f",
+    std::string row = line("  %-18s %8.4f %8.3f %8.3f",
                            nameOf(action),
                            m.periodSeconds,
                            m.speedBodyLengths,
-                           m.strideBodyLengths,
-                           cleaned(m.turnRadians / kRadiansPerDegree),
-                           cleaned(m.turnRate / kRadiansPerDegree));
-    // Amplitude is across a straight course; a turn has none.
+                           m.strideBodyLengths);
+    // Amplitude is across a straight course, which a turn does not have.
+    row += isForward ? line(" %7s %8s %8s", "-", "-", "-")
+                     : line(" %7.1f %8.1f %8.2f",
+                            m.turnRadians / kRadiansPerDegree,
+                            m.turnRate / kRadiansPerDegree,
+                            turnRadius(segment));
     row +=
         isForward ? line(" %8.3f %8.3f", m.tailAmplitude, m.strouhal) : line(" %8s %8s", "-", "-");
-    row += line(" %9.4f %9.1e %9.1e\n", m.largestStep, m.leanRadians / kRadiansPerDegree, m.climb);
+    row += line(" %9.4f %9.1e %9.1e\n",
+                m.largestStep,
+                cleaned(m.leanRadians / kRadiansPerDegree),
+                cleaned(m.climb));
     return row;
 }
 
 }  // namespace
+
+// Little-endian, behind the five bytes "AQREP".
+int formatVersionOf(std::span<const std::byte> intactRepertoire) {
+    return std::to_integer<int>(intactRepertoire[5]) | std::to_integer<int>(intactRepertoire[6])
+                                                           << 8;
+}
 
 std::string inspectRepertoire(std::span<const std::byte> bytes, const std::string& source) {
     const Repertoire repertoire = decodeRepertoire(bytes, source);
@@ -57,19 +65,24 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
     std::string text = line("repertoire of %s, recorded at %.3f m, format version %d\n",
                             repertoire.species.c_str(),
                             static_cast<double>(repertoire.recordedLengthMetres),
-                            versionOf(bytes));
+                            formatVersionOf(bytes));
     text += line("%zu bytes, sha256 %s\n", bytes.size(), toHex(digestOf(bytes)).c_str());
-    text += line("%d segments of %d phases, %d nodal points%s\n\n",
-                 kActions,
+    text += line("%d segments of %d phases, %d nodal points, %s\n",
+                 kCapturedActions,
                  kPhases,
                  kNodalPoints,
-                 hasCage ? " and 426 control points" : ", no control points");
+                 hasCage ? "426 control points recorded" : "control points not recorded");
+    const auto [swim, glide, brake] = repertoire.response;
+    text += line("speed response: drag %.3f swimming, %.3f gliding, %.3f more braking, per BL\n\n",
+                 static_cast<double>(swim),
+                 static_cast<double>(glide),
+                 static_cast<double>(brake));
     text +=
-        "                       period     speed   stride      turn     turn     tail Strouhal   "
-        "largest      lean     climb\n"
-        "  segment                   s      BL/s       BL       deg    deg/s   p-p BL   number  "
-        "BL/tick deg/cycle  BL/cycle\n";
-    for (int i = 0; i < kActions; ++i)
+        "                       period    speed   stride    turn     turn   radius     tail "
+        "Strouhal   largest      lean     climb\n"
+        "  segment                   s     BL/s       BL     deg    deg/s       BL   p-p BL   "
+        "number   BL/tick deg/cycle  BL/cycle\n";
+    for (int i = 0; i < kCapturedActions; ++i)
         text += rowOf(static_cast<Action>(i), repertoire.segments.at(static_cast<std::size_t>(i)));
     return text;
 }

@@ -12,4 +12,7 @@ namespace aquarama {
 [[nodiscard]] std::string inspectRepertoire(std::span<const std::byte> bytes,
                                             const std::string& source);
 
+// Of the file format.
+[[nodiscard]] int formatVersionOf(std::span<const std::byte> intactRepertoire);
+
 }  // namespace aquarama

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/capture/report/report.h"
 
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <span>
-#include <string>
 
-#include "common/config/angle.h"
 #include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/measure/measure.h"
-#include "master/capture/report/figures.h"
-#include "master/capture/report/svg.h"
+#include "master/capture/report/gait_figures.h"
+#include "master/capture/report/path_figures.h"
+#include "master/capture/report/tables.h"
 
 namespace aquarama {
 
@@ -19,156 +16,106 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStyle = R"(<style>
-body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36; max-width: 1110px; margin: 2em auto; padding: 0 1em; }
-h1, h2 { font-weight: 600; } h2 { margin-top: 2em; }
-table { border-collapse: collapse; }
-th, td { padding: .25em .8em; text-align: right; border-bottom: 1px solid #dbe5ea; }
-th:first-child, td:first-child, .beside :nth-child(n+5) { text-align: left; }
-img { max-width: 100%; } figure { margin: 1em 0; } figcaption { color: #4a606c; }
+body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36; max-width: 1120px; margin: 2em auto; padding: 0 1em; }
+h1, h2, h3 { font-weight: 600; line-height: 1.2; } h1 { margin-bottom: .2em; } h2 { margin-top: 2.2em; }
+h3 { margin: 1.6em 0 .3em; }
+p { max-width: 62em; }
+.quiet, figcaption, th { color: #4a606c; } th { font-weight: 600; vertical-align: bottom; }
+table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-nums; }
+th, td { padding: .3em .9em; text-align: right; border-bottom: 1px solid #dbe5ea; }
+th:first-child, td:first-child, .beside :nth-child(n+5), .words td { text-align: left; }
+.words td:first-child { color: #4a606c; } code { font-size: 12px; overflow-wrap: anywhere; }
+.swatch { display: inline-block; width: .7em; height: .7em; border-radius: 2px; margin-right: .5em; }
+figure { margin: 1em 0; } figcaption { font-size: 13px; } svg { max-width: 100%; height: auto; }
+.beside th { white-space: nowrap; }
+.row { display: flex; flex-wrap: wrap; gap: 0 24px; align-items: flex-start; }
+.three figure { flex: 1 1 340px; max-width: 360px; margin: .5em 0; }
 </style>
 )";
 
-// How a figure of each segment is shown: so many cycles that a turn can be seen.
-int cyclesShown(const SegmentMeasures& m, const ActionSegment& segment) {
-    if (segment.playsToEnd || std::abs(m.turnRadians) < 1e-3) return 1;
-    return static_cast<int>(std::ceil(1.0 / std::abs(m.turnRadians)));
+// The picture can be taken from the page by its name.
+std::string figure(const std::string& name, const std::string& svg, const std::string& says = "") {
+    return "<figure id=\"" + name + "\">\n" + svg + "<figcaption>" + says +
+           "</figcaption></figure>\n";
 }
 
-double peakTurnRate(const ActionSegment& segment) {
-    double peak = 0;
-    for (const FrameIncrement& increment : segment.increments)
-        peak = std::max(peak, std::abs(static_cast<double>(glm::angle(increment.rotation))));
-    return peak * kPhases / static_cast<double>(segment.periodSeconds);
+// "blacktip_reef_shark" to "Blacktip reef shark"
+std::string titleOf(std::string species) {
+    std::ranges::replace(species, '_', ' ');
+    if (species[0] >= 'a' && species[0] <= 'z')
+        species[0] = static_cast<char>(species[0] - 'a' + 'A');
+    return species;
 }
 
-std::string cells(std::span<const std::string> values) {
-    std::string row = "<tr>";
-    for (const std::string& value : values) row += "<td>" + value + "</td>";
-    return row + "</tr>\n";
-}
-
-struct Quantity {
-    const char* name;
-    double (*of)(const SegmentMeasures&);
-    int digits;
-    const char* published;
-    const char* source;
-};
-constexpr std::array kQuantities{
-    Quantity{"beat, Hz", [](const SegmentMeasures& m) { return 1 / m.periodSeconds; }, 2, "", ""},
-    Quantity{"speed, BL/s",
-             [](const SegmentMeasures& m) { return m.speedBodyLengths; },
-             2,
-             "chub mackerel of this size filmed at 1.2 and 2.2; dace, trout and goldfish "
-             "(3 f &minus; 4) / 4, so 2.75 at 5 Hz",
-             "Nauen &amp; Lauder 2002; Bainbridge 1958"},
-    Quantity{"stride, BL a beat",
-             [](const SegmentMeasures& m) { return m.strideBodyLengths; },
-             3,
-             "0.6 to 0.7",
-             "Videler &amp; Wardle 1991"},
-    Quantity{"tail, peak to peak, BL",
-             [](const SegmentMeasures& m) { return m.tailAmplitude; },
-             3,
-             "rises with frequency to about 0.2",
-             "Bainbridge 1958"},
-    Quantity{"nose, peak to peak, BL",
-             [](const SegmentMeasures& m) { return m.noseAmplitude; },
-             3,
-             "0.008 to 0.024 (largemouth bass)",
-             "Jayne &amp; Lauder 1995"},
-    Quantity{"Strouhal number",
-             [](const SegmentMeasures& m) { return m.strouhal; },
-             3,
-             "0.2 to 0.4",
-             "Taylor, Nudds &amp; Thomas 2003"},
-    Quantity{"largest step of a nodal point, BL a tick of 1/60 s",
-             [](const SegmentMeasures& m) { return m.largestStep; },
-             4,
-             "",
-             ""},
-};
-
-std::string forwardTable(const Repertoire& repertoire) {
-    std::string html =
-        "<h2>Swimming straight</h2>\n<table "
-        "class=\"beside\"><tr><th></th><th>slow</th><th>medium</th>"
-        "<th>fast</th><th>living fish</th><th>source</th></tr>\n";
-    for (const Quantity& quantity : kQuantities) {
-        std::array<std::string, 6> row{
-            quantity.name, "", "", "", quantity.published, quantity.source};
-        for (std::size_t i = 0; i < 3; ++i)
-            row.at(1 + i) = fixed(quantity.of(measure(repertoire.segments.at(i))), quantity.digits);
-        html += cells(row);
+std::string forwardSection(const Repertoire& repertoire) {
+    std::string html = "<h2>Swimming straight</h2>\n" + forwardTable(repertoire) +
+                       "<h3>Body wave</h3>\n<div class=\"row three\">\n";
+    for (std::size_t i = 0; i < kGaits; ++i) {
+        const auto gait = static_cast<Action>(i);
+        html += figure(
+            std::string("midlines_") + nameOf(gait), drawMidlines(repertoire, gait), nameOf(gait));
     }
-    return html + "</table>\n";
+    return html +
+           "</div>\n<p class=\"quiet\">Midlines at 16 phases of one beat, dark to light; thick: "
+           "how far each point of them swings; dashed: how far a saithe's does (Videler &amp; Hess "
+           "1984), a carangiform swimmer.</p>\n<h3>Speed, Strouhal number and stride</h3>\n"
+           "<div class=\"row\">" +
+           figure("speed", drawSpeed(repertoire)) +
+           figure("strouhal", drawStrouhalAndStride(repertoire)) +
+           "</div>\n<p class=\"quiet\">The three captured gaits, and the straight line through "
+           "them by least squares. Bainbridge's line is for beats above 5 Hz; for slower and "
+           "larger "
+           "fish it is a guide only.</p>\n";
 }
 
-std::string turnTable(const Repertoire& repertoire) {
+std::string segmentSection(const Repertoire& repertoire) {
     std::string html =
-        "<h2>Turning</h2>\n<p>To the left is positive. Routine turns of living fish peak at 100 to "
-        "500 "
-        "deg/s (Domenici 2004).</p>\n<table><tr><th>segment</th><th>cycle, s</th>"
-        "<th>turn of a cycle, deg</th><th>mean rate, deg/s</th><th>peak rate, deg/s</th>"
-        "<th>speed, BL/s</th><th>radius, BL</th><th>largest step, BL/tick</th></tr>\n";
-    for (std::size_t i = 3; i < kActions; ++i) {
-        const ActionSegment& segment = repertoire.segments.at(i);
-        const SegmentMeasures m = measure(segment);
-        const std::array<std::string, 8> row{nameOf(static_cast<Action>(i)),
-                                             fixed(m.periodSeconds, 3),
-                                             fixed(m.turnRadians / kRadiansPerDegree, 1),
-                                             fixed(m.turnRate / kRadiansPerDegree, 1),
-                                             fixed(peakTurnRate(segment) / kRadiansPerDegree, 0),
-                                             fixed(m.speedBodyLengths, 2),
-                                             fixed(m.speedBodyLengths / std::abs(m.turnRate), 2),
-                                             fixed(m.largestStep, 4)};
-        html += cells(row);
+        "<h2>Segments from above</h2>\n<p>In each frame the body as it bends, and the body frame "
+        "up to then (as in Figs. 3 and 4 of Yu &amp; Terzopoulos 1998).</p>\n";
+    for (std::size_t i = 0; i < kCapturedActions; ++i) {
+        const std::string name = nameOf(static_cast<Action>(i));
+        html += "<h3>" + name + "</h3>\n" + figure(name, drawSegment(repertoire.segments.at(i)));
     }
-    return html + "</table>\n";
-}
-
-std::span<const std::byte> bytesOf(const std::string& text) {
-    return std::as_bytes(std::span(text.data(), text.size()));
+    return html;
 }
 
 }  // namespace
 
-fs::path writeReport(const Repertoire& repertoire, const FishBody& body, const fs::path& folder) {
-    const auto figure =
-        [&](const std::string& name, const std::string& svg, const std::string& says) {
-            const std::string file = repertoire.species + "-" + name + ".svg";
-            writeWhole(folder / file, bytesOf(svg));
-            return "<figure><img src=\"" + file + "\" alt=\"" + says + "\"><figcaption>" + says +
-                   "</figcaption></figure>\n";
-        };
-    std::string html =
-        "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-        repertoire.species + "</title>" + kStyle + "</head><body>\n<h1>" + repertoire.species +
-        ", captured</h1>\n<p>Recorded from a fish of " +
-        fixed(static_cast<double>(repertoire.recordedLengthMetres), 2) +
-        " m. Lengths are in body lengths (BL), so that they hold for a fish of any "
-        "size.</p>\n" +
-        forwardTable(repertoire) + turnTable(repertoire) +
-        "<h2>Midlines over a beat</h2>\n<p>Dark to light through one beat; dashed: the "
-        "envelope of a saithe (Videler &amp; Hess 1984).</p>\n";
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::string name = nameOf(static_cast<Action>(i));
-        html += figure("midlines-" + name, drawMidlines(body, repertoire.segments.at(i)), name);
-    }
-    html +=
-        "<h2>Segments from above</h2>\n<p>In each frame the body as it bends, and the body frame "
-        "up "
-        "to then.</p>\n";
-    for (std::size_t i = 0; i < kActions; ++i) {
-        const ActionSegment& segment = repertoire.segments.at(i);
-        const std::string name = nameOf(static_cast<Action>(i));
-        const int cycles = cyclesShown(measure(segment), segment);
-        html += figure(name,
-                       drawSegment(body, segment, cycles),
-                       name + (cycles == 1 ? "" : ", " + std::to_string(cycles) + " cycles"));
-    }
+std::string reportPage(const Repertoire& repertoire) {
+    const std::string title = titleOf(repertoire.species);
+    return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
+           "name=\"viewport\" content=\"width=device-width\"><title>" +
+           title + ": repertoire</title>" + kStyle + "</head><body>\n<h1>" + title +
+           "</h1>\n<p class=\"quiet\">A repertoire of motion captured from a simulated fish. "
+           "Lengths are in body lengths (BL), so that they hold for a fish of any size; a tick is "
+           "1/60 s.</p>\n" +
+           figure("body",
+                  drawBody(repertoire),
+                  "The fish when it glides, from its right and from above.") +
+           fileTable(repertoire) + forwardSection(repertoire) +
+           "<h2>Turning</h2>\n<p>To the left is positive. Living fish turn at 100 to 500 deg/s in "
+           "routine turns (Domenici 2004), at the tightest with a radius of 0.11 (bass) to 0.18 BL "
+           "(trout; Webb 1983).</p>\n" +
+           turnTable(repertoire) + "<div class=\"row\">" +
+           figure("turns",
+                  drawTurns(repertoire),
+                  "The way of the body frame's origin, and the heading at its end.") +
+           figure("headings",
+                  drawHeadings(repertoire),
+                  "The heading of the body frame over the turn.") +
+           "</div>\n" +
+           "<h2>Closure</h2>\n<p>How a segment meets itself when it is repeated. Pose: by how much "
+           "the farthest nodal point is off the smooth way of its neighbours in time, where the "
+           "last phase meets the first and at most elsewhere. Heading: after one and after a "
+           "hundred repetitions, from the course of a gait, or beyond so many times the angle of a "
+           "turn. Lean is roll and pitch together.</p>\n" +
+           closureTable(repertoire) + segmentSection(repertoire) + "</body></html>\n";
+}
+
+fs::path writeReport(const Repertoire& repertoire, const fs::path& folder) {
+    const std::string html = reportPage(repertoire);
     fs::path page = folder / (repertoire.species + ".html");
-    writeWhole(page, bytesOf(html + "</body></html>\n"));
+    writeWhole(page, std::as_bytes(std::span(html)));
     return page;
 }
 

@@ -4,16 +4,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
-#include "common/body/fish_body.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama {
 
-// Writes SPECIES.html and the pictures it shows; returns its path. Throws Error when the folder
-// cannot be written.
+// One page of HTML with its pictures inside.
+[[nodiscard]] std::string reportPage(const Repertoire& repertoire);
+
+// Writes it as SPECIES.html; returns its path. Throws Error when the folder cannot be written.
 std::filesystem::path writeReport(const Repertoire& repertoire,
-                                  const FishBody& body,
                                   const std::filesystem::path& folder);
 
 }  // namespace aquarama

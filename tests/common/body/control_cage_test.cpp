@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "common/body/cage_topology.h"
 #include "common/body/fish_body.h"
-#include "common/config/species.h"
+#include "common/body/monotone_curve.h"
+#include "tests/common/body/bend.h"
+#include "tests/support/cast.h"
 
 namespace aquarama {
 namespace {
 
-const FishBody& scad() {
-    static const FishBody body =
-        makeBody(readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"));
-    return body;
+// A body of the cast, made once.
+const FishBody& bodyOf(const std::string& name) {
+    static std::map<std::string, FishBody> bodies;
+    const auto found = bodies.find(name);
+    return found != bodies.end() ? found->second
+                                 : bodies.emplace(name, makeBody(castMember(name))).first->second;
 }
 
 using Edge = std::pair<int, int>;
@@ -32,25 +40,46 @@ glm::vec3 positionOf(const CageVertex& vertex) {
     return {-vertex.rest.x, vertex.rest.y, vertex.rest.z};
 }
 
-double volumeOf(const ControlCage& cage) {
+std::vector<glm::vec3> restOf(const FishBody& body) {
+    std::vector<glm::vec3> points;
+    for (const CageVertex& vertex : body.cage.vertices) points.push_back(positionOf(vertex));
+    return points;
+}
+
+std::vector<glm::vec3> posed(const FishBody& body, const NodalPoints& nodes) {
+    std::vector<glm::vec3> points(kControlPoints);
+    poseCage(body, nodes, points);
+    return points;
+}
+
+double volumeOf(const ControlCage& cage, const std::vector<glm::vec3>& points) {
     double volume = 0;
     for (const auto& face : cage.faces) {
-        const auto corner = [&](std::size_t k) {
-            return glm::dvec3(positionOf(cage.vertices[face.at(k)]));
-        };
+        const auto corner = [&](std::size_t k) { return glm::dvec3(points.at(face.at(k))); };
         for (const std::size_t k : {1U, 2U})
             volume += glm::dot(corner(0), glm::cross(corner(k), corner(k + 1))) / 6;
     }
     return volume;
 }
 
-TEST(ControlCage, hasThePapersNumberOfPoints) {
-    EXPECT_EQ(scad().cage.vertices.size(), std::size_t{kControlPoints});
-    EXPECT_EQ(scad().cage.faces.size(), std::size_t{kCageFaces});
+class CageOf : public testing::TestWithParam<std::string> {
+  protected:
+    const Species species_ = castMember(GetParam());
+    const FishBody& body_ = bodyOf(GetParam());
+};
+
+INSTANTIATE_TEST_SUITE_P(Cast, CageOf, testing::ValuesIn(kCast), [](const auto& name) {
+    return name.param;
+});
+
+TEST_P(CageOf, hasThePapersNumberOfPointsAndTheTopologyOfAll) {
+    EXPECT_EQ(body_.cage.vertices.size(), std::size_t{kControlPoints});
+    EXPECT_EQ(body_.cage.faces.size(), std::size_t{kCageFaces});
+    EXPECT_EQ(body_.cage.faces, bodyOf(kCast[0]).cage.faces);
 }
 
 TEST(ControlCage, isOneClosedSurfaceWithEulerCharacteristicTwo) {
-    const auto edges = directedEdges(scad().cage);
+    const auto edges = directedEdges(bodyOf(kCast[0]).cage);
     for (const auto& [edge, uses] : edges) {
         EXPECT_EQ(uses, 1) << edge.first << '-' << edge.second;
         EXPECT_TRUE(edges.contains({edge.second, edge.first})) << edge.first << '-' << edge.second;
@@ -60,23 +89,47 @@ TEST(ControlCage, isOneClosedSurfaceWithEulerCharacteristicTwo) {
 
 TEST(ControlCage, hasOnlyTheValencesOfItsConstruction) {
     std::vector<int> valence(kControlPoints);
-    for (const auto& face : scad().cage.faces)
+    for (const auto& face : bodyOf(kCast[0]).cage.faces)
         for (const auto vertex : face) ++valence.at(vertex);
     EXPECT_EQ(std::ranges::count(valence, 3), 36);
     EXPECT_EQ(std::ranges::count(valence, 4), 362);
     EXPECT_EQ(std::ranges::count(valence, 5), 28);
 }
 
-TEST(ControlCage, facesOutwardAndWeighsWhatAScadWeighs) {
-    const double length = scad().typicalLengthMetres;
-    const double kilograms = volumeOf(scad().cage) * length * length * length * 1025;
-    EXPECT_NEAR(kilograms, 0.155, 0.005);  // a living one of 0.24 m: about 0.17, with its food
+TEST(ControlCage, creasesOnlyItsOwnEdgesAndEachOnce) {
+    const ControlCage& cage = bodyOf(kCast[0]).cage;
+    const auto edges = directedEdges(cage);
+    std::set<Edge> seen;
+    for (const CageCrease& crease : cage.creases) {
+        const Edge edge{crease.edge[0], crease.edge[1]};
+        EXPECT_TRUE(edges.contains(edge));
+        EXPECT_TRUE(seen.insert(edge).second);
+        EXPECT_GT(crease.sharpness, 0.0F);
+    }
+    EXPECT_FALSE(seen.empty());
 }
 
-TEST(ControlCage, isItsOwnMirrorImage) {
-    for (const CageVertex& vertex : scad().cage.vertices) {
+struct Weight {
+    double metres, kilograms;  // of an animal, from the length-weight relations of its kind
+};
+const std::map<std::string, Weight> kWeights{{"bigeye_scad", {0.24, 0.17}},
+                                             {"clownfish", {0.09, 0.016}},
+                                             {"moorish_idol", {0.18, 0.17}},
+                                             {"blue_tang", {0.22, 0.25}},
+                                             {"parrotfish", {0.32, 0.70}},
+                                             {"trumpetfish", {0.50, 0.25}},
+                                             {"blacktip_reef_shark", {1.30, 15}}};
+
+TEST_P(CageOf, facesOutwardAndWeighsWhatItsAnimalWeighs) {
+    const auto [metres, kilograms] = kWeights.at(GetParam());
+    const double weight = volumeOf(body_.cage, restOf(body_)) * std::pow(metres, 3) * 1025;
+    EXPECT_NEAR(weight / kilograms, 1, 0.25) << weight << " kg";
+}
+
+TEST_P(CageOf, isItsOwnMirrorImage) {
+    for (const CageVertex& vertex : body_.cage.vertices) {
         const glm::vec3 image = vertex.rest * glm::vec3(1, 1, -1);
-        EXPECT_TRUE(std::ranges::any_of(scad().cage.vertices,
+        EXPECT_TRUE(std::ranges::any_of(body_.cage.vertices,
                                         [&](const CageVertex& other) {
                                             return glm::distance(other.rest, image) < 1e-6F &&
                                                    other.part == vertex.part &&
@@ -86,77 +139,148 @@ TEST(ControlCage, isItsOwnMirrorImage) {
     }
 }
 
-TEST(ControlCage, knowsWhichVerticesAreFins) {
+TEST_P(CageOf, knowsWhichVerticesAreFins) {
     std::map<CagePart, int> count;
-    for (const CageVertex& vertex : scad().cage.vertices) {
+    for (const CageVertex& vertex : body_.cage.vertices) {
         ++count[vertex.part];
         EXPECT_EQ(vertex.part == CagePart::Body, vertex.fin == glm::vec2(0))
             << "a fin's vertex is above its root, where p and q are not both zero";
         EXPECT_GE(std::min(vertex.fin.x, vertex.fin.y), 0.0F);
         EXPECT_LE(std::max(vertex.fin.x, vertex.fin.y), 1.0F);
     }
-    EXPECT_EQ(count[CagePart::FirstDorsal], 32);
-    EXPECT_EQ(count[CagePart::SecondDorsal], 14);
+    EXPECT_EQ(count[CagePart::FirstDorsal] + count[CagePart::SecondDorsal], 46);
+    EXPECT_EQ(count[CagePart::SecondDorsal], species_.fins.secondDorsal ? 14 : 0);
     EXPECT_EQ(count[CagePart::Anal], 24);
     EXPECT_EQ(count[CagePart::Pelvic], 16);
     EXPECT_EQ(count[CagePart::Pectoral], 24);
     EXPECT_EQ(count[CagePart::Caudal], 48);
 }
 
-TEST(ControlCage, creasesOnlyItsOwnEdgesAndEachOnce) {
-    const auto edges = directedEdges(scad().cage);
-    std::set<Edge> seen;
-    for (const CageCrease& crease : scad().cage.creases) {
-        const Edge edge{crease.edge[0], crease.edge[1]};
-        EXPECT_TRUE(edges.contains(edge));
-        EXPECT_TRUE(seen.insert(edge).second);
-        EXPECT_GT(crease.sharpness, 0.0F);
+// Each ring lies behind the one before it along every column, so that the skin does not fold over.
+TEST_P(CageOf, bodyRunsFromHeadToTailInEveryColumn) {
+    const auto station = [&](int ring, int column) {
+        return body_.cage.vertices.at(static_cast<std::size_t>(ring * kTubeColumns + column))
+            .rest.x;
+    };
+    for (int column = 0; column < kTubeColumns; ++column)
+        for (int ring = 1; ring <= kBodyEndRing; ++ring)
+            EXPECT_GT(station(ring, column), station(ring - 1, column)) << ring << ' ' << column;
+}
+
+// A point of the profile's table, linear between its stations.
+float profileAt(const FishBody& body, const std::vector<float>& values, float s) {
+    return interpolate(body.profileStations, values, s);
+}
+
+TEST_P(CageOf, finsAreWhereTheyBelong) {
+    for (const CageVertex& vertex : body_.cage.vertices) {
+        const glm::vec3 at = vertex.rest;
+        const float back = profileAt(body_, body_.profileDorsal, at.x);
+        const float belly = -profileAt(body_, body_.profileVentral, at.x);
+        const float flank = profileAt(body_, body_.profileHalfWidth, at.x);
+        switch (vertex.part) {
+            case CagePart::FirstDorsal:
+            case CagePart::SecondDorsal:
+                EXPECT_GT(at.y, back - 0.01F) << at.x;
+                EXPECT_LT(std::abs(at.z), 0.006F);
+                break;
+            case CagePart::Anal:
+                EXPECT_LT(at.y, belly + 0.01F) << at.x;
+                EXPECT_LT(std::abs(at.z), 0.006F);
+                break;
+            case CagePart::Caudal:
+                EXPECT_GT(at.x, body_.profileStations.back());
+                EXPECT_LT(std::abs(at.z), 0.006F);
+                break;
+            case CagePart::Pelvic:
+                EXPECT_LT(at.y, belly * 0.6F) << at.x;
+                break;
+            case CagePart::Pectoral:
+                EXPECT_GT(std::abs(at.z), flank * 0.8F) << at.x;
+                break;
+            case CagePart::Body:
+                EXPECT_LE(std::abs(at.z), flank * 1.05F + 0.001F) << at.x;
+                EXPECT_LE(at.y, back * 1.05F + 0.001F) << at.x;
+                EXPECT_GE(at.y, belly * 1.05F - 0.001F) << at.x;
+        }
     }
-    EXPECT_FALSE(seen.empty());
 }
 
-std::vector<glm::vec3> posed(const NodalPoints& nodes) {
-    std::vector<glm::vec3> points(kControlPoints);
-    poseCage(scad(), nodes, points);
-    return points;
+TEST_P(CageOf, reachesAsFarAsItsFile) {
+    glm::vec2 least(1);
+    glm::vec2 most(-1);
+    glm::vec2 drawnLeast(1);
+    glm::vec2 drawnMost(-1);
+    const Fins& fins = species_.fins;
+    for (const Fin& fin :
+         {fins.firstDorsal, fins.secondDorsal.value_or(fins.firstDorsal), fins.anal, fins.caudal})
+        for (const glm::vec2& point : fin.edge) {
+            drawnLeast = glm::min(drawnLeast, point);
+            drawnMost = glm::max(drawnMost, point);
+        }
+    for (const CageVertex& vertex : body_.cage.vertices) {
+        if (vertex.part == CagePart::Pelvic || vertex.part == CagePart::Pectoral) continue;
+        least = glm::min(least, glm::vec2(vertex.rest));
+        most = glm::max(most, glm::vec2(vertex.rest));
+    }
+    EXPECT_FLOAT_EQ(least.x, 0);
+    EXPECT_NEAR(most.x, drawnMost.x, 0.005);
+    EXPECT_NEAR(most.y, drawnMost.y, 0.015) << "a ray may fall beside the peak";
+    EXPECT_NEAR(least.y, drawnLeast.y, 0.015);
 }
 
-TEST(PoseCage, restNodesGiveTheRestCage) {
-    const auto points = posed(scad().restNodes);
+TEST_P(CageOf, restNodesGiveTheRestCage) {
+    const auto points = posed(body_, body_.restNodes);
     for (std::size_t i = 0; i < points.size(); ++i)
-        EXPECT_LT(glm::distance(points[i], positionOf(scad().cage.vertices[i])), 1e-6F) << i;
+        EXPECT_LT(glm::distance(points[i], positionOf(body_.cage.vertices[i])), 1e-6F) << i;
 }
 
-TEST(PoseCage, followsTheNodesThroughARigidMotion) {
+TEST_P(CageOf, followsTheNodesThroughARigidMotion) {
     const float c = 0.6F;
     const float s = 0.8F;
     const auto move = [&](glm::vec3 p) {
         return glm::vec3(c * p.x - s * p.y, s * p.x + c * p.y, p.z) + glm::vec3(3, -2, 1);
     };
-    NodalPoints nodes = scad().restNodes;
+    NodalPoints nodes = body_.restNodes;
     for (glm::vec3& node : nodes) node = move(node);
-    const auto points = posed(nodes);
+    const auto points = posed(body_, nodes);
     for (std::size_t i = 0; i < points.size(); ++i)
-        EXPECT_LT(glm::distance(points[i], move(positionOf(scad().cage.vertices[i]))), 1e-5F) << i;
+        EXPECT_LT(glm::distance(points[i], move(positionOf(body_.cage.vertices[i]))), 1e-5F) << i;
 }
 
 // Bent along a circle, the axis keeps its length and every section stays square to it, so that a
 // point keeps its height and its distance from the axis.
-TEST(PoseCage, bendsAlongAnArcWithoutShearing) {
+TEST_P(CageOf, bendsAlongAnArcWithoutShearing) {
     const float radius = 0.8F;
-    const auto bend = [&](glm::vec3 p) {
-        const float angle = -p.x / radius;
-        return glm::vec3(
-            -(radius - p.z) * std::sin(angle), p.y, radius - (radius - p.z) * std::cos(angle));
-    };
-    NodalPoints nodes = scad().restNodes;
-    for (glm::vec3& node : nodes) node = bend(node);
-    const auto points = posed(nodes);
+    NodalPoints nodes = body_.restNodes;
+    for (glm::vec3& node : nodes) node = bentToTheRight(node, radius);
+    const auto points = posed(body_, nodes);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const CageVertex& vertex = scad().cage.vertices[i];
+        const CageVertex& vertex = body_.cage.vertices[i];
         if (vertex.part != CagePart::Body) continue;
         EXPECT_NEAR(points[i].y, vertex.rest.y, 1e-6F);
-        EXPECT_LT(glm::distance(points[i], bend(positionOf(vertex))), 0.01F) << i;
+        EXPECT_LT(glm::distance(points[i], bentToTheRight(positionOf(vertex), radius)), 0.01F) << i;
+    }
+}
+
+// As far as a sharp turn goes, to either side, the skin keeps what it holds and stretches no
+// edge by much.
+TEST_P(CageOf, staysSoundWhenBentSharply) {
+    const auto atRest = restOf(body_);
+    const double volume = volumeOf(body_.cage, atRest);
+    for (const float radius : {-0.6F, 0.6F}) {
+        NodalPoints nodes = body_.restNodes;
+        for (glm::vec3& node : nodes) node = bentToTheRight(node, radius);
+        const auto points = posed(body_, nodes);
+        EXPECT_NEAR(volumeOf(body_.cage, points) / volume, 1, 0.05);
+        for (const auto& [edge, uses] : directedEdges(body_.cage)) {
+            const auto a = static_cast<std::size_t>(edge.first);
+            const auto b = static_cast<std::size_t>(edge.second);
+            const float stretch =
+                glm::distance(points[a], points[b]) / glm::distance(atRest[a], atRest[b]);
+            EXPECT_GT(stretch, 0.5F) << a << '-' << b;
+            EXPECT_LT(stretch, 1.6F) << a << '-' << b;
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/units/error.h"
+#include "tests/support/cast.h"
 
 namespace aquarama {
 namespace {
@@ -51,33 +52,119 @@ TEST(Species, theScadIsReadInItsUnits) {
     EXPECT_DOUBLE_EQ(scad.skeleton.rings[1].nodeMass, 11);
 }
 
-TEST(Species, anUnknownFieldIsRefusedWithItsPlace) {
-    EXPECT_THAT(refusalOf(edited("eye {", "wings: 2\neye {")),
-                MatchesRegex("fish\\.txtpb:[0-9]+:[0-9]+: .*wings.*"));
+struct Mistake {
+    const char* name;
+    const char* right;  // as the scad's file has it
+    const char* wrong;
+    const char* says;
+};
+
+class SpeciesMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(SpeciesMistake, isRefusedAtItsPlaceWithWhatToDo) {
+    const std::string refusal = refusalOf(edited(GetParam().right, GetParam().wrong));
+    EXPECT_THAT(refusal, MatchesRegex("fish\\.txtpb:[0-9]+:[0-9]+: .*"));
+    EXPECT_THAT(refusal, HasSubstr(GetParam().says));
 }
 
-TEST(Species, aMissingFieldIsNamed) {
-    EXPECT_THAT(refusalOf(edited("tail_tip_mass: 0.165", "")),
-                MatchesRegex("fish\\.txtpb:[0-9]+:[0-9]+: skeleton lacks tail_tip_mass.*"));
+const char* const kAnalFront = "base { s: 0.505 y: -0.105 }";
+
+INSTANTIATE_TEST_SUITE_P(
+    Each,
+    SpeciesMistake,
+    testing::Values(
+        Mistake{
+            "aMissingField", "tail_tip_mass: 0.165", "", "skeleton lacks tail_tip_mass: add it"},
+        Mistake{"anUnknownField", "eye {", "wings: 2 eye {", "wings"},
+        Mistake{"aNegativeMass", "node_mass: 11", "node_mass: -11", "node_mass is -11: it must be"},
+        Mistake{
+            "noMass", "nose_mass: 1.1", "nose_mass: 0", "nose_mass is 0: it must be from 0.001"},
+        Mistake{"anInfiniteMass", "node_mass: 11", "node_mass: inf", "node_mass is inf"},
+        Mistake{"noNumber", "drag: 570", "drag: nan", "drag is nan: it must be from 0"},
+        Mistake{"aBeatThatNoFishHas", "beat_hz: 3", "beat_hz: 300", "beat_hz is 300: it must be"},
+        Mistake{"ringsOutOfOrder", "rings { s: 0.580", "rings { s: 0.380", "move this one back"},
+        Mistake{
+            "aFlatRing", "half_height: 0.093", "half_height: 0", "half_height is 0: it must be"},
+        Mistake{"aThinRing", "half_width: 0.051", "half_width: 0", "half_width is 0: it must be"},
+        Mistake{"fourRings",
+                "rings { s: 0.850 half_height: 0.040 half_width: 0.010 node_mass: 1.1 }",
+                "",
+                "give five"},
+        Mistake{"aBodyWithoutHeight", "s: 0.38 up: 0.113", "s: 0.38 up: 0", "up is 0: it must be"},
+        Mistake{"profileOutOfOrder", "profile { s: 0.10", "profile { s: 0.01", "sort them"},
+        Mistake{"profileThatStartsLate",
+                "profile { s: 0.00",
+                "profile { s: 0.01",
+                "must begin at s: 0"},
+        Mistake{"dorsalFinsThatOverlap",
+                "base { s: 0.465 y: 0.105 }",
+                "base { s: 0.440 y: 0.105 }",
+                "second_dorsal begins before first_dorsal ends: move it back"},
+        Mistake{"aDorsalFinOnTheNose",
+                "base { s: 0.325 y: 0.106 }",
+                "base { s: 0.02 y: 0.02 }",
+                "first_dorsal begins on the head"},
+        Mistake{"aDorsalFinOnTheTail",
+                "base { s: 0.765 y: 0.027 }",
+                "base { s: 0.865 y: 0.027 }",
+                "second_dorsal ends behind the last profile station: shorten it"},
+        Mistake{"anAnalFinOnTheBreast",
+                kAnalFront,
+                "base { s: 0.3 y: -0.1 }",
+                "anal begins before pelvic ends: move it back"},
+        Mistake{"aFinThatRunsHeadwards",
+                "base { s: 0.360 y: 0.108 }",
+                "base { s: 0.320 y: 0.108 }",
+                "must run from head to tail: sort it"},
+        Mistake{
+            "aFinOfOnePoint",
+            "edge { s: 0.385 y: -0.160 } edge { s: 0.397 y: -0.150 } edge { s: 0.395 y: -0.132 }",
+            "edge { s: 0.385 y: -0.160 }",
+            "edge needs 2 to 32 points"},
+        Mistake{"aPectoralFinOnTheNose",
+                "base { s: 0.268 y: 0.000 }",
+                "base { s: 0.01 y: 0.000 }",
+                "base of pectoral must lie behind the head"},
+        Mistake{"aPectoralFinWithoutABase",
+                "base { s: 0.268 y: 0.000 }",
+                "base { s: 0.268 y: -0.036 }",
+                "ends where it begins: spread it"},
+        Mistake{"sizesExchanged", "least_m: 0.20", "least_m: 0.25", "least_m is more than mean_m"},
+        Mistake{"zonesExchanged",
+                "align_bl: 2",
+                "align_bl: 0.2",
+                "align_bl must be more than repel_bl"},
+        Mistake{"depthsExchanged",
+                "best_depth_m: 9",
+                "best_depth_m: 1",
+                "best_depth_m is less than least_depth_m"},
+        Mistake{"aColourBeyondWhite", "blue: 0.79", "blue: 1.79", "blue is 1.79: it must be"},
+        Mistake{"aNameThatIsNoFileName", "\"bigeye_scad\"", "\"../scad\"", "rename it"}),
+    [](const auto& mistake) { return std::string(mistake.param.name); });
+
+TEST(Species, theOnlyDorsalFinMayNotReachTheTail) {
+    std::string text = scadText();
+    const std::size_t from = text.find("  second_dorsal {");
+    text.erase(from, text.find("  anal {") - from);
+    EXPECT_EQ(refusalOf(text), "accepted");
+    const std::string rear = "base { s: 0.450 y: 0.106 }";
+    text.replace(text.find(rear), rear.size(), "base { s: 0.950 y: 0.106 }");
+    EXPECT_THAT(refusalOf(text), HasSubstr("first_dorsal ends behind the last profile station"));
 }
 
-TEST(Species, aValueThatNoFishHasIsRefusedWithItsRange) {
-    EXPECT_THAT(refusalOf(edited("beat_hz: 3", "beat_hz: 300")), HasSubstr("beat_hz is 300"));
-    EXPECT_THAT(refusalOf(edited("drag: 570", "drag: -1")), HasSubstr("drag is -1"));
-    EXPECT_THAT(refusalOf(edited("drag: 570", "drag: nan")), HasSubstr("drag is nan"));
+TEST(Species, thatSchoolsNeedNotAndKeepsItsControlPointsOnlyIfItSaysSo) {
+    EXPECT_TRUE(parseSpecies(scadText(), "fish.txtpb").school.has_value());
+    EXPECT_TRUE(parseSpecies(scadText(), "fish.txtpb").recordsControlPoints);
+    std::string text = edited("recorded_control_points: true", "");
+    const std::size_t from = text.find("school {");
+    text.erase(from, text.find('}', from) + 1 - from);
+    const Species loner = parseSpecies(text, "fish.txtpb");
+    EXPECT_FALSE(loner.school.has_value());
+    EXPECT_FALSE(loner.recordsControlPoints);
 }
 
-TEST(Species, aBodyOutOfOrderIsRefused) {
-    EXPECT_THAT(refusalOf(edited("profile { s: 0.10", "profile { s: 0.01")),
-                HasSubstr("profile stations must begin at s: 0 and rise"));
-    EXPECT_THAT(refusalOf(edited("rings { s: 0.580", "rings { s: 0.380")),
-                HasSubstr("apart or more"));
-    EXPECT_THAT(refusalOf(edited("base { s: 0.465 y: 0.105 }", "base { s: 0.440 y: 0.105 }")),
-                HasSubstr("second_dorsal begins before first_dorsal ends"));
-}
-
-TEST(Species, aNameThatIsNoFileNameIsRefused) {
-    EXPECT_THAT(refusalOf(edited("\"bigeye_scad\"", "\"../scad\"")), HasSubstr("rename it"));
+TEST(Species, allOfTheCastAreReadUnderTheirFilesNames) {
+    for (const std::string& name : kCast) EXPECT_EQ(castMember(name).name, name);
 }
 
 TEST(Species, aFileThatIsNotThereIsRefused) {

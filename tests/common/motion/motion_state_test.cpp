@@ -33,6 +33,8 @@ MotionStates randomStates(std::size_t fish, unsigned seed) {
         states.z[i] = static_cast<std::int32_t>(random());
         states.phase[i] = static_cast<std::uint16_t>(random());
         states.fromPhase[i] = static_cast<std::uint16_t>(random());
+        states.speed[i] =
+            static_cast<std::int32_t>(random() % (2U * kFastestUnits)) - kFastestUnits;
         states.segment[i] = static_cast<std::uint8_t>(random() % kActions);
         states.fromSegment[i] = static_cast<std::uint8_t>(random() % kActions);
         states.warpLength[i] = static_cast<std::uint8_t>(random());
@@ -135,6 +137,8 @@ TEST(MotionState, anImpossibleRecordIsNotPlayable) {
     EXPECT_FALSE(with([](auto& r) { r.fromSegment = 255; }));
     EXPECT_FALSE(with([](auto& r) { r.warpLength = 3, r.warpFrame = 4; }));
     EXPECT_FALSE(with([](auto& r) { r.orientationHigh |= 1U << 31U; }));
+    EXPECT_FALSE(with([](auto& r) { r.speed = kFastestUnits + 1; }));
+    EXPECT_FALSE(with([](auto& r) { r.speed = -kFastestUnits - 1; }));
 }
 
 }  // namespace

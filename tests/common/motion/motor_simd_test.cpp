@@ -17,7 +17,7 @@ School randomSchool() {
     scatter(school, random);
     for (std::size_t i = 0; i < kFish; ++i) {
         school.commands.segment[i] = school.states.segment[i];
-        school.commands.phaseRate[i] = static_cast<std::uint16_t>(random() % 6000);
+        school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 6000);
     }
     return school;
 }

@@ -25,24 +25,24 @@ TEST(MotorTables, knowTheRatesThatWereRecorded) {
         const synthetic::Gait& gait = gaits[static_cast<std::size_t>(a)];
         EXPECT_NEAR(recordedSpeedBodyLengths(sharedTables(), action),
                     gait.stride / gait.periodSeconds,
-                    gait.sharp ? 0.08 : 0.01)  // in a C-bend the origin leaves the course
+                    gait.bends ? 0.08 : 0.01)  // in a C-bend the origin leaves the course
             << nameOf(action);
         EXPECT_NEAR(
-            recordedTurnRate(sharedTables(), action), gait.turnRadians / gait.periodSeconds, 0.002)
+            recordedTurnRate(sharedTables(), action), gait.turnRadians / gait.periodSeconds, 0.01)
             << nameOf(action);
     }
 }
 
 // 100 cycles at three speeds, at the recorded rate and at rates that never meet a sample.
 TEST(Motor, aStraightSwimmerNeitherLeavesItsCourseNorRolls) {
-    constexpr std::array<std::uint16_t, 4> kRates{0, 1001, 2999, 7919};
+    constexpr std::array<int, 4> kRates{0, 1001, 2999, 7919};
     for (const Action action : kForward) {
-        for (const std::uint16_t rate : kRates) {
+        for (const int rate : kRates) {
             for (const int length : {40, 200, 4000}) {
                 School school(1);
                 school.traits[0].lengthMillimetres = static_cast<std::uint16_t>(length);
                 school.play(0, action);
-                if (rate != 0) school.commands.phaseRate[0] = rate;
+                if (rate != 0) school.playAtRate(0, action, rate);
                 const double heading = school.heading(0);
                 const int ticks = 100 * 65536 / school.commands.phaseRate[0];
                 for (int i = 0; i < ticks; ++i) {
@@ -64,8 +64,7 @@ TEST(Motor, aCycleCoversTheRecordedStrideAtAnyRate) {
     for (const Action action : kForward) {
         for (const int ticksACycle : {7, 16, 64, 333}) {
             School school(1);
-            school.play(0, action);
-            school.commands.phaseRate[0] = static_cast<std::uint16_t>(65536 / ticksACycle);
+            school.playAtRate(0, action, 65536 / ticksACycle);
             int played = 0;
             while (played < 10 * 65536) {
                 school.tick();
@@ -88,23 +87,23 @@ TEST(Motor, aFishOfTwiceTheLengthSwimsTwiceTheMetres) {
     EXPECT_NEAR(ratio, 2.0, 0.002);
 }
 
-TEST(Motor, aGradualTurnTurnsAtTheRecordedRateAndStaysLevel) {
+TEST(Motor, aTurnThatGoesOnIsEnteredAnewAndStaysLevel) {
     for (const Action action : {Action::TurnLeftGradual, Action::TurnRightGradual}) {
         School school(1);
         school.play(0, action);
         double turned = 0;
         double last = school.heading(0);
-        for (int i = 0; i < 1200; ++i) {  // 20 seconds
+        int entries = 0;
+        while (entries < 12) {
+            const std::uint16_t phase = school.states.phase[0];
             school.tick();
+            entries += school.states.phase[0] < phase ? 1 : 0;
             turned += std::remainder(school.heading(0) - last, 360);
             last = school.heading(0);
             ASSERT_LT(std::abs(school.roll(0)), 0.5);
             ASSERT_LT(std::abs(school.pitch(0)), 0.5);
         }
-        const double side = action == Action::TurnLeftGradual ? 1 : -1;
-        EXPECT_NEAR(turned, side * 20 * 30, 3);  // 15 degrees in half a second
-        // An arc of 30 degrees a second at 1.1 body lengths a second closes every 12 s.
-        EXPECT_LT(glm::length(school.place(0)) / 0.2, 2 * 1.1 / (30 * kDegree) + 0.2);
+        EXPECT_NEAR(turned, (action == Action::TurnLeftGradual ? 1 : -1) * 12 * 30, 4);
     }
 }
 
@@ -215,7 +214,8 @@ TEST(Motor, aRestingFishStaysExactlyWhereItIs) {
     School school(1);
     school.play(0, Action::ForwardMedium);
     school.commands.phaseRate[0] = 0;
-    school.tick(30);  // to settle level
+    school.tick(30000);  // to come to rest: the water's drag alone takes its time
+    EXPECT_EQ(school.states.speed[0], 0);
     const FishRecord before = recordOf(school.states, 0);
     school.tick(600);
     EXPECT_EQ(recordOf(school.states, 0), before);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/repertoire.h"
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -88,15 +90,69 @@ TEST(Repertoire, trailingBytesAreRefusedEvenWhenSigned) {
     EXPECT_TRUE(isRefused(resigned(file)));
 }
 
-TEST(Repertoire, anotherVersionIsRefusedByName) {
+std::string refusalOf(const Bytes& file) {
+    try {
+        (void)decodeRepertoire(file, "trout.rep");
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Repertoire, aVersionFromTheFutureAsksForAnUpdateAndAnOldOneForACapture) {
     Bytes file = smallFile();
     file[5] = std::byte{9};
-    try {
-        (void)decodeRepertoire(resigned(file), "trout.rep");
-        FAIL() << "accepted";
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("version 9"));
+    EXPECT_THAT(refusalOf(resigned(file)), testing::HasSubstr("version 9"));
+    EXPECT_THAT(refusalOf(resigned(file)), testing::HasSubstr("newer Aquarama; update"));
+    EXPECT_THAT(refusalOf(file), testing::HasSubstr("newer Aquarama")) << "whatever else is in it";
+    file[5] = std::byte{1};
+    EXPECT_THAT(refusalOf(resigned(file)), testing::HasSubstr("version 1"));
+    EXPECT_THAT(refusalOf(resigned(file)), testing::HasSubstr("capture the species again"));
+}
+
+// Where the floats of a file without control points are.
+struct FloatsAt {
+    std::size_t length, drags;
+    std::vector<std::size_t> ofSegments;
+};
+FloatsAt floatsOf(const std::string& species) {
+    FloatsAt at;
+    at.length = 12 + species.size();
+    at.drags = at.length + 4;
+    std::size_t segment = at.drags + 3 * 4 + 1;
+    for (int action = 0; action < kCapturedActions; ++action) {
+        at.ofSegments.push_back(segment);  // the period
+        for (std::size_t i = 0; i < 7 * kPhases; ++i) at.ofSegments.push_back(segment + 5 + 4 * i);
+        segment += 5 + kPhases * (7 * 4 + kNodalPoints * 3 * 2);
     }
+    return at;
+}
+Bytes withFloat(std::size_t at, float value) {
+    Bytes file = smallFile();
+    std::memcpy(&file[at], &value, sizeof(value));
+    return resigned(std::move(file));
+}
+
+TEST(Repertoire, anyFloatThatIsNoNumberIsRefusedByWhatItIs) {
+    const FloatsAt at = floatsOf("synthetic");
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
+                            std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()}) {
+        EXPECT_THAT(refusalOf(withFloat(at.length, bad)), testing::HasSubstr("recorded length"));
+        for (const std::size_t drag : {0U, 1U, 2U})
+            EXPECT_THAT(refusalOf(withFloat(at.drags + 4 * drag, bad)), testing::HasSubstr("drag"));
+        for (const std::size_t offset : at.ofSegments)
+            ASSERT_THAT(refusalOf(withFloat(offset, bad)), testing::HasSubstr("segment "));
+    }
+}
+
+TEST(Repertoire, aDragOutOfBoundsIsRefused) {
+    const FloatsAt at = floatsOf("synthetic");
+    for (const float bad : {-0.001F, 1000.5F})
+        for (const std::size_t drag : {0U, 1U, 2U})
+            EXPECT_THAT(refusalOf(withFloat(at.drags + 4 * drag, bad)),
+                        testing::HasSubstr("drag outside 0 to 1000"));
+    EXPECT_EQ(refusalOf(withFloat(at.drags, 1000.0F)), "accepted");
 }
 
 // Behind a right SHA-256 a file is refused, or means exactly what it says.

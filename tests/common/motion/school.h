@@ -29,24 +29,35 @@ struct School {
     MotionStates states;
     MotorCommands commands;
     std::vector<FishTraits> traits;
+    const MotorTables* tables;
 
-    explicit School(std::size_t fish) : traits(fish, {.id = 0, .lengthMillimetres = 200}) {
+    explicit School(std::size_t fish, const MotorTables& motorTables = sharedTables())
+        : traits(fish, {.id = 0, .lengthMillimetres = 200}), tables(&motorTables) {
         states.resize(fish);
         commands.resize(fish);
         for (std::size_t i = 0; i < fish; ++i) setBodyFrame(states, i, {});
     }
 
+    // As recorded, from now on and for long.
     void play(std::size_t fish, Action action) {
         states.segment[fish] = static_cast<std::uint8_t>(action);
         command(fish, action);
+        setSpeedBodyLengths(states, fish, recordedSpeedBodyLengths(*tables, action));
+    }
+    void playAtRate(std::size_t fish, Action action, int phaseRate) {
+        play(fish, action);
+        const double share = 1.0 * phaseRate / commands.phaseRate[fish];
+        commands.phaseRate[fish] = static_cast<std::int16_t>(phaseRate);
+        setSpeedBodyLengths(
+            states, fish, static_cast<float>(share) * speedBodyLengths(states, fish));
     }
     void command(std::size_t fish, Action action) {
         commands.segment[fish] = static_cast<std::uint8_t>(action);
-        commands.phaseRate[fish] = recordedPhaseRate(sharedTables(), action);
+        commands.phaseRate[fish] = recordedPhaseRate(*tables, action);
     }
 
     [[nodiscard]] MotorStep step() {
-        return {.tables = &sharedTables(),
+        return {.tables = tables,
                 .traits = traits,
                 .commands = &commands,
                 .states = &states,
@@ -61,7 +72,7 @@ struct School {
         return glm::dvec3(states.x[fish], states.y[fish], states.z[fish]) / 65536.0;
     }
     [[nodiscard]] glm::dquat mean(std::size_t fish) const {
-        return glm::dquat(meanRotation(sharedTables(), states, fish));
+        return glm::dquat(meanRotation(*tables, states, fish));
     }
     // Degrees: of the mean frame; heading left positive, pitch up positive.
     [[nodiscard]] double heading(std::size_t fish) const {
@@ -90,6 +101,7 @@ inline void scatter(School& school, std::mt19937& random) {
         setBodyFrame(school.states, i, {100.0F * place, glm::normalize(turn)});
         school.states.segment[i] = static_cast<std::uint8_t>(random() % kActions);
         school.states.phase[i] = static_cast<std::uint16_t>(random());
+        school.states.speed[i] = static_cast<std::int32_t>(random() % 4000000) - 2000000;
         school.traits[i].lengthMillimetres = static_cast<std::uint16_t>(20 + random() % 5000);
     }
 }
@@ -98,7 +110,8 @@ inline void commandAtRandom(School& school, std::mt19937& random) {
     for (std::size_t i = 0; i < school.traits.size(); ++i) {
         if (random() % 20 != 0) continue;  // a decision every third of a second
         school.commands.segment[i] = static_cast<std::uint8_t>(random() % kActions);
-        school.commands.phaseRate[i] = static_cast<std::uint16_t>(random() % 6000);
+        school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 8000 - 2000);
+        school.commands.brake[i] = static_cast<std::uint8_t>(random() % 2 == 0 ? 0 : random());
         school.commands.pitch[i] = static_cast<std::int16_t>(random());
         school.commands.yawRate[i] = static_cast<std::int16_t>(random());
     }

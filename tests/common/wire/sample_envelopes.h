@@ -16,13 +16,14 @@ inline std::vector<FishRecord> sampleRecords(std::uint32_t fish) {
                            -n * 7919,
                            n << 8,
                            i * 2654435761U,
-                           ~i,
+                           ~i >> 2U,
                            static_cast<std::uint16_t>(i * 31),
                            static_cast<std::uint16_t>(i * 57),
                            static_cast<std::uint8_t>(i % kActions),
                            static_cast<std::uint8_t>((i + 3) % kActions),
                            static_cast<std::uint8_t>(i % 8),
-                           8});
+                           8,
+                           1000 - n * 77});
     }
     return records;
 }

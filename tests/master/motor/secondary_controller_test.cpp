@@ -14,9 +14,9 @@ namespace {
 
 // The bigeye scad's gaits in round numbers.
 Gaits scadGaits() {
-    return {{2185, 3277, 5461, 3277, 993, 3277, 993},
-            {1.0F, 2.0F, 2.6F, 1.7F, 1.5F, 1.7F, 1.5F},
-            {0, 0, 0, 0.26F, 0.96F, -0.26F, -0.96F}};
+    return {{2185, 3277, 5461, 1500, 993, 1500, 993, 3277},
+            {1.0F, 2.0F, 2.6F, 1.7F, 1.5F, 1.7F, 1.5F, 2.0F},
+            {0, 0, 0, 0.52F, 0.96F, -0.52F, -0.96F, 0}};
 }
 
 // One fish that heads along +x and whose intention the test sets.
@@ -38,12 +38,13 @@ struct Mind {
         intentions.speed[0] = speed;
         intentions.urgency[0] = urgency;
     }
-    // Thinks once; the motor is taken to follow at once.
+    // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
     Action think() {
         SecondaryController{&gaits, &view, &intentions, &states, 1, {tick}, &commands, &memory}.run(
             0, 1);
         tick += kTicksBetweenThoughts;
         states.segment[0] = commands.segment[0];
+        states.phase[0] = 65535;
         return static_cast<Action>(commands.segment[0]);
     }
     Action thinkFor(int thoughts) {
@@ -116,16 +117,6 @@ TEST(SecondaryController, inDangerItTurnsSharplyEarlier) {
     EXPECT_EQ(alarmed.think(), Action::TurnLeftSharp);
 }
 
-TEST(SecondaryController, aTurnThatBeganIsFinishedOnItsSide) {
-    Mind mind;
-    mind.want(30, 2.0F);
-    mind.think();
-    mind.want(10, 2.0F);  // would not begin a turn
-    EXPECT_EQ(mind.think(), Action::TurnLeftGradual);
-    mind.want(3, 2.0F);
-    EXPECT_TRUE(isForward(mind.think()));
-}
-
 TEST(SecondaryController, backwardsItKeepsTheSideOfTheTurnItIsIn) {
     Mind mind;
     mind.want(170, 2.0F);
@@ -135,31 +126,52 @@ TEST(SecondaryController, backwardsItKeepsTheSideOfTheTurnItIsIn) {
     EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
 }
 
-TEST(SecondaryController, afterASharpTurnWhatItWillHaveDoneCounts) {
-    Mind mind;
-    mind.want(90, 2.0F);
-    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
-    mind.states.phase[0] = 0;  // just begun: 55 of the 57 degrees are still to come
-    mind.want(57, 2.0F);
-    EXPECT_TRUE(isForward(mind.think())) << "one sharp turn is enough";
+TEST(SecondaryController, whatATurnWillHaveDoneCounts) {
+    for (const float degrees : {90.0F, 30.0F}) {
+        Mind mind;
+        mind.want(degrees, 2.0F);
+        const Action turn = mind.think();
+        EXPECT_TRUE(isTurn(turn) && isLeft(turn));
+        mind.states.phase[0] = 0;  // just begun: all of its 55 or 30 degrees are still to come
+        mind.want(degrees > 50 ? 57 : 30, 2.0F);
+        EXPECT_TRUE(isForward(mind.think())) << "one turn is enough";
+    }
 }
 
-TEST(SecondaryController, aSharpTurnKeepsItsTempoUntilItsLastTick) {
+TEST(SecondaryController, whatFollowsATurnIsChosenInItsLastTick) {
     Mind mind;
     mind.want(90, 2.0F);
     mind.think();
-    const std::uint16_t turnRate = mind.commands.phaseRate[0];
-    mind.want(0, 2.0F);
-    mind.think();
-    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftSharp);  // plays on
+    EXPECT_GT(mind.commands.phaseRate[0], 0.85 * 993);
     mind.states.phase[0] = 60000;
-    mind.think();
-    EXPECT_EQ(mind.commands.phaseRate[0], turnRate);
-    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftSharp);
+    mind.want(0, 2.0F);
+    ++mind.tick;  // not its time to think
+    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
     mind.states.phase[0] = 65000;
-    ++mind.tick;  // not its turn to think
-    mind.think();
-    EXPECT_NEAR(mind.commands.phaseRate[0], 3277, 0.16 * 3277) << "what follows swims on";
+    EXPECT_TRUE(isForward(mind.think()));
+}
+
+TEST(SecondaryController, aFishThatIsMuchTooFastBrakes) {
+    Mind mind;
+    mind.want(0, 1.0F);
+    for (const auto& [speed, brake] : {std::pair{1.5F, 0}, {2.1F, 127}, {4.0F, 255}}) {
+        setSpeedBodyLengths(mind.states, 0, speed);
+        mind.thinkFor(8);
+        EXPECT_NEAR(mind.commands.brake[0], brake, 1) << speed;
+    }
+}
+
+TEST(SecondaryController, aGlideIsRecommendedToThoseWhoAreFastEnough) {
+    for (const float speed : {1.4F, 1.8F}) {
+        Mind mind;
+        bool glides = false;
+        for (int i = 0; i < 5 * 60 * 60 / 8; ++i) {
+            setSpeedBodyLengths(mind.states, 0, speed);
+            mind.want(0, 1.6F);
+            glides |= mind.think() == Action::Glide;
+        }
+        EXPECT_EQ(glides, speed > 1.6F);
+    }
 }
 
 TEST(SecondaryController, aSpeedAboutABorderDoesNotDither) {

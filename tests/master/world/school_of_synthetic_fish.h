@@ -16,9 +16,10 @@ namespace aquarama {
 inline Repertoire syntheticScad() {
     constexpr double kDegree = std::numbers::pi / 180;
     using synthetic::Gait;
-    const Gait gradual{.periodSeconds = 1.0 / 3, .turnRadians = 14 * kDegree, .stride = 0.55};
+    const Gait gradual{
+        .periodSeconds = 0.7, .turnRadians = 30 * kDegree, .stride = 1.15, .bends = true};
     const Gait sharp{
-        .periodSeconds = 1.0, .turnRadians = 55 * kDegree, .stride = 1.5, .sharp = true};
+        .periodSeconds = 1.0, .turnRadians = 55 * kDegree, .stride = 1.5, .bends = true};
     const auto right = [](Gait gait) {
         gait.turnRadians = -gait.turnRadians;
         return gait;
@@ -30,8 +31,10 @@ inline Repertoire syntheticScad() {
                                                    sharp,
                                                    right(gradual),
                                                    right(sharp)};
-    Repertoire scad{
-        .species = "synthetic scad", .recordedLengthMetres = 0.24F, .response = {}, .segments = {}};
+    Repertoire scad{.species = "synthetic scad",
+                    .recordedLengthMetres = 0.24F,
+                    .response = {.swimDrag = 0.5F, .glideDrag = 0.4F, .brakeDrag = 4.0F},
+                    .segments = {}};
     for (std::size_t action = 0; action < kCapturedActions; ++action)
         scad.segments[action] = synthetic::segmentOf(gaits[action], false);
     addGlide(scad);

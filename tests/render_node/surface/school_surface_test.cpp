@@ -13,9 +13,9 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
+#include "common/skin/limit_table.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/handle.h"
-#include "render_node/surface/limit_table.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace aquarama {

@@ -14,8 +14,6 @@
 namespace aquarama {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
-
 struct Expected {
     Action action;
     double beatHertz;
@@ -24,11 +22,6 @@ struct Expected {
 constexpr std::array kForward{Expected{Action::ForwardSlow, 2, 1.007},
                               Expected{Action::ForwardMedium, 3, 1.958},
                               Expected{Action::ForwardFast, 5, 2.624}};
-constexpr std::array kTurns{Action::TurnLeftGradual,
-                            Action::TurnLeftSharp,
-                            Action::TurnRightGradual,
-                            Action::TurnRightSharp};
-
 TEST(Capture, swimsAsFastAsThePrototype) {
     for (const Expected& expected : kForward) {
         const SegmentMeasures m = measure(segmentOf(expected.action));
@@ -52,41 +45,6 @@ TEST(Capture, swimsLikeAFish) {
     }
 }
 
-TEST(Capture, aHundredStraightCyclesNeitherTurnNorRollNorClimb) {
-    for (const Expected& expected : kForward) {
-        const ReplayedPhase end = replay(segmentOf(expected.action), 100).back();
-        const glm::dvec3 forward = end.worldFromBody * glm::dvec3(1, 0, 0);
-        const glm::dvec3 up = end.worldFromBody * glm::dvec3(0, 1, 0);
-        EXPECT_LT(glm::distance(forward, glm::dvec3(1, 0, 0)), 1e-4);
-        EXPECT_LT(glm::distance(up, glm::dvec3(0, 1, 0)), 1e-6);
-        EXPECT_NEAR(end.origin.y, 0, 1e-6);
-        // On one line: half-way it is at half the way.
-        const ReplayedPhase half = replay(segmentOf(expected.action), 50).back();
-        EXPECT_LT(glm::distance(end.origin, 2.0 * half.origin), 1e-3 * glm::length(end.origin));
-    }
-}
-
-TEST(Capture, aHundredTurnsNeitherRollNorPitchNorClimb) {
-    for (const Action action : kTurns) {
-        const ReplayedPhase end = replay(segmentOf(action), 100).back();
-        EXPECT_LT(glm::distance(end.worldFromBody * glm::dvec3(0, 1, 0), glm::dvec3(0, 1, 0)),
-                  1e-6);
-        EXPECT_NEAR(end.origin.y, 0, 1e-6);
-    }
-}
-
-TEST(Capture, turnsGoToTheirSideAndSharpOnesFurther) {
-    const SegmentMeasures gradual = measure(segmentOf(Action::TurnLeftGradual));
-    const SegmentMeasures sharp = measure(segmentOf(Action::TurnLeftSharp));
-    EXPECT_GT(gradual.turnRate, 20 * kDegree);
-    EXPECT_GT(sharp.turnRadians, 45 * kDegree);
-    EXPECT_LT(sharp.turnRadians, 70 * kDegree);
-    EXPECT_GT(sharp.turnRate, gradual.turnRate);
-    EXPECT_FALSE(segmentOf(Action::TurnLeftGradual).playsToEnd);
-    EXPECT_TRUE(segmentOf(Action::TurnLeftSharp).playsToEnd);
-    EXPECT_TRUE(segmentOf(Action::TurnRightSharp).playsToEnd);
-}
-
 TEST(Capture, rightTurnsMirrorLeftOnes) {
     for (const auto& [left, right] : {std::pair{Action::TurnLeftGradual, Action::TurnRightGradual},
                                       std::pair{Action::TurnLeftSharp, Action::TurnRightSharp}}) {
@@ -96,32 +54,6 @@ TEST(Capture, rightTurnsMirrorLeftOnes) {
         EXPECT_NEAR(l.strideBodyLengths, r.strideBodyLengths, 1e-4);
         EXPECT_NEAR(l.largestStep, r.largestStep, 1e-6);
     }
-}
-
-// The pose goes round without a jump, also from the last phase to the first.
-TEST(Capture, theEndOfEachCycleMeetsItsBeginning) {
-    for (const ActionSegment& segment : scadRepertoire().segments) {
-        const auto gap = [&](std::size_t from, std::size_t to) {
-            double most = 0;
-            for (std::size_t i = 0; i < std::size_t{kNodalPoints}; ++i) {
-                const auto& a = segment.nodes.at(from).at(i);
-                const auto& b = segment.nodes.at(to).at(i);
-                most = std::max(most, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
-            }
-            return most;
-        };
-        double most = 0;
-        for (std::size_t k = 0; k + 1 < kPhases; ++k) most = std::max(most, gap(k, k + 1));
-        EXPECT_LE(gap(kPhases - 1, 0), most);
-    }
-}
-
-TEST(Capture, aSharpTurnBeginsAndEndsStraight) {
-    const ActionSegment& segment = segmentOf(Action::TurnLeftSharp);
-    for (const std::size_t phase : {std::size_t{0}, std::size_t{kPhases - 1}})
-        for (const auto& node : segment.nodes.at(phase))
-            EXPECT_LT(std::abs(node[2]) * static_cast<double>(kPoseUnit),
-                      0.051 + 0.03);  // half-width of ring 2
 }
 
 // The constraints that eq. 1 to 4, with their remedies, put on a pose in its own frame.
@@ -157,16 +89,6 @@ TEST(Capture, controlPointsAreThoseOfThePosedCage) {
                     segment.controlPoints[k].at(i).at(static_cast<std::size_t>(c)) * kPoseUnit,
                     3e-4);
     }
-}
-
-TEST(Capture, givesTheSameBytesTwiceAndTellsItsProgress) {
-    double last = 0;
-    const Repertoire again = captureRepertoire(scad(), [&](double share) {
-        EXPECT_GE(share, last);
-        last = share;
-    });
-    EXPECT_EQ(encodeRepertoire(again), encodeRepertoire(scadRepertoire()));
-    EXPECT_NEAR(last, 1, 1e-9);
 }
 
 }  // namespace

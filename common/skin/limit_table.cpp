@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/skin/limit_table.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <opensubdiv/far/stencilTableFactory.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/far/topologyRefinerFactory.h>
+
+#include "common/skin/face_grid.h"
+#include "common/skin/skin_places.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+// Semi-sharp creases of the cage end at sharpness 3, so four levels isolate every feature.
+constexpr int kIsolationLevel = 4;
+
+std::unique_ptr<Far::TopologyRefiner> refine(const ControlCage& cage) {
+    const std::vector<int> verticesPerFace(cage.faces.size(), 4);
+    std::vector<int> corners;
+    for (const auto& face : cage.faces) corners.insert(corners.end(), face.begin(), face.end());
+    std::vector<int> creaseEnds;
+    std::vector<float> creaseSharpness;
+    for (const CageCrease& crease : cage.creases) {
+        creaseEnds.insert(creaseEnds.end(), crease.edge.begin(), crease.edge.end());
+        creaseSharpness.push_back(crease.sharpness);
+    }
+    Far::TopologyDescriptor descriptor;
+    descriptor.numVertices = static_cast<int>(cage.vertices.size());
+    descriptor.numFaces = static_cast<int>(cage.faces.size());
+    descriptor.numVertsPerFace = verticesPerFace.data();
+    descriptor.vertIndicesPerFace = corners.data();
+    descriptor.numCreases = static_cast<int>(cage.creases.size());
+    descriptor.creaseVertexIndexPairs = creaseEnds.data();
+    descriptor.creaseWeights = creaseSharpness.data();
+
+    using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+    std::unique_ptr<Far::TopologyRefiner> refiner{
+        Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK, Sdc::Options()))};
+    if (!refiner) throw Error("the control cage is no surface that OpenSubdiv accepts");
+    refiner->RefineAdaptive(Far::TopologyRefiner::AdaptiveOptions(kIsolationLevel));
+    return refiner;
+}
+
+// The limit stencils of all vertices of the grid, in OpenSubdiv's order: face by face.
+std::unique_ptr<const Far::LimitStencilTable> limitStencils(
+    const Far::TopologyRefiner& refiner,
+    const std::vector<FaceGrid::Location>& locations,
+    std::span<const std::uint32_t> faceOrder) {
+    std::vector<float> u, v;
+    for (const std::uint32_t vertex : faceOrder) {
+        u.push_back(locations[vertex].u);
+        v.push_back(locations[vertex].v);
+    }
+    Far::LimitStencilTableFactory::LocationArrayVec arrays;
+    for (std::size_t first = 0; first < faceOrder.size();) {
+        Far::LimitStencilTableFactory::LocationArray array;
+        const std::uint32_t face = locations[faceOrder[first]].face;
+        std::size_t last = first;
+        while (last < faceOrder.size() && locations[faceOrder[last]].face == face) ++last;
+        array.ptexIdx = static_cast<int>(face);  // all faces are quads: the same number
+        array.numLocations = static_cast<int>(last - first);
+        array.s = &u[first];
+        array.t = &v[first];
+        arrays.push_back(array);
+        first = last;
+    }
+    Far::LimitStencilTableFactory::Options options;
+    options.generate1stDerivatives = true;
+    return std::unique_ptr<const Far::LimitStencilTable>{
+        Far::LimitStencilTableFactory::Create(refiner, arrays, nullptr, nullptr, options)};
+}
+
+std::vector<StencilEntry> entriesOf(const Far::LimitStencilTable& stencils, std::size_t stencil) {
+    const auto first = static_cast<std::size_t>(stencils.GetOffsets()[stencil]);
+    const auto size = static_cast<std::size_t>(stencils.GetSizes()[stencil]);
+    std::vector<StencilEntry> entries;
+    for (std::size_t k = first; k < first + size; ++k) {
+        const StencilEntry entry{static_cast<std::uint32_t>(stencils.GetControlIndices()[k]),
+                                 stencils.GetWeights()[k],
+                                 stencils.GetDuWeights()[k],
+                                 stencils.GetDvWeights()[k]};
+        if (entry.position != 0 || entry.tangentU != 0 || entry.tangentV != 0)
+            entries.push_back(entry);
+    }
+    return entries;
+}
+
+// The vertices of the control mesh are the control points; only their normals are the limit's.
+void holdToControlPoint(std::vector<StencilEntry>& entries, std::uint32_t controlPoint) {
+    for (StencilEntry& entry : entries)
+        entry.position = entry.controlPoint == controlPoint ? 1.0F : 0.0F;
+}
+
+}  // namespace
+
+SkinPoint skinPoint(const LimitTable& table,
+                    std::size_t vertex,
+                    std::span<const glm::vec3> controlPoints) {
+    glm::vec3 position{}, u{}, v{};
+    for (std::uint32_t k = table.firstEntry[vertex]; k < table.firstEntry[vertex + 1]; ++k) {
+        const StencilEntry& entry = table.entries[k];
+        position += entry.position * controlPoints[entry.controlPoint];
+        u += entry.tangentU * controlPoints[entry.controlPoint];
+        v += entry.tangentV * controlPoints[entry.controlPoint];
+    }
+    return {position, glm::normalize(glm::cross(u, v))};
+}
+
+LimitTable makeLimitTable(const FishBody& body, int level) {
+    const FaceGrid grid{body.cage, 1 << level};
+    const auto& locations = grid.locations();
+
+    std::vector<std::uint32_t> faceOrder(locations.size());
+    for (std::uint32_t i = 0; i < faceOrder.size(); ++i) faceOrder[i] = i;
+    std::ranges::stable_sort(faceOrder, {}, [&](std::uint32_t i) { return locations[i].face; });
+
+    const auto refiner = refine(body.cage);
+    const auto stencils = limitStencils(*refiner, locations, faceOrder);
+    if (!stencils || stencils->GetNumStencils() != static_cast<int>(locations.size()))
+        throw Error("OpenSubdiv gives no limit stencils for the cage of " + body.species);
+
+    std::vector<std::vector<StencilEntry>> perVertex(locations.size());
+    for (std::size_t k = 0; k < faceOrder.size(); ++k)
+        perVertex[faceOrder[k]] = entriesOf(*stencils, k);
+    if (level == 0) {
+        for (std::uint32_t i = 0; i < perVertex.size(); ++i) holdToControlPoint(perVertex[i], i);
+    }
+
+    LimitTable table;
+    table.firstEntry.push_back(0);
+    for (const auto& entries : perVertex) {
+        table.entries.insert(table.entries.end(), entries.begin(), entries.end());
+        table.firstEntry.push_back(static_cast<std::uint32_t>(table.entries.size()));
+    }
+    paintPlaces(body, grid, table);
+    return table;
+}
+
+}  // namespace aquarama

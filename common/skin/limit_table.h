@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface of a species at one level of detail: how each vertex follows from the control points,
+// and its triangles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "common/body/fish_body.h"
+
+namespace aquarama {
+
+// Level 0 is the control mesh itself (paper, section 6); 1 and 2 lie on the Catmull-Clark limit
+// surface, at the corners of the faces that so many refinements make.
+inline constexpr int kSurfaceLevels = 3;
+
+// Weights of one control point in one vertex, as the compute shader reads them.
+struct StencilEntry {
+    std::uint32_t controlPoint = 0;
+    float position = 0;
+    float tangentU = 0;
+    float tangentV = 0;
+};
+static_assert(sizeof(StencilEntry) == 16);
+
+// What never changes about a vertex: where it is on the fish at rest. The painter's coordinates.
+struct SkinPlace {
+    glm::vec4 rest{};        // s, y, z in body lengths; w: height v, -1 belly .. +1 back
+    glm::vec2 fin{};         // p along a fin's base, q from base to edge; zero on the body
+    std::uint32_t part = 0;  // CagePart; holds for the triangles whose last vertex this is
+};
+static_assert(sizeof(SkinPlace) == 28);
+
+struct LimitTable {
+    std::vector<std::uint32_t>
+        firstEntry;  // vertex i owns entries [firstEntry[i], firstEntry[i + 1])
+    std::vector<StencilEntry> entries;
+    std::vector<SkinPlace>
+        vertices;  // the first kControlPoints are those of the cage, in its order
+    std::vector<std::uint32_t>
+        indices;  // counter-clockwise triangles: first the body's, then the fins'
+    std::size_t bodyIndices = 0;
+};
+
+struct SkinPoint {
+    glm::vec3 position{};
+    glm::vec3 normal{};  // outward
+};
+// A vertex of the surface over these control points.
+[[nodiscard]] SkinPoint skinPoint(const LimitTable& table,
+                                  std::size_t vertex,
+                                  std::span<const glm::vec3> controlPoints);
+
+// Takes 5 to 50 ms, so it is built at start and not kept in files.
+[[nodiscard]] LimitTable makeLimitTable(const FishBody& body, int level);
+
+}  // namespace aquarama

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/exchange/gltf.h"
+
+#include <sstream>
+#include <string>
+
+#include "common/units/error.h"
+#include "master/capture/exchange/gltf_buffer.h"
+#include "master/capture/exchange/swimming_skin.h"
+#include "master/capture/exchange/take.h"
+
+namespace aquarama {
+
+namespace {
+
+// Shapes of the skin and keys of the animation in a cycle. Half the recorded phases: straight lines
+// between them leave the way of a tail tip by a thousandth of a body length.
+constexpr int kShapes = 32;
+
+std::vector<glm::vec3> minus(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    std::vector<glm::vec3> difference = a;
+    for (std::size_t i = 0; i < a.size(); ++i) difference[i] -= b[i];
+    return difference;
+}
+
+int addMaterial(tinygltf::Model& model) {
+    tinygltf::Material material;
+    material.name = "skin";
+    material.pbrMetallicRoughness.baseColorFactor = {0.45, 0.55, 0.62, 1};
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.5;
+    model.materials.push_back(material);
+    return 0;
+}
+
+// The shape at phase 0, and what takes it to each of the others.
+int addMesh(tinygltf::Model& model, const SwimmingSkin& skin) {
+    const SkinShape& first = skin.shapes.front();
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.indices = addTriangles(model, skin.triangles);
+    primitive.material = addMaterial(model);
+    primitive.attributes["POSITION"] = addVertices(model, first.positions);
+    primitive.attributes["NORMAL"] = addVertices(model, first.normals);
+    tinygltf::Mesh mesh;
+    mesh.name = "skin";
+    tinygltf::Value::Array names;
+    for (std::size_t i = 1; i < skin.shapes.size(); ++i) {
+        const SkinShape& shape = skin.shapes[i];
+        primitive.targets.push_back(
+            {{"POSITION", addVertices(model, minus(shape.positions, first.positions))},
+             {"NORMAL", addVertices(model, minus(shape.normals, first.normals))}});
+        names.emplace_back("phase " + std::to_string(i) + " of " +
+                           std::to_string(skin.shapes.size()));
+    }
+    mesh.primitives.push_back(primitive);
+    mesh.weights.assign(primitive.targets.size(), 0);
+    // What Blender and others call the targets.
+    mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
+    model.meshes.push_back(mesh);
+    return 0;
+}
+
+// At frame i of the take shape i of the cycle has all the weight.
+std::vector<float> weightsOf(const Take& take) {
+    constexpr std::size_t kTargets = kShapes - 1;
+    std::vector<float> weights(take.frames.size() * kTargets, 0.0F);
+    for (std::size_t i = 0; i < take.frames.size(); ++i) {
+        const std::size_t shape = i % kShapes;
+        if (shape > 0) weights[i * kTargets + shape - 1] = 1.0F;
+    }
+    return weights;
+}
+
+void addAnimation(tinygltf::Model& model, const Take& take, int node) {
+    std::vector<float> times;
+    std::vector<glm::vec3> translations;
+    std::vector<glm::vec4> rotations;
+    for (const TakeFrame& frame : take.frames) {
+        times.push_back(static_cast<float>(frame.seconds));
+        translations.emplace_back(frame.origin);
+        const glm::quat q(frame.worldFromBody);
+        rotations.emplace_back(q.x, q.y, q.z, q.w);
+    }
+    tinygltf::Animation animation;
+    animation.name = take.segment;
+    const int input = addTimes(model, times);
+    const auto animate = [&](const char* path, int keys) {
+        tinygltf::AnimationSampler sampler;
+        sampler.input = input;
+        sampler.output = keys;
+        tinygltf::AnimationChannel channel;
+        channel.sampler = static_cast<int>(animation.samplers.size());
+        channel.target_node = node;
+        channel.target_path = path;
+        animation.samplers.push_back(sampler);
+        animation.channels.push_back(channel);
+    };
+    animate("translation", addKeys(model, std::span<const glm::vec3>(translations)));
+    animate("rotation", addKeys(model, std::span<const glm::vec4>(rotations)));
+    animate("weights", addKeys(model, std::span<const float>(weightsOf(take))));
+    model.animations.push_back(animation);
+}
+
+int addFish(tinygltf::Model& model, const std::string& species, int mesh) {
+    tinygltf::Node node;
+    node.name = species;
+    node.mesh = mesh;
+    model.nodes.push_back(node);
+    tinygltf::Scene scene;
+    scene.nodes = {0};
+    model.scenes.push_back(scene);
+    model.defaultScene = 0;
+    return 0;
+}
+
+std::vector<std::byte> written(const tinygltf::Model& model, GltfContainer container) {
+    std::ostringstream stream;
+    const bool isBinary = container == GltfContainer::Binary;
+    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, !isBinary, isBinary))
+        throw Error("the glTF model cannot be written; ask for fewer cycles");
+    const std::string text = std::move(stream).str();
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+std::vector<std::byte> gltfOf(const Repertoire& repertoire,
+                              const FishBody& body,
+                              Action action,
+                              int cycles,
+                              GltfContainer container) {
+    const Take take = takeAtPhases(repertoire, action, cycles, kShapes);
+    const ActionSegment& segment = repertoire.segments.at(static_cast<std::size_t>(action));
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = "Aquarama";
+    const int mesh = addMesh(model, skinOf(body, segment, take.lengthMetres, kShapes));
+    addAnimation(model, take, addFish(model, take.species, mesh));
+    return written(model, container);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/exchange/swimming_skin.h"
+
+#include <cassert>
+
+#include "common/skin/limit_table.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr int kSurfaceLevel = 1;  // 1698 vertices; its normals are the limit surface's
+
+NodalPoints nodesAt(const ActionSegment& segment, std::size_t phase) {
+    NodalPoints nodes{};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto& integers = segment.nodes.at(phase).at(i);
+        nodes.at(i) = kPoseUnit * glm::vec3(integers[0], integers[1], integers[2]);
+    }
+    return nodes;
+}
+
+SkinShape shapeOf(const FishBody& body,
+                  const LimitTable& table,
+                  const NodalPoints& nodes,
+                  float lengthMetres) {
+    std::vector<glm::vec3> cage(body.cage.vertices.size());
+    poseCage(body, nodes, cage);
+    SkinShape shape;
+    for (std::size_t i = 0; i < table.vertices.size(); ++i) {
+        const SkinPoint point = skinPoint(table, i, cage);
+        shape.positions.push_back(point.position * lengthMetres);
+        shape.normals.push_back(point.normal);
+    }
+    return shape;
+}
+
+}  // namespace
+
+SwimmingSkin skinOf(const FishBody& body,
+                    const ActionSegment& segment,
+                    double lengthMetres,
+                    int shapes) {
+    assert(kPhases % shapes == 0);
+    const LimitTable table = makeLimitTable(body, kSurfaceLevel);
+    SwimmingSkin skin{.triangles = table.indices, .shapes = {}};
+    for (int phase = 0; phase < kPhases; phase += kPhases / shapes)
+        skin.shapes.push_back(shapeOf(body,
+                                      table,
+                                      nodesAt(segment, static_cast<std::size_t>(phase)),
+                                      static_cast<float>(lengthMetres)));
+    return skin;
+}
+
+}  // namespace aquarama

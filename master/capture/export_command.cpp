@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "common/units/error.h"
+#include "master/capture/commands.h"
+#include "master/capture/compile/config_folder.h"
+#include "master/capture/compile/repertoire_cache.h"
+#include "master/capture/exchange/c3d.h"
+#include "master/capture/exchange/csv.h"
+#include "master/capture/exchange/gltf.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportOptions {
+    std::string file;
+    std::string segment;
+    int cycles = 1;
+    std::string c3d, gltf, csv;  // where to; one is asked for
+    std::string config;
+};
+
+std::vector<std::string> segmentNames() {
+    std::vector<std::string> names;
+    for (int i = 0; i < kCapturedActions; ++i) names.emplace_back(nameOf(static_cast<Action>(i)));
+    return names;
+}
+
+Action actionNamed(const std::string& segment) {
+    const std::vector<std::string> names = segmentNames();
+    return static_cast<Action>(std::ranges::find(names, segment) - names.begin());
+}
+
+GltfContainer containerOf(const fs::path& path) {
+    if (path.extension() == ".glb") return GltfContainer::Binary;
+    if (path.extension() == ".gltf") return GltfContainer::Text;
+    throw Error(path.string() + ": name it .glb (binary) or .gltf (text)");
+}
+
+// The skin is not in the repertoire but in the species' file.
+FishBody bodyOf(const Repertoire& repertoire, const ExportOptions& options) {
+    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
+    return makeBody(readSpecies(speciesFiles({repertoire.species}, config).front().string()));
+}
+
+void exportSegment(const ExportOptions& options) {
+    const Action action = actionNamed(options.segment);
+    const Repertoire repertoire = decodeRepertoire(readWhole(options.file), options.file);
+    if (!options.gltf.empty()) {
+        const GltfContainer container = containerOf(options.gltf);
+        const FishBody body = bodyOf(repertoire, options);
+        writeWhole(options.gltf, gltfOf(repertoire, body, action, options.cycles, container));
+        return;
+    }
+    const Take take = takeAtTicks(repertoire, action, options.cycles);
+    if (options.csv.empty()) {
+        writeWhole(options.c3d, c3dOf(take));
+    } else {
+        const std::string rows = csvOf(take);
+        writeWhole(options.csv, std::as_bytes(std::span(rows)));
+    }
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& app) {
+    const auto options = std::make_shared<ExportOptions>();
+    CLI::App& command = *app.add_subcommand(
+        "export", "a segment for other programs: metres, Y up, from the origin along +x");
+    command.add_option("FILE", options->file, "a repertoire")->required();
+    command.add_option("--segment", options->segment, "which")
+        ->required()
+        ->check(CLI::IsMember(segmentNames()));
+    command.add_option("--cycles", options->cycles, "how often it is repeated")
+        ->check(CLI::Range(1, kMostCycles))
+        ->capture_default_str();
+    CLI::Option_group& out = *command.add_option_group("format", "one of");
+    out.add_option("--c3d", options->c3d, "nodal points as markers, 60 frames a second");
+    out.add_option("--csv", options->csv, "nodal points as a table, 60 rows a second");
+    out.add_option("--gltf", options->gltf, "the skin, swimming: a .glb or .gltf file");
+    out.require_option(1);
+    command.add_option(
+        "--config", options->config, "folder that holds species/*.txtpb, for --gltf");
+    command.callback([options] { exportSegment(*options); });
+}
+
+}  // namespace aquarama

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/fidelity/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "common/units/ids.h"
+#include "master/capture/fidelity/overlay.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr double kShapeGoal = 0.01;  // body lengths
+constexpr double kLagStep = 0.25;    // ticks
+
+// In its first beat a command is on its way from the one before; of a short one in its first half.
+int transitionTicksOf(const Command& command) {
+    return std::min(static_cast<int>(std::lround(command.beatTicks)), command.ticks / 2);
+}
+
+// One command in both traces.
+struct Passage {
+    const Trace& fish;
+    const Trace& replica;
+    std::size_t first = 0;  // the tick before its first
+    std::size_t last = 0;
+    std::size_t transitionEnd = 0;
+    double beatTicks = 1;
+};
+
+const NodeVectors& mixedPose(const Trace& trace, double tick, NodeVectors& mixed) {
+    const auto before = static_cast<std::size_t>(tick);
+    const double share = tick - static_cast<double>(before);
+    if (share == 0) return trace[before].pose;
+    for (std::size_t i = 0; i < mixed.size(); ++i)
+        mixed[i] = glm::mix(trace[before].pose[i], trace[before + 1].pose[i], share);
+    return mixed;
+}
+
+// Mean over the nodal points, body lengths squared.
+double squaredShapeError(const Passage& passage, std::size_t tick, double lag) {
+    const NodeVectors& pose = passage.fish[tick].pose;
+    NodeVectors mixed;
+    const NodeVectors& other = mixedPose(passage.replica, static_cast<double>(tick) + lag, mixed);
+    double sum = 0;
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+        const glm::dvec3 off = pose[i] - other[i];
+        sum += glm::dot(off, off);
+    }
+    return sum / kNodalPoints;
+}
+
+bool has(const Passage& passage, double tick) {
+    return tick >= static_cast<double>(passage.first) && tick <= static_cast<double>(passage.last);
+}
+
+// Root mean square over the ticks (from, to], as far as the command has them at that lag.
+double shapeError(const Passage& passage, std::size_t from, std::size_t to, double lag) {
+    double sum = 0;
+    int ticks = 0;
+    for (std::size_t tick = from + 1; tick <= to; ++tick) {
+        if (!has(passage, static_cast<double>(tick) + lag)) continue;
+        sum += squaredShapeError(passage, tick, lag);
+        ++ticks;
+    }
+    return std::sqrt(sum / std::max(ticks, 1));
+}
+
+// That with which the shapes agree best after the transition; of equally good ones the smallest.
+double bestLag(const Passage& passage) {
+    const int steps = static_cast<int>(passage.beatTicks / 2 / kLagStep);
+    double best = 0;
+    double least = shapeError(passage, passage.transitionEnd, passage.last, 0);
+    for (int i = 1; i <= 2 * steps; ++i) {
+        const double lag = kLagStep * (i % 2 == 0 ? i / 2 : -(i + 1) / 2);
+        const double error = shapeError(passage, passage.transitionEnd, passage.last, lag);
+        if (error < least) {
+            least = error;
+            best = lag;
+        }
+    }
+    return best;
+}
+
+std::optional<int> agreementOf(const Passage& passage, double lag) {
+    const auto beat = static_cast<std::size_t>(std::ceil(passage.beatTicks));
+    for (std::size_t from = passage.first; from + beat <= passage.last; ++from)
+        if (shapeError(passage, from, from + beat, lag) <= kShapeGoal)
+            return static_cast<int>(from - passage.first);
+    return std::nullopt;
+}
+
+CommandErrors errorsOf(const Command& command, const Passage& passage, double beatBefore) {
+    const auto& [fish, replica, first, last, transitionEnd, beat] = passage;
+    CommandErrors errors{.command = command, .firstTick = static_cast<int>(first)};
+    errors.lagTicks = bestLag(passage);
+    errors.shapeTransition = shapeError(passage, first, transitionEnd, 0);
+    errors.shapeWithin = shapeError(passage, transitionEnd, last, errors.lagTicks);
+    errors.shapeAsPlayed = shapeError(passage, first, last, 0);
+    errors.agreesAfterTicks = agreementOf(passage, errors.lagTicks);
+
+    const Overlay overlay(fish, replica, first, beatBefore);
+    errors.path = pathLength(fish, first, last);
+    errors.pathErrorAtEnd = overlay.distanceAt(last) / errors.path;
+    errors.pathErrorMost = overlay.mostTo(last) / errors.path;
+    errors.turn = wrapped(headingAt(fish, last, beat) - headingAt(fish, first, beatBefore));
+    errors.headingError = overlay.headingErrorAt(last, beat);
+    errors.replicaWay = overlay.wayTo(last);
+    return errors;
+}
+
+OpenLoopErrors openLoopOf(
+    const Trace& fish, const Trace& replica, std::size_t start, double firstBeat, double lastBeat) {
+    const std::size_t end = fish.size() - 1;
+    const Overlay overlay(fish, replica, start, firstBeat);
+    return {.path = pathLength(fish, start, end),
+            .distanceAtEnd = overlay.distanceAt(end),
+            .distanceMost = overlay.mostTo(end),
+            .headingAtEnd = overlay.headingErrorAt(end, lastBeat),
+            .replicaWay = overlay.wayTo(end)};
+}
+
+class RootMeanSquare {
+  public:
+    void add(double value, double weight) {
+        sum_ += weight * value * value;
+        weight_ += weight;
+    }
+    [[nodiscard]] double value() const { return weight_ > 0 ? std::sqrt(sum_ / weight_) : 0; }
+
+  private:
+    double sum_ = 0;
+    double weight_ = 0;
+};
+
+// So large that this share of the values is not larger; 0 of none.
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const double rank = std::ceil(share * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+void addShapes(const Passage& passage, double lag, Comparison& comparison) {
+    for (std::size_t tick = passage.first + 1; tick <= passage.last; ++tick) {
+        const bool isThere = has(passage, static_cast<double>(tick) + lag);
+        comparison.shapeAsPlayed.push_back(std::sqrt(squaredShapeError(passage, tick, 0)));
+        comparison.shapeInPhase.push_back(
+            std::sqrt(squaredShapeError(passage, tick, isThere ? lag : 0)));
+    }
+}
+
+}  // namespace
+
+Comparison compare(const Script& script, const Traces& traces) {
+    const auto& [fish, replica, loose] = traces;
+    Comparison comparison;
+    auto first = static_cast<std::size_t>(script.front().ticks);
+    comparison.openLoop =
+        openLoopOf(fish, loose, first, script.front().beatTicks, script.back().beatTicks);
+    for (std::size_t i = 1; i < script.size(); ++i) {
+        const std::size_t last = first + static_cast<std::size_t>(script[i].ticks);
+        const auto transition = static_cast<std::size_t>(transitionTicksOf(script[i]));
+        const Passage passage{fish, replica, first, last, first + transition, script[i].beatTicks};
+        comparison.commands.push_back(errorsOf(script[i], passage, script[i - 1].beatTicks));
+        addShapes(passage, comparison.commands.back().lagTicks, comparison);
+        first = last;
+    }
+    return comparison;
+}
+
+Summary summarise(std::span<const CommandErrors> commands) {
+    Summary summary{.commands = commands.size()};
+    RootMeanSquare within, transition, asPlayed, heading;
+    std::vector<double> paths;
+    std::vector<double> agreements;
+    for (const CommandErrors& errors : commands) {
+        const int transitionTicks = transitionTicksOf(errors.command);
+        within.add(errors.shapeWithin, errors.command.ticks - transitionTicks);
+        transition.add(errors.shapeTransition, transitionTicks);
+        asPlayed.add(errors.shapeAsPlayed, errors.command.ticks);
+        heading.add(errors.headingError, 1);
+        paths.push_back(errors.pathErrorAtEnd);
+        if (errors.agreesAfterTicks)
+            agreements.push_back(*errors.agreesAfterTicks / kTicksPerSecond);
+        else
+            ++summary.neverAgree;
+    }
+    summary.shapeWithin = within.value();
+    summary.shapeTransition = transition.value();
+    summary.shapeAsPlayed = asPlayed.value();
+    summary.headingErrorRms = heading.value();
+    summary.pathErrorMedian = quantile(paths, 0.5);
+    summary.pathErrorNinth = quantile(paths, 0.9);
+    summary.pathErrorWorst = quantile(paths, 1);
+    summary.agreesAfterSeconds = quantile(agreements, 0.5);
+    return summary;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far a replica's trace is from that of the fish that it stands for.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "master/capture/fidelity/script.h"
+#include "master/capture/fidelity/trace.h"
+
+namespace aquarama {
+
+// Shape is what the 23 nodal points do in the body frame; its error is their root mean square
+// distance, in body lengths. Both begin a command at the same phase of the beat; what a transition
+// makes of that phase is given as a lag, that with which the shapes after it agree best.
+//
+// Paths are laid over each other at the start of each command: at the body frame's origin, and at
+// the heading, which is that of the nose averaged over the last beat, so that the beat's sway is
+// not taken for it.
+struct CommandErrors {
+    Command command;
+    int firstTick = 0;
+    double lagTicks = 0;                    // positive: the replica's shapes come too late
+    double shapeWithin = 0;                 // after the transition, at that lag
+    double shapeTransition = 0;             // the first beat, at that lag
+    double shapeAsPlayed = 0;               // the whole command, at no lag
+    std::optional<int> agreesAfterTicks{};  // the shapes, within 1 % of a body length over a beat
+
+    double path = 0;            // length of the fish's own way, body lengths
+    double pathErrorAtEnd = 0;  // shares of that
+    double pathErrorMost = 0;
+    double turn = 0;                       // of the fish, radians, left positive
+    double headingError = 0;               // at the end, of the replica against the fish, radians
+    std::vector<glm::dvec3> replicaWay{};  // laid over the fish's: at firstTick and each tick after
+};
+
+// From the start of the script on, never laid over each other again.
+struct OpenLoopErrors {
+    double path = 0;  // body lengths
+    double distanceAtEnd = 0;
+    double distanceMost = 0;
+    double headingAtEnd = 0;               // radians
+    std::vector<glm::dvec3> replicaWay{};  // from the end of the run-in on
+};
+
+struct Comparison {
+    std::vector<CommandErrors> commands;  // without the run-in
+    std::vector<double> shapeAsPlayed;    // at each tick of them, at no lag
+    std::vector<double> shapeInPhase;     // at the command's lag, and where it has none, that
+    OpenLoopErrors openLoop;
+};
+
+[[nodiscard]] Comparison compare(const Script& script, const Traces& traces);
+
+// Over some commands: shapes by the ticks that they took, a path error for each command.
+struct Summary {
+    std::size_t commands = 0;
+    double shapeWithin = 0;  // root mean squares
+    double shapeTransition = 0;
+    double shapeAsPlayed = 0;
+    double pathErrorMedian = 0;  // at the end, share of the path
+    double pathErrorNinth = 0;   // nine of ten are within it
+    double pathErrorWorst = 0;
+    double headingErrorRms = 0;     // radians
+    double agreesAfterSeconds = 0;  // median, of those that come to agree
+    std::size_t neverAgree = 0;
+};
+[[nodiscard]] Summary summarise(std::span<const CommandErrors> commands);
+
+}  // namespace aquarama

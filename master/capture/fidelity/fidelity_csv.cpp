@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "common/config/angle.h"
+#include "common/units/ids.h"
+#include "master/capture/fidelity/fidelity_report.h"
+#include "master/capture/report/svg.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr const char* kHead =
+    "species,command,start_s,duration_s,lag_s,shape_within_bl,shape_transition_bl,"
+    "shape_as_played_bl,agrees_after_s,path_bl,path_error_end,path_error_most,turn_deg,"
+    "heading_error_deg\n";
+
+template <std::size_t kCells>
+std::string row(const std::array<std::string, kCells>& cells) {
+    std::string line;
+    for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + cell;
+    return line + "\n";
+}
+
+std::string rowOf(const Fidelity& fidelity, const CommandErrors& errors) {
+    const double start = (errors.firstTick - fidelity.script.front().ticks) / kTicksPerSecond;
+    return row(std::array{
+        fidelity.species,
+        std::string(nameOf(errors.command.manoeuvre)),
+        fixed(start, 3),
+        fixed(errors.command.ticks / kTicksPerSecond, 3),
+        fixed(errors.lagTicks / kTicksPerSecond, 4),
+        fixed(errors.shapeWithin, 5),
+        fixed(errors.shapeTransition, 5),
+        fixed(errors.shapeAsPlayed, 5),
+        errors.agreesAfterTicks ? fixed(*errors.agreesAfterTicks / kTicksPerSecond, 3) : "",
+        fixed(errors.path, 3),
+        fixed(errors.pathErrorAtEnd, 4),
+        fixed(errors.pathErrorMost, 4),
+        fixed(errors.turn / kRadiansPerDegree, 2),
+        fixed(errors.headingError / kRadiansPerDegree, 2)});
+}
+
+std::string openLoopRow(const Fidelity& fidelity) {
+    const OpenLoopErrors& errors = fidelity.comparison.openLoop;
+    return row(std::array{fidelity.species,
+                          std::string("open_loop"),
+                          fixed(0, 3),
+                          fixed(ticksOf(fidelity.script) / kTicksPerSecond, 3),
+                          std::string(),
+                          std::string(),
+                          std::string(),
+                          std::string(),
+                          std::string(),
+                          fixed(errors.path, 3),
+                          fixed(errors.distanceAtEnd / errors.path, 4),
+                          fixed(errors.distanceMost / errors.path, 4),
+                          std::string(),
+                          fixed(errors.headingAtEnd / kRadiansPerDegree, 2)});
+}
+
+}  // namespace
+
+std::string fidelityCsv(std::span<const Fidelity> species) {
+    std::string csv = kHead;
+    for (const Fidelity& fidelity : species) {
+        for (const CommandErrors& errors : fidelity.comparison.commands)
+            csv += rowOf(fidelity, errors);
+        csv += openLoopRow(fidelity);
+    }
+    return csv;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "master/capture/commands.h"
+#include "master/capture/compile/config_folder.h"
+#include "master/capture/search/gait_table.h"
+
+namespace aquarama {
+
+namespace {
+
+struct GaitsOptions {
+    std::vector<std::string> species;
+    std::string config;
+};
+
+void printGaits(const GaitsOptions& options) {
+    const std::filesystem::path config =
+        options.config.empty() ? findConfigFolder() : std::filesystem::path(options.config);
+    std::cout << gaitTableHead();
+    for (const auto& file : speciesFiles(options.species, config))
+        std::cout << gaitTableRows(readSpecies(file.string())) << std::flush;
+}
+
+}  // namespace
+
+void addGaitsCommand(CLI::App& app) {
+    const auto options = std::make_shared<GaitsOptions>();
+    CLI::App& command = *app.add_subcommand("gaits", "how species swim, as a table in Markdown");
+    command.add_option("SPECIES", options->species, "names or files; all when none is given");
+    command.add_option("--config", options->config, "folder that holds species/*.txtpb");
+    command.callback([options] { printGaits(*options); });
+}
+
+}  // namespace aquarama

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters that the search may change, as a unit cube.
+#pragma once
+
+#include <vector>
+
+#include "common/config/species.h"
+
+namespace aquarama {
+
+// A point of the cube: each coordinate goes from a parameter's least value at 0 to its most at 1 by
+// equal factors.
+using SearchPoint = std::vector<double>;
+
+// Parameters outside their range come out on its edge.
+[[nodiscard]] SearchPoint pointOf(const Species& species);
+[[nodiscard]] Species speciesAt(const SearchPoint& point, const Species& species);
+
+}  // namespace aquarama

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <sstream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "master/capture/commands.h"
+#include "master/capture/compile/config_folder.h"
+#include "master/capture/compile/progress_bar.h"
+#include "master/capture/compile/repertoire_cache.h"
+#include "master/capture/search/gait_table.h"
+#include "master/capture/search/search.h"
+#include "master/capture/search/species_text.h"
+#include "master/capture/search/turn_strength.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SearchOptions {
+    std::string species;
+    std::string out;
+    std::string config;
+    std::size_t trials = 1000;
+};
+
+fs::path configFolder(const std::string& given) {
+    return given.empty() ? findConfigFolder() : fs::path(given);
+}
+
+std::string textOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string told(std::size_t trials, const Trial& best) {
+    std::ostringstream note;
+    note << std::fixed << std::setprecision(2) << "trial " << trials << ", Strouhal "
+         << best.leastStrouhal << "-" << best.mostStrouhal << ", stride " << best.leastStride << "-"
+         << best.mostStride << ", miss " << best.miss;
+    return note.str();
+}
+
+void search(const SearchOptions& options) {
+    const fs::path file = speciesFiles({options.species}, configFolder(options.config)).front();
+    const std::string text = textOf(file);
+    const Species species = parseSpecies(text, file.string());
+    SearchJournal journal(options.out + ".journal", searchName(text));
+    ProgressBar bar("searching " + species.name);
+    const Trial best =
+        searchGaits(species, options.trials, journal, [&](std::size_t trials, const Trial& soFar) {
+            bar.show(static_cast<double>(trials) / static_cast<double>(options.trials),
+                     told(trials, soFar));
+        });
+    bar.show(1, told(journal.trials().size(), best));
+
+    Species swimmer = speciesAt(best.point, species);
+    swimmer.turn = withFittingStrengths(swimmer);
+    const std::string found = withGaitsOf(swimmer, text);
+    writeWhole(options.out, std::as_bytes(std::span(found)));
+    std::cout << options.out << "\n\n"
+              << gaitTableHead() << gaitTableRows(parseSpecies(found, options.out));
+}
+
+}  // namespace
+
+void addSearchCommand(CLI::App& app) {
+    const auto options = std::make_shared<SearchOptions>();
+    CLI::App& command =
+        *app.add_subcommand("search", "find gait parameters with which a species swims");
+    command.add_option("SPECIES", options->species, "a name in the config folder, or a file")
+        ->required();
+    command
+        .add_option(
+            "--out",
+            options->out,
+            "the species file to write; beside it FILE.journal, with which the same command "
+            "goes on where it was interrupted")
+        ->required();
+    command.add_option("--trials", options->trials, "the most to make")->capture_default_str();
+    command.add_option("--config", options->config, "folder that holds species/*.txtpb");
+    command.callback([options] { search(*options); });
+}
+
+}  // namespace aquarama

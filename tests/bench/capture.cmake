@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES capture_bench.cpp LINK aquarama_compile)

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What capturing every species costs, from their files to encoded repertoires; the counter
+// peak_memory_mib is that of the whole program.
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "master/capture/compile/capture_repertoire.h"
+#include "master/capture/compile/config_folder.h"
+
+namespace aquarama {
+namespace {
+
+std::vector<Species> allSpecies() {
+    std::vector<Species> all;
+    for (const auto& file : speciesFiles({}, AQUARAMA_SOURCE_DIR "/config"))
+        all.push_back(readSpecies(file.string()));
+    return all;
+}
+
+void captureAll(benchmark::State& run) {
+    const std::vector<Species> species = allSpecies();
+    const auto threads = static_cast<unsigned>(run.range(0));
+    std::size_t bytes = 0;
+    for (auto _ : run) {
+        bytes = 0;
+        for (const CaptureOutcome& outcome : captureRepertoires(species, {.threads = threads})) {
+            if (!outcome.repertoire) {
+                run.SkipWithError(outcome.error.c_str());
+                return;
+            }
+            bytes += encodeRepertoire(*outcome.repertoire).size();
+        }
+    }
+    run.counters["species"] = static_cast<double>(species.size());
+    run.counters["seconds"] = benchmark::Counter(
+        1, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    run.counters["mebibytes"] = static_cast<double>(bytes) / (1024 * 1024);
+}
+BENCHMARK(captureAll)
+    ->Name("capture_all")
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->Iterations(1)
+    ->UseRealTime()
+    ->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every species of config/species with its repertoire, captured once for all tests of a program.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/config/species.h"
+#include "common/motion/motor.h"
+#include "master/capture/compile/capture_repertoire.h"
+
+namespace aquarama {
+
+inline std::vector<std::string> speciesNames() {
+    std::vector<std::string> names;
+    const std::filesystem::path folder = AQUARAMA_SOURCE_DIR "/config/species";
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        names.push_back(entry.path().stem());
+    std::ranges::sort(names);
+    return names;
+}
+
+inline const Repertoire& repertoireOf(const std::string& name) {
+    static std::map<std::string, Repertoire> captured;
+    if (!captured.contains(name)) {
+        const Species species =
+            readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + name + ".txtpb");
+        captured.emplace(name, captureRepertoire(species, [](double) {}));
+    }
+    return captured.at(name);
+}
+
+inline const MotorTables& tablesOf(const std::string& name) {
+    static std::map<std::string, std::shared_ptr<const MotorTables>> made;
+    auto& tables = made[name];
+    if (!tables) tables = makeMotorTables(repertoireOf(name));
+    return *tables;
+}
+
+// The same motion, but a speed that goes after the segment's as stated here.
+inline std::shared_ptr<const MotorTables> tablesOf(const std::string& name,
+                                                   const SpeedResponse& response) {
+    Repertoire repertoire = repertoireOf(name);
+    repertoire.response = response;
+    return makeMotorTables(repertoire);
+}
+
+// A claim about each species.
+class OfEachSpecies : public testing::TestWithParam<std::string> {
+  public:
+    static std::string suffix(const testing::TestParamInfo<std::string>& info) {
+        return info.param;
+    }
+};
+
+}  // namespace aquarama

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "common/body/fish_body.h"
+#include "common/config/species.h"
+#include "common/units/error.h"
+#include "tests/fuzz/promise.h"
+#include "tests/fuzz/targets.h"
+
+namespace aquarama {
+
+// What is read can also be built.
+int fuzzSpecies(const std::uint8_t* bytes, std::size_t size) {
+    const std::string text(reinterpret_cast<const char*>(bytes), size);
+    try {
+        const FishBody body = makeBody(parseSpecies(text, "fuzzed"));
+        promise(body.cage.vertices.size() == std::size_t{kControlPoints}, "a cage is whole");
+    } catch (const Error& error) {
+        promise(*error.what() != '\0', "an error says what is wrong");
+    }
+    return 0;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Thousands of damaged inputs to every reader, the same ones each time. A reader that crashes or
+// breaks its promise ends the program; --gtest_filter with the name of the last test repeats it.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/motion/repertoire.h"
+#include "common/wire/envelope.h"
+#include "tests/common/wire/sample_envelopes.h"
+#include "tests/fuzz/mutate.h"
+#include "tests/fuzz/targets.h"
+#include "tests/support/synthetic_repertoire.h"
+
+namespace aquarama {
+namespace {
+
+using Target = int (*)(const std::uint8_t* bytes, std::size_t size);
+
+FuzzInput inputOf(std::span<const std::byte> bytes) {
+    FuzzInput input(bytes.size());
+    std::ranges::transform(
+        bytes, input.begin(), [](std::byte b) { return static_cast<std::uint8_t>(b); });
+    return input;
+}
+
+std::vector<FuzzInput> filesIn(const std::string& folder) {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".txtpb") paths.push_back(entry.path());
+    std::ranges::sort(paths);
+    std::vector<FuzzInput> inputs;
+    for (const auto& path : paths) {
+        std::ifstream file(path, std::ios::binary);
+        inputs.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    }
+    return inputs;
+}
+
+void feed(Target target, const std::vector<FuzzInput>& seeds, int mutations) {
+    ASSERT_FALSE(seeds.empty());
+    for (const FuzzInput& seed : seeds) target(seed.data(), seed.size());
+    Random random(20261121);
+    for (int i = 0; i < mutations; ++i) {
+        const FuzzInput input = mutated(seeds, random);
+        target(input.data(), input.size());
+    }
+}
+
+TEST(Fuzz, damagedRepertoiresAreRefusedOrReadWhole) {
+    Repertoire repertoire = syntheticRepertoire(false);
+    std::vector<FuzzInput> seeds{inputOf(encodeRepertoire(repertoire))};
+    repertoire.segments[2].controlPoints = syntheticRepertoire(true).segments[2].controlPoints;
+    seeds.push_back(inputOf(encodeRepertoire(repertoire)));
+    feed(fuzzRepertoire, seeds, 2000);
+}
+
+TEST(Fuzz, damagedSpeciesAreRefusedOrCanBeBuilt) {
+    feed(fuzzSpecies, filesIn(AQUARAMA_SOURCE_DIR "/config/species"), 6000);
+}
+
+TEST(Fuzz, damagedRigsAreRefusedOrReadWhole) {
+    feed(fuzzRig, filesIn(AQUARAMA_SOURCE_DIR "/config"), 6000);
+}
+
+TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {
+    std::vector<FuzzInput> seeds;
+    for (const Envelope& envelope : sampleEnvelopes()) seeds.push_back(inputOf(encode(envelope)));
+    feed(fuzzWire, seeds, 50000);
+}
+
+}  // namespace
+}  // namespace aquarama

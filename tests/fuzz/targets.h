@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is fuzzed: every reader of bytes from outside. Each takes any bytes in the form of
+// LLVMFuzzerTestOneInput; it aborts where a reader breaks its promise, which is to refuse with an
+// Error or to mean exactly what was read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace aquarama {
+
+int fuzzRepertoire(const std::uint8_t* bytes, std::size_t size);
+int fuzzSpecies(const std::uint8_t* bytes, std::size_t size);
+int fuzzRig(const std::uint8_t* bytes, std::size_t size);
+int fuzzWire(const std::uint8_t* bytes, std::size_t size);
+
+}  // namespace aquarama

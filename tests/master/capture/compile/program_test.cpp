@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama-capture as it is used: what it leaves in its folder, on mistakes too.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "master/capture/compile/repertoire_cache.h"
+#include "tests/support/scad.h"
+
+namespace aquarama {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+  protected:
+    void SetUp() override {
+        fs::remove_all(root_);
+        fs::create_directories(root_);
+    }
+    void TearDown() override { fs::remove_all(root_); }
+
+    struct Outcome {
+        int status = -1;
+        std::string said;  // both streams
+    };
+    [[nodiscard]] Outcome capture(const std::string& arguments,
+                                  const std::string& before = "") const {
+        const std::string command = "XDG_CACHE_HOME=" + (root_ / "cache").string() + " " + before +
+                                    " \"$AQUARAMA_BIN\"/aquarama-capture --out " + out().string() +
+                                    " " + arguments + " 2>&1";
+        std::FILE* pipe = popen(command.c_str(), "r");
+        Outcome outcome;
+        for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe))
+            outcome.said += static_cast<char>(c);
+        outcome.status = WEXITSTATUS(pclose(pipe));
+        return outcome;
+    }
+    [[nodiscard]] fs::path out() const { return root_ / "out"; }
+    [[nodiscard]] std::set<std::string> left() const {
+        std::set<std::string> names;
+        for (const auto& entry : fs::directory_iterator(out()))
+            names.insert(entry.path().filename().string());
+        return names;
+    }
+    // A species file, with one text put in another's place.
+    [[nodiscard]] std::string edited(const std::string& good, const std::string& bad) const {
+        std::string text = readSpeciesText(kScadFile).text;
+        text.replace(text.find(good), good.size(), bad);
+        const fs::path path = root_ / "edited.txtpb";
+        std::ofstream(path) << text;
+        return path.string();
+    }
+
+  private:
+    fs::path root_ = fs::path(testing::TempDir()) /
+                     ("capture-" + std::to_string(getpid()) + "-" +
+                      testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(Program, leavesOneFileForEachSpeciesAndNothingElse) {
+    const Outcome first = capture("");
+    EXPECT_EQ(first.status, 0) << first.said;
+    std::set<std::string> expected;
+    for (const auto& entry : fs::directory_iterator(AQUARAMA_SOURCE_DIR "/config/species"))
+        expected.insert(entry.path().stem().string() + ".aqrep");
+    EXPECT_GE(expected.size(), 7U);
+    EXPECT_EQ(left(), expected);
+}
+
+TEST_F(Program, putsAFileInTheOldOnesPlaceAndSimulatesNothingTwice) {
+    fs::create_directories(out());
+    std::ofstream(out() / "bigeye_scad.aqrep") << "old";
+    EXPECT_THAT(capture("--species bigeye_scad").said, testing::HasSubstr("capturing"));
+    const auto fresh = readWhole(out() / "bigeye_scad.aqrep");
+    EXPECT_EQ(decodeRepertoire(fresh, "fresh").species, "bigeye_scad");
+    EXPECT_THAT(capture("--species bigeye_scad").said,
+                testing::Not(testing::HasSubstr("capturing")));
+    EXPECT_EQ(readWhole(out() / "bigeye_scad.aqrep"), fresh);
+    EXPECT_EQ(left(), std::set<std::string>{"bigeye_scad.aqrep"});
+}
+
+TEST_F(Program, namesASpeciesThatFailsAndCapturesTheOthers) {
+    const std::string broken = edited("time_scale: 1.5", "time_scale: -1");
+    const Outcome outcome = capture("--species bigeye_scad " + broken);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.said, testing::HasSubstr("edited.txtpb"));
+    EXPECT_THAT(outcome.said, testing::HasSubstr("1 of 2 species were not captured"));
+    EXPECT_EQ(left(), std::set<std::string>{"bigeye_scad.aqrep"});
+}
+
+TEST_F(Program, leavesNothingWhenItIsInterrupted) {
+    const Outcome outcome = capture("", "timeout --signal=INT 0.2");
+    EXPECT_NE(outcome.status, 0);
+    for (const std::string& name : left())
+        static_cast<void>(decodeRepertoire(readWhole(out() / name), name));  // whole, if any
+}
+
+TEST_F(Program, refusesAFolderThatIsAFile) {
+    std::ofstream{out()} << "a file";
+    const Outcome outcome = capture("--species bigeye_scad");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.said, testing::HasSubstr(out().string()));
+    EXPECT_THAT(outcome.said, testing::Not(testing::HasSubstr("capturing"))) << "before any work";
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// A beat is a cycle of the fish's motion, not only of its drive.
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "master/capture/compile/steady_swimming.h"
+#include "master/capture/dynamics/body_frame.h"
+#include "tests/master/capture/compile/all_species.h"
+
+namespace aquarama {
+namespace {
+
+using Steady = EachSpecies;
+INSTANTIATE_TEST_SUITE_P(Of,
+                         Steady,
+                         testing::Range(std::size_t{0}, allSpecies().size()),
+                         nameOfSpecies);
+
+std::array<Gait, 3> gaitsOf(const Species& species) {
+    return {species.swim.slow, species.swim.medium, species.swim.fast};
+}
+
+double meanDistance(const NodeVectors& a, const NodeVectors& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += glm::distance(a.at(i), b.at(i));
+    return sum / kNodalPoints;
+}
+
+// The period of a motion, in samples, from nothing but its poses: the lag, up to a third of what
+// was recorded, at which they are most like themselves.
+std::size_t periodOf(const std::vector<NodeVectors>& poses) {
+    std::size_t best = 0;
+    double least = 0;
+    const std::size_t mostLag = poses.size() / 3;
+    for (std::size_t lag = 4; lag <= mostLag; ++lag) {
+        double sum = 0;
+        for (std::size_t i = 0; i + mostLag < poses.size(); ++i)
+            sum += meanDistance(poses[i], poses[i + lag]);
+        if (best == 0 || sum < least) {
+            best = lag;
+            least = sum;
+        }
+    }
+    return best;
+}
+
+TEST_P(Steady, theMotionsOwnPeriodIsThatOfTheDrive) {
+    for (const Gait& gait : gaitsOf(species())) {
+        SteadySwimming steady = swimUntilSteady(species(), gait);
+        std::vector<NodeVectors> poses;
+        for (int sample = 0; sample < 5 * kPhases; ++sample) {
+            poses.push_back(inBodyFrame(steady.swimmer.state().positions));
+            steady.swimmer.advance(steady.stepsPerPhase);
+        }
+        EXPECT_EQ(periodOf(poses), std::size_t{kPhases}) << gait.beatHertz << " Hz";
+        EXPECT_NEAR(steady.swimmer.stepSeconds() * steady.stepsPerPhase * kPhases,
+                    1 / gait.beatHertz,
+                    1e-12);
+    }
+}
+
+TEST_P(Steady, theRecordedBeatIsRepeatedTenBeatsLater) {
+    SteadySwimming steady = swimUntilSteady(species(), species().swim.medium);
+    steady.swimmer.advance(9 * kPhases * steady.stepsPerPhase);
+    Recording later{.poses = {steady.swimmer.state().positions}};
+    for (int phase = 0; phase < kPhases; ++phase) {
+        steady.swimmer.advance(steady.stepsPerPhase);
+        later.poses.push_back(steady.swimmer.state().positions);
+    }
+    EXPECT_LT(differenceOf(steady.beat, later), 10 * kRepeatsBodyLengths);
+}
+
+TEST(SteadySwimming, aGaitThatNeverRepeatsIsRefusedBySpeciesAndGait) {
+    Species wild = allSpecies().front();
+    wild.name = "wild_fish";
+    wild.swim.medium = {.beatHertz = 0.37, .gain = std::nan("")};
+    try {
+        static_cast<void>(swimUntilSteady(wild, wild.swim.medium));
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::StartsWith("wild_fish: "));
+        EXPECT_THAT(error.what(), testing::HasSubstr("0.37 beats a second"));
+    }
+}
+
+}  // namespace
+}  // namespace aquarama

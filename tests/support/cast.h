@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The seven species of the show, as their files have them.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "common/config/species.h"
+
+namespace aquarama {
+
+inline const std::array<std::string, 7> kCast{"bigeye_scad",
+                                              "clownfish",
+                                              "moorish_idol",
+                                              "blue_tang",
+                                              "parrotfish",
+                                              "trumpetfish",
+                                              "blacktip_reef_shark"};
+
+inline Species castMember(const std::string& name) {
+    return readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + name + ".txtpb");
+}
+
+}  // namespace aquarama
