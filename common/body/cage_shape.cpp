@@ -54,7 +54,7 @@ float between(float from, float to, int step, int steps) {
 }
 
 // Rings crowd towards the nose, where the head curves most.
-float headStation(int ring, int lastRing, float lastStation) {
+float headStation(std::size_t ring, std::size_t lastRing, float lastStation) {
     const float share = static_cast<float>(ring) / static_cast<float>(lastRing);
     return glm::mix(kNoseStation, lastStation, std::pow(share, 1.35F));
 }
@@ -114,14 +114,14 @@ void CageShape::slantRings(const Species& species) {
     fill(belly_, 8, 15, pelvic_.baseRear().x, anal_.baseFront().x);
     fill(belly_, 15, 20, anal_.baseFront().x, anal_.baseRear().x);
     back_[kBodyEndRing] = belly_[kBodyEndRing] = flank_[kBodyEndRing] = end;
-    for (int r = 0; r < 6; ++r) {
+    for (std::size_t r = 0; r < 6; ++r) {
         back_.at(r) = headStation(r, 6, back_[6]);
         belly_.at(r) = headStation(r, 6, belly_[6]);
         flank_.at(r) = headStation(r, 5, root - kRootHalfLength);
     }
     flank_[6] = root + kRootHalfLength;
     const float middle = (back_[6] + belly_[6]) / 2;
-    for (int r = 7; r < kBodyEndRing; ++r)
+    for (std::size_t r = 7; r < kBodyEndRing; ++r)
         flank_.at(r) =
             glm::mix(flank_[6], end, ((back_.at(r) + belly_.at(r)) / 2 - middle) / (end - middle));
 }

@@ -40,6 +40,7 @@ constexpr std::array kDelegations{
                "capture",
                "export",
                "a segment as C3D, glTF or CSV: aquarama export FILE --segment NAME --c3d OUT"},
+    Delegation{"gaits", "capture", "gaits", "how species swim, as a table in Markdown"},
     Delegation{"search", "capture", "search", "gait parameters with which a species swims"},
     Delegation{"fidelity",
                "capture",

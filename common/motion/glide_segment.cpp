@@ -6,17 +6,14 @@
 namespace aquarama {
 namespace {
 
-// The mean of a cycle, point by point: swimming is its own mirror image half a beat later, so this
-// is a straight fish.
-template <class Poses, class Pose>
-void setMean(const Poses& poses, Pose& mean) {
-    for (std::size_t i = 0; i < mean.size(); ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            double sum = 0;
-            for (const Pose& pose : poses) sum += pose[i][axis];
-            mean[i][axis] = static_cast<std::int16_t>(roundToEven(sum / kPhases));
-        }
-    }
+// The mean of two poses, point by point.
+template <class Pose>
+Pose meanOf(const Pose& a, const Pose& b) {
+    Pose mean{};
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            mean[i][axis] = static_cast<std::int16_t>(roundToEven((a[i][axis] + b[i][axis]) / 2.0));
+    return mean;
 }
 
 }  // namespace
@@ -33,12 +30,17 @@ void addGlide(Repertoire& repertoire) {
     for (std::size_t k = 0; k < kPhases; ++k) forward += path.mean[k].forward;
     glide.increments.fill({{1, 0, 0, 0}, {static_cast<float>(forward / kPhases), 0, 0}});
 
-    setMean(medium.nodes, glide.nodes[0]);
-    glide.nodes.fill(NodalPose(glide.nodes[0]));
+    // A turn ends almost straight, with all muscles at rest; its mirror image bends to the other
+    // side. The mean of a beat would be straight too, but short: half the muscles pull all the
+    // time.
+    const ActionSegment& left =
+        repertoire.segments[static_cast<std::size_t>(Action::TurnLeftGradual)];
+    const ActionSegment& right =
+        repertoire.segments[static_cast<std::size_t>(Action::TurnRightGradual)];
+    glide.nodes.fill(meanOf(left.nodes.back(), right.nodes.back()));
     if (medium.controlPoints.empty()) return;
-    ControlPointPose straight{};
-    setMean(medium.controlPoints, straight);
-    glide.controlPoints.assign(kPhases, straight);
+    glide.controlPoints.assign(kPhases,
+                               meanOf(left.controlPoints.back(), right.controlPoints.back()));
 }
 
 }  // namespace aquarama

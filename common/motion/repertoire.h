@@ -73,8 +73,8 @@ struct Repertoire {
     std::array<ActionSegment, kActions> segments{};
 };
 
-// Fills in Action::Glide, which is not captured: the mean pose of forward_medium, straight on at
-// its speed. Motion warps lead into it and out of it (paper, section 4.2).
+// Fills in Action::Glide, which is not captured: the relaxed pose in which a gradual turn ends,
+// straight on at the speed of forward_medium. Motion warps lead into it and out of it (paper, section 4.2).
 void addGlide(Repertoire& repertoire);
 
 // The file: "AQREP", version, length, species, speed response, captured segments, SHA-256 of all

@@ -3,6 +3,7 @@
 // right, from above, bent to one side, and from the front, all of one length; and
 // FOLDER/species_sizes.png, all at one scale.
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <span>
@@ -37,7 +38,10 @@ Light shrunk(const Light& fine) {
 }
 
 void save(const Light& fine, const std::string& path) {
-    writePng(path, pictureOf(shrunk(fine), 8, 0));
+    Picture picture = pictureOf(shrunk(fine), 16, 0);  // 8 bits would be dithered: twice the file
+    picture.bits = 8;
+    for (std::uint16_t& code : picture.rgb) code = static_cast<std::uint16_t>(code >> 8);
+    writePng(path, picture);
     std::cout << path << '\n';
 }
 

@@ -11,8 +11,8 @@
 
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
+#include "common/skin/limit_table.h"
 #include "common/wall/picture.h"
-#include "render_node/surface/limit_table.h"
 
 namespace aquarama {
 

@@ -106,6 +106,11 @@ CommandErrors errorsOf(const Command& command, const Passage& passage, double be
     errors.path = pathLength(fish, first, last);
     errors.pathErrorAtEnd = overlay.distanceAt(last) / errors.path;
     errors.pathErrorMost = overlay.mostTo(last) / errors.path;
+    const glm::dvec3 chord = fish[last].frame.origin - fish[first].frame.origin;
+    const glm::dvec3 off = overlay.at(last) - fish[last].frame.origin;
+    const double ahead = glm::dot(off, glm::normalize(chord));
+    errors.pathErrorAlong = ahead / errors.path;
+    errors.pathErrorAcross = glm::length(off - ahead * glm::normalize(chord)) / errors.path;
     errors.turn = wrapped(headingAt(fish, last, beat) - headingAt(fish, first, beatBefore));
     errors.headingError = overlay.headingErrorAt(last, beat);
     errors.replicaWay = overlay.wayTo(last);
@@ -175,7 +180,7 @@ Comparison compare(const Script& script, const Traces& traces) {
 Summary summarise(std::span<const CommandErrors> commands) {
     Summary summary{.commands = commands.size()};
     RootMeanSquare within, transition, asPlayed, heading;
-    std::vector<double> paths;
+    std::vector<double> paths, along, across;
     std::vector<double> agreements;
     for (const CommandErrors& errors : commands) {
         const int transitionTicks = transitionTicksOf(errors.command);
@@ -184,6 +189,8 @@ Summary summarise(std::span<const CommandErrors> commands) {
         asPlayed.add(errors.shapeAsPlayed, errors.command.ticks);
         heading.add(errors.headingError, 1);
         paths.push_back(errors.pathErrorAtEnd);
+        along.push_back(std::abs(errors.pathErrorAlong));
+        across.push_back(errors.pathErrorAcross);
         if (errors.agreesAfterTicks)
             agreements.push_back(*errors.agreesAfterTicks / kTicksPerSecond);
         else
@@ -196,6 +203,8 @@ Summary summarise(std::span<const CommandErrors> commands) {
     summary.pathErrorMedian = quantile(paths, 0.5);
     summary.pathErrorNinth = quantile(paths, 0.9);
     summary.pathErrorWorst = quantile(paths, 1);
+    summary.pathErrorAlong = quantile(along, 0.5);
+    summary.pathErrorAcross = quantile(across, 0.5);
     summary.agreesAfterSeconds = quantile(agreements, 0.5);
     return summary;
 }

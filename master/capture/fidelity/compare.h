@@ -30,8 +30,10 @@ struct CommandErrors {
     double path = 0;            // length of the fish's own way, body lengths
     double pathErrorAtEnd = 0;  // shares of that
     double pathErrorMost = 0;
-    double turn = 0;                       // of the fish, radians, left positive
-    double headingError = 0;               // at the end, of the replica against the fish, radians
+    double pathErrorAlong = 0;   // what of it lies along the fish's way, positive: ahead; by speed
+    double pathErrorAcross = 0;  // and the rest: by heading
+    double turn = 0;             // of the fish, radians, left positive
+    double headingError = 0;     // at the end, of the replica against the fish, radians
     std::vector<glm::dvec3> replicaWay{};  // laid over the fish's: at firstTick and each tick after
 };
 
@@ -62,6 +64,8 @@ struct Summary {
     double pathErrorMedian = 0;  // at the end, share of the path
     double pathErrorNinth = 0;   // nine of ten are within it
     double pathErrorWorst = 0;
+    double pathErrorAlong = 0;  // medians of the magnitudes
+    double pathErrorAcross = 0;
     double headingErrorRms = 0;     // radians
     double agreesAfterSeconds = 0;  // median, of those that come to agree
     std::size_t neverAgree = 0;

@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* kHead =
     "species,command,start_s,duration_s,lag_s,shape_within_bl,shape_transition_bl,"
-    "shape_as_played_bl,agrees_after_s,path_bl,path_error_end,path_error_most,turn_deg,"
+    "shape_as_played_bl,agrees_after_s,path_bl,path_error_end,path_error_most,path_error_along,"
+    "path_error_across,turn_deg,"
     "heading_error_deg\n";
 
 template <std::size_t kCells>
@@ -37,6 +38,8 @@ std::string rowOf(const Fidelity& fidelity, const CommandErrors& errors) {
         fixed(errors.path, 3),
         fixed(errors.pathErrorAtEnd, 4),
         fixed(errors.pathErrorMost, 4),
+        fixed(errors.pathErrorAlong, 4),
+        fixed(errors.pathErrorAcross, 4),
         fixed(errors.turn / kRadiansPerDegree, 2),
         fixed(errors.headingError / kRadiansPerDegree, 2)});
 }
@@ -55,6 +58,8 @@ std::string openLoopRow(const Fidelity& fidelity) {
                           fixed(errors.path, 3),
                           fixed(errors.distanceAtEnd / errors.path, 4),
                           fixed(errors.distanceMost / errors.path, 4),
+                          std::string(),
+                          std::string(),
                           std::string(),
                           fixed(errors.headingAtEnd / kRadiansPerDegree, 2)});
 }

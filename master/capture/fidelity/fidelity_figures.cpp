@@ -29,7 +29,7 @@ constexpr std::array kKinds{Kind{"slow", "#9fc9e8"},
                             Kind{"gradual turn", "#f2b35c"},
                             Kind{"sharp turn", "#e0702c"},
                             Kind{"glide", "#9bbf7a"},
-                            Kind{"up, down", "#b59ad6"},
+                            Kind{"up, down, level", "#b59ad6"},
                             Kind{"brake, retreat", "#8a969e"}};
 
 const Kind& kindOf(Manoeuvre manoeuvre) {
@@ -50,6 +50,7 @@ const Kind& kindOf(Manoeuvre manoeuvre) {
             return kKinds[5];
         case Manoeuvre::Ascend:
         case Manoeuvre::Descend:
+        case Manoeuvre::Balance:
             return kKinds[6];
         case Manoeuvre::Brake:
         case Manoeuvre::Retreat:

@@ -26,7 +26,8 @@ svg { max-width: 100%; height: auto; display: block; margin: 1em 0; } summary { 
 <p>The biomechanical fish and its kinematic replica obey the same commands. Shape: root mean square distance of the
 23 nodal points in the body frame, in per cent of a body length (BL); within a segment, after the first beat, at the lag
 of its beat; and in the transition, the first beat as it was played. Path: distance at the end of a command, in
-per cent of the way, laid over each other at its start by place and heading. <span class="over">Over the goal</span>:
+per cent of the way, laid over each other at its start by place and heading; along the way it is the speed's, across it the heading's
+(medians). <span class="over">Over the goal</span>:
 shape 1 % within a segment, path 5 %.</p>
 )";
 constexpr double kShapeGoal = 0.01;
@@ -50,7 +51,8 @@ std::string degrees(double radians) {
 
 constexpr const char* kSummaryHead =
     "<table><tr><th>command</th><th>count</th><th>shape within, %</th><th>in transition, %</th>"
-    "<th>agrees after, s</th><th>path, median, %</th><th>9 of 10 within, %</th><th>worst, %</th>"
+    "<th>agrees after, s</th><th>path, median, %</th><th>9 of 10 within, %</th><th>worst, "
+    "%</th><th>along, %</th><th>across, %</th>"
     "<th>heading, rms, deg</th></tr>\n";
 
 std::string summaryRow(const std::string& name,
@@ -65,6 +67,8 @@ std::string summaryRow(const std::string& name,
                 percent(s.pathErrorMedian, kPathGoal),
                 percent(s.pathErrorNinth, kPathGoal),
                 percent(s.pathErrorWorst, kPathGoal),
+                percent(s.pathErrorAlong),
+                percent(s.pathErrorAcross),
                 degrees(s.headingErrorRms)},
                attributes);
 }
@@ -128,22 +132,25 @@ std::string fidelityPage(std::span<const Fidelity> species,
 std::string fidelityMarkdown(std::span<const Fidelity> species) {
     std::string table =
         "| species | commands | shape within a segment, % BL | shape in transitions, % BL "
-        "| path, median, % | path, 9 of 10 within, % | heading, rms, deg | open loop: way, BL "
-        "| off at the end, BL | heading off, deg |\n|---|---|---|---|---|---|---|---|---|---|\n"
-        "| *goal* | | *1* | | *5* | *5* | | | | |\n";
+        "| path, median, % | along, across, % | path, 9 of 10 within, % | heading, rms, deg | open "
+        "loop: way, BL "
+        "| off at the end, BL | heading off, deg |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
+        "| *goal* | | *1* | | *5* | | *5* | | | | |\n";
     for (const Fidelity& fidelity : species) {
         const Summary s = summarise(fidelity.comparison.commands);
         const OpenLoopErrors& e = fidelity.comparison.openLoop;
-        for (const std::string& cell : {fidelity.species,
-                                        std::to_string(s.commands),
-                                        percent(s.shapeWithin),
-                                        percent(s.shapeTransition),
-                                        fixed(s.pathErrorMedian * 100, 1),
-                                        fixed(s.pathErrorNinth * 100, 1),
-                                        degrees(s.headingErrorRms),
-                                        fixed(e.path, 0),
-                                        fixed(e.distanceAtEnd, 1),
-                                        degrees(e.headingAtEnd)})
+        for (const std::string& cell :
+             {fidelity.species,
+              std::to_string(s.commands),
+              percent(s.shapeWithin),
+              percent(s.shapeTransition),
+              fixed(s.pathErrorMedian * 100, 1),
+              fixed(s.pathErrorAlong * 100, 1) + ", " + fixed(s.pathErrorAcross * 100, 1),
+              fixed(s.pathErrorNinth * 100, 1),
+              degrees(s.headingErrorRms),
+              fixed(e.path, 0),
+              fixed(e.distanceAtEnd, 1),
+              degrees(e.headingAtEnd)})
             table += "| " + cell + " ";
         table += "|\n";
     }

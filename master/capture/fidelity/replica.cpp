@@ -19,6 +19,7 @@ Action actionOf(Manoeuvre manoeuvre) {
     switch (manoeuvre) {
         case Manoeuvre::Ascend:
         case Manoeuvre::Descend:
+        case Manoeuvre::Balance:
             return Action::ForwardMedium;
         case Manoeuvre::Brake:
             return Action::Glide;

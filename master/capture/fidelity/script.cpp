@@ -36,6 +36,7 @@ constexpr std::array kAfterSlow{Choice{Manoeuvre::ForwardMedium, 7},
 constexpr std::array kAfterFast{Choice{Manoeuvre::ForwardMedium, 7},
                                 Choice{Manoeuvre::ForwardSlow, 2},
                                 Choice{Manoeuvre::Glide, 1}};
+constexpr std::array kAfterSlope{Choice{Manoeuvre::Balance, 1}};
 constexpr std::array kAfterOthers{Choice{Manoeuvre::ForwardMedium, 8},
                                   Choice{Manoeuvre::ForwardSlow, 1},
                                   Choice{Manoeuvre::ForwardFast, 1}};
@@ -48,6 +49,9 @@ std::span<const Choice> choicesAfter(Manoeuvre manoeuvre) {
             return kAfterSlow;
         case Manoeuvre::ForwardFast:
             return kAfterFast;
+        case Manoeuvre::Ascend:
+        case Manoeuvre::Descend:
+            return kAfterSlope;
         default:
             return kAfterOthers;
     }
@@ -116,6 +120,8 @@ const char* nameOf(Manoeuvre manoeuvre) {
             return "ascend";
         case Manoeuvre::Descend:
             return "descend";
+        case Manoeuvre::Balance:
+            return "balance";
         case Manoeuvre::Brake:
             return "brake";
         case Manoeuvre::Retreat:

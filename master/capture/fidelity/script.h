@@ -21,10 +21,11 @@ enum class Manoeuvre : std::uint8_t {
     Glide,
     Ascend,
     Descend,
+    Balance,
     Brake,
     Retreat,
 };
-inline constexpr int kManoeuvres = 12;
+inline constexpr int kManoeuvres = 13;
 [[nodiscard]] const char* nameOf(Manoeuvre manoeuvre);
 [[nodiscard]] constexpr bool isTurn(Manoeuvre m) {
     return m >= Manoeuvre::TurnLeftGradual && m <= Manoeuvre::TurnRightSharp;
@@ -42,7 +43,8 @@ using Script = std::vector<Command>;
 
 // A run-in of steady swimming at medium speed, then commands until `seconds` of them are full; the
 // last one ends as late as it must. Gaits last some of their beats, turns come out of medium
-// swimming and last their segment, and the rest is rare. A pure function of its arguments.
+// swimming and last their segment, who has risen or sunk levels out, and the rest is rare. A pure
+// function of its arguments.
 [[nodiscard]] Script makeScript(const Repertoire& repertoire, std::uint64_t seed, double seconds);
 
 // Of the script without its run-in.

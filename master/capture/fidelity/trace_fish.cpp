@@ -37,6 +37,8 @@ Order orderFor(const Species& species, Manoeuvre manoeuvre) {
             return {.controller = Controller::Descend,
                     .gait = swim.medium,
                     .pitchRadians = kScriptPitchRadians};
+        case Manoeuvre::Balance:
+            return {.controller = Controller::Balance, .gait = swim.medium};
         case Manoeuvre::Brake:
             return {.controller = Controller::Brake};
         case Manoeuvre::Retreat:

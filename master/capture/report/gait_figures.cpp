@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "master/capture/measure/measure.h"
@@ -199,14 +198,6 @@ std::string drawMidlines(const Repertoire& repertoire, Action gait) {
         svg.polyline(plot.at(published), kPublishedStyle);
     }
     return std::move(svg).finish();
-}
-
-double waveLength(const ActionSegment& gait) {
-    const Swing swing = swingOf(midlinesOf(gait));
-    std::vector<glm::dvec2> rear;
-    for (std::size_t j = 0; j < swing.station.size(); ++j)
-        if (swing.station[j] >= 0.5) rear.emplace_back(swing.station[j], swing.lag[j]);
-    return 2 * std::numbers::pi / leastSquares(rear).slope;
 }
 
 }  // namespace aquarama

@@ -30,8 +30,4 @@ struct SpeedLine {
 // each point of them swings, and a saithe's does (Videler & Hess 1984).
 [[nodiscard]] std::string drawMidlines(const Repertoire& repertoire, Action gait);
 
-// Length of the wave that travels down the body, in body lengths: from the phase of the first
-// harmonic along the rear half of the midline. Negative where it travels forwards.
-[[nodiscard]] double waveLength(const ActionSegment& gait);
-
 }  // namespace aquarama

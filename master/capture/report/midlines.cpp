@@ -2,9 +2,6 @@
 #include "master/capture/report/midlines.h"
 
 #include <algorithm>
-#include <cmath>
-#include <complex>
-#include <numbers>
 
 #include "master/capture/measure/course.h"
 #include "master/capture/report/fish_view.h"
@@ -13,8 +10,6 @@ namespace aquarama {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-
 Midline midlineAt(const ReplayedPhase& phase, double travelled) {
     Midline line;
     for (const glm::dvec2& point : midlineFromAbove(phase)) {
@@ -22,12 +17,6 @@ Midline midlineAt(const ReplayedPhase& phase, double travelled) {
         line.left.push_back(-point.y);
     }
     return line;
-}
-
-// A wave that runs to the tail comes later there: lags that only grow by less than half a turn.
-void unwrap(std::vector<double>& lag) {
-    for (std::size_t j = 1; j < lag.size(); ++j)
-        lag[j] -= kTurn * std::round((lag[j] - lag[j - 1]) / kTurn);
 }
 
 }  // namespace
@@ -56,20 +45,15 @@ Swing swingOf(const std::vector<Midline>& lines) {
         double least = 1;
         double most = -1;
         double station = 0;
-        std::complex<double> harmonic;
         for (std::size_t k = 0; k < lines.size(); ++k) {
             const double left = lines[k].left[j];
             least = std::min(least, left);
             most = std::max(most, left);
             station += lines[k].station[j] / static_cast<double>(lines.size());
-            harmonic += std::polar(
-                left, kTurn * static_cast<double>(k) / static_cast<double>(lines.size()));
         }
         swing.station.push_back(station);
         swing.half.push_back((most - least) / 2);
-        swing.lag.push_back(std::arg(harmonic));
     }
-    unwrap(swing.lag);
     return swing;
 }
 

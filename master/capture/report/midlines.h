@@ -20,7 +20,6 @@ struct Midline {
 struct Swing {
     std::vector<double> station;  // its mean
     std::vector<double> half;     // half of its way from side to side
-    std::vector<double> lag;      // of its first harmonic behind the beat, radians, unwrapped
 };
 [[nodiscard]] Swing swingOf(const std::vector<Midline>& lines);
 

@@ -8,6 +8,7 @@
 
 #include "common/config/angle.h"
 #include "common/units/digest.h"
+#include "master/capture/measure/body_wave.h"
 #include "master/capture/measure/measure.h"
 #include "master/capture/report/closure.h"
 #include "master/capture/report/gait_figures.h"
@@ -81,8 +82,8 @@ constexpr std::array kQuantities{
              3,
              "0.008&ndash;0.024 (largemouth bass)",
              "Jayne &amp; Lauder 1995"},
-    Quantity{"wave along the rear half, BL",
-             [](const ActionSegment& s) { return waveLength(s); },
+    Quantity{"length of the body wave, BL",
+             [](const ActionSegment& s) { return bodyWave(s).wavelength; },
              2,
              "0.9&ndash;1.1 (carangiform)",
              "Videler &amp; Hess 1984"},

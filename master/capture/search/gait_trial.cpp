@@ -15,7 +15,7 @@ namespace {
 
 // Speed takes dozens of beats to settle, the wave only a few.
 constexpr double kFlyingStart = 0.62;  // body lengths a beat, as most fish go
-constexpr int kWarmUpBeats = 6;
+constexpr int kWarmUpBeats = 12;
 
 GaitFigures figuresOf(const Gait& gait, const Recording& beat) {
     const ActionSegment segment = compileForward(beat);

@@ -20,7 +20,7 @@ using ForwardFigures = std::array<GaitFigures, 3>;  // slow, medium, fast
 // As it is captured: when the beat repeats itself. Throws Error when it does not.
 [[nodiscard]] GaitFigures steadyFigures(const Species& species, const Gait& gait);
 
-// The same three gaits at a fraction of the cost and within 3 %: from a flying start, after a few
+// The same three gaits at a fraction of the cost and within 1 %: from a flying start, after a few
 // beats, side by side on threads of their own.
 [[nodiscard]] ForwardFigures quickFigures(const Species& species);
 

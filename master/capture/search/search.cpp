@@ -16,6 +16,7 @@ namespace {
 
 // Raise it when simulation, objective or parameters change what comes out.
 constexpr const char* kSearchVersion = "aquarama search 1";
+constexpr double kSwims = 0.01;       // a miss by a tenth of one tolerance
 constexpr double kFirstStep = 0.1;    // of the range of each parameter
 constexpr double kDoesNotSwim = 1e6;  // the miss of a fish that finds no steady beat
 
@@ -79,7 +80,7 @@ Trial searchGaits(const Species& species,
     optimiser.set_upper_bounds(1.0);
     optimiser.set_initial_step(kFirstStep);
     optimiser.set_maxeval(static_cast<int>(mostTrials));
-    optimiser.set_stopval(0);
+    optimiser.set_stopval(kSwims);
 
     // NLopt hands on none but its own exceptions.
     struct Evaluation {

@@ -11,6 +11,7 @@ namespace aquarama {
 
 namespace {
 
+// Contraction is none of them: swimming knows only its product with the drives, and turns need it.
 // Stiffness counts all three kinds together, whose ratios a species keeps; its frequencies and time
 // scale are its own, and gains are relative to medium swimming.
 struct Parameter {
@@ -37,10 +38,6 @@ constexpr std::array kParameters{
               8,
               [](const Species& s) { return s.tissue.damping; },
               [](Species& s, double v) { s.tissue.damping = v; }},
-    Parameter{0.2,
-              0.45,
-              [](const Species& s) { return s.tissue.muscleContraction; },
-              [](Species& s, double v) { s.tissue.muscleContraction = v; }},
     Parameter{150,
               900,
               [](const Species& s) { return s.water.drag; },

@@ -103,7 +103,6 @@ std::string withGaitsOf(const Species& species, std::string text) {
     set({"tissue", "muscle_stiffness"}, tissue.muscleStiffness);
     set({"tissue", "tail_stiffening"}, tissue.tailStiffening);
     set({"tissue", "damping"}, tissue.damping);
-    set({"tissue", "muscle_contraction"}, tissue.muscleContraction);
     set({"water", "drag"}, water.drag);
     set({"water", "front_factor"}, water.frontFactor);
     set({"swim", "middle_drive"}, swim.middleDrive);

@@ -8,7 +8,7 @@ namespace aquarama {
 
 // The middle of what a gradual turn (20 to 40 degrees) and a sharp one (40 to 80) may be.
 inline constexpr double kGradualDegrees = 30;
-inline constexpr double kSharpDegrees = 60;
+inline constexpr double kSharpDegrees = 58;
 
 // Strengths with which left turns out of medium swimming go as far as that on the average over the
 // beat, or as near as the fish can; at the tempos that the species has. Throws Error when it does

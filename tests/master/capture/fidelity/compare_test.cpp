@@ -79,6 +79,8 @@ TEST(Compare, givesTheShareOfTheWayByWhichASlowerSwimmerLags) {
     const Trace slow = swimmer({.speedFactor = 0.9});
     const Comparison comparison = compare(twoCommands(), {swimmer({}), slow, slow});
     EXPECT_NEAR(comparison.commands.front().pathErrorAtEnd, 0.1, 1e-9);
+    EXPECT_NEAR(comparison.commands.front().pathErrorAlong, -0.1, 1e-9);
+    EXPECT_NEAR(comparison.commands.front().pathErrorAcross, 0, 1e-9);
     EXPECT_NEAR(comparison.openLoop.distanceAtEnd, 0.1 * kTicks * kSpeed, 1e-9);
 }
 
@@ -88,6 +90,8 @@ TEST(Compare, givesTheDistanceBetweenAnArcAndItsTangent) {
     const double apart = std::hypot(1 - std::sin(kTurn) / kTurn, (1 - std::cos(kTurn)) / kTurn);
     EXPECT_NEAR(errors.pathErrorAtEnd, apart, 0.005);
     EXPECT_NEAR(errors.pathErrorMost, apart, 0.005);
+    EXPECT_NEAR(errors.pathErrorAlong, std::sin(kTurn) / kTurn - 1, 0.005);
+    EXPECT_NEAR(errors.pathErrorAcross, (1 - std::cos(kTurn)) / kTurn, 0.005);
     // The heading is that of the last beat, half a beat ago on the mean.
     EXPECT_NEAR(errors.headingError, kTurn * (1 - (kBeatTicks / 2) / kTicks), 0.01);
     EXPECT_NEAR(errors.turn, 0, 1e-9);

@@ -26,7 +26,7 @@ TEST(FidelityReport, csvHasALineForEachCommandAndOneForTheWhole) {
     const std::string csv = fidelityCsv(fidelities());
     const std::size_t lines = count(csv, "\n");
     EXPECT_EQ(lines, 1 + fidelities().front().comparison.commands.size() + 1);
-    EXPECT_EQ(count(csv, ","), 13 * lines);
+    EXPECT_EQ(count(csv, ","), 15 * lines);
     EXPECT_EQ(count(csv, "open_loop"), 1U);
 }
 

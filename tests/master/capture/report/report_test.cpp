@@ -101,14 +101,6 @@ TEST(SpeedLine, goesThroughGaitsThatLieOnOne) {
     EXPECT_NEAR(line.rSquared, 1, 1e-6);
 }
 
-TEST(BodyWave, runsToTheTailAndIsAboutABodyLong) {
-    for (std::size_t i = 0; i < kGaits; ++i) {
-        const double length = waveLength(scadRepertoire().segments.at(i));
-        EXPECT_GT(length, 0.6) << i;
-        EXPECT_LT(length, 2.0) << i;
-    }
-}
-
 TEST(Turn, radiusIsThatOfTheCircleItGoesRound) {
     const float turn = 0.5F;
     const float radius = 1.5F;

@@ -30,18 +30,17 @@ class Search : public testing::Test {
 
     fs::path path_ = testing::TempDir() + "aquarama_search_test.journal";
     Species start_ = [] {
-        Species weak = scad();  // too soft a tail, too late a back: St is far above a fish's
-        weak.tissue.tailStiffening = 1;
-        weak.water.frontFactor = 0.6;
-        weak.swim.middleDrive = 0.3;
-        weak.swim.backLagRadians = 2.9;
+        Species weak = scad();  // Tu's lag of half a beat, and a head that stands in the way
+        weak.water.frontFactor = 0.7;
+        weak.swim.middleDrive = 0.5;
+        weak.swim.backLagRadians = 3.05;
         return weak;
     }();
 };
 
 TEST_F(Search, findsFishLikeStrouhalNumbersFromABadStart) {
     double worstAtStart = 0;
-    const Trial best = search(80, [&](std::size_t trials, const Trial& soFar) {
+    const Trial best = search(60, [&](std::size_t trials, const Trial& soFar) {
         if (trials == 1) worstAtStart = soFar.mostStrouhal;
     });
     EXPECT_GT(worstAtStart, 0.4);
@@ -78,7 +77,7 @@ TEST_F(Search, doesNotTakeTheTrialsOfAnotherProgram) {
 
 TEST_F(Search, aSpeciesThatSwimsWellIsLeftAsItIs) {
     start_ = scad();
-    EXPECT_EQ(search(50).miss, 0);
+    EXPECT_LT(search(50).miss, 0.01);
     EXPECT_EQ(SearchJournal(path_, "scad").trials().size(), 1U);
 }
 
