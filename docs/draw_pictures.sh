@@ -11,6 +11,7 @@ build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$
 cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
+build/show/bin/aquarama-capture controllers --out docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
 for figure in forward_medium turn_right_sharp midlines_forward_medium; do
     sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"

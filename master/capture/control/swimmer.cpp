@@ -36,7 +36,7 @@ void Swimmer::give(const Order& order) {
     if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
     ownSecondsOfOrder_ = 0;
     headingOfOrder_ = attitude_.headingRadians;
-    musclesBefore_ = muscles_;
+    musclesBefore_ = control_.muscles;
 }
 
 void Swimmer::advance(int steps) {
@@ -44,8 +44,9 @@ void Swimmer::advance(int steps) {
 }
 
 void Swimmer::advanceOne() {
-    muscles_ = mix(musclesBefore_, muscleProgram(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
-    step(fish_, {.muscles = muscles_, .fins = finProgram()}, stepSeconds_, state_);
+    const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
+    control_ = {.muscles = mix(musclesBefore_, muscleProgram(), handedOver), .fins = finProgram()};
+    step(fish_, control_, stepSeconds_, state_);
     ++steps_;
     attitude_ =
         sense(attitude_, state_, stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));

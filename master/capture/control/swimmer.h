@@ -47,6 +47,7 @@ class Swimmer {
     [[nodiscard]] double stepSeconds() const { return stepSeconds_; }
     [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }
     [[nodiscard]] const FishState& state() const { return state_; }
+    [[nodiscard]] const MotorControl& control() const { return control_; }  // of the last step
 
   private:
     void advanceOne();
@@ -68,7 +69,7 @@ class Swimmer {
     double beat_ = 0;  // 0 to 1
     double headingOfOrder_ = 0;
     Attitude attitude_;  // as sensed
-    MuscleActivation muscles_;
+    MotorControl control_;
     MuscleActivation musclesBefore_;  // when the order came
 };
 

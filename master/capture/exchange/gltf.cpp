@@ -13,10 +13,6 @@ namespace aquarama {
 
 namespace {
 
-// Shapes of the skin and keys of the animation in a cycle. Half the recorded phases: straight lines
-// between them leave the way of a tail tip by a thousandth of a body length.
-constexpr int kShapes = 32;
-
 std::vector<glm::vec3> minus(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
     std::vector<glm::vec3> difference = a;
     for (std::size_t i = 0; i < a.size(); ++i) difference[i] -= b[i];
@@ -62,17 +58,17 @@ int addMesh(tinygltf::Model& model, const SwimmingSkin& skin) {
 }
 
 // At frame i of the take shape i of the cycle has all the weight.
-std::vector<float> weightsOf(const Take& take) {
-    constexpr std::size_t kTargets = kShapes - 1;
-    std::vector<float> weights(take.frames.size() * kTargets, 0.0F);
+std::vector<float> weightsOf(const Take& take, std::size_t shapes) {
+    const std::size_t targets = shapes - 1;
+    std::vector<float> weights(take.frames.size() * targets, 0.0F);
     for (std::size_t i = 0; i < take.frames.size(); ++i) {
-        const std::size_t shape = i % kShapes;
-        if (shape > 0) weights[i * kTargets + shape - 1] = 1.0F;
+        const std::size_t shape = i % shapes;
+        if (shape > 0) weights[i * targets + shape - 1] = 1.0F;
     }
     return weights;
 }
 
-void addAnimation(tinygltf::Model& model, const Take& take, int node) {
+void addAnimation(tinygltf::Model& model, const Take& take, std::size_t shapes, int node) {
     std::vector<float> times;
     std::vector<glm::vec3> translations;
     std::vector<glm::vec4> rotations;
@@ -98,7 +94,7 @@ void addAnimation(tinygltf::Model& model, const Take& take, int node) {
     };
     animate("translation", addKeys(model, std::span<const glm::vec3>(translations)));
     animate("rotation", addKeys(model, std::span<const glm::vec4>(rotations)));
-    animate("weights", addKeys(model, std::span<const float>(weightsOf(take))));
+    animate("weights", addKeys(model, std::span<const float>(weightsOf(take, shapes))));
     model.animations.push_back(animation);
 }
 
@@ -126,18 +122,24 @@ std::vector<std::byte> written(const tinygltf::Model& model, GltfContainer conta
 
 }  // namespace
 
+int gltfShapes(const ActionSegment& segment) {
+    return segment.playsToEnd ? kPhases : kPhases / 2;
+}
+
 std::vector<std::byte> gltfOf(const Repertoire& repertoire,
                               const FishBody& body,
                               Action action,
                               int cycles,
                               GltfContainer container) {
-    const Take take = takeAtPhases(repertoire, action, cycles, kShapes);
     const ActionSegment& segment = repertoire.segments.at(static_cast<std::size_t>(action));
+    const int shapes = gltfShapes(segment);
+    const Take take = takeAtPhases(repertoire, action, cycles, shapes);
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "Aquarama";
-    const int mesh = addMesh(model, skinOf(body, segment, take.lengthMetres, kShapes));
-    addAnimation(model, take, addFish(model, take.species, mesh));
+    const SwimmingSkin skin = skinOf(body, segment, take.lengthMetres, shapes);
+    const int node = addFish(model, take.species, addMesh(model, skin));
+    addAnimation(model, take, skin.shapes.size(), node);
     return written(model, container);
 }
 

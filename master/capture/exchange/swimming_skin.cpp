@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/capture/exchange/swimming_skin.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "common/skin/limit_table.h"
+#include "master/capture/measure/measure.h"
 
 namespace aquarama {
 
@@ -13,10 +15,9 @@ constexpr int kSurfaceLevel = 1;  // 1698 vertices; its normals are the limit su
 
 NodalPoints nodesAt(const ActionSegment& segment, std::size_t phase) {
     NodalPoints nodes{};
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const auto& integers = segment.nodes.at(phase).at(i);
-        nodes.at(i) = kPoseUnit * glm::vec3(integers[0], integers[1], integers[2]);
-    }
+    std::ranges::transform(poseAt(segment, phase), nodes.begin(), [](const glm::dvec3& node) {
+        return glm::vec3(node);
+    });
     return nodes;
 }
 

@@ -88,6 +88,8 @@ Beats beatsOf(Manoeuvre manoeuvre) {
         case Manoeuvre::Glide:
         case Manoeuvre::Retreat:
             return {2, 4};
+        case Manoeuvre::Balance:
+            return {6, 9};
         default:
             return {3, 7};
     }

@@ -13,16 +13,6 @@ namespace aquarama {
 
 namespace {
 
-NodeVectors poseAt(const ActionSegment& segment, std::size_t phase) {
-    NodeVectors pose{};
-    for (std::size_t i = 0; i < pose.size(); ++i) {
-        const auto& integers = segment.nodes.at(phase % kPhases).at(i);
-        pose.at(i) =
-            static_cast<double>(kPoseUnit) * glm::dvec3(integers[0], integers[1], integers[2]);
-    }
-    return pose;
-}
-
 double largestStepOf(const ActionSegment& segment) {
     const double phasesInTick =
         kPhases / (static_cast<double>(segment.periodSeconds) * kTicksPerSecond);
@@ -66,6 +56,16 @@ double peakToPeak(const std::vector<ReplayedPhase>& phases,
 }
 
 }  // namespace
+
+NodeVectors poseAt(const ActionSegment& segment, std::size_t phase) {
+    NodeVectors pose{};
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+        const auto& integers = segment.nodes.at(phase % kPhases).at(i);
+        pose.at(i) =
+            static_cast<double>(kPoseUnit) * glm::dvec3(integers[0], integers[1], integers[2]);
+    }
+    return pose;
+}
 
 std::vector<ReplayedPhase> replay(const ActionSegment& segment, int cycles) {
     std::vector<ReplayedPhase> phases;

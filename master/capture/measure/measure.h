@@ -18,6 +18,9 @@ struct ReplayedPhase {
     NodeVectors nodes{};
 };
 
+// Nodal points in the body frame at a phase of any cycle; body lengths.
+[[nodiscard]] NodeVectors poseAt(const ActionSegment& segment, std::size_t phase);
+
 // kPhases phases a cycle and the end of the last one.
 [[nodiscard]] std::vector<ReplayedPhase> replay(const ActionSegment& segment, int cycles);
 

@@ -6,6 +6,8 @@
 
 #include "common/body/cage_topology.h"
 #include "master/capture/dynamics/anatomy.h"
+#include "master/capture/measure/measure.h"
+#include "master/capture/report/fish_view.h"
 #include "master/capture/report/path_figures.h"
 #include "master/capture/report/plot.h"
 
@@ -18,14 +20,6 @@ constexpr const char* kSpring = R"(stroke="#8ba0ab" stroke-width="0.8")";
 constexpr const char* kMuscle = R"(stroke="#bf4a24" stroke-width="2")";
 constexpr double kScale = 430;  // paper units a body length
 constexpr double kMargin = 16;
-
-template <class Pose>
-std::vector<glm::dvec3> pointsOf(const Pose& pose) {
-    std::vector<glm::dvec3> points;
-    for (const auto& p : pose)
-        points.emplace_back(glm::dvec3(p[0], p[1], p[2]) * static_cast<double>(kPoseUnit));
-    return points;
-}
 
 // The head to the right; from the side y is up, from above the right of the fish is down.
 using View = glm::dvec2 (*)(const glm::dvec3&);
@@ -74,9 +68,10 @@ Bounds boundsOf(View view, const std::vector<glm::dvec3>& a, const std::vector<g
 
 std::string drawBody(const Repertoire& repertoire) {
     const ActionSegment& straight = repertoire.segments.at(static_cast<std::size_t>(Action::Glide));
-    const std::vector<glm::dvec3> nodes = pointsOf(straight.nodes[0]);
+    const NodeVectors pose = poseAt(straight, 0);
+    const std::vector<glm::dvec3> nodes(pose.begin(), pose.end());
     std::vector<glm::dvec3> cage;
-    if (!straight.controlPoints.empty()) cage = pointsOf(straight.controlPoints[0]);
+    if (!straight.controlPoints.empty()) cage = controlPointsAt(straight, 0);
     const View fromTheSide = [](const glm::dvec3& p) { return glm::dvec2(p.x, -p.y); };
     const View fromTheTop = [](const glm::dvec3& p) { return glm::dvec2(p.x, p.z); };
     const Bounds side = boundsOf(fromTheSide, nodes, cage);

@@ -2,6 +2,7 @@
 #include "master/capture/report/closure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,17 +14,14 @@ namespace aquarama {
 
 namespace {
 
-glm::dvec3 nodeAt(const ActionSegment& segment, std::size_t phase, std::size_t node) {
-    const auto& integers = segment.nodes.at(phase % kPhases).at(node);
-    return static_cast<double>(kPoseUnit) * glm::dvec3(integers[0], integers[1], integers[2]);
-}
-
 double roughnessAt(const ActionSegment& segment, std::size_t k) {
+    const auto ahead = [&](std::size_t phases) { return poseAt(segment, k + phases); };
+    const std::array poses{ahead(kPhases - 2), ahead(kPhases - 1), ahead(0), ahead(1), ahead(2)};
     double most = 0;
     for (std::size_t i = 0; i < kNodalPoints; ++i) {
-        const auto at = [&](std::size_t ahead) { return nodeAt(segment, k + ahead, i); };
-        const glm::dvec3 smooth = (4.0 * (at(kPhases - 1) + at(1)) - at(kPhases - 2) - at(2)) / 6.0;
-        most = std::max(most, glm::distance(at(0), smooth));
+        const glm::dvec3 smooth =
+            (4.0 * (poses[1].at(i) + poses[3].at(i)) - poses[0].at(i) - poses[4].at(i)) / 6.0;
+        most = std::max(most, glm::distance(poses[2].at(i), smooth));
     }
     return most;
 }

@@ -99,6 +99,13 @@ std::vector<glm::dvec2> midlineFromAbove(const ReplayedPhase& replayed) {
     return left;
 }
 
+std::vector<glm::dvec3> controlPointsAt(const ActionSegment& segment, std::size_t phase) {
+    std::vector<glm::dvec3> points;
+    for (const auto& point : segment.controlPoints.at(phase % kPhases))
+        points.push_back(static_cast<double>(kPoseUnit) * glm::dvec3(point[0], point[1], point[2]));
+    return points;
+}
+
 FishView viewFromAbove(const ActionSegment& segment, const ReplayedPhase& replayed, std::size_t k) {
     FishView view{.outline = {}, .pectorals = {}, .midline = midlineFromAbove(replayed)};
     if (segment.controlPoints.empty()) {
@@ -108,11 +115,8 @@ FishView viewFromAbove(const ActionSegment& segment, const ReplayedPhase& replay
         return view;
     }
     std::vector<glm::dvec2> cage;
-    for (const auto& point : segment.controlPoints.at(k % kPhases)) {
-        const glm::dvec3 inBody =
-            glm::dvec3(point[0], point[1], point[2]) * static_cast<double>(kPoseUnit);
-        cage.push_back(fromAbove(replayed.origin + replayed.worldFromBody * inBody));
-    }
+    for (const glm::dvec3& point : controlPointsAt(segment, k))
+        cage.push_back(fromAbove(replayed.origin + replayed.worldFromBody * point));
     addRecorded(view, cage);
     return view;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "common/motion/repertoire.h"
 #include "master/capture/measure/measure.h"
@@ -26,6 +27,10 @@ struct FishView {
 [[nodiscard]] FishView viewFromAbove(const ActionSegment& segment,
                                      const ReplayedPhase& replayed,
                                      std::size_t k);
+
+// Recorded control points in the body frame at a phase of any cycle; body lengths.
+[[nodiscard]] std::vector<glm::dvec3> controlPointsAt(const ActionSegment& segment,
+                                                      std::size_t phase);
 
 // The smooth curve (Catmull-Rom) through nose, centres of the five rings and middle of the tail's
 // tips, evenly between them.

@@ -15,9 +15,7 @@
 namespace aquarama {
 namespace {
 
-constexpr int kShapes = 32;
-
-class Gltf : public testing::TestWithParam<GltfContainer> {
+class GltfFile : public testing::TestWithParam<GltfContainer> {
   protected:
     const aiScene& load(Action action, int cycles) {
         const auto bytes = gltfOf(scadRepertoire(), body_, action, cycles, GetParam());
@@ -32,7 +30,7 @@ class Gltf : public testing::TestWithParam<GltfContainer> {
     Assimp::Importer importer_;
 };
 INSTANTIATE_TEST_SUITE_P(As,
-                         Gltf,
+                         GltfFile,
                          testing::Values(GltfContainer::Binary, GltfContainer::Text),
                          [](const auto& asked) {
                              return asked.param == GltfContainer::Binary ? "glb" : "gltf";
@@ -42,13 +40,13 @@ glm::vec3 vectorOf(const aiVector3D& v) {
     return {v.x, v.y, v.z};
 }
 
-TEST_P(Gltf, theMeshIsTheSkinAtEachOfTheShapes) {
+TEST_P(GltfFile, theMeshIsTheSkinAtEachOfTheShapes) {
     const Action action = Action::TurnRightSharp;
     const aiScene& scene = load(action, 1);
     const SwimmingSkin skin = skinOf(body_,
                                      segmentOf(action),
                                      static_cast<double>(scadRepertoire().recordedLengthMetres),
-                                     kShapes);
+                                     gltfShapes(segmentOf(action)));
     ASSERT_EQ(scene.mNumMeshes, 1U);
     const aiMesh& mesh = *scene.mMeshes[0];
     ASSERT_EQ(mesh.mNumFaces * 3, skin.triangles.size());
@@ -66,11 +64,12 @@ TEST_P(Gltf, theMeshIsTheSkinAtEachOfTheShapes) {
     }
 }
 
-TEST_P(Gltf, theAnimationMovesTheFishAsTheTakeDoes) {
+TEST_P(GltfFile, theAnimationMovesTheFishAsTheTakeDoes) {
     const Action action = Action::ForwardMedium;
     constexpr int kCycles = 3;
     const aiScene& scene = load(action, kCycles);
-    const Take take = takeAtPhases(scadRepertoire(), action, kCycles, kShapes);
+    const Take take =
+        takeAtPhases(scadRepertoire(), action, kCycles, gltfShapes(segmentOf(action)));
     ASSERT_EQ(scene.mNumAnimations, 1U);
     const aiAnimation& animation = *scene.mAnimations[0];
     EXPECT_STREQ(animation.mName.C_Str(), "forward_medium");
@@ -92,17 +91,35 @@ TEST_P(Gltf, theAnimationMovesTheFishAsTheTakeDoes) {
     }
 }
 
-TEST_P(Gltf, eachKeyShowsOneShapeInTurn) {
-    const aiScene& scene = load(Action::ForwardFast, 2);
+TEST_P(GltfFile, eachKeyShowsOneShapeInTurn) {
+    const Action action = Action::ForwardFast;
+    const auto shapes = static_cast<unsigned>(gltfShapes(segmentOf(action)));
+    const aiScene& scene = load(action, 2);
     const aiAnimation& animation = *scene.mAnimations[0];
     ASSERT_EQ(animation.mNumMorphMeshChannels, 1U);
     const aiMeshMorphAnim& channel = *animation.mMorphMeshChannels[0];
-    ASSERT_EQ(channel.mNumKeys, 2U * kShapes + 1);
+    ASSERT_EQ(channel.mNumKeys, 2 * shapes + 1);
     for (unsigned key = 0; key < channel.mNumKeys; ++key) {
         const aiMeshMorphKey& weights = channel.mKeys[key];
         for (unsigned i = 0; i < weights.mNumValuesAndWeights; ++i) {
-            const bool isShown = weights.mValues[i] + 1 == key % kShapes;
+            const bool isShown = weights.mValues[i] + 1 == key % shapes;
             EXPECT_EQ(weights.mWeights[i], isShown ? 1.0 : 0.0) << key;
+        }
+    }
+}
+
+// What a viewer shows between two keys.
+TEST(Gltf, straightLinesBetweenTheShapesOfABeatStayCloseToTheRecordedOnes) {
+    for (const Action action : {Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast}) {
+        const SwimmingSkin skin = skinOf(makeBody(scad()), segmentOf(action), 1, kPhases);
+        ASSERT_EQ(gltfShapes(segmentOf(action)), kPhases / 2);
+        for (std::size_t k = 1; k < kPhases; k += 2) {
+            const auto& before = skin.shapes[k - 1].positions;
+            const auto& now = skin.shapes[k].positions;
+            const auto& after = skin.shapes[(k + 1) % kPhases].positions;
+            for (std::size_t i = 0; i < now.size(); ++i)
+                EXPECT_LT(glm::distance(now[i], (before[i] + after[i]) / 2.0F), 0.002F)
+                    << nameOf(action) << ' ' << k;
         }
     }
 }
