@@ -72,7 +72,7 @@ TEST(Rig, everyValueArrivesInItsPlace) {
     EXPECT_EQ(left.display.monitor, 1);
     EXPECT_EQ(left.display.device, "device:2");
     EXPECT_EQ(left.display.refreshHertz, 50);
-    EXPECT_EQ(left.place.line, 12);
+    EXPECT_EQ(left.place.line, 11);
     EXPECT_EQ(rig.channels[1].display.mode, DisplayMode::Window);
     EXPECT_EQ(rig.channels[1].display.windowPosition, glm::ivec2(-10, 30));
 }
@@ -195,8 +195,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"windowOfNoHeight", "height_px: 241", "height_px: 0", "height_px", "must be from"},
         Mistake{"panoramaTooLarge", "width_px: 640", "width_px: 99999", "width_px", "must be from"},
         Mistake{"focalZero", "focal_y_px: 310", "focal_y_px: 0", "focal_y_px", "must be from"},
-        Mistake{"noFish", "fish: 12", "fish: 0", "fish", "must be from"},
-        Mistake{"tooManyFish", "fish: 12", "fish: 100001", "fish", "must be from"},
+        Mistake{"noCast", "cast { species: \"fish.txtpb\" fish: 12 }", "", "", "no cast"},
+        Mistake{"noFish", "fish: 12", "fish: 0", "fish: 0", "must be from"},
+        Mistake{"tooManyFish", "fish: 12", "fish: 100001", "fish: 100001", "must be from"},
         Mistake{"idTaken", "id: 5", "id: 4", "id: 4", "taken"},
         Mistake{"nameTaken", "name: \"right\"", "name: \"left\"", "name", "taken"},
         Mistake{"nameWithSlash", "name: \"right\"", "name: \"../x\"", "name", "also names files"},

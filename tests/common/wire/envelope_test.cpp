@@ -145,6 +145,19 @@ TEST(Envelope, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
 }
 
+// A node splits the school by the cast: both must have the same fish.
+TEST(Envelope, aCastOfMoreOrFewerFishThanTheSchoolIsRefused) {
+    const auto accepted = [](std::uint32_t fish) {
+        Welcome welcome = sampleWelcome();
+        welcome.cast.back().fish = fish;
+        return decode(encode({1, welcome})).has_value();
+    };
+    EXPECT_TRUE(accepted(1));
+    EXPECT_FALSE(accepted(0));
+    EXPECT_FALSE(accepted(2));
+    EXPECT_FALSE(accepted(0xFFFFFFFFU));
+}
+
 TEST(Envelope, namesAreBoundedAndPrintable) {
     const auto accepted = [](const std::string& name) {
         return decode(encode({0, Hello{name, kProtocolMajor, ""}})).has_value();

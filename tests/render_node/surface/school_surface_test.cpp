@@ -171,12 +171,13 @@ TEST_F(SchoolSurfaceTest, neighbouringChannelsChooseTheSameLevel) {
 }
 
 TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
-    SchoolSurface surface{
-        body_, repertoire_, {.culling = false, .levelsOfDetail = false}, makeSkinPrograms()};
+    constexpr std::size_t kRoomFor = 5;
+    SurfaceOptions options{.culling = false, .levelsOfDetail = false};
+    options.fish = kRoomFor;
+    SchoolSurface surface{body_, repertoire_, options, makeSkinPrograms()};
     const std::size_t vertices = makeLimitTable(body_, 2).vertices.size();
-    const std::size_t roomFor = (std::size_t{64} << 20U) / 16 / vertices;
     std::vector<PresentedFish> school;
-    for (std::size_t i = 0; i < roomFor + 2; ++i) {
+    for (std::size_t i = 0; i < kRoomFor + 2; ++i) {
         // Nearer and nearer: the last fish is drawn last.
         school.push_back(
             test::fishAt({0, 0, -3.0F + 0.002F * static_cast<float>(i)}, {1, 0, 0, 0}));
