@@ -74,7 +74,8 @@ struct Repertoire {
 };
 
 // Fills in Action::Glide, which is not captured: the relaxed pose in which a gradual turn ends,
-// straight on at the speed of forward_medium. Motion warps lead into it and out of it (paper, section 4.2).
+// straight on at the speed of forward_medium. Motion warps lead into it and out of it (paper,
+// section 4.2).
 void addGlide(Repertoire& repertoire);
 
 // The file: "AQREP", version, length, species, speed response, captured segments, SHA-256 of all

@@ -214,8 +214,8 @@ SchoolSurface::SchoolSurface(const FishBody& body,
                              const Repertoire& repertoire,
                              const SurfaceOptions& options,
                              std::shared_ptr<const SkinPrograms> skins)
-    : parts_{std::make_unique<Parts>(body, recordedPoints(body, repertoire), options, std::move(skins))} {
-}
+    : parts_{std::make_unique<Parts>(
+          body, recordedPoints(body, repertoire), options, std::move(skins))} {}
 
 SchoolSurface::~SchoolSurface() = default;
 SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;

@@ -116,10 +116,9 @@ std::vector<double> replayLaw(const Transition& transition, double drag) {
 SpeedResponse fitResponse(const Transitions& transitions) {
     const double glide = fitDrag({transitions.glide});
     const double brake = fitDrag({transitions.brake});
-    return {
-        .swimDrag = static_cast<float>(fitDrag({transitions.slowToFast})),
-        .glideDrag = static_cast<float>(glide),
-        .brakeDrag = static_cast<float>(std::max(0.0, brake - glide))};
+    return {.swimDrag = static_cast<float>(fitDrag({transitions.slowToFast})),
+            .glideDrag = static_cast<float>(glide),
+            .brakeDrag = static_cast<float>(std::max(0.0, brake - glide))};
 }
 
 }  // namespace aquarama

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "master/capture/control/fin_programs.h"
 #include "master/capture/control/muscle_programs.h"
@@ -17,12 +16,11 @@ constexpr double kLastBeats = 0.5;
 
 // Of the fish's own seconds.
 constexpr double kHandover = 0.04;  // from one order's muscles to the next one's
-constexpr double kFirstSecond = 1;  // the first beats from rest grow
 
 }  // namespace
 
-Swimmer::Swimmer(BiomechanicalFish fish, const Swim& swim, double stepSeconds)
-    : fish_(std::move(fish)), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
+Swimmer::Swimmer(const BiomechanicalFish& fish, const Swim& swim, double stepSeconds)
+    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
 
 Swimmer::Swimmer(const Species& species, double stepSeconds)
     : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
@@ -85,7 +83,7 @@ MuscleActivation Swimmer::muscleProgram() const {
 }
 
 MuscleActivation Swimmer::tailBeat(double share) const {
-    const double grown = std::min(1.0, ownSecondsSwum_ / kFirstSecond);
+    const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
     return beatAt(swim_, share * beating_.gain * grown, beat_);
 }
 

@@ -37,7 +37,7 @@ class Swimmer {
   public:
     explicit Swimmer(const Species& species);  // at the longest step that swims well
     Swimmer(const Species& species, double stepSeconds);
-    Swimmer(BiomechanicalFish fish, const Swim& swim, double stepSeconds);
+    Swimmer(const BiomechanicalFish& fish, const Swim& swim, double stepSeconds);
 
     // From now on. The beat keeps time through all orders; muscles change over within a few
     // hundredths of the fish's second, and a fish that stops swimming lets half a beat die away.

@@ -6,11 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
 #include "master/capture/control/attitude.h"
-#include "master/capture/control/swimmer.h"
-#include "master/capture/dynamics/body_frame.h"
+#include "master/capture/report/controller_trial.h"
 #include "master/capture/report/plot.h"
 #include "master/capture/report/silhouette.h"
 
@@ -31,71 +28,6 @@ constexpr glm::dvec2 kPitchOfPanels{446, 284};
 constexpr glm::dvec2 kFirstPanel{62, 96};
 constexpr const char* kPath = R"(fill="none" stroke="#2f77b4" stroke-width="1.6")";
 constexpr const char* kFin = R"(stroke="#bf4a24" stroke-width="2.4" stroke-linecap="round")";
-
-// What is kept of a fish at an instant.
-struct Moment {
-    double seconds = 0;
-    NodeVectors nodes{};
-    PectoralFins fins;
-};
-
-// From the order on, seen from where the fish was when it came.
-struct Trial {
-    std::vector<Moment> moments;  // evenly in time
-    double speedBefore = 0, speedAfter = 0;
-};
-
-constexpr int kMoments = 240;
-
-glm::dvec3 middleOf(const NodeVectors& nodes) {
-    return frameOf(nodes).origin;
-}
-
-// Along the body's axis: backward is negative.
-double speedOver(Swimmer& swimmer, double seconds) {
-    const glm::dvec3 from = middleOf(swimmer.state().positions);
-    const double start = swimmer.seconds();
-    swimmer.advance(static_cast<int>(std::lround(seconds / swimmer.stepSeconds())));
-    const PoseFrame frame = frameOf(swimmer.state().positions);
-    return glm::dot(frame.origin - from, frame.worldFromBody[0]) / (swimmer.seconds() - start);
-}
-
-Trial record(Swimmer swimmer, const Order& order, double seconds, double speedBefore) {
-    Trial trial{.moments = {}, .speedBefore = speedBefore};
-    const glm::dvec3 start = middleOf(swimmer.state().positions);
-    const double begin = swimmer.seconds();
-    swimmer.give(order);
-    for (int i = 0; i <= kMoments; ++i) {
-        const double until = begin + seconds * i / kMoments;
-        swimmer.advance(
-            static_cast<int>(std::lround((until - swimmer.seconds()) / swimmer.stepSeconds())));
-        Moment moment{.seconds = swimmer.seconds() - begin,
-                      .nodes = swimmer.state().positions,
-                      .fins = swimmer.control().fins};
-        for (glm::dvec3& node : moment.nodes) node -= start;
-        trial.moments.push_back(moment);
-    }
-    trial.speedAfter = speedOver(swimmer, 1 / std::max(order.gait.beatHertz, 3.0));
-    return trial;
-}
-
-Trial swimmingThen(const Species& species, const Order& order, double seconds, double runUpBeats) {
-    const Gait& medium = species.swim.medium;
-    Swimmer swimmer(species);
-    swimmer.give({.controller = Controller::ForwardSwim, .gait = medium});
-    speedOver(swimmer, runUpBeats / medium.beatHertz);
-    const double speed = speedOver(swimmer, 1 / medium.beatHertz);
-    return record(std::move(swimmer), order, seconds, speed);
-}
-
-Trial rolledThen(const Species& species, const Order& order, double seconds) {
-    BiomechanicalFish fish = makeBiomechanicalFish(species);
-    for (glm::dvec3& x : fish.restPositions)
-        x = {x.x,
-             std::cos(kRoll) * x.y + std::sin(kRoll) * x.z,
-             -std::sin(kRoll) * x.y + std::cos(kRoll) * x.z};
-    return record({fish, species.swim, longestStepSeconds(fish)}, order, seconds, 0);
-}
 
 std::string spoken(std::string name) {
     std::ranges::replace(name, '_', ' ');
@@ -310,10 +242,9 @@ std::string drawControllers(const Species& species) {
     sheet.drawMap("Ascend", up, View::Side, -0.7, 4, climbCaption(up));
     const Trial down = after(Controller::Descend, 1.5);
     sheet.drawMap("Descend", down, View::Side, -1.55, 4, climbCaption(down));
-    sheet.drawRoll("Balance", rolledThen(species, order(Controller::Balance), 2.5));
+    sheet.drawRoll("Balance", rolledThen(species, kRoll, order(Controller::Balance), 2.5));
     sheet.drawStraight("Brake", after(Controller::Brake, 1.5), -1, 4);
-    sheet.drawStraight(
-        "Retreat", record(Swimmer(species), order(Controller::Retreat), 3.25, 0), -3, 4);
+    sheet.drawStraight("Retreat", restingThen(species, order(Controller::Retreat), 3.25), -3, 4);
     return std::move(sheet).finish();
 }
 

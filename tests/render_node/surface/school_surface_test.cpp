@@ -207,11 +207,5 @@ TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
     EXPECT_EQ(surface.counts().visible, 0);
 }
 
-TEST_F(SchoolSurfaceTest, aRepertoireWithoutControlPointsIsRefused) {
-    Repertoire bare = repertoire_;
-    bare.segments[2].controlPoints.clear();
-    EXPECT_ANY_THROW((SchoolSurface{body_, bare, {}, makeSkinPrograms()}));
-}
-
 }  // namespace
 }  // namespace aquarama
