@@ -19,3 +19,7 @@ done
 cast=(blacktip_reef_shark trumpetfish parrotfish bigeye_scad blue_tang moorish_idol clownfish)
 files=("${cast[@]/%/.txtpb}")
 build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/}"
+
+# Prints the tables of docs/fidelity.md besides.
+build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"
+cp "$drawn/fidelity/"fidelity_{ways,segments}.svg docs/pictures/

@@ -11,15 +11,15 @@ namespace aquarama {
 namespace {
 
 constexpr std::uint32_t kSchool = 51;
-constexpr FishLengths kShark{
-    .meanMetres = 1.3F, .deviationMetres = 0.1F, .leastMetres = 1.05F, .mostMetres = 1.55F};
+constexpr FishLengths kLarge{
+    .meanMetres = 0.5F, .deviationMetres = 0.05F, .leastMetres = 0.4F, .mostMetres = 0.6F};
 
 WorldOptions reef(unsigned threads) {
     WorldOptions options;
     options.threads = threads;
     options.cast = {{.tables = syntheticTables(), .fish = kSchool, .lengths = {}},
                     {.tables = syntheticTables(), .fish = 8, .lengths = {}},
-                    {.tables = syntheticTables(), .fish = 1, .lengths = kShark}};
+                    {.tables = syntheticTables(), .fish = 1, .lengths = kLarge}};
     return options;
 }
 
@@ -28,7 +28,7 @@ TEST(Cast, fishStandInTheOrderOfTheirSpeciesAndAreAsLong) {
     ASSERT_EQ(world.traits().size(), 60U);
     for (std::uint32_t fish = 0; fish < 60; ++fish) EXPECT_EQ(world.traits()[fish].id, fish);
     EXPECT_LT(world.traits()[58].lengthMillimetres, 300);
-    EXPECT_GT(world.traits()[59].lengthMillimetres, 1000);
+    EXPECT_GE(world.traits()[59].lengthMillimetres, 400);
 }
 
 TEST(Cast, isOneWorldOnAnyNumberOfThreads) {
@@ -66,12 +66,19 @@ TEST(Cast, thoseWhoKeepToThemselvesStayInTheWaterAndGoAbout) {
 // Whatever else swims about, the school keeps its shape: its members stay with it.
 TEST(Cast, theSchoolFollowsNobodyElse) {
     World world(reef(1));
-    for (int i = 0; i < 60 * 60; ++i) world.advance();
-    glm::vec3 centre{};
-    for (std::size_t fish = 0; fish < kSchool; ++fish) centre += world.view().position(fish);
-    centre /= static_cast<float>(kSchool);
-    for (std::size_t fish = 0; fish < kSchool; ++fish)
-        EXPECT_LT(lengthOf(world.view().position(fish) - centre), 2.5F) << fish;
+    std::vector<float> distances;
+    for (int i = 0; i < 3 * 60 * 60; ++i) {
+        world.advance();
+        if (i % 60 != 0) continue;
+        glm::vec3 centre{};
+        for (std::size_t fish = 0; fish < kSchool; ++fish) centre += world.view().position(fish);
+        centre /= static_cast<float>(kSchool);
+        for (std::size_t fish = 0; fish < kSchool; ++fish)
+            distances.push_back(lengthOf(world.view().position(fish) - centre));
+    }
+    std::ranges::sort(distances);
+    EXPECT_LT(distances[distances.size() * 99 / 100], 2.5F);
+    EXPECT_LT(distances.back(), 5.0F) << "nobody is led away";
 }
 
 }  // namespace
