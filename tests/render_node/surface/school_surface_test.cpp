@@ -208,13 +208,12 @@ TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
     EXPECT_EQ(surface.counts().visible, 0);
 }
 
-<<<<<<< HEAD
-=======
 // Its skin is computed from nodal points, which are rounded to 16 bits as the control points are.
 TEST_F(SchoolSurfaceTest, aSegmentWithoutControlPointsIsDrawnAllTheSame) {
     Repertoire bare = repertoire_;
     bare.segments[2].controlPoints.clear();
-    SchoolSurface surface{body_, bare, {.culling = false, .levelsOfDetail = false}};
+    SchoolSurface surface{
+        body_, bare, {.culling = false, .levelsOfDetail = false}, makeSkinPrograms()};
     PresentedFish fish = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
     fish.segment = 2;
     fish.phase = 0.5F;
@@ -224,6 +223,5 @@ TEST_F(SchoolSurfaceTest, aSegmentWithoutControlPointsIsDrawnAllTheSame) {
               2e-4F * fish.lengthMetres);
 }
 
->>>>>>> main
 }  // namespace
 }  // namespace aquarama
