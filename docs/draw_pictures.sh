@@ -11,6 +11,7 @@ build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$
 cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
+build/show/bin/aquarama-capture controllers --out docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
 for figure in forward_medium turn_right_sharp midlines_forward_medium; do
     sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"
@@ -18,3 +19,7 @@ done
 cast=(blacktip_reef_shark trumpetfish parrotfish bigeye_scad blue_tang moorish_idol clownfish)
 files=("${cast[@]/%/.txtpb}")
 build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/}"
+
+# Prints the tables of docs/fidelity.md besides.
+build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"
+cp "$drawn/fidelity/"fidelity_{ways,segments}.svg docs/pictures/

@@ -54,17 +54,41 @@ HWY_INLINE IntLanes rounded(Lanes value) {
     return hn::Sub(hn::BitCast(kInts, hn::Add(value, shift)), hn::BitCast(kInts, shift));
 }
 
-HWY_INLINE QuaternionLanes load(const float* quaternions) {
+// Where among the fours of a block that of fish i lies: so that those of a vector of fish are the
+// rows of 4 x 4 matrices, which are transposed without crossing the borders of 128 bits.
+HWY_INLINE std::size_t slotOf(std::size_t i) {
+    const std::size_t lanes = hn::Lanes(kFloats);
+    if (lanes < 4) return i;
+    const std::size_t inVector = i % lanes;
+    return i - inVector + inVector % 4 * (lanes / 4) + inVector / 4;
+}
+
+// The fours of a vector of fish as columns.
+HWY_INLINE QuaternionLanes load(const float* fours) {
+#if HWY_TARGET == HWY_SCALAR
     QuaternionLanes q{};
-    hn::LoadInterleaved4(kFloats, quaternions, q.w, q.x, q.y, q.z);
+    hn::LoadInterleaved4(kFloats, fours, q.w, q.x, q.y, q.z);
     return q;
+#else
+    const hn::Repartition<double, Floats> pairs;
+    const std::size_t lanes = hn::Lanes(kFloats);
+    const auto row = [&](std::size_t r) HWY_ATTR { return hn::Load(kFloats, fours + r * lanes); };
+    const auto lower = [&](std::size_t r) HWY_ATTR {
+        return hn::BitCast(pairs, hn::InterleaveLower(kFloats, row(r), row(r + 1)));
+    };
+    const auto upper = [&](std::size_t r) HWY_ATTR {
+        return hn::BitCast(pairs, hn::InterleaveUpper(kFloats, row(r), row(r + 1)));
+    };
+    return {hn::BitCast(kFloats, hn::InterleaveLower(pairs, lower(0), lower(2))),
+            hn::BitCast(kFloats, hn::InterleaveUpper(pairs, lower(0), lower(2))),
+            hn::BitCast(kFloats, hn::InterleaveLower(pairs, upper(0), upper(2))),
+            hn::BitCast(kFloats, hn::InterleaveUpper(pairs, upper(0), upper(2)))};
+#endif
 }
 
 HWY_INLINE PlaceLanes loadPlace(const float* translationsAndSpeeds) {
-    PlaceLanes p{};
-    hn::LoadInterleaved4(
-        kFloats, translationsAndSpeeds, p.translation.x, p.translation.y, p.translation.z, p.speed);
-    return p;
+    const QuaternionLanes four = load(translationsAndSpeeds);
+    return {{four.w, four.x, four.y}, four.z};
 }
 
 HWY_INLINE QuaternionLanes product(const QuaternionLanes& a, const QuaternionLanes& b) {
@@ -181,6 +205,18 @@ HWY_INLINE AttitudeLanes attitudeOf(const QuaternionLanes& m) {
             hn::Mul(two, differenceOfProducts(m.y, m.z, m.w, m.x))};
 }
 
+HWY_INLINE Lanes inverseRoot(Lanes value) {
+    const hn::RebindToUnsigned<Floats> bits;
+    const auto halved = hn::ShiftRight<1>(hn::BitCast(bits, value));
+    Lanes root = hn::BitCast(kFloats, hn::Sub(hn::Set(bits, kInverseRootGuess), halved));
+    const Lanes half = hn::Mul(hn::Set(kFloats, 0.5F), value);
+    for (int step = 0; step < 2; ++step) {
+        const Lanes square = hn::Mul(root, root);
+        root = hn::Mul(root, hn::Sub(hn::Set(kFloats, 1.5F), hn::Mul(half, square)));
+    }
+    return root;
+}
+
 HWY_INLINE VectorLanes halfSteering(const AttitudeLanes& attitude, Lanes pitchSine, Lanes yaw) {
     const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const Lanes half = hn::Set(kFloats, 0.5F);
@@ -189,7 +225,8 @@ HWY_INLINE VectorLanes halfSteering(const AttitudeLanes& attitude, Lanes pitchSi
         bounded(hn::Mul(hn::Set(kFloats, kPitchGain), hn::Sub(wanted, forwardY)), kPitchRate);
     const Lanes levelZ = hn::Add(forwardX, hn::Set(kFloats, kLevelAxisBias));
     const Lanes squared = sumOfProducts(levelZ, levelZ, forwardZ, forwardZ);
-    const Lanes alongLevel = hn::Div(pitch, hn::Sqrt(hn::Max(squared, hn::Set(kFloats, kTiniest))));
+    const Lanes alongLevel =
+        hn::Mul(pitch, inverseRoot(hn::Max(squared, hn::Set(kFloats, kTiniest))));
     const Lanes roll = levellingRoll(attitude.up, attitude.right);
     return {hn::Mul(half, differenceOfProducts(roll, forwardX, alongLevel, forwardZ)),
             hn::Mul(half, hn::Add(hn::Mul(roll, forwardY), yaw)),

@@ -37,12 +37,32 @@ struct Block {
     HWY_ALIGN float left[4 * kBlockFish];  // translation and speed at the start
     HWY_ALIGN float reached[4 * kBlockFish];
     HWY_ALIGN std::int32_t lengthMillimetres[kBlockFish];
+    // From pass to pass, as columns.
+    HWY_ALIGN float travel[3 * kBlockFish];
+    HWY_ALIGN float faster[kBlockFish];
+    HWY_ALIGN float swum[3 * kBlockFish];
+    HWY_ALIGN float swumW[kBlockFish];
+    HWY_ALIGN float forward[3 * kBlockFish];
+    HWY_ALIGN float up[kBlockFish];
+    HWY_ALIGN float right[kBlockFish];
 };
+
+HWY_INLINE void storeColumns(const VectorLanes& v, float* columns, std::size_t lane) {
+    hn::Store(v.x, kFloats, columns + lane);
+    hn::Store(v.y, kFloats, columns + kBlockFish + lane);
+    hn::Store(v.z, kFloats, columns + 2 * kBlockFish + lane);
+}
+
+HWY_INLINE VectorLanes loadColumns(const float* columns, std::size_t lane) {
+    return {hn::Load(kFloats, columns + lane),
+            hn::Load(kFloats, columns + kBlockFish + lane),
+            hn::Load(kFloats, columns + 2 * kBlockFish + lane)};
+}
 
 void store(const Travel& travel, Block& block, std::size_t i) {
     const auto put = [i](const auto& four, float* column) {
         static_assert(sizeof(four) == 4 * sizeof(float));
-        std::memcpy(column + 4 * i, &four, sizeof(four));
+        std::memcpy(column + 4 * slotOf(i), &four, sizeof(four));
     };
     put(travel.start.rotation, block.start);
     put(travel.end.rotation, block.end);
@@ -52,43 +72,49 @@ void store(const Travel& travel, Block& block, std::size_t i) {
     block.rate[i] = travel.rate;
 }
 
-template <class Tag>
-HWY_INLINE FishSet setOf(Tag tag, hn::Mask<Tag> mask) {
+HWY_INLINE FishSet setOf(hn::Mask<Ints> mask) {
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, mask, bits);
+    hn::StoreMaskBits(kInts, mask, bits);
     return bits[0] | FishSet{bits[1]} << 8U;
 }
 
-// Every fish of the block plays on at its commanded rate. Returns those that perhaps should not
-// have: they are in a motion warp, or another segment is wanted, or they came to an end of theirs,
-// or go backwards.
-HWY_INLINE FishSet playOn(const MotorColumns& columns,
+// Every fish of the block plays on, a turn that is not wanted any more as recorded. Returns those
+// that should not have: they are in a motion warp, or leave their segment in this tick.
+HWY_INLINE FishSet playOn(const MotorTables& tables,
+                          const MotorColumns& columns,
                           std::size_t first,
                           std::size_t count,
                           Block& block) {
     const hn::Rebind<std::uint16_t, Ints> shorts;
     const hn::Rebind<std::int16_t, Ints> rates;
     const hn::Rebind<std::uint8_t, Ints> bytes;
+    const auto bytesAt = [&](const std::uint8_t* column)
+                             HWY_ATTR { return hn::PromoteTo(kInts, hn::LoadU(bytes, column)); };
     FishSet restless = 0;
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kInts)) {
         const std::size_t fish = first + lane;
-        const auto phase = hn::LoadU(shorts, columns.phase + fish);
-        const auto rate = hn::LoadU(rates, columns.phaseRate + fish);
-        const IntLanes from = hn::PromoteTo(kInts, phase);
-        const IntLanes step = hn::PromoteTo(kInts, rate);
-        const IntLanes to = hn::Add(from, step);
+        const IntLanes phase = hn::PromoteTo(kInts, hn::LoadU(shorts, columns.phase + fish));
+        const IntLanes asked = hn::PromoteTo(kInts, hn::LoadU(rates, columns.phaseRate + fish));
+        const IntLanes segment = bytesAt(columns.segment + fish);
+        const auto leaves = hn::Ne(segment, bytesAt(columns.wanted + fish));
+        const IntLanes turnRate = hn::GatherIndex(kInts, tables.turnRate.data(), segment);
+        const auto turns = hn::Gt(turnRate, hn::Zero(kInts));
+        const IntLanes inTurn = hn::IfThenElse(leaves, turnRate, hn::Abs(asked));
+        const IntLanes rate = hn::IfThenElse(turns, inTurn, asked);
+        const auto ends = hn::Gt(hn::Add(phase, rate), hn::Set(kInts, 0xFFFF));
+        const auto warps =
+            hn::Ne(bytesAt(columns.warpFrame + fish), bytesAt(columns.warpLength + fish));
+        const auto goes = hn::Or(hn::And(turns, ends), hn::AndNot(turns, leaves));
+        restless |= setOf(hn::Or(warps, goes)) << lane;
+        const IntLanes aCycleOn =
+            hn::IfThenElseZero(hn::Lt(rate, hn::Zero(kInts)), hn::Set(kInts, 65536));
+        const IntLanes from = hn::Add(phase, aCycleOn);
+        const IntLanes to = hn::Add(from, rate);
         hn::Store(from, kInts, block.from + lane);
         hn::Store(to, kInts, block.to + lane);
-        hn::Store(step, kInts, block.rate + lane);
-        hn::StoreU(hn::Add(phase, hn::BitCast(shorts, rate)), shorts, columns.phase + fish);
-        const auto warps = hn::Ne(hn::LoadU(bytes, columns.warpFrame + fish),
-                                  hn::LoadU(bytes, columns.warpLength + fish));
-        const auto leaves = hn::Ne(hn::LoadU(bytes, columns.wanted + fish),
-                                   hn::LoadU(bytes, columns.segment + fish));
-        // Past an end of the cycle there are bits above the 16 of a phase.
-        const auto passes =
-            hn::Or(hn::Lt(step, hn::Zero(kInts)), hn::Gt(to, hn::Set(kInts, 0xFFFF)));
-        restless |= (setOf(bytes, hn::Or(warps, leaves)) | setOf(kInts, passes)) << lane;
+        hn::Store(rate, kInts, block.rate + lane);
+        const IntLanes next = hn::And(to, hn::Set(kInts, 0xFFFF));
+        hn::StoreU(hn::DemoteTo(shorts, next), shorts, columns.phase + fish);
     }
     return restless;
 }
@@ -121,38 +147,52 @@ HWY_INLINE void fractionsOf(const std::int32_t* phases, std::size_t count, float
     }
 }
 
-// The four components of a sample, in as many vectors as the instruction set needs.
-using Components = hn::CappedTag<float, 4>;
-constexpr Components kComponents;
+// The eight numbers of a path sample or the four of a quaternion, in as many vectors as the
+// instruction set needs.
+constexpr hn::CappedTag<float, 8> kEight;
+constexpr hn::CappedTag<float, 4> kFour;
 
-// Components of two neighbouring samples, interpolated.
-HWY_INLINE hn::Vec<Components> between(const float* a, const float* b, float share) {
-    const auto from = hn::LoadU(kComponents, a);
-    const auto step = hn::Sub(hn::LoadU(kComponents, b), from);
-    return hn::Add(from, hn::Mul(hn::Set(kComponents, share), step));
+// Numbers of two neighbouring samples, interpolated.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> between(Tag tag, const float* a, const float* b, float share) {
+    const auto from = hn::LoadU(tag, a);
+    const auto step = hn::Sub(hn::LoadU(tag, b), from);
+    return hn::Add(from, hn::Mul(hn::Set(tag, share), step));
+}
+
+HWY_INLINE void storeBetween(const Quaternion* q, float share, float* four) {
+    for (std::size_t c = 0; c < 4; c += hn::Lanes(kFour)) {
+        hn::Store(between(kFour, &q[0].w + c, &q[1].w + c, share), kFour, four + c);
+    }
+}
+
+template <class Tag>
+HWY_INLINE void storeBetween(
+    Tag tag, const PathSample* path, float share, float* rotation, float* place) {
+    const float* const a = &path[0].rotation.w;
+    const float* const b = &path[1].rotation.w;
+#if HWY_TARGET != HWY_SCALAR  // which has no halves
+    if constexpr (hn::MaxLanes(Tag()) == 8) {
+        const hn::Half<Tag> half;
+        const auto at = between(tag, a, b, share);
+        hn::Store(hn::LowerHalf(half, at), half, rotation);
+        hn::Store(hn::UpperHalf(half, at), half, place);
+        return;
+    }
+#endif
+    for (std::size_t c = 0; c < 4; c += hn::Lanes(tag)) {
+        hn::Store(between(tag, a + c, b + c, share), tag, rotation + c);
+        hn::Store(between(tag, a + c + 4, b + c + 4, share), tag, place + c);
+    }
 }
 
 HWY_INLINE void storePlayed(const SegmentTables& tables, Block& block, std::size_t i) {
+    const auto start = static_cast<std::size_t>(block.from[i]) >> kPhaseCellBits;
     const auto end = static_cast<std::size_t>(block.to[i]) >> kPhaseCellBits;
-    const PathSample* a = &tables.path[static_cast<std::size_t>(block.from[i]) >> kPhaseCellBits];
-    const PathSample* b = &tables.path[end];
-    const Quaternion* m = &tables.bodyFromMean[end % kPhases];
-    const float atStart = block.atStart[i];
-    const float atEnd = block.atEnd[i];
-    for (std::size_t c = 0; c < 4; c += hn::Lanes(kComponents)) {
-        const std::size_t to = 4 * i + c;
-        const auto left =
-            between(&a->translationAndSpeed[c], &a[1].translationAndSpeed[c], atStart);
-        const auto reached =
-            between(&b->translationAndSpeed[c], &b[1].translationAndSpeed[c], atEnd);
-        const auto start = between(&a->rotation.w + c, &a[1].rotation.w + c, atStart);
-        const auto ended = between(&b->rotation.w + c, &b[1].rotation.w + c, atEnd);
-        hn::Store(left, kComponents, block.left + to);
-        hn::Store(reached, kComponents, block.reached + to);
-        hn::Store(start, kComponents, block.start + to);
-        hn::Store(ended, kComponents, block.end + to);
-        hn::Store(between(&m->w + c, &m[1].w + c, atEnd), kComponents, block.bodyFromMean + to);
-    }
+    const std::size_t to = 4 * slotOf(i);
+    storeBetween(kEight, &tables.path[start], block.atStart[i], block.start + to, block.left + to);
+    storeBetween(kEight, &tables.path[end], block.atEnd[i], block.end + to, block.reached + to);
+    storeBetween(&tables.bodyFromMean[end % kPhases], block.atEnd[i], block.bodyFromMean + to);
 }
 
 // The warping fish play too, which costs less than asking each, and are then put right.
@@ -161,7 +201,7 @@ HWY_INLINE void travelBlock(const MotorStep& step,
                             std::size_t first,
                             std::size_t count,
                             Block& block) {
-    const FishSet restless = playOn(columns, first, count, block);
+    const FishSet restless = playOn(*step.tables, columns, first, count, block);
     FishSet warping = settle(step, columns, first, restless, block);
     fractionsOf(block.from, count, block.atStart);
     fractionsOf(block.to, count, block.atEnd);
@@ -175,49 +215,74 @@ HWY_INLINE void travelBlock(const MotorStep& step,
     }
 }
 
-// The lanes of `block` from `lane` on are the fish from `fish` on.
-HWY_INLINE void stepLanes(const MotorStep& step,
-                          const Block& block,
-                          std::size_t lane,
-                          std::size_t fish) {
+// In three passes over a block, each a chain of dependent sums short enough that the processor
+// works on several vectors at once. The lanes of `block` from `lane` on are the fish from `fish`
+// on.
+HWY_INLINE void changeSpeed(const MotorStep& step,
+                            Block& block,
+                            std::size_t lane,
+                            std::size_t fish) {
+    MotionStates& s = *step.states;
+    const Lanes rate = hn::ConvertTo(kFloats, hn::Load(kInts, block.rate + lane));
+    const PlaceLanes left = loadPlace(block.left + 4 * lane);
+    const PlaceLanes reached = loadPlace(block.reached + 4 * lane);
+    const Lanes pathAtEnd = pathSpeed(reached.speed, rate);
+    const IntLanes glide = hn::Set(kInts, static_cast<int>(Action::Glide));
+    const Lanes speed =
+        speedAfter(step.tables->loss,
+                   hn::ConvertTo(kFloats, hn::LoadU(kInts, s.speed.data() + fish)),
+                   pathSpeed(left.speed, rate),
+                   pathAtEnd,
+                   hn::RebindMask(kFloats, hn::Eq(bytesAt(s.segment, fish), glide)),
+                   hn::Mul(hn::ConvertTo(kFloats, bytesAt(step.commands->brake, fish)),
+                           hn::Set(kFloats, kBrakeUnit)));
+    hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);
+    const Lanes faster = hn::Mul(hn::Sub(speed, pathAtEnd), hn::Set(kFloats, kLengthsPerSpeedUnit));
+    hn::Store(faster, kFloats, block.faster + lane);
+    storeColumns({hn::Sub(reached.translation.x, left.translation.x),
+                  hn::Sub(reached.translation.y, left.translation.y),
+                  hn::Sub(reached.translation.z, left.translation.z)},
+                 block.travel,
+                 lane);
+}
+
+HWY_INLINE void swim(const MotorStep& step, Block& block, std::size_t lane, std::size_t fish) {
     MotionStates& s = *step.states;
     const QuaternionLanes start = load(block.start + 4 * lane);
     const QuaternionLanes end = load(block.end + 4 * lane);
     const QuaternionLanes bodyFromMean = load(block.bodyFromMean + 4 * lane);
-    const PlaceLanes a = loadPlace(block.left + 4 * lane);
-    const PlaceLanes b = loadPlace(block.reached + 4 * lane);
-    const Lanes rate = hn::ConvertTo(kFloats, hn::Load(kInts, block.rate + lane));
-    const Lanes pathAtEnd = pathSpeed(b.speed, rate);
-    const Lanes speed = speedAfter(
-        step.tables->loss,
-        hn::ConvertTo(kFloats, hn::LoadU(kInts, s.speed.data() + fish)),
-        pathSpeed(a.speed, rate),
-        pathAtEnd,
-        hn::RebindMask(
-            kFloats,
-            hn::Eq(bytesAt(s.segment, fish), hn::Set(kInts, static_cast<int>(Action::Glide)))),
-        hn::Mul(hn::ConvertTo(kFloats, bytesAt(step.commands->brake, fish)),
-                hn::Set(kFloats, kBrakeUnit)));
-    hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);
     const QuaternionLanes seenFrom = renormalisedLanes(quotient(orientationOf(s, fish), start));
     const QuaternionLanes swum = product(seenFrom, end);
     const AttitudeLanes attitude = attitudeOf(product(swum, bodyFromMean));
-    const VectorLanes moves = rotated(seenFrom,
-                                      {hn::Sub(b.translation.x, a.translation.x),
-                                       hn::Sub(b.translation.y, a.translation.y),
-                                       hn::Sub(b.translation.z, a.translation.z)});
-    const Lanes faster = hn::Mul(hn::Sub(speed, pathAtEnd), hn::Set(kFloats, kLengthsPerSpeedUnit));
+    const VectorLanes moves = rotated(seenFrom, loadColumns(block.travel, lane));
+    const Lanes faster = hn::Load(kFloats, block.faster + lane);
     const Lanes units =
         hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, block.lengthMillimetres + lane)),
                 hn::Set(kFloats, kUnitsPerMillimetre));
     move(s.x, fish, hn::Mul(hn::Add(moves.x, hn::Mul(faster, attitude.forward.x)), units));
     move(s.y, fish, hn::Mul(hn::Add(moves.y, hn::Mul(faster, attitude.forward.y)), units));
     move(s.z, fish, hn::Mul(hn::Add(moves.z, hn::Mul(faster, attitude.forward.z)), units));
+    storeColumns({swum.x, swum.y, swum.z}, block.swum, lane);
+    hn::Store(swum.w, kFloats, block.swumW + lane);
+    storeColumns(attitude.forward, block.forward, lane);
+    hn::Store(attitude.up, kFloats, block.up + lane);
+    hn::Store(attitude.right, kFloats, block.right + lane);
+}
+
+HWY_INLINE void steer(const MotorStep& step,
+                      const Block& block,
+                      std::size_t lane,
+                      std::size_t fish) {
+    const VectorLanes swum = loadColumns(block.swum, lane);
+    const AttitudeLanes attitude{loadColumns(block.forward, lane),
+                                 hn::Load(kFloats, block.up + lane),
+                                 hn::Load(kFloats, block.right + lane)};
     const VectorLanes steering = halfSteering(attitude,
                                               commanded(step.commands->pitch, fish, kPitchUnit),
                                               commanded(step.commands->yawRate, fish, kYawUnit));
     const QuaternionLanes turn{hn::Set(kFloats, 1.0F), steering.x, steering.y, steering.z};
-    setOrientation(renormalisedLanes(product(turn, swum)), s, fish);
+    const QuaternionLanes swam{hn::Load(kFloats, block.swumW + lane), swum.x, swum.y, swum.z};
+    setOrientation(renormalisedLanes(product(turn, swam)), *step.states, fish);
 }
 
 }  // namespace
@@ -229,9 +294,12 @@ void stepVectors(const MotorStep& step) {
     for (std::size_t fish = step.first; fish < step.last; fish += kBlockFish) {
         const std::size_t count = std::min(kBlockFish, step.last - fish);
         travelBlock(step, columns, fish, count, block);
-        for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kFloats)) {
-            stepLanes(step, block, lane, fish + lane);
-        }
+        const auto inVectors = [count](auto&& pass) HWY_ATTR {
+            for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kFloats)) pass(lane);
+        };
+        inVectors([&](std::size_t lane) HWY_ATTR { changeSpeed(step, block, lane, fish + lane); });
+        inVectors([&](std::size_t lane) HWY_ATTR { swim(step, block, lane, fish + lane); });
+        inVectors([&](std::size_t lane) HWY_ATTR { steer(step, block, lane, fish + lane); });
     }
 }
 

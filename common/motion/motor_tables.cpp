@@ -99,7 +99,9 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
     std::array<std::int16_t, kActions> phaseRates{};
     for (std::size_t action = 0; action < kActions; ++action) {
         fill(repertoire.segments[action], tables->segments[action]);
-        phaseRates[action] = tables->segments[action].phaseRate;
+        const SegmentTables& made = tables->segments[action];
+        phaseRates[action] = made.phaseRate;
+        tables->turnRate[action] = made.playsToEnd ? made.phaseRate : 0;
     }
     tables->loss = lossOf(repertoire.response);
     const WarpPlans plans = planWarps(repertoire, phaseRates);

@@ -50,6 +50,8 @@ struct SpeedLoss {
 class MotorTables {
   public:
     std::array<SegmentTables, kActions> segments;
+    // The recorded phase rate of what plays to its end, 0 of the others.
+    std::array<std::int32_t, kActions> turnRate{};
     SpeedLoss loss;
 };
 

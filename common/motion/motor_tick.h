@@ -27,8 +27,9 @@ inline constexpr float kUnitsPerMillimetre = 65.536F;   // position
 inline constexpr float kLongestStepUnits = 4194304.0F;  // 2^22, 64 m: rounds exactly up to there
 inline constexpr float kLevelAxisBias = 0.0009765625F;  // gives a vertical nose a way to fall
 inline constexpr float kTiniest = 5.9604645e-08F;       // 2^-24: divides where nothing is left
-inline constexpr float kFastest = 4194303.0F;           // kFastestUnits
-inline constexpr float kBrakeUnit = 1.0F / 255.0F;      // of MotorCommands::brake
+inline constexpr std::uint32_t kInverseRootGuess = 0x5F3759DFU;
+inline constexpr float kFastest = 4194303.0F;       // kFastestUnits
+inline constexpr float kBrakeUnit = 1.0F / 255.0F;  // of MotorCommands::brake
 // Body lengths in a tick for each speed unit.
 inline constexpr float kLengthsPerSpeedUnit =
     1.0F / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));

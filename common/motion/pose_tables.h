@@ -8,28 +8,24 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/motion/phase_sample.h"
+#include "common/body/point_groups.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama {
 
-// So many points lie side by side, by axis; as many as the widest vector has lanes.
-inline constexpr std::size_t kPointGroup = 16;
-
-// Every pose of every segment: groups of x, y, z. The last group ends at the last point and so
-// overlaps the one before. Behind each cycle its first pose again, so that the two poses about a
-// phase always follow one another.
+// Every pose of every segment: groups of x, y, z. Behind each cycle its first pose again, so that
+// the two poses about a phase always follow one another.
 template <std::size_t kPoints, class Number>
 class PoseTable {
   public:
     struct alignas(kPointGroup * sizeof(Number)) Group {
         std::array<std::array<Number, kPointGroup>, 3> axes;
     };
-    static constexpr std::size_t kGroups = (kPoints + kPointGroup - 1) / kPointGroup;
+    static constexpr std::size_t kGroups = groupsOf(kPoints);
     using Pose = std::array<Group, kGroups>;
 
     static constexpr std::size_t firstPointOf(std::size_t group) {
-        return std::min(group * kPointGroup, kPoints - kPointGroup);
+        return aquarama::firstPointOf(group, kPoints);
     }
 
     // posesOf(segment)[phase][point] are three numbers. No poses at all where a segment has none.

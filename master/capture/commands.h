@@ -15,5 +15,6 @@ void addSearchCommand(CLI::App& app);
 void addGaitsCommand(CLI::App& app);
 void addExportCommand(CLI::App& app);
 void addFidelityCommand(CLI::App& app);
+void addControllersCommand(CLI::App& app);
 
 }  // namespace aquarama

@@ -22,16 +22,21 @@ struct GaitsOptions {
 void printGaits(const GaitsOptions& options) {
     const std::filesystem::path config =
         options.config.empty() ? findConfigFolder() : std::filesystem::path(options.config);
+    const auto files = speciesFiles(options.species, config);
     std::cout << gaitTableHead();
-    for (const auto& file : speciesFiles(options.species, config))
+    for (const auto& file : files)
         std::cout << gaitTableRows(readSpecies(file.string())) << std::flush;
+    std::cout << '\n' << turnTableHead();
+    for (const auto& file : files)
+        std::cout << turnTableRow(readSpecies(file.string())) << std::flush;
 }
 
 }  // namespace
 
 void addGaitsCommand(CLI::App& app) {
     const auto options = std::make_shared<GaitsOptions>();
-    CLI::App& command = *app.add_subcommand("gaits", "how species swim, as a table in Markdown");
+    CLI::App& command =
+        *app.add_subcommand("gaits", "how species swim and turn, as tables in Markdown");
     command.add_option("SPECIES", options->species, "names or files; all when none is given");
     command.add_option("--config", options->config, "folder that holds species/*.txtpb");
     command.callback([options] { printGaits(*options); });

@@ -19,6 +19,7 @@ int main(int count, char** arguments) {
         aquarama::addGaitsCommand(app);
         aquarama::addExportCommand(app);
         aquarama::addFidelityCommand(app);
+        aquarama::addControllersCommand(app);
         app.parse(count, arguments);
         return 0;
     } catch (const CLI::ParseError& wrong) {

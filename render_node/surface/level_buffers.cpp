@@ -2,6 +2,8 @@
 #include "render_node/surface/level_buffers.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -10,15 +12,39 @@
 
 namespace aquarama {
 
-std::vector<RecordedPoint> recordedPoints(const Repertoire& repertoire) {
+namespace {
+
+RecordedPoint quantised(glm::vec3 point) {
+    RecordedPoint recorded{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const float value = std::round(point[axis] / kPoseUnit);
+        if (!(std::abs(value) <= 32767))
+            throw Error("a control point lies further than a body length from its fish");
+        recorded.at(static_cast<std::size_t>(axis)) = static_cast<std::int16_t>(value);
+    }
+    return recorded;
+}
+
+void addPosed(const FishBody& body, const NodalPose& pose, std::vector<RecordedPoint>& points) {
+    NodalPoints nodes{};
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        nodes.at(n) = glm::vec3(pose.at(n)[0], pose.at(n)[1], pose.at(n)[2]) * kPoseUnit;
+    std::vector<glm::vec3> cage(kControlPoints);
+    poseCage(body, nodes, cage);
+    std::ranges::transform(cage, std::back_inserter(points), quantised);
+}
+
+}  // namespace
+
+std::vector<RecordedPoint> recordedPoints(const FishBody& body, const Repertoire& repertoire) {
     std::vector<RecordedPoint> points;
     points.reserve(std::size_t{kActions} * kPhases * kControlPoints);
     for (const ActionSegment& segment : repertoire.segments) {
-        if (segment.controlPoints.size() != kPhases)
-            throw Error("the repertoire of " + repertoire.species +
-                        " has no recorded control points; capture it again");
-        for (const ControlPointPose& pose : segment.controlPoints) {
-            for (const auto& [x, y, z] : pose) points.push_back({x, y, z, 0});
+        if (segment.controlPoints.size() == kPhases) {
+            for (const ControlPointPose& pose : segment.controlPoints)
+                for (const auto& [x, y, z] : pose) points.push_back({x, y, z, 0});
+        } else {
+            for (const NodalPose& pose : segment.nodes) addPosed(body, pose, points);
         }
     }
     return points;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/body/fish_body.h"
 #include "common/motion/repertoire.h"
 #include "common/skin/limit_table.h"
 #include "render_node/gl/handle.h"
@@ -17,8 +18,11 @@ namespace aquarama {
 // Four 16-bit numbers, of which the last is unused.
 using RecordedPoint = std::array<std::int16_t, 4>;
 
-// By segment, phase and control point. Throws Error where the repertoire holds none.
-[[nodiscard]] std::vector<RecordedPoint> recordedPoints(const Repertoire& repertoire);
+// By segment, phase and control point. Of segments that were captured without control points they
+// are computed from the nodal points (paper, section 3.1), so that the GPU sees no difference.
+// Throws Error where one lies further than a body length from the body frame's origin.
+[[nodiscard]] std::vector<RecordedPoint> recordedPoints(const FishBody& body,
+                                                        const Repertoire& repertoire);
 
 // How far from the body frame's origin any control point of any pose gets, in body lengths. Poses
 // between recorded ones get no further.

@@ -46,7 +46,7 @@ struct VisibleFish {
 
 struct SchoolSurface::Parts {
     Parts(const FishBody& body, const Repertoire& repertoire, const SurfaceOptions& surfaceOptions)
-        : Parts(body, recordedPoints(repertoire), surfaceOptions) {}
+        : Parts(body, recordedPoints(body, repertoire), surfaceOptions) {}
 
     Parts(const FishBody& body,
           const std::vector<RecordedPoint>& points,

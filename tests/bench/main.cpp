@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the benchmarks, writes them as CSV beside the machine's name, and prints the factor of the
-// paper's Table 1.
+// Runs the benchmarks, writes them as CSV beside the machine's name, and prints the paper's
+// Table 1.
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
+
+#include "tests/bench/table1.h"
 
 namespace {
 
@@ -60,7 +61,9 @@ class KeepingReporter : public benchmark::ConsoleReporter {
     std::vector<Run> kept_;
 };
 
-void writeCsv(const std::vector<benchmark::BenchmarkReporter::Run>& runs, const std::string& path) {
+void writeCsv(const std::vector<benchmark::BenchmarkReporter::Run>& runs,
+              const std::vector<aquarama::Table1Row>& table,
+              const std::string& path) {
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());
     std::ofstream csv(path);
     csv << "machine,benchmark,cpu_ns,counter,value\n";
@@ -74,34 +77,9 @@ void writeCsv(const std::vector<benchmark::BenchmarkReporter::Run>& runs, const 
                 << counter.value << '\n';
         }
     }
+    for (const auto& row : table)
+        csv << '"' << machine << "\"," << row.name << ',' << row.nanoseconds << ",,\n";
     std::printf("\nwritten: %s\n", path.c_str());
-}
-
-// ns a fish of the first run whose name starts so; its counter "ns_per_fish", or its time where it
-// has none.
-double nanosecondsPerFish(const std::vector<benchmark::BenchmarkReporter::Run>& runs,
-                          const std::string& start) {
-    for (const auto& run : runs) {
-        if (!run.benchmark_name().starts_with(start)) continue;
-        const auto counter = run.counters.find("ns_per_fish");
-        if (counter != run.counters.end()) return counter->second.value;
-        return run.GetAdjustedCPUTime() * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit);
-    }
-    return 0.0;
-}
-
-void printFactor(const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
-    const double step = nanosecondsPerFish(runs, "dynamics_step");
-    const double frame = nanosecondsPerFish(runs, "dynamics_tick");
-    const double replay = nanosecondsPerFish(runs, "body_frame/fish:1000/") +
-                          nanosecondsPerFish(runs, "nodal_points/fish:1000/");
-    if (step == 0.0 || frame == 0.0 || replay == 0.0) return;
-    std::printf(
-        "dynamics to replay (body frame and 23 nodal points of a fish, %.1f ns); the paper has "
-        "4000:\n",
-        replay);
-    std::printf("  per frame of 1/60 s: %.0f (dynamics %.1f us)\n", frame / replay, frame / 1e3);
-    std::printf("  per step of the dynamics: %.0f (dynamics %.1f us)\n", step / replay, step / 1e3);
 }
 
 }  // namespace
@@ -112,7 +90,8 @@ int main(int count, char** arguments) {
     KeepingReporter reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);
     benchmark::Shutdown();
-    writeCsv(reporter.kept(), "build/bench/" + fileNameOf(processorName()) + ".csv");
-    printFactor(reporter.kept());
+    const std::vector<aquarama::Table1Row> table = aquarama::table1(reporter.kept());
+    writeCsv(reporter.kept(), table, "build/bench/" + fileNameOf(processorName()) + ".csv");
+    aquarama::print(table);
     return 0;
 }

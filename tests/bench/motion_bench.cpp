@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a fish costs to move (paper, Table 1: 10 microseconds for frame and nodal points). Times are
 // per iteration; the counter ns_per_fish is what to read.
+#include <algorithm>
 #include <ctime>
 #include <random>
 
 #include <benchmark/benchmark.h>
 
+#include "common/body/cage_tables.h"
+#include "common/config/species.h"
 #include "common/motion/motor.h"
 #include "common/motion/reconstruct.h"
 #include "tests/support/synthetic_repertoire.h"
@@ -148,6 +151,29 @@ void hash(benchmark::State& state) {
 }
 BENCHMARK(hash)->Name("state_hash")->ArgName("fish")->Arg(10000)->UseManualTime();
 
+// What a fish makes the memory move, and how fast that went.
+void countBytes(benchmark::State& state, std::size_t bytesPerFish) {
+    const auto bytes = static_cast<double>(bytesPerFish);
+    state.counters["bytes_per_fish"] = bytes;
+    state.counters["gb_per_s"] = bytes / state.counters["ns_per_fish"].value;
+}
+
+// How fast this machine's memory is today: a plain copy, counted as STREAM does (read and written).
+void copyMemory(benchmark::State& state) {
+    const std::vector<float> from(static_cast<std::size_t>(state.range(0)) / sizeof(float), 1.0F);
+    std::vector<float> to(from.size());
+    measure(
+        state, 1, [] {}, [&] { std::copy(from.begin(), from.end(), to.begin()); });
+    benchmark::DoNotOptimize(to.data());
+    countBytes(state, 2 * from.size() * sizeof(float));
+}
+BENCHMARK(copyMemory)
+    ->Name("copy")
+    ->ArgName("bytes")
+    ->Arg(300'000)
+    ->Arg(100'000'000)
+    ->UseManualTime();
+
 // Every fish between two ticks; of them `warping` in a hundred between two segments.
 std::vector<PresentedFish> presented(std::size_t fish, unsigned warping) {
     School school(fish);
@@ -169,7 +195,8 @@ void nodalPointsOfMany(benchmark::State& state) {
     std::vector<NodalPoints> nodes(shown.size());
     measure(
         state, shown.size(), [] {}, [&] { nodalPoints(posesOfRepertoire(), shown, nodes); });
-    state.counters["bytes_per_fish"] = sizeof(PresentedFish) + sizeof(NodalPoints);
+    countBytes(state, sizeof(PresentedFish) + sizeof(NodalPoints));
+    state.counters["table_bytes"] = static_cast<double>(posesOfRepertoire().nodes.bytes());
 }
 BENCHMARK(nodalPointsOfMany)
     ->Name("nodal_points")
@@ -205,14 +232,68 @@ void controlPointsOfMany(benchmark::State& state) {
     std::vector<glm::vec3> points(shown.size() * kControlPoints);
     measure(
         state, shown.size(), [] {}, [&] { controlPoints(posesOfRepertoire(), shown, points); });
-    state.counters["bytes_per_fish"] = sizeof(PresentedFish) + kControlPoints * sizeof(glm::vec3);
+    countBytes(state, sizeof(PresentedFish) + kControlPoints * sizeof(glm::vec3));
+    state.counters["table_bytes"] = static_cast<double>(posesOfRepertoire().controlPoints.bytes());
 }
 BENCHMARK(controlPointsOfMany)
     ->Name("control_points")
     ->ArgNames({"fish", "percent_warping"})
     ->Args({60, 10})
+    ->Args({60, 100})
     ->Args({1000, 100})
+    ->Args({20000, 100})
     ->UseManualTime();
+
+const FishBody& scadBody() {
+    static const FishBody kBody =
+        makeBody(readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"));
+    return kBody;
+}
+
+std::vector<float> lengthsOf(const std::vector<PresentedFish>& shown) {
+    std::vector<float> lengths;
+    for (const PresentedFish& fish : shown) lengths.push_back(fish.lengthMetres);
+    return lengths;
+}
+
+// The other side of the paper's trade of memory against time (section 3.1): from nodal points.
+void controlPointsFromNodes(benchmark::State& state) {
+    const auto shown =
+        presented(static_cast<std::size_t>(state.range(0)), static_cast<unsigned>(state.range(1)));
+    const CageTables cage = makeCageTables(scadBody());
+    const std::vector<float> lengths = lengthsOf(shown);
+    std::vector<NodalPoints> nodes(shown.size());
+    std::vector<glm::vec3> points(shown.size() * kControlPoints);
+    measure(
+        state,
+        shown.size(),
+        [] {},
+        [&] {
+            nodalPoints(posesOfRepertoire(), shown, nodes);
+            poseCages(cage, nodes, lengths, points);
+        });
+    countBytes(state, sizeof(PresentedFish) + kControlPoints * sizeof(glm::vec3));
+    state.counters["table_bytes"] =
+        static_cast<double>(posesOfRepertoire().nodes.bytes() + sizeof(cage));
+}
+BENCHMARK(controlPointsFromNodes)
+    ->Name("control_points_from_nodes")
+    ->ArgNames({"fish", "percent_warping"})
+    ->Args({60, 10})
+    ->Args({60, 100})
+    ->Args({1000, 100})
+    ->Args({20000, 100})
+    ->UseManualTime();
+
+// One fish as poseCage() poses it; a render node does so 512 times for a species without recorded
+// control points, when it loads.
+void poseCageReference(benchmark::State& state) {
+    std::vector<glm::vec3> points(kControlPoints);
+    measure(
+        state, 1, [] {}, [&] { poseCage(scadBody(), scadBody().restNodes, points); });
+    benchmark::DoNotOptimize(points.data());
+}
+BENCHMARK(poseCageReference)->Name("pose_cage_reference")->UseManualTime();
 
 }  // namespace
 }  // namespace aquarama

@@ -5,10 +5,12 @@
 #include <array>
 #include <exception>
 #include <mutex>
+#include <optional>
 
 #include "common/units/error.h"
 #include "master/capture/compile/compile_segment.h"
 #include "master/capture/compile/speed_response.h"
+#include "master/capture/compile/steady_swimming.h"
 #include "master/capture/compile/turn.h"
 #include "master/capture/compile/work_queue.h"
 
@@ -16,59 +18,50 @@ namespace aquarama {
 
 namespace {
 
-// What one species' jobs leave behind. They do not need one another.
-struct Recordings {
-    std::array<Recording, 3> forward;   // slow, medium, fast
+constexpr std::size_t kGaits = 3;  // slow, medium, fast
+constexpr std::size_t kJobs = 2 * kGaits;
+
+// What one species' jobs leave behind. The first three swim its gaits and do not need one another;
+// nor do the last three, but they set out from those gaits.
+struct Swum {
+    std::array<std::optional<SteadySwimming>, kGaits> forward;
     std::array<Recording, 2> leftTurn;  // gradual, sharp
     SpeedResponse response;
-    std::array<std::string, 6> errors;  // of each job
+    std::array<std::string, kJobs> errors;  // of each job
 };
-constexpr std::size_t kJobs = std::tuple_size_v<decltype(Recordings::errors)>;
 
-// The long ones come first, so that no thread is left alone with one at the end.
-void runJob(const Species& species, std::size_t job, Recordings& recordings) {
-    const auto& [gradual, sharp] = species.turn;
+void runJob(const Species& species, std::size_t job, Swum& swum) {
+    const auto& [slow, medium, fast] = swum.forward;
     const Swim& swim = species.swim;
-    switch (job) {
-        case 0:
-            recordings.response = fitResponse(swimTransitions(species));
-            break;
-        case 1:
-            recordings.leftTurn[0] = recordTypicalLeftTurn(species, gradual);
-            break;
-        case 2:
-            recordings.leftTurn[1] = recordTypicalLeftTurn(species, sharp);
-            break;
-        case 3:
-            recordings.forward[0] = swimUntilSteady(species, swim.slow).beat;
-            break;
-        case 4:
-            recordings.forward[1] = swimUntilSteady(species, swim.medium).beat;
-            break;
-        case 5:
-            recordings.forward[2] = swimUntilSteady(species, swim.fast).beat;
-            break;
-        default:
-            break;
-    }
+    const std::array gaits{&swim.slow, &swim.medium, &swim.fast};
+    if (job < kGaits)
+        swum.forward.at(job) = swimUntilSteady(species, *gaits.at(job));
+    else if (!slow || !medium || !fast)
+        return;
+    else if (job == 3)
+        swum.leftTurn[0] = recordTypicalLeftTurn(species, *medium, species.turn.gradual);
+    else if (job == 4)
+        swum.leftTurn[1] = recordTypicalLeftTurn(species, *medium, species.turn.sharp);
+    else
+        swum.response = fitResponse(swimTransitions(species, *slow, *medium, *fast));
 }
 
-Repertoire compile(const Species& species, const Recordings& recordings) {
+Repertoire compile(const Species& species, const Swum& swum) {
     const FishBody body = makeBody(species);
     Repertoire repertoire;
     repertoire.species = species.name;
     repertoire.recordedLengthMetres = body.typicalLengthMetres;
-    repertoire.response = recordings.response;
+    repertoire.response = swum.response;
     const auto segment = [&](Action action) -> ActionSegment& {
         return repertoire.segments.at(static_cast<std::size_t>(action));
     };
-    segment(Action::ForwardSlow) = compileForward(recordings.forward[0]);
-    segment(Action::ForwardMedium) = compileForward(recordings.forward[1]);
-    segment(Action::ForwardFast) = compileForward(recordings.forward[2]);
-    segment(Action::TurnLeftGradual) = compileLeftTurn(recordings.leftTurn[0]);
-    segment(Action::TurnLeftSharp) = compileLeftTurn(recordings.leftTurn[1]);
-    segment(Action::TurnRightGradual) = compileRightTurn(recordings.leftTurn[0]);
-    segment(Action::TurnRightSharp) = compileRightTurn(recordings.leftTurn[1]);
+    segment(Action::ForwardSlow) = compileForward(swum.forward[0]->beat);
+    segment(Action::ForwardMedium) = compileForward(swum.forward[1]->beat);
+    segment(Action::ForwardFast) = compileForward(swum.forward[2]->beat);
+    segment(Action::TurnLeftGradual) = compileLeftTurn(swum.leftTurn[0]);
+    segment(Action::TurnLeftSharp) = compileLeftTurn(swum.leftTurn[1]);
+    segment(Action::TurnRightGradual) = compileRightTurn(swum.leftTurn[0]);
+    segment(Action::TurnRightSharp) = compileRightTurn(swum.leftTurn[1]);
     if (species.recordsControlPoints)
         for (int action = 0; action < kCapturedActions; ++action)
             addControlPoints(body, segment(static_cast<Action>(action)));
@@ -76,44 +69,45 @@ Repertoire compile(const Species& species, const Recordings& recordings) {
     return repertoire;
 }
 
-CaptureOutcome outcomeOf(const Species& species, const Recordings& recordings) {
-    const auto error = std::ranges::find_if_not(recordings.errors, &std::string::empty);
-    if (error != recordings.errors.end()) return {.repertoire = {}, .error = *error};
-    return {.repertoire = compile(species, recordings), .error = {}};
+CaptureOutcome outcomeOf(const Species& species, const Swum& swum) {
+    const auto error = std::ranges::find_if_not(swum.errors, &std::string::empty);
+    if (error != swum.errors.end()) return {.repertoire = {}, .error = *error};
+    try {
+        return {.repertoire = compile(species, swum), .error = {}};
+    } catch (const std::exception& thrown) {
+        return {.repertoire = {}, .error = thrown.what()};
+    }
 }
 
 }  // namespace
 
 std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& species,
                                                const CaptureRun& run) {
-    std::vector<Recordings> recordings(species.size());
-    const std::size_t jobs = kJobs * species.size();
+    std::vector<Swum> swum(species.size());
     std::mutex telling;
     std::size_t done = 0;
-    shareOut(jobs, run.threads, [&](std::size_t i) {
-        const std::size_t fish = i % species.size();
-        const std::size_t job = i / species.size();
-        std::string& error = recordings[fish].errors.at(job);
+    const auto runOne = [&](std::size_t job, std::size_t fish) {
+        std::string& error = swum[fish].errors.at(job);
         if (run.isStopped()) {
             error = species[fish].name + ": interrupted";
             return;
         }
         try {
-            runJob(species[fish], job, recordings[fish]);
+            runJob(species[fish], job, swum[fish]);
         } catch (const std::exception& thrown) {
             error = thrown.what();
         }
         const std::lock_guard lock(telling);
-        run.progress(static_cast<double>(++done) / static_cast<double>(jobs));
-    });
+        run.progress(static_cast<double>(++done) / static_cast<double>(kJobs * species.size()));
+    };
+    for (const std::size_t first : {std::size_t{0}, kGaits})
+        shareOut(kGaits * species.size(), run.threads, [&](std::size_t i) {
+            runOne(first + i / species.size(), i % species.size());
+        });
 
     std::vector<CaptureOutcome> outcomes(species.size());
     shareOut(species.size(), run.threads, [&](std::size_t i) {
-        try {
-            outcomes[i] = outcomeOf(species[i], recordings[i]);
-        } catch (const std::exception& thrown) {
-            outcomes[i].error = thrown.what();
-        }
+        outcomes[i] = outcomeOf(species[i], swum[i]);
     });
     return outcomes;
 }

@@ -7,7 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "master/capture/compile/steady_swimming.h"
 #include "master/capture/dynamics/body_frame.h"
 
 namespace aquarama {
@@ -76,11 +75,11 @@ double excess(double segmentSpeed, double speed) {
 
 }  // namespace
 
-Transitions swimTransitions(const Species& species) {
+Transitions swimTransitions(const Species& species,
+                            const SteadySwimming& slow,
+                            const SteadySwimming& medium,
+                            const SteadySwimming& fast) {
     const Masses masses = makeBiomechanicalFish(species).masses;
-    const SteadySwimming slow = swimUntilSteady(species, species.swim.slow);
-    const SteadySwimming medium = swimUntilSteady(species, species.swim.medium);
-    const SteadySwimming fast = swimUntilSteady(species, species.swim.fast);
     return {.slowToFast = changeGait(slow, fast, species.swim.fast, masses),
             .mediumToSlow = changeGait(medium, slow, species.swim.slow, masses),
             .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
@@ -118,7 +117,7 @@ SpeedResponse fitResponse(const Transitions& transitions) {
     const double glide = fitDrag({transitions.glide});
     const double brake = fitDrag({transitions.brake});
     return {
-        .swimDrag = static_cast<float>(fitDrag({transitions.slowToFast, transitions.mediumToSlow})),
+        .swimDrag = static_cast<float>(fitDrag({transitions.slowToFast})),
         .glideDrag = static_cast<float>(glide),
         .brakeDrag = static_cast<float>(std::max(0.0, brake - glide))};
 }

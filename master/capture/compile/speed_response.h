@@ -6,6 +6,7 @@
 
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
+#include "master/capture/compile/steady_swimming.h"
 
 namespace aquarama {
 
@@ -21,7 +22,10 @@ struct Transitions {
     Transition slowToFast, mediumToSlow;  // swimming
     Transition glide, brake;              // out of medium swimming
 };
-[[nodiscard]] Transitions swimTransitions(const Species& species);
+[[nodiscard]] Transitions swimTransitions(const Species& species,
+                                          const SteadySwimming& slow,
+                                          const SteadySwimming& medium,
+                                          const SteadySwimming& fast);
 
 // The drag k of dv/dt = k (s|s| - v|v|) that explains transitions best. Integrated over time,
 // v(t) - v(0) = k X(t) with X the integral of s|s| - v|v|: a straight line through the origin,
@@ -31,8 +35,9 @@ struct Transitions {
 // The speeds of a fish that obeys the law, from the transition's first speed on.
 [[nodiscard]] std::vector<double> replayLaw(const Transition& transition, double drag);
 
-// swimDrag from both changes of gait at once, glideDrag from the glide, brakeDrag from what the
-// brake needs beyond that.
+// swimDrag from the change to a faster gait: most changes are, since every turn slows the fish
+// down. (To a slower one the speed falls more slowly than it rises.) glideDrag from the glide,
+// brakeDrag from what the brake needs beyond that.
 [[nodiscard]] SpeedResponse fitResponse(const Transitions& transitions);
 
 }  // namespace aquarama

@@ -104,9 +104,10 @@ std::vector<TurnSpread> surveyTurns(const Species& species) {
     return table;
 }
 
-Recording recordTypicalLeftTurn(const Species& species, const Bend& bend) {
-    const SteadySwimming entry = swimUntilSteady(species, species.swim.medium);
-    const auto turns = recordLeftTurns(species, entry, bend);
+Recording recordTypicalLeftTurn(const Species& species,
+                                const SteadySwimming& medium,
+                                const Bend& bend) {
+    const auto turns = recordLeftTurns(species, medium, bend);
     const double mean = spreadOf(turns, {}, Action::ForwardMedium).mean();
     return *std::ranges::min_element(
         turns, {}, [&](const Recording& turn) { return std::abs(turnRadians(turn) - mean); });

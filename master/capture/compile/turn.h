@@ -42,6 +42,8 @@ struct TurnSpread {
 
 // The one to capture, entered from medium swimming: of the turns begun at kOnsets phases, that
 // which goes nearest to their mean.
-[[nodiscard]] Recording recordTypicalLeftTurn(const Species& species, const Bend& bend);
+[[nodiscard]] Recording recordTypicalLeftTurn(const Species& species,
+                                              const SteadySwimming& medium,
+                                              const Bend& bend);
 
 }  // namespace aquarama

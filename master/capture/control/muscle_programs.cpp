@@ -19,8 +19,6 @@ struct Pull {
 constexpr Pull kFront{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.10};
 constexpr Pull kMiddle{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.55};
 constexpr Pull kBack{.delay = 0.04, .rise = 0.10, .hold = 0.40, .fall = 0.45, .strength = 1.0};
-constexpr double kSwimFade = 0.04;
-constexpr double kRamp = 1.0;
 
 double smoothStep(double t) {
     const double u = std::clamp(t, 0.0, 1.0);
@@ -74,15 +72,8 @@ MuscleActivation bendLeft(const Bend& bend, double ownSeconds) {
 }
 
 MuscleActivation swim(const Species& species, const Gait& gait, double seconds) {
-    const double ramp = std::min(1.0, seconds * species.tissue.timeScale / kRamp);
+    const double ramp = std::min(1.0, seconds * species.tissue.timeScale / kRampOwnSeconds);
     return beatAt(species.swim, gait.gain * ramp, gait.beatHertz * seconds);
-}
-
-MuscleActivation turnLeft(const Species& species, const Bend& bend, double onset, double seconds) {
-    const double own = (seconds - onset) * species.tissue.timeScale;
-    return mix(swim(species, species.swim.medium, std::min(seconds, onset)),
-               bendLeft(bend, std::max(0.0, own)),
-               std::clamp(own / kSwimFade, 0.0, 1.0));
 }
 
 double secondsOf(const Bend& bend, const Species& species) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motor controllers that are captured: what the muscles do at each instant of an action.
+// What the muscles do at each instant.
 #pragma once
 
 #include "common/config/species.h"
@@ -22,15 +22,11 @@ namespace aquarama {
 // without undoing the turn (Tu & Terzopoulos 1994, turn-MC).
 [[nodiscard]] MuscleActivation bendLeft(const Bend& bend, double ownSeconds);
 
-// Swimming from rest, with a ramp of one of the fish's seconds.
+// Swimming from rest: over so many of the fish's own seconds the beat grows.
+inline constexpr double kRampOwnSeconds = 1;
 [[nodiscard]] MuscleActivation swim(const Species& species, const Gait& gait, double seconds);
 
-// Until `onset` the fish swims at medium speed, then it turns.
-[[nodiscard]] MuscleActivation turnLeft(const Species& species,
-                                        const Bend& bend,
-                                        double onset,
-                                        double seconds);
-// After onset, until all muscles are relaxed.
+// From the order to turn until all muscles are relaxed.
 [[nodiscard]] double secondsOf(const Bend& bend, const Species& species);
 
 }  // namespace aquarama

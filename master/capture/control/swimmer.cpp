@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "master/capture/control/fin_programs.h"
 #include "master/capture/control/muscle_programs.h"
@@ -17,12 +16,11 @@ constexpr double kLastBeats = 0.5;
 
 // Of the fish's own seconds.
 constexpr double kHandover = 0.04;  // from one order's muscles to the next one's
-constexpr double kFirstSecond = 1;  // the first beats from rest grow
 
 }  // namespace
 
-Swimmer::Swimmer(BiomechanicalFish fish, const Swim& swim, double stepSeconds)
-    : fish_(std::move(fish)), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
+Swimmer::Swimmer(const BiomechanicalFish& fish, const Swim& swim, double stepSeconds)
+    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
 
 Swimmer::Swimmer(const Species& species, double stepSeconds)
     : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
@@ -36,7 +34,7 @@ void Swimmer::give(const Order& order) {
     if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
     ownSecondsOfOrder_ = 0;
     headingOfOrder_ = attitude_.headingRadians;
-    musclesBefore_ = muscles_;
+    musclesBefore_ = control_.muscles;
 }
 
 void Swimmer::advance(int steps) {
@@ -44,8 +42,9 @@ void Swimmer::advance(int steps) {
 }
 
 void Swimmer::advanceOne() {
-    muscles_ = mix(musclesBefore_, muscleProgram(), std::min(1.0, ownSecondsOfOrder_ / kHandover));
-    step(fish_, {.muscles = muscles_, .fins = finProgram()}, stepSeconds_, state_);
+    const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
+    control_ = {.muscles = mix(musclesBefore_, muscleProgram(), handedOver), .fins = finProgram()};
+    step(fish_, control_, stepSeconds_, state_);
     ++steps_;
     attitude_ =
         sense(attitude_, state_, stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
@@ -84,7 +83,7 @@ MuscleActivation Swimmer::muscleProgram() const {
 }
 
 MuscleActivation Swimmer::tailBeat(double share) const {
-    const double grown = std::min(1.0, ownSecondsSwum_ / kFirstSecond);
+    const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
     return beatAt(swim_, share * beating_.gain * grown, beat_);
 }
 

@@ -37,7 +37,7 @@ class Swimmer {
   public:
     explicit Swimmer(const Species& species);  // at the longest step that swims well
     Swimmer(const Species& species, double stepSeconds);
-    Swimmer(BiomechanicalFish fish, const Swim& swim, double stepSeconds);
+    Swimmer(const BiomechanicalFish& fish, const Swim& swim, double stepSeconds);
 
     // From now on. The beat keeps time through all orders; muscles change over within a few
     // hundredths of the fish's second, and a fish that stops swimming lets half a beat die away.
@@ -47,6 +47,7 @@ class Swimmer {
     [[nodiscard]] double stepSeconds() const { return stepSeconds_; }
     [[nodiscard]] double seconds() const { return stepSeconds_ * static_cast<double>(steps_); }
     [[nodiscard]] const FishState& state() const { return state_; }
+    [[nodiscard]] const MotorControl& control() const { return control_; }  // of the last step
 
   private:
     void advanceOne();
@@ -68,7 +69,7 @@ class Swimmer {
     double beat_ = 0;  // 0 to 1
     double headingOfOrder_ = 0;
     Attitude attitude_;  // as sensed
-    MuscleActivation muscles_;
+    MotorControl control_;
     MuscleActivation musclesBefore_;  // when the order came
 };
 

@@ -7,8 +7,9 @@ namespace aquarama {
 
 // A row a unit: how fast its length grows, times that length, as each coordinate does.
 int freeShapeChanges(const NodeVectors& positions, std::span<const Unit> units) {
+    constexpr Eigen::Index kCoordinates = 3 * Eigen::Index{kNodalPoints};
     Eigen::MatrixXd rigidity =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(units.size()), 3 * kNodalPoints);
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(units.size()), kCoordinates);
     for (std::size_t i = 0; i < units.size(); ++i) {
         const Unit& unit = units[i];
         const glm::dvec3 r = positions.at(unit.second) - positions.at(unit.first);

@@ -86,6 +86,7 @@ class Map {
         least_ = isTurned_ ? glm::dvec2(least.y, -most.x) : least;
         height_ = extent.y * scale_;
     }
+    void lowerBy(double paper) { corner_.y += paper; }
     [[nodiscard]] glm::dvec2 operator()(const glm::dvec3& place) const {
         const glm::dvec2 seen = fromAbove(place);
         return corner_ + ((isTurned_ ? glm::dvec2(seen.y, -seen.x) : seen) - least_) * scale_;
@@ -167,7 +168,7 @@ std::string drawWaysOfAll(std::span<const Fidelity> species) {
     constexpr std::size_t kColumns = 4;
     constexpr double kMargin = 16;
     constexpr double kTop = 40;
-    constexpr glm::dvec2 kPanel{(kWidth - 5 * kMargin) / kColumns, 230};
+    constexpr glm::dvec2 kPanel{(kWidth - 5 * kMargin) / kColumns, 200};
     const std::size_t rows = (species.size() + kColumns - 1) / kColumns;
     Svg svg(kWidth, kTop + static_cast<double>(rows) * (kPanel.y + kMargin));
     drawKey(svg, {kMargin, 18});
@@ -178,7 +179,9 @@ std::string drawWaysOfAll(std::span<const Fidelity> species) {
                 (kPanel + kMargin);
         svg.rectangle(corner, kPanel, R"(fill="none" stroke="#c9d3d9" stroke-width="1")");
         svg.text(corner + glm::dvec2(8, 18), species[i].species, letters(13));
-        const Map map(species[i], corner + glm::dvec2(14, 34), kPanel - glm::dvec2(28, 76));
+        const glm::dvec2 room = kPanel - glm::dvec2(28, 66);
+        Map map(species[i], corner + glm::dvec2(14, 30), room);
+        map.lowerBy((room.y - map.height()) / 2);
         drawWays(svg, map, species[i], 3.6, 8);
         drawScale(svg, corner + glm::dvec2(12, kPanel.y - 14), map.scale());
     }

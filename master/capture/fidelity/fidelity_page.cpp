@@ -17,8 +17,8 @@ constexpr const char* kHead =
 body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36; max-width: 1110px; margin: 2em auto; padding: 0 1em; }
 h1, h2 { font-weight: 600; } h2 { margin-top: 2.5em; border-top: 1px solid #dbe5ea; padding-top: 1em; }
 table { border-collapse: collapse; font-size: 14px; }
-th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #dbe5ea; white-space: nowrap; }
-th { font-weight: 600; color: #4a606c; } th:first-child, td:first-child { text-align: left; }
+th, td { padding: .2em .7em; text-align: right; border-bottom: 1px solid #dbe5ea; white-space: nowrap; }
+th { font-weight: 600; color: #4a606c; white-space: normal; } th:first-child, td:first-child { text-align: left; }
 tr.all td { font-weight: 600; } .over { color: #c0392b; }
 svg { max-width: 100%; height: auto; display: block; margin: 1em 0; } summary { cursor: pointer; margin: 1em 0; }
 </style></head><body>
@@ -127,34 +127,6 @@ std::string fidelityPage(std::span<const Fidelity> species,
                 openLoopText(fidelity) + drawTimes(fidelity) + summaryTable(fidelity) +
                 commandTable(fidelity);
     return html + "</body></html>\n";
-}
-
-std::string fidelityMarkdown(std::span<const Fidelity> species) {
-    std::string table =
-        "| species | commands | shape within a segment, % BL | shape in transitions, % BL "
-        "| path, median, % | along, across, % | path, 9 of 10 within, % | heading, rms, deg | open "
-        "loop: way, BL "
-        "| off at the end, BL | heading off, deg |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
-        "| *goal* | | *1* | | *5* | | *5* | | | | |\n";
-    for (const Fidelity& fidelity : species) {
-        const Summary s = summarise(fidelity.comparison.commands);
-        const OpenLoopErrors& e = fidelity.comparison.openLoop;
-        for (const std::string& cell :
-             {fidelity.species,
-              std::to_string(s.commands),
-              percent(s.shapeWithin),
-              percent(s.shapeTransition),
-              fixed(s.pathErrorMedian * 100, 1),
-              fixed(s.pathErrorAlong * 100, 1) + ", " + fixed(s.pathErrorAcross * 100, 1),
-              fixed(s.pathErrorNinth * 100, 1),
-              degrees(s.headingErrorRms),
-              fixed(e.path, 0),
-              fixed(e.distanceAtEnd, 1),
-              degrees(e.headingAtEnd)})
-            table += "| " + cell + " ";
-        table += "|\n";
-    }
-    return table;
 }
 
 }  // namespace aquarama

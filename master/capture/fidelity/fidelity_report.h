@@ -19,7 +19,7 @@ namespace aquarama {
 // A line for each command, and for each species one of the whole script, "open_loop".
 [[nodiscard]] std::string fidelityCsv(std::span<const Fidelity> species);
 
-// A table of the species, in Markdown.
+// The tables of docs/fidelity.md: species by species, and command by command over all of them.
 [[nodiscard]] std::string fidelityMarkdown(std::span<const Fidelity> species);
 
 }  // namespace aquarama

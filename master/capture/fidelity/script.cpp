@@ -28,8 +28,8 @@ constexpr std::array kAfterMedium{Choice{Manoeuvre::ForwardSlow, 12},
                                   Choice{Manoeuvre::Glide, 10},
                                   Choice{Manoeuvre::Ascend, 4},
                                   Choice{Manoeuvre::Descend, 4},
-                                  Choice{Manoeuvre::Brake, 2},
-                                  Choice{Manoeuvre::Retreat, 2}};
+                                  Choice{Manoeuvre::Brake, 4},
+                                  Choice{Manoeuvre::Retreat, 4}};
 constexpr std::array kAfterSlow{Choice{Manoeuvre::ForwardMedium, 7},
                                 Choice{Manoeuvre::ForwardFast, 2},
                                 Choice{Manoeuvre::Glide, 1}};
@@ -88,6 +88,8 @@ Beats beatsOf(Manoeuvre manoeuvre) {
         case Manoeuvre::Glide:
         case Manoeuvre::Retreat:
             return {2, 4};
+        case Manoeuvre::Balance:
+            return {6, 9};
         default:
             return {3, 7};
     }

@@ -137,7 +137,10 @@ class Library {
             const Gait gait = gaitAt(species_.swim, grade.value);
             return compileForward(swimUntilSteady(species_, gait).beat);
         }
-        const Recording turn = recordTypicalLeftTurn(species_, bendAt(species_.turn, grade.value));
+        const Recording turn =
+            recordTypicalLeftTurn(species_,
+                                  swimUntilSteady(species_, species_.swim.medium),
+                                  bendAt(species_.turn, grade.value));
         return grade.way == Way::Left ? compileLeftTurn(turn) : compileRightTurn(turn);
     }
 

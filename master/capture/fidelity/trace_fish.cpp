@@ -10,15 +10,18 @@ namespace {
 
 constexpr double kSecondsToSteady = 24;  // the fish's own
 
+// Who swims also keeps level and upright, as the replica always does (the paper's section 4.2); a
+// fish that is both needs no fins for it.
 Order orderFor(const Species& species, Manoeuvre manoeuvre) {
     const Swim& swim = species.swim;
     switch (manoeuvre) {
         case Manoeuvre::ForwardSlow:
-            return {.controller = Controller::ForwardSwim, .gait = swim.slow};
+            return {.controller = Controller::Balance, .gait = swim.slow};
         case Manoeuvre::ForwardMedium:
-            return {.controller = Controller::ForwardSwim, .gait = swim.medium};
+        case Manoeuvre::Balance:
+            return {.controller = Controller::Balance, .gait = swim.medium};
         case Manoeuvre::ForwardFast:
-            return {.controller = Controller::ForwardSwim, .gait = swim.fast};
+            return {.controller = Controller::Balance, .gait = swim.fast};
         case Manoeuvre::TurnLeftGradual:
             return {.controller = Controller::LeftTurn, .bend = species.turn.gradual};
         case Manoeuvre::TurnLeftSharp:
@@ -37,8 +40,6 @@ Order orderFor(const Species& species, Manoeuvre manoeuvre) {
             return {.controller = Controller::Descend,
                     .gait = swim.medium,
                     .pitchRadians = kScriptPitchRadians};
-        case Manoeuvre::Balance:
-            return {.controller = Controller::Balance, .gait = swim.medium};
         case Manoeuvre::Brake:
             return {.controller = Controller::Brake};
         case Manoeuvre::Retreat:

@@ -4,13 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <iomanip>
+#include <numbers>
 #include <sstream>
+#include <vector>
+
+#include "master/capture/compile/turn.h"
+#include "master/capture/search/gait_trial.h"
 
 namespace aquarama {
 
 namespace {
 
+constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::array kGaits{"slow", "medium", "fast"};
+
+std::string plainName(const Species& species) {
+    std::string name = species.name;
+    std::ranges::replace(name, '_', ' ');
+    return name;
+}
 
 }  // namespace
 
@@ -23,20 +35,35 @@ std::string gaitTableHead() {
 
 std::string gaitTableRows(const Species& species) {
     const std::array gaits{species.swim.slow, species.swim.medium, species.swim.fast};
-    std::string name = species.name;
-    std::ranges::replace(name, '_', ' ');
     std::ostringstream rows;
     rows << std::fixed << std::setprecision(2);
     for (std::size_t i = 0; i < kGaits.size(); ++i) {
         const GaitFigures g = steadyFigures(species, gaits.at(i));
-        rows << "| " << (i == 0 ? name : "") << " | " << kGaits.at(i) << " | " << g.beatHertz
-             << " | " << gaits.at(i).gain << " | " << g.swum.speedBodyLengths << " | "
-             << g.swum.strideBodyLengths << " | " << std::setprecision(3) << g.swum.tailAmplitude
-             << std::setprecision(2) << " | " << g.swum.strouhal << " | " << g.wave.wavelength
-             << " | " << std::setprecision(3) << g.swum.noseAmplitude << std::setprecision(2)
-             << " |\n";
+        rows << "| " << (i == 0 ? plainName(species) : "") << " | " << kGaits.at(i) << " | "
+             << g.beatHertz << " | " << gaits.at(i).gain << " | " << g.swum.speedBodyLengths
+             << " | " << g.swum.strideBodyLengths << " | " << std::setprecision(3)
+             << g.swum.tailAmplitude << std::setprecision(2) << " | " << g.swum.strouhal << " | "
+             << g.wave.wavelength << " | " << std::setprecision(3) << g.swum.noseAmplitude
+             << std::setprecision(2) << " |\n";
     }
     return rows.str();
+}
+
+std::string turnTableHead() {
+    return "| species | gradual, from slow | from medium | from fast | sharp, from slow | from "
+           "medium | "
+           "from fast |\n|---|---|---|---|---|---|---|\n";
+}
+
+std::string turnTableRow(const Species& species) {
+    std::ostringstream row;
+    row << std::fixed << std::setprecision(0) << "| " << plainName(species) << " |";
+    const std::vector<TurnSpread> spreads = surveyTurns(species);
+    for (const Action turn : {Action::TurnLeftGradual, Action::TurnLeftSharp})
+        for (const TurnSpread& spread : spreads)
+            if (spread.turn == turn)
+                row << ' ' << spread.least() * kDegrees << "–" << spread.most() * kDegrees << " |";
+    return row.str() + '\n';
 }
 
 }  // namespace aquarama

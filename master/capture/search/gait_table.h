@@ -4,12 +4,17 @@
 
 #include <string>
 
-#include "master/capture/search/gait_trial.h"
+#include "common/config/species.h"
 
 namespace aquarama {
 
 [[nodiscard]] std::string gaitTableHead();
 [[nodiscard]] std::string gaitTableRows(
     const Species& species);  // slow, medium, fast: simulated now
+
+// How far its turns go, in degrees, when they are begun at any point of a slow, medium or fast
+// beat.
+[[nodiscard]] std::string turnTableHead();
+[[nodiscard]] std::string turnTableRow(const Species& species);
 
 }  // namespace aquarama

@@ -3,34 +3,29 @@
 #pragma once
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "common/config/species.h"
 #include "common/motion/motor.h"
 #include "master/capture/compile/capture_repertoire.h"
+#include "tests/support/all_species.h"
 
 namespace aquarama {
 
 inline std::vector<std::string> speciesNames() {
     std::vector<std::string> names;
-    const std::filesystem::path folder = AQUARAMA_SOURCE_DIR "/config/species";
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        names.push_back(entry.path().stem());
-    std::ranges::sort(names);
+    for (const Species& species : allSpecies()) names.push_back(species.name);
     return names;
 }
 
 inline const Repertoire& repertoireOf(const std::string& name) {
     static std::map<std::string, Repertoire> captured;
     if (!captured.contains(name)) {
-        const Species species =
-            readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + name + ".txtpb");
-        captured.emplace(name, captureRepertoire(species, [](double) {}));
+        const auto species = std::ranges::find(allSpecies(), name, &Species::name);
+        captured.emplace(name, captureRepertoire(*species, [](double) {}));
     }
     return captured.at(name);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -204,10 +205,18 @@ TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
     EXPECT_EQ(surface.counts().visible, 0);
 }
 
-TEST_F(SchoolSurfaceTest, aRepertoireWithoutControlPointsIsRefused) {
+// Its skin is computed from nodal points, which are rounded to 16 bits as the control points are.
+TEST_F(SchoolSurfaceTest, aSegmentWithoutControlPointsIsDrawnAllTheSame) {
     Repertoire bare = repertoire_;
     bare.segments[2].controlPoints.clear();
-    EXPECT_ANY_THROW((SchoolSurface{body_, bare, {}}));
+    SchoolSurface surface{body_, bare, {.culling = false, .levelsOfDetail = false}};
+    PresentedFish fish = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
+    fish.segment = 2;
+    fish.phase = 0.5F;
+    surface.update(std::span(&fish, 1), clip_, glm::vec3{0});
+    const auto expected = expectedPositions(fish, 2);
+    EXPECT_LT(largestDistance(surfacePositions(expected.size()), expected),
+              2e-4F * fish.lengthMetres);
 }
 
 }  // namespace

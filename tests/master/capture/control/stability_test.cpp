@@ -18,7 +18,7 @@ namespace aquarama {
 namespace {
 
 // By then the slowest of them, the trumpetfish, swims at its speed.
-constexpr double kWarmUpOwnSeconds = 60;
+constexpr double kWarmUpOwnSeconds = 120;
 constexpr double kStretchOwnSeconds = 20;
 
 int stretchesOf(const BiomechanicalFish& fish) {

@@ -41,10 +41,11 @@ TEST(FidelityReport, pageHoldsItsPicturesAndTables) {
     EXPECT_EQ(count(page, "nan"), 0U);
 }
 
-TEST(FidelityReport, tableInMarkdownHasARowForEachSpecies) {
-    const std::string table = fidelityMarkdown(fidelities());
-    EXPECT_EQ(count(table, "\n"), 3 + fidelities().size());
-    EXPECT_EQ(count(table, "| bigeye_scad |"), 1U);
+TEST(FidelityReport, tablesInMarkdownHaveARowForEachSpeciesAndManoeuvre) {
+    const std::string tables = fidelityMarkdown(fidelities());
+    EXPECT_EQ(count(tables, "| bigeye_scad |"), 1U);
+    for (const Command& command : fidelities().front().script)
+        EXPECT_EQ(count(tables, std::string("| ") + nameOf(command.manoeuvre) + " |"), 1U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/config/angle.h"
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/fidelity/fidelity.h"
@@ -13,16 +14,21 @@
 namespace aquarama {
 namespace {
 
-constexpr double kSeconds = 20;
+constexpr double kSeconds = 30;
 
 class ReplicaFidelity : public testing::TestWithParam<std::filesystem::path> {};
 
+// The goals are 1 % of a body length and 5 % of the path. The second is what the median command
+// keeps to, give or take a script; only a trumpetfish slows down three times as slowly as it
+// gathers speed, which one drag cannot say.
 TEST_P(ReplicaFidelity, staysWithinTheBounds) {
     const Species species = readSpecies(GetParam().string());
     const Repertoire repertoire = captureRepertoire(species, [](double) {});
     const Summary summary =
         summarise(measureFidelity(species, repertoire, 1, kSeconds).comparison.commands);
     EXPECT_LE(summary.shapeWithin, 0.01);
+    EXPECT_LE(summary.pathErrorMedian, species.name == "trumpetfish" ? 0.15 : 0.075);
+    EXPECT_LE(summary.headingErrorRms, 6 * kRadiansPerDegree);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -53,8 +59,7 @@ TEST(ReplicaFidelity, bringingAReplicaIntoPhaseWithItselfChangesNothing) {
 }
 
 TEST(Vocabulary, ofSevenSegmentsTurnsMuchBetterThanOfFewer) {
-    const std::vector<VocabularyErrors> all =
-        compareVocabularies(scad(), scadRepertoire(), 1, kSeconds);
+    const std::vector<VocabularyErrors> all = compareVocabularies(scad(), scadRepertoire(), 1, 20);
     const VocabularyErrors& one = all.at(0);
     const VocabularyErrors& five = all.at(2);
     const VocabularyErrors& seven = all.at(3);

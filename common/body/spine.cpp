@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/body/spine.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace aquarama {
+
+namespace {
+
+constexpr float kLastStation = 1.2F;
+
+// Second-order difference on uneven stations; one-sided at the ends.
+glm::vec3 slopeAt(const Spine& spine, std::size_t k) {
+    const auto& s = spine.stations;
+    const auto& c = spine.centres;
+    if (k == 0) return (c[1] - c[0]) / (s[1] - s[0]);
+    if (k == kKnots - 1) return (c[k] - c[k - 1]) / (s[k] - s[k - 1]);
+    const float before = s[k] - s[k - 1];
+    const float after = s[k + 1] - s[k];
+    return (before * before * c[k + 1] + (after * after - before * before) * c[k] -
+            after * after * c[k - 1]) /
+           (before * after * (before + after));
+}
+
+}  // namespace
+
+std::array<float, kKnots> knotStations(const FishBody& body) {
+    const auto& r = body.ringStations;
+    return {0, r[0], r[1], r[2], r[3], r[4], 1};
+}
+
+void setSlopes(Spine& spine) {
+    for (std::size_t k = 0; k < kKnots; ++k) spine.slopes[k] = slopeAt(spine, k);
+}
+
+Spine spineOf(const std::array<float, kKnots>& stations, const NodalPoints& n) {
+    Spine spine{.stations = stations};
+    spine.centres[0] = n[0];
+    for (std::size_t r = 0; r < 5; ++r) {
+        const std::size_t a = 1 + 4 * r;
+        spine.centres[r + 1] = (n[a] + n[a + 1] + n[a + 2] + n[a + 3]) / 4.0F;
+        spine.right[r + 1] = glm::normalize(n[a + 1] + n[a + 2] - n[a] - n[a + 3]);
+    }
+    spine.centres[6] = (n[21] + n[22]) / 2.0F;
+    spine.right[0] = spine.right[1];
+    const glm::vec3 tail =
+        glm::normalize(glm::cross(n[21] - n[22], spine.centres[5] - spine.centres[6]));
+    spine.right[6] = glm::dot(tail, spine.right[5]) < 0 ? -tail : tail;
+    setSlopes(spine);
+    return spine;
+}
+
+SpineSample sampleAt(const Spine& spine, float station) {
+    const float s = std::clamp(station, 0.0F, kLastStation);
+    std::size_t i = 0;
+    while (i < kKnots - 2 && s >= spine.stations[i + 1]) ++i;
+    const float h = spine.stations[i + 1] - spine.stations[i];
+    const float beyond = (s - spine.stations[i]) / h;
+    const float t = std::min(beyond, 1.0F);
+    const glm::vec3 c0 = spine.centres[i];
+    const glm::vec3 c1 = spine.centres[i + 1];
+    const glm::vec3 m0 = h * spine.slopes[i];
+    const glm::vec3 m1 = h * spine.slopes[i + 1];
+    const float t2 = t * t;
+    const float t3 = t2 * t;
+    return {.centre = (2 * t3 - 3 * t2 + 1) * c0 + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * c1 +
+                      (t3 - t2) * m1 + (beyond - t) * m1,
+            .tailwards =
+                (6 * t2 - 6 * t) * (c0 - c1) + (3 * t2 - 4 * t + 1) * m0 + (3 * t2 - 2 * t) * m1,
+            .right = glm::mix(spine.right[i], spine.right[i + 1], t)};
+}
+
+}  // namespace aquarama

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "master/capture/commands.h"
+#include "master/capture/compile/config_folder.h"
+#include "master/capture/compile/repertoire_cache.h"
+#include "master/capture/report/controllers_figure.h"
+
+namespace aquarama {
+
+namespace {
+
+struct ControllersOptions {
+    std::string species = "bigeye_scad";
+    std::string out;
+    std::string config;
+};
+
+void draw(const ControllersOptions& options) {
+    namespace fs = std::filesystem;
+    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
+    const fs::path file = speciesFiles({options.species}, config).front();
+    const std::string svg = drawControllers(readSpecies(file.string()));
+    const fs::path path = fs::path(options.out) / "controllers.svg";
+    writeWhole(path, std::as_bytes(std::span(svg.data(), svg.size())));
+    std::cout << path.string() << '\n';
+}
+
+}  // namespace
+
+void addControllersCommand(CLI::App& app) {
+    const auto options = std::make_shared<ControllersOptions>();
+    CLI::App& controllers = *app.add_subcommand(
+        "controllers",
+        "draws what the biomechanical fish does under each of its motor controllers");
+    controllers.add_option(
+        "--species",
+        options->species,
+        "name of a species in the config folder, or a file; bigeye_scad when not "
+        "given");
+    controllers.add_option("--out", options->out, "folder for controllers.svg")->required();
+    controllers.add_option("--config", options->config, "folder that holds species/*.txtpb");
+    controllers.callback([options] { draw(*options); });
+}
+
+}  // namespace aquarama

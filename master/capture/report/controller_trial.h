@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the dynamic fish does after an order, as the sheet of controllers shows it.
+#pragma once
+
+#include <vector>
+
+#include "common/config/species.h"
+#include "master/capture/control/swimmer.h"
+#include "master/capture/dynamics/biomechanical_fish.h"
+
+namespace aquarama {
+
+// What is kept of a fish at an instant.
+struct Moment {
+    double seconds = 0;
+    NodeVectors nodes{};
+    PectoralFins fins;
+};
+
+// From the order on, evenly in time; seen from where the fish was when it came.
+struct Trial {
+    std::vector<Moment> moments;             // kMoments + 1
+    double speedBefore = 0, speedAfter = 0;  // along the body, backward is negative
+};
+
+inline constexpr int kMoments = 240;
+
+[[nodiscard]] glm::dvec3 middleOf(const NodeVectors& nodes);
+
+// After so many beats of medium swimming; from rest, rolled to its left; from rest.
+[[nodiscard]] Trial swimmingThen(const Species& species,
+                                 const Order& order,
+                                 double seconds,
+                                 double runUpBeats);
+[[nodiscard]] Trial rolledThen(const Species& species,
+                               double rollRadians,
+                               const Order& order,
+                               double seconds);
+[[nodiscard]] Trial restingThen(const Species& species, const Order& order, double seconds);
+
+}  // namespace aquarama
