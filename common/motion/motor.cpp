@@ -96,20 +96,23 @@ float approached(float v, float target, float step) {
 
 // The speed after a tick, from v and the path's at the tick's start and end; all in whole units.
 // On a turn the speed changes as was recorded. What is faster or slower than the recorded fish
-// loses the difference to the water, by
-//     dv/dt = drag (path |path| - v |v|),
-// where a glide has no thrust: there the path's speed counts as nothing. Spread fins then take
-//     dv/dt = -share (brakeDrag v |v| + kBrakeLinear v);
-// the linear term is ours: by the square alone a fish would never stop.
-float speedAfter(
-    const SpeedLoss& loss, float v, float pathAtStart, float pathAtEnd, bool glides, float brake) {
+// goes after it by the law of SpeedResponse, where a glide has no thrust: there the path's speed
+// counts as nothing. Spread fins brake what comes of that.
+float speedAfter(const SpeedLoss& loss,
+                 float v,
+                 float pathAtStart,
+                 float pathAtEnd,
+                 std::uint8_t segment,
+                 float brake) {
+    const bool glides = segment == static_cast<std::uint8_t>(Action::Glide);
     const float carried = bounded(v + (pathAtEnd - pathAtStart), kFastest);
     const float target = glides ? 0.0F : pathAtEnd;
     const float square = glides ? loss.glideSquare : loss.swimSquare;
     const float surplus = target * std::abs(target) - carried * std::abs(carried);
-    const float swum = approached(carried, target, square * std::abs(surplus));
-    const float fast = std::abs(swum);
-    return approached(swum, 0.0F, brake * (fast * (loss.brakeSquare * fast + loss.brakeLinear)));
+    const float lack = target * (target - carried);
+    const float step = square * std::abs(surplus) + loss.swimProduct[segment] * std::abs(lack);
+    const float swum = approached(carried, target, step);
+    return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }
 
 std::int32_t stepUnits(float units) {
@@ -141,7 +144,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
                                    static_cast<float>(s.speed[i]),
                                    pathSpeed(a[3], rate),
                                    pathAtEnd,
-                                   s.segment[i] == static_cast<std::uint8_t>(Action::Glide),
+                                   s.segment[i],
                                    static_cast<float>(step.commands->brake[i]) * kBrakeUnit);
     s.speed[i] = static_cast<std::int32_t>(speed);
     // Eq. 10 in body axes; the frame from which the path is seen, in the world, comes first.

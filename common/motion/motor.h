@@ -25,13 +25,11 @@ class MotorTables;
 // Of the nine patterns (section 3.2) these are played: swimming and turning as recorded; ascending
 // and descending by commanded pitch; balancing by roll; gliding by a warp to Action::Glide;
 // retreating by a negative phase rate; braking by MotorCommands::brake. The speed v of a fish goes
-// after the path's, p, which is the recorded speed times the phase rate over the recorded one:
-//     dv/dt = drag (p |p| - v |v|) - share (brakeDrag v |v| + 2/s v)
-// with drag = swimDrag; in Action::Glide it is glideDrag, and p counts as 0. While a turn plays, v
-// changes besides as p does. Where swimDrag is 0, v follows p at once. Each tick the body frame
-// goes by the path's translation and, along the mean frame's x axis, by (v - p) a tick: added, not
-// scaled, so that a fish whose tail rests still coasts and the sway stays that of the pose; a
-// steady fish plays exactly what was recorded. (The paper leaves open how the speed changes.)
+// after the path's, p, which is the recorded speed times the phase rate over the recorded one,
+// as SpeedResponse says. While a turn plays, v changes besides as p does. Where the response is all
+// zero, v follows p at once. Each tick the body frame goes by the path's translation and, along the
+// mean frame's x axis, by (v - p) a tick: added, not scaled, so that a fish whose tail rests still
+// coasts and the sway stays that of the pose; a steady fish plays exactly what was recorded.
 struct MotorStep {
     const MotorTables* tables = nullptr;
     std::span<const FishTraits> traits;

@@ -253,18 +253,21 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
                             Lanes v,
                             Lanes pathAtStart,
                             Lanes pathAtEnd,
-                            hn::Mask<Floats> glides,
+                            IntLanes segment,
                             Lanes brake) {
+    const IntLanes glide = hn::Set(kInts, static_cast<int>(Action::Glide));
+    const auto glides = hn::RebindMask(kFloats, hn::Eq(segment, glide));
     const Lanes carried = bounded(hn::Add(v, hn::Sub(pathAtEnd, pathAtStart)), kFastest);
     const Lanes target = hn::IfThenZeroElse(glides, pathAtEnd);
     const Lanes square = hn::IfThenElse(
         glides, hn::Set(kFloats, loss.glideSquare), hn::Set(kFloats, loss.swimSquare));
     const Lanes surplus = hn::Sub(timesMagnitude(target), timesMagnitude(carried));
-    const Lanes swum = approached(carried, target, hn::Mul(square, hn::Abs(surplus)));
-    const Lanes fast = hn::Abs(swum);
-    const Lanes share = hn::Add(hn::Mul(hn::Set(kFloats, loss.brakeSquare), fast),
-                                hn::Set(kFloats, loss.brakeLinear));
-    return approached(swum, hn::Zero(kFloats), hn::Mul(brake, hn::Mul(fast, share)));
+    const Lanes lack = hn::Mul(target, hn::Sub(target, carried));
+    const Lanes product = hn::GatherIndex(kFloats, loss.swimProduct.data(), segment);
+    const Lanes step = hn::Add(hn::Mul(square, hn::Abs(surplus)), hn::Mul(product, hn::Abs(lack)));
+    const Lanes swum = approached(carried, target, step);
+    const Lanes spread = hn::Mul(brake, hn::Set(kFloats, loss.brake));
+    return approached(swum, hn::Zero(kFloats), hn::Mul(spread, hn::Abs(swum)));
 }
 
 HWY_INLINE Lanes commanded(const std::vector<std::int16_t>& column, std::size_t fish, float unit) {

@@ -227,13 +227,12 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
     const PlaceLanes left = loadPlace(block.left + 4 * lane);
     const PlaceLanes reached = loadPlace(block.reached + 4 * lane);
     const Lanes pathAtEnd = pathSpeed(reached.speed, rate);
-    const IntLanes glide = hn::Set(kInts, static_cast<int>(Action::Glide));
     const Lanes speed =
         speedAfter(step.tables->loss,
                    hn::ConvertTo(kFloats, hn::LoadU(kInts, s.speed.data() + fish)),
                    pathSpeed(left.speed, rate),
                    pathAtEnd,
-                   hn::RebindMask(kFloats, hn::Eq(bytesAt(s.segment, fish), glide)),
+                   bytesAt(s.segment, fish),
                    hn::Mul(hn::ConvertTo(kFloats, bytesAt(step.commands->brake, fish)),
                            hn::Set(kFloats, kBrakeUnit)));
     hn::StoreU(hn::ConvertTo(kInts, speed), kInts, s.speed.data() + fish);

@@ -10,9 +10,6 @@
 namespace aquarama {
 namespace {
 
-// Wholly spread fins take half of a slow fish's speed in a third of a second.
-constexpr float kBrakeLinear = 2.0F;  // 1 / s
-
 Quaternion narrow(const glm::dquat& q) {
     return {static_cast<float>(q.w),
             static_cast<float>(q.x),
@@ -66,12 +63,18 @@ float squareLoss(float drag) {
     return drag / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));
 }
 
+// By the rate over 1 + rate, each tick, a braking fish comes as far as by exp(-rate) all the time.
 SpeedLoss lossOf(const SpeedResponse& response) {
-    const bool followsAtOnce = response.swimDrag <= 0.0F;
-    return {.swimSquare = followsAtOnce ? 1.0F : squareLoss(response.swimDrag),
-            .glideSquare = squareLoss(response.glideDrag),
-            .brakeSquare = squareLoss(response.brakeDrag),
-            .brakeLinear = kBrakeLinear / static_cast<float>(kTicksPerSecond)};
+    const auto& [slow, medium, fast] = response.swimDrag;
+    const bool followsAtOnce = slow + medium + fast + response.glideDrag <= 0.0F;
+    SpeedLoss loss{
+        .swimSquare = followsAtOnce ? 1.0F : squareLoss(response.glideDrag),
+        .glideSquare = squareLoss(response.glideDrag),
+        .brake = response.brakeRate / (static_cast<float>(kTicksPerSecond) + response.brakeRate)};
+    loss.swimProduct.fill(squareLoss(medium));
+    loss.swimProduct[static_cast<std::size_t>(Action::ForwardSlow)] = squareLoss(slow);
+    loss.swimProduct[static_cast<std::size_t>(Action::ForwardFast)] = squareLoss(fast);
+    return loss;
 }
 
 void fill(const ActionSegment& segment, SegmentTables& tables) {
@@ -92,6 +95,17 @@ void fill(const ActionSegment& segment, SegmentTables& tables) {
     tables.bodyFromMean.back() = tables.bodyFromMean.front();
 }
 
+// A turn was entered at the mean speed of medium swimming, but its first phase has the speed that
+// the body frame had within the beat. The fish goes over from the one to the other in the first
+// cell, so that one that comes from medium swimming plays the turn as recorded.
+void enterFromMedium(MotorTables& tables) {
+    const SegmentTables& medium = tables.segments[static_cast<std::size_t>(Action::ForwardMedium)];
+    const float speed = medium.path.front().translationAndSpeed[3] * medium.phaseRate;
+    for (SegmentTables& segment : tables.segments)
+        if (segment.playsToEnd)
+            segment.path.front().translationAndSpeed[3] = speed / segment.phaseRate;
+}
+
 }  // namespace
 
 std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
@@ -103,6 +117,7 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
         phaseRates[action] = made.phaseRate;
         tables->turnRate[action] = made.playsToEnd ? made.phaseRate : 0;
     }
+    enterFromMedium(*tables);
     tables->loss = lossOf(repertoire.response);
     const WarpPlans plans = planWarps(repertoire, phaseRates);
     for (std::size_t action = 0; action < kActions; ++action) {

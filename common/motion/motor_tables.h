@@ -38,13 +38,13 @@ struct SegmentTables {
     bool playsToEnd = false;
 };
 
-// By how many speed units the speed falls in a tick, for a speed of v units and its square: the
-// drags of SpeedResponse in the motor's units.
+// By how many speed units the speed changes in a tick, for each square of a unit, and for each
+// unit: SpeedResponse in the motor's units.
 struct SpeedLoss {
     float swimSquare = 0.0F;  // 1 where no response was measured: the speed follows at once
     float glideSquare = 0.0F;
-    float brakeSquare = 0.0F;  // of wholly spread fins
-    float brakeLinear = 0.0F;
+    std::array<float, kActions> swimProduct{};  // of the segment's speed and what the fish lacks
+    float brake = 0.0F;                         // of wholly spread fins
 };
 
 class MotorTables {

@@ -14,7 +14,7 @@ namespace aquarama {
 namespace {
 
 constexpr std::string_view kMagic = "AQREP";
-constexpr std::uint16_t kVersion = 2;
+constexpr std::uint16_t kVersion = 3;
 constexpr std::size_t kLongestSpecies = 64;
 constexpr std::size_t kHeadBytes = 11;  // name, version, length of the whole file
 constexpr std::size_t kDigestBytes = 32;
@@ -22,7 +22,8 @@ constexpr float kLongestFishMetres = 60.0F;
 constexpr float kShortestPeriodSeconds = 0.02F;  // a beat of 50 Hz; no fish is near it
 constexpr float kLongestPeriodSeconds = 60.0F;
 constexpr float kLongestStepBodyLengths = 1.0F;  // in 1/64 of a cycle; a burst is near 0.02
-constexpr float kMostDrag = 1000.0F;  // 1 / body length: stops within a thousandth of one
+constexpr float kMostDrag = 1000.0F;  // 1 / body length, or 1 / s: stops within a thousandth of one
+constexpr std::size_t kResponses = kForwardGaits + 2;
 
 template <class Pose>
 void writePose(ByteWriter& out, const Pose& pose) {
@@ -85,8 +86,9 @@ bool inBounds(const FrameIncrement& step) {
            near(step.translation.y) && near(step.translation.z);
 }
 
-std::array<float*, 3> dragsOf(SpeedResponse& response) {
-    return {&response.swimDrag, &response.glideDrag, &response.brakeDrag};
+std::array<float*, kResponses> numbersOf(SpeedResponse& response) {
+    auto& [slow, medium, fast] = response.swimDrag;
+    return {&slow, &medium, &fast, &response.glideDrag, &response.brakeRate};
 }
 
 // What is wrong with a segment, or nothing.
@@ -114,10 +116,10 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
           repertoire.recordedLengthMetres <= kLongestFishMetres)) {
         return "has a recorded length outside 0 to 60 m";
     }
-    const auto [swim, glide, brake] = repertoire.response;
-    const auto isDrag = [](float drag) { return drag >= 0 && drag <= kMostDrag; };
-    if (!isDrag(swim) || !isDrag(glide) || !isDrag(brake))
-        return "has a drag outside 0 to 1000 per body length";
+    SpeedResponse response = repertoire.response;
+    const auto isDrag = [](const float* drag) { return *drag >= 0 && *drag <= kMostDrag; };
+    if (!std::ranges::all_of(numbersOf(response), isDrag))
+        return "has a drag outside 0 to 1000 per body length or second";
     for (int action = 0; action < kCapturedActions; ++action) {
         if (const auto fault = faultOf(repertoire.segments[static_cast<std::size_t>(action)])) {
             return std::string("segment ") + nameOf(static_cast<Action>(action)) + " " + *fault;
@@ -152,7 +154,7 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
     Repertoire repertoire;
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());
     repertoire.recordedLengthMetres = in.float32();
-    for (float* drag : dragsOf(repertoire.response)) *drag = in.float32();
+    for (float* number : numbersOf(repertoire.response)) *number = in.float32();
     const unsigned withControlPoints = in.unsignedNumber<std::uint8_t>();
     if (!in.ok() || withControlPoints >> kCapturedActions != 0 ||
         in.remaining() != bytesOfSegments(withControlPoints)) {
@@ -192,14 +194,14 @@ std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire) {
     ByteWriter out;
     out.characters(kMagic);
     out.unsignedNumber(kVersion);
-    out.unsignedNumber(
-        static_cast<std::uint32_t>(kHeadBytes + 1 + repertoire.species.size() + 4 * sizeof(float) +
-                                   1 + bytesOfSegments(withControlPoints) + kDigestBytes));
+    out.unsignedNumber(static_cast<std::uint32_t>(
+        kHeadBytes + 1 + repertoire.species.size() + (1 + kResponses) * sizeof(float) + 1 +
+        bytesOfSegments(withControlPoints) + kDigestBytes));
     out.unsignedNumber(static_cast<std::uint8_t>(repertoire.species.size()));
     out.characters(repertoire.species);
     out.float32(repertoire.recordedLengthMetres);
     SpeedResponse response = repertoire.response;
-    for (const float* drag : dragsOf(response)) out.float32(*drag);
+    for (const float* number : numbersOf(response)) out.float32(*number);
     out.unsignedNumber(static_cast<std::uint8_t>(withControlPoints));
     for (std::size_t action = 0; action < kCapturedActions; ++action)
         writeSegment(out, repertoire.segments[action]);

@@ -32,6 +32,7 @@ enum class Action : std::uint8_t {
 };
 inline constexpr int kCapturedActions = 7;  // all but the last are captured
 inline constexpr int kActions = 8;
+inline constexpr int kForwardGaits = 3;           // the first of them
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
 
 // The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
@@ -57,13 +58,16 @@ struct ActionSegment {
     std::vector<ControlPointPose> controlPoints;  // s at phase k (eq. 9): kPhases of them, or none
 };
 
-// How the speed v of a fish goes after that of what it plays, in body lengths and seconds:
-//     dv/dt = drag (v_segment |v_segment| - v |v|),
-// the segment's thrust against drag by the square of the speed. A glide has no thrust.
+// How the speed v of a fish goes after that of what it plays, p, in body lengths and seconds:
+//     dv/dt = glideDrag (p |p| - v |v|) + swimDrag |p| (p - v) - share brakeRate v.
+// The body drags by the square of the speed, thrust holding it at p; a beating tail pushes or drags
+// in proportion to how fast it beats and to what the fish lacks or has too much; fins that are
+// spread to a share brake in proportion to the speed. In a glide p is 0. (The paper leaves this
+// open; the law is ours.)
 struct SpeedResponse {
-    float swimDrag = 0.0F;   // 1 / body length, while the tail beats
-    float glideDrag = 0.0F;  // with a straight body
-    float brakeDrag = 0.0F;  // what spread pectoral fins add
+    std::array<float, kForwardGaits> swimDrag{};  // 1 / body length; turns have that of medium
+    float glideDrag = 0.0F;                       // 1 / body length
+    float brakeRate = 0.0F;                       // 1 / s
 };
 
 struct Repertoire {

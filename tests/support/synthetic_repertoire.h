@@ -190,7 +190,7 @@ inline Repertoire syntheticRepertoire(bool withControlPoints = true,
     for (std::size_t action = 0; action < kCapturedActions; ++action) {
         repertoire.segments[action] = synthetic::segmentOf(gaits[action], withControlPoints);
     }
-    repertoire.response = {.swimDrag = 0.6F, .glideDrag = 0.5F, .brakeDrag = 5.0F};
+    repertoire.response = {.swimDrag = {0.3F, 0.4F, 0.5F}, .glideDrag = 0.5F, .brakeRate = 5.0F};
     addGlide(repertoire);
     return repertoire;
 }

@@ -43,7 +43,7 @@ void runJob(const Species& species, std::size_t job, Swum& swum) {
     else if (job == 4)
         swum.leftTurn[1] = recordTypicalLeftTurn(species, *medium, species.turn.sharp);
     else
-        swum.response = fitResponse(swimTransitions(species, *slow, *medium, *fast));
+        swum.response = fitResponse(swimTransitions(species, {&*slow, &*medium, &*fast}));
 }
 
 Repertoire compile(const Species& species, const Swum& swum) {

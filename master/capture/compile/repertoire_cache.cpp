@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Part of every key: raise it when the simulation or its compilation changes what comes out.
-constexpr const char* kCaptureVersion = "aquarama capture 3\n";
+constexpr const char* kCaptureVersion = "aquarama capture 4\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
 
 fs::path cachedPath(const Species& species, const std::string& text, const fs::path& folder) {

@@ -27,8 +27,8 @@ glm::dvec3 meanOf(const NodeVectors& vectors, const Masses& masses) {
     return mean;
 }
 
-double speedOf(const Recording& beat) {
-    return glm::distance(frameOf(beat.poses.front()).origin, frameOf(beat.poses.back()).origin) /
+glm::dvec3 meanVelocityOf(const Recording& beat) {
+    return (frameOf(beat.poses.back()).origin - frameOf(beat.poses.front()).origin) /
            beat.periodSeconds;
 }
 
@@ -46,79 +46,102 @@ Transition coast(const SteadySwimming& from,
     return transition;
 }
 
-// A sample is the mean over the beat of `to` that begins with it.
+// A sample is the mean over the beat of `to` around it; before the change the fish went steadily.
 Transition changeGait(const SteadySwimming& from,
                       const SteadySwimming& to,
                       const Gait& gait,
                       const Masses& masses) {
     Swimmer swimmer = from.swimmer;
     swimmer.give({.controller = Controller::ForwardSwim, .gait = gait});
-    const auto beat =
-        static_cast<std::size_t>(std::lround(to.beat.periodSeconds / swimmer.stepSeconds()));
+    const double step = swimmer.stepSeconds();
+    const auto halfBeat = static_cast<std::size_t>(std::lround(to.beat.periodSeconds / step / 2));
+    const glm::dvec3 course = meanVelocityOf(from.beat);
+    const glm::dvec3 start = meanOf(swimmer.state().positions, masses);
     std::vector<glm::dvec3> places;
-    for (std::size_t step = 0; step <= (kSwumBeats + 1) * beat; ++step) {
+    for (std::size_t back = halfBeat; back > 0; --back)
+        places.push_back(start - course * (step * static_cast<double>(back)));
+    for (std::size_t i = 0; i <= (2 * kSwumBeats + 1) * halfBeat; ++i) {
         places.push_back(meanOf(swimmer.state().positions, masses));
         swimmer.advance(1);
     }
     Transition transition{
-        .sampleSeconds = swimmer.stepSeconds(), .segmentSpeed = speedOf(to.beat), .speeds = {}};
-    for (std::size_t step = 0; step + beat < places.size(); ++step)
-        transition.speeds.push_back(glm::distance(places[step], places[step + beat]) /
-                                    (swimmer.stepSeconds() * static_cast<double>(beat)));
+        .sampleSeconds = step, .segmentSpeed = glm::length(meanVelocityOf(to.beat)), .speeds = {}};
+    for (std::size_t i = 0; i + 2 * halfBeat < places.size(); ++i)
+        transition.speeds.push_back(glm::distance(places[i], places[i + 2 * halfBeat]) /
+                                    (step * static_cast<double>(2 * halfBeat)));
+    transition.speeds.front() = glm::length(course);
     return transition;
-}
-
-// What drag multiplies in the law.
-double excess(double segmentSpeed, double speed) {
-    return segmentSpeed * std::abs(segmentSpeed) - speed * std::abs(speed);
 }
 
 }  // namespace
 
-Transitions swimTransitions(const Species& species,
-                            const SteadySwimming& slow,
-                            const SteadySwimming& medium,
-                            const SteadySwimming& fast) {
+Transitions swimTransitions(const Species& species, const SteadyGaits& gaits) {
     const Masses masses = makeBiomechanicalFish(species).masses;
-    return {.slowToFast = changeGait(slow, fast, species.swim.fast, masses),
-            .mediumToSlow = changeGait(medium, slow, species.swim.slow, masses),
-            .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
-            .brake = coast(medium, Controller::Brake, kBrakedBeats, masses)};
+    const std::array orders{&species.swim.slow, &species.swim.medium, &species.swim.fast};
+    const SteadySwimming& medium = *gaits[static_cast<std::size_t>(Action::ForwardMedium)];
+    Transitions transitions{.swim = {},
+                            .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
+                            .brake = coast(medium, Controller::Brake, kBrakedBeats, masses)};
+    for (std::size_t to = 0; to < gaits.size(); ++to)
+        for (std::size_t from = 0; from < gaits.size(); ++from)
+            if (from != to)
+                transitions.swim.at(to).push_back(
+                    changeGait(*gaits.at(from), *gaits.at(to), *orders.at(to), masses));
+    return transitions;
 }
 
-double fitDrag(const std::vector<Transition>& transitions) {
+double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
+    const double thrust = std::abs(segmentSpeed);
+    return law.glideDrag * (segmentSpeed * thrust - speed * std::abs(speed)) +
+           law.swimDrag * thrust * (segmentSpeed - speed) - law.brakeRate * speed;
+}
+
+double fitTerm(const std::vector<Transition>& transitions,
+               double SpeedLaw::*term,
+               const SpeedLaw& known) {
+    SpeedLaw unit;
+    unit.*term = 1;
     double products = 0;
     double squares = 0;
     for (const Transition& transition : transitions) {
         const std::vector<double>& v = transition.speeds;
+        double explained = 0;
         double integral = 0;
         for (std::size_t i = 1; i < v.size(); ++i) {
-            integral += transition.sampleSeconds *
-                        (excess(transition.segmentSpeed, v[i - 1]) +
-                         excess(transition.segmentSpeed, v[i])) /
-                        2;
-            products += integral * (v[i] - v.front());
+            const auto gained = [&](const SpeedLaw& law) {
+                return transition.sampleSeconds *
+                       (acceleration(law, transition.segmentSpeed, v[i - 1]) +
+                        acceleration(law, transition.segmentSpeed, v[i])) /
+                       2;
+            };
+            explained += gained(known);
+            integral += gained(unit);
+            products += integral * (v[i] - v.front() - explained);
             squares += integral * integral;
         }
     }
     return squares > 0 ? std::max(0.0, products / squares) : 0;
 }
 
-std::vector<double> replayLaw(const Transition& transition, double drag) {
+std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law) {
     std::vector<double> speeds{transition.speeds.front()};
     while (speeds.size() < transition.speeds.size()) {
         const double v = speeds.back();
-        speeds.push_back(v + transition.sampleSeconds * drag * excess(transition.segmentSpeed, v));
+        speeds.push_back(v +
+                         transition.sampleSeconds * acceleration(law, transition.segmentSpeed, v));
     }
     return speeds;
 }
 
 SpeedResponse fitResponse(const Transitions& transitions) {
-    const double glide = fitDrag({transitions.glide});
-    const double brake = fitDrag({transitions.brake});
-    return {.swimDrag = static_cast<float>(fitDrag({transitions.slowToFast})),
-            .glideDrag = static_cast<float>(glide),
-            .brakeDrag = static_cast<float>(std::max(0.0, brake - glide))};
+    const SpeedLaw gliding{.glideDrag = fitTerm({transitions.glide}, &SpeedLaw::glideDrag, {})};
+    SpeedResponse response{.glideDrag = static_cast<float>(gliding.glideDrag)};
+    for (std::size_t gait = 0; gait < transitions.swim.size(); ++gait)
+        response.swimDrag.at(gait) =
+            static_cast<float>(fitTerm(transitions.swim.at(gait), &SpeedLaw::swimDrag, gliding));
+    response.brakeRate =
+        static_cast<float>(fitTerm({transitions.brake}, &SpeedLaw::brakeRate, gliding));
+    return response;
 }
 
 }  // namespace aquarama

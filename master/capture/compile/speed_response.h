@@ -2,6 +2,7 @@
 // How a fish's speed follows what it plays, measured on the dynamics.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/config/species.h"
@@ -10,8 +11,9 @@
 
 namespace aquarama {
 
-// A change of speed as the dynamics swam it. Speeds in body lengths a second: of the centre of mass
-// along its course; while the tail beats, the mean over one beat.
+// A change of speed as the dynamics swam it, from the tick at which it was told to. Speeds in body
+// lengths a second: of the centre of mass along its course; while the tail beats, the mean over the
+// beat around.
 struct Transition {
     double sampleSeconds = 0;
     double segmentSpeed = 0;  // what it goes to
@@ -19,25 +21,34 @@ struct Transition {
 };
 
 struct Transitions {
-    Transition slowToFast, mediumToSlow;  // swimming
-    Transition glide, brake;              // out of medium swimming
+    std::array<std::vector<Transition>, kForwardGaits> swim;  // to each gait from the other two
+    Transition glide, brake;                                  // out of medium swimming
 };
-[[nodiscard]] Transitions swimTransitions(const Species& species,
-                                          const SteadySwimming& slow,
-                                          const SteadySwimming& medium,
-                                          const SteadySwimming& fast);
+using SteadyGaits = std::array<const SteadySwimming*, kForwardGaits>;
+[[nodiscard]] Transitions swimTransitions(const Species& species, const SteadyGaits& gaits);
 
-// The drag k of dv/dt = k (s|s| - v|v|) that explains transitions best. Integrated over time,
-// v(t) - v(0) = k X(t) with X the integral of s|s| - v|v|: a straight line through the origin,
-// fitted by least squares over all samples, k = sum(X (v - v(0))) / sum(X^2). Never negative.
-[[nodiscard]] double fitDrag(const std::vector<Transition>& transitions);
+// The law of SpeedResponse while one segment plays, p being its speed:
+//     dv/dt = glideDrag (p |p| - v |v|) + swimDrag |p| (p - v) - brakeRate v.
+struct SpeedLaw {
+    double glideDrag = 0;
+    double swimDrag = 0;
+    double brakeRate = 0;
+};
+[[nodiscard]] double acceleration(const SpeedLaw& law, double segmentSpeed, double speed);
+
+// The coefficient k of a law's term that explains best what the known terms leave. The law is
+// linear in k. Integrated over time, v(t) - v(0) - K(t) = k X(t), with K the integral of the known
+// terms along the measured speeds and X that of the term: a straight line through the origin,
+// fitted by least squares over all samples, k = sum(X (v - v(0) - K)) / sum(X^2). Never negative.
+[[nodiscard]] double fitTerm(const std::vector<Transition>& transitions,
+                             double SpeedLaw::*term,
+                             const SpeedLaw& known);
 
 // The speeds of a fish that obeys the law, from the transition's first speed on.
-[[nodiscard]] std::vector<double> replayLaw(const Transition& transition, double drag);
+[[nodiscard]] std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law);
 
-// swimDrag from the change to a faster gait: most changes are, since every turn slows the fish
-// down. (To a slower one the speed falls more slowly than it rises.) glideDrag from the glide,
-// brakeDrag from what the brake needs beyond that.
+// glideDrag from the glide; with it swimDrag of a gait from the changes to it, whether they gather
+// speed or lose it; brakeRate from the brake.
 [[nodiscard]] SpeedResponse fitResponse(const Transitions& transitions);
 
 }  // namespace aquarama

@@ -72,11 +72,15 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
                  kPhases,
                  kNodalPoints,
                  hasCage ? "426 control points recorded" : "control points not recorded");
-    const auto [swim, glide, brake] = repertoire.response;
-    text += line("speed response: drag %.3f swimming, %.3f gliding, %.3f more braking, per BL\n\n",
-                 static_cast<double>(swim),
-                 static_cast<double>(glide),
-                 static_cast<double>(brake));
+    const auto& [swim, glide, brake] = repertoire.response;
+    text += line(
+        "speed response: drag %.3f gliding, %.3f, %.3f, %.3f more swimming, per BL;"
+        " brake %.3f per s\n\n",
+        static_cast<double>(glide),
+        static_cast<double>(swim[0]),
+        static_cast<double>(swim[1]),
+        static_cast<double>(swim[2]),
+        static_cast<double>(brake));
     text +=
         "                       period    speed   stride    turn     turn   radius     tail "
         "Strouhal   largest      lean     climb\n"

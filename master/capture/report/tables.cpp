@@ -89,7 +89,7 @@ constexpr std::array kQuantities{
              "Videler &amp; Hess 1984"},
 };
 
-std::string drag(float perBodyLength) {
+std::string threeDigits(float perBodyLength) {
     return fixed(static_cast<double>(perBodyLength), 3);
 }
 
@@ -110,8 +110,8 @@ double peakTurnRate(const ActionSegment& segment) {
 std::string fileTable(const Repertoire& repertoire) {
     const std::vector<std::byte> bytes = encodeRepertoire(repertoire);
     const bool hasCage = !repertoire.segments[0].controlPoints.empty();
-    const auto [swim, glide, brake] = repertoire.response;
-    const bool isMeasured = swim > 0 || glide > 0 || brake > 0;
+    const auto& [swim, glide, brake] = repertoire.response;
+    const bool isMeasured = glide > 0 || brake > 0;
     return "<table class=\"words\">" +
            row({"recorded fish",
                 fixed(static_cast<double>(repertoire.recordedLengthMetres), 3) +
@@ -124,8 +124,9 @@ std::string fileTable(const Repertoire& repertoire) {
                     (hasCage ? " and " + std::to_string(kControlPoints) + " control points"
                              : "; control points are computed from them, not recorded")}) +
            row({"speed response",
-                isMeasured ? "drag " + drag(swim) + " swimming, " + drag(glide) + " gliding, " +
-                                 drag(brake) + " more braking, per BL"
+                isMeasured ? "drag " + threeDigits(glide) + " gliding, " + threeDigits(swim[0]) +
+                                 ", " + threeDigits(swim[1]) + ", " + threeDigits(swim[2]) +
+                                 " more swimming, per BL; brake " + threeDigits(brake) + " per s"
                            : "not measured"}) +
            row({"file",
                 std::to_string(bytes.size()) + " bytes, format version " +

@@ -10,7 +10,8 @@ namespace {
 constexpr std::array<Action, 3> kForward{
     Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast};
 constexpr SpeedResponse kAtOnce{};
-constexpr SpeedResponse kResponse{.swimDrag = 0.5F, .glideDrag = 0.4F, .brakeDrag = 4.0F};
+constexpr SpeedResponse kResponse{
+    .swimDrag = {0.3F, 0.4F, 0.5F}, .glideDrag = 0.4F, .brakeRate = 2.0F};
 
 void reverse(School& school) {
     school.commands.phaseRate[0] = static_cast<std::int16_t>(-school.commands.phaseRate[0]);
@@ -92,7 +93,7 @@ TEST_P(Patterns, aGlideIsEnteredByAWarpAndKeepsTheSpeedThatTheFishHad) {
     EXPECT_LT(speedOf(school), before);
 }
 
-// Under dv/dt = -k v^2 - 2 v a fish comes to rest within ln(1 + k v0 / 2) / k.
+// Under dv/dt = -k v^2 - r v a fish comes to rest within ln(1 + k v0 / r) / k.
 TEST_P(Patterns, aBrakingFishSlowsDownAtEveryTickUntilItStopsWithinTheStatedWay) {
     const auto tables = tablesOf(GetParam(), kResponse);
     for (const Action action : kForward) {
@@ -102,7 +103,8 @@ TEST_P(Patterns, aBrakingFishSlowsDownAtEveryTickUntilItStopsWithinTheStatedWay)
         school.command(0, Action::Glide);
         school.commands.brake[0] = 255;
         const double v0 = speedOf(school);
-        const double k = static_cast<double>(kResponse.brakeDrag + kResponse.glideDrag);
+        const auto k = static_cast<double>(kResponse.glideDrag);
+        const auto r = static_cast<double>(kResponse.brakeRate);
         const double from = wayOf(school);
         int ticks = 0;
         for (double last = v0; last > 0; ++ticks) {
@@ -110,10 +112,28 @@ TEST_P(Patterns, aBrakingFishSlowsDownAtEveryTickUntilItStopsWithinTheStatedWay)
             ASSERT_LT(speedOf(school), last);
             last = speedOf(school);
         }
-        EXPECT_LT(ticks, 6 * 60);
-        EXPECT_LT(wayOf(school) - from, 1.02 * std::log(1 + k * v0 / 2) / k);
+        EXPECT_LT(ticks, 8 * 60);
+        const double way = std::log(1 + k * v0 / r) / k;
+        EXPECT_NEAR(wayOf(school) - from, way, 0.02 * way + 0.002);
         school.tick(60);
         EXPECT_EQ(speedOf(school), 0) << "and stays";
+    }
+}
+
+// At v = s / 2, dv/dt = (3/4 glideDrag + 1/2 swimDrag) s^2.
+TEST_P(Patterns, aFishAtHalfTheSpeedOfItsGaitGathersSpeedByTheDragOfThatGait) {
+    const auto tables = tablesOf(GetParam(), kResponse);
+    for (const Action action : kForward) {
+        School school(1, *tables);
+        school.play(0, action);
+        const auto recorded = static_cast<double>(recordedSpeedBodyLengths(*tables, action));
+        setSpeedBodyLengths(school.states, 0, static_cast<float>(recorded / 2));
+        school.tick();
+        const auto drag =
+            static_cast<double>(0.75F * kResponse.glideDrag +
+                                0.5F * kResponse.swimDrag[static_cast<std::size_t>(action)]);
+        const double gained = speedOf(school) - recorded / 2;
+        EXPECT_NEAR(gained * 60, drag * recorded * recorded, 0.02) << nameOf(action);
     }
 }
 

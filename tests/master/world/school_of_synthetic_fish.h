@@ -31,10 +31,11 @@ inline Repertoire syntheticScad() {
                                                    sharp,
                                                    right(gradual),
                                                    right(sharp)};
-    Repertoire scad{.species = "synthetic scad",
-                    .recordedLengthMetres = 0.24F,
-                    .response = {.swimDrag = 0.5F, .glideDrag = 0.4F, .brakeDrag = 4.0F},
-                    .segments = {}};
+    Repertoire scad{
+        .species = "synthetic scad",
+        .recordedLengthMetres = 0.24F,
+        .response = {.swimDrag = {0.3F, 0.4F, 0.5F}, .glideDrag = 0.4F, .brakeRate = 4.0F},
+        .segments = {}};
     for (std::size_t action = 0; action < kCapturedActions; ++action)
         scad.segments[action] = synthetic::segmentOf(gaits[action], false);
     addGlide(scad);

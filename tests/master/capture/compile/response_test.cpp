@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "master/capture/compile/speed_response.h"
 #include "tests/master/capture/compile/all_species.h"
@@ -14,57 +15,104 @@ INSTANTIATE_TEST_SUITE_P(Of,
                          testing::Range(std::size_t{0}, allSpecies().size()),
                          nameOfSpecies);
 
+SpeedLaw lawOf(const SpeedResponse& response, std::size_t gait) {
+    return {.glideDrag = static_cast<double>(response.glideDrag),
+            .swimDrag = static_cast<double>(response.swimDrag.at(gait))};
+}
+
+SpeedLaw brakeOf(const SpeedResponse& response) {
+    return {.glideDrag = static_cast<double>(response.glideDrag),
+            .brakeRate = static_cast<double>(response.brakeRate)};
+}
+
 // Root mean square over the transition, as a share of the higher of its two speeds.
-double errorOf(const Transition& transition, double drag) {
-    const std::vector<double> law = replayLaw(transition, drag);
+double errorOf(const Transition& transition, const SpeedLaw& law) {
+    const std::vector<double> speeds = replayLaw(transition, law);
     double squares = 0;
-    for (std::size_t i = 0; i < law.size(); ++i)
-        squares += (law[i] - transition.speeds[i]) * (law[i] - transition.speeds[i]);
-    return std::sqrt(squares / static_cast<double>(law.size())) /
+    for (std::size_t i = 0; i < speeds.size(); ++i)
+        squares += (speeds[i] - transition.speeds[i]) * (speeds[i] - transition.speeds[i]);
+    return std::sqrt(squares / static_cast<double>(speeds.size())) /
            std::max(transition.segmentSpeed, transition.speeds.front());
 }
 
-TEST_P(Response, theLawReplaysWhatItWasFittedTo) {
+// Of the way, at the end of the transition.
+double wayErrorOf(const Transition& transition, const SpeedLaw& law) {
+    const std::vector<double> speeds = replayLaw(transition, law);
+    const double way = std::accumulate(speeds.begin(), speeds.end(), 0.0);
+    const double swum = std::accumulate(transition.speeds.begin(), transition.speeds.end(), 0.0);
+    return std::abs(way / swum - 1);
+}
+
+TEST_P(Response, theLawReplaysEveryChangeOfSpeed) {
     const Swim& gaits = species().swim;
-    const Transitions swum = swimTransitions(species(),
-                                             swimUntilSteady(species(), gaits.slow),
-                                             swimUntilSteady(species(), gaits.medium),
-                                             swimUntilSteady(species(), gaits.fast));
-    const auto [swim, glide, brake] = fitResponse(swum);
-    EXPECT_LT(errorOf(swum.slowToFast, static_cast<double>(swim)), 0.12);
-    EXPECT_LT(errorOf(swum.mediumToSlow, static_cast<double>(swim)), 0.12) << "not fitted to";
-    EXPECT_LT(errorOf(swum.glide, static_cast<double>(glide)), 0.05);
-    EXPECT_LT(errorOf(swum.brake, static_cast<double>(glide + brake)), 0.12);
+    const SteadySwimming slow = swimUntilSteady(species(), gaits.slow);
+    const SteadySwimming medium = swimUntilSteady(species(), gaits.medium);
+    const SteadySwimming fast = swimUntilSteady(species(), gaits.fast);
+    const Transitions swum = swimTransitions(species(), {&slow, &medium, &fast});
+    const SpeedResponse response = fitResponse(swum);
+    for (std::size_t gait = 0; gait < swum.swim.size(); ++gait)
+        for (const Transition& change : swum.swim.at(gait)) {
+            EXPECT_LT(errorOf(change, lawOf(response, gait)), 0.04) << "to gait " << gait;
+            EXPECT_LT(wayErrorOf(change, lawOf(response, gait)), 0.04) << "to gait " << gait;
+        }
+    EXPECT_LT(errorOf(swum.glide, lawOf(response, 1)), 0.05);
+    EXPECT_LT(errorOf(swum.brake, brakeOf(response)), 0.03);
+    EXPECT_LT(wayErrorOf(swum.brake, brakeOf(response)), 0.03);
 }
 
 TEST_P(Response, isKeptInTheRepertoire) {
-    const auto [swim, glide, brake] = repertoire().response;
-    EXPECT_GT(swim, glide) << "a beating tail holds the fish to its speed";
+    const auto& [swim, glide, brake] = repertoire().response;
+    for (const float drag : swim)
+        EXPECT_GT(drag, 0) << "a beating tail holds the fish to its speed";
     EXPECT_GT(glide, 0);
-    EXPECT_GT(brake, glide) << "fins brake more than the body";
+    const auto medium = segment(Action::ForwardMedium);
+    EXPECT_GT(brake * medium.periodSeconds, 0.5F) << "fins stop a fish within some beats";
 }
 
-Transition obeying(double drag, double from, double to) {
+Transition obeying(const SpeedLaw& law, double from, double to) {
     Transition transition{
         .sampleSeconds = 1e-3, .segmentSpeed = to, .speeds = std::vector<double>(2000, from)};
-    transition.speeds = replayLaw(transition, drag);
+    transition.speeds = replayLaw(transition, law);
     return transition;
 }
 
-TEST(SpeedResponse, findsTheDragOfAFishThatObeysTheLaw) {
-    for (const double drag : {0.05, 0.3, 4.0})
-        EXPECT_NEAR(fitDrag({obeying(drag, 0.5, 2), obeying(drag, 1.5, 0)}) / drag, 1, 0.01);
+TEST(SpeedResponse, findsTheNumbersOfAFishThatObeysTheLaw) {
+    const SpeedLaw gliding{.glideDrag = 0.3};
+    for (const double number : {0.05, 0.3, 4.0}) {
+        const SpeedLaw glide{.glideDrag = number};
+        EXPECT_NEAR(fitTerm({obeying(glide, 1.5, 0)}, &SpeedLaw::glideDrag, {}) / number, 1, 0.01);
+        const SpeedLaw swim{.glideDrag = 0.3, .swimDrag = number};
+        const std::vector<Transition> both{obeying(swim, 0.5, 2), obeying(swim, 2, 0.5)};
+        EXPECT_NEAR(fitTerm(both, &SpeedLaw::swimDrag, gliding) / number, 1, 0.01);
+        const SpeedLaw brake{.glideDrag = 0.3, .brakeRate = number};
+        EXPECT_NEAR(
+            fitTerm({obeying(brake, 1.5, 0)}, &SpeedLaw::brakeRate, gliding) / number, 1, 0.01);
+    }
 }
 
 // dv/dt = -k v^2 has the closed form v = v0 / (1 + k v0 t).
 TEST(SpeedResponse, coastsAsTheClosedFormDoes) {
-    const Transition glide = obeying(0.4, 2, 0);
+    const Transition glide = obeying({.glideDrag = 0.4, .swimDrag = 9}, 2, 0);
     for (std::size_t i = 0; i < glide.speeds.size(); i += 100)
         EXPECT_NEAR(glide.speeds[i], 2 / (1 + 0.4 * 2 * 1e-3 * static_cast<double>(i)), 2e-3);
 }
 
+// dv/dt = k p (p - v) has the closed form v = p + (v0 - p) exp(-k p t).
+TEST(SpeedResponse, gathersAndLosesSpeedAsTheClosedFormDoes) {
+    for (const double from : {0.5, 3.0}) {
+        const Transition change = obeying({.swimDrag = 0.4}, from, 2);
+        for (std::size_t i = 0; i < change.speeds.size(); i += 100) {
+            const double seconds = 1e-3 * static_cast<double>(i);
+            EXPECT_NEAR(change.speeds[i], 2 + (from - 2) * std::exp(-0.4 * 2 * seconds), 2e-3);
+        }
+    }
+}
+
 TEST(SpeedResponse, aFishThatDoesNotSlowDownHasNoDrag) {
-    EXPECT_EQ(fitDrag({{.sampleSeconds = 0.1, .segmentSpeed = 0, .speeds = {1, 1.1, 1.2}}}), 0);
+    EXPECT_EQ(fitTerm({{.sampleSeconds = 0.1, .segmentSpeed = 0, .speeds = {1, 1.1, 1.2}}},
+                      &SpeedLaw::glideDrag,
+                      {}),
+              0);
 }
 
 }  // namespace

@@ -77,14 +77,14 @@ TEST(Report, isWrittenUnderTheNameOfTheSpecies) {
 
 TEST(Inspect, listsTheSevenCapturedSegmentsAndWhatTheFileHolds) {
     Repertoire repertoire = withoutControlPoints();
-    repertoire.response = {.swimDrag = 1.25F, .glideDrag = 0.5F, .brakeDrag = 3.0F};
+    repertoire.response = {.swimDrag = {0.25F, 0.75F, 1.25F}, .glideDrag = 0.5F, .brakeRate = 3.0F};
     const auto bytes = encodeRepertoire(repertoire);
     const std::string text = inspectRepertoire(bytes, "a file");
     for (int i = 0; i < kCapturedActions; ++i)
         EXPECT_EQ(countOf(std::string("\n  ") + nameOf(static_cast<Action>(i)), text), 1U);
     EXPECT_EQ(text.find("\n  glide"), std::string::npos);
     EXPECT_NE(text.find("control points not recorded"), std::string::npos);
-    EXPECT_NE(text.find("1.250 swimming, 0.500 gliding, 3.000"), std::string::npos);
+    EXPECT_NE(text.find("0.500 gliding, 0.250, 0.750, 1.250 more"), std::string::npos);
     EXPECT_NE(text.find("format version " + std::to_string(formatVersionOf(bytes))),
               std::string::npos);
 }
