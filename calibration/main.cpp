@@ -32,11 +32,9 @@ void check(const std::string& path) {
 
 void inspect(const std::string& path) {
     const Rig rig = checkedRig(path);
-    std::printf("rig \"%s\": %zu channels, %u fish of %s\n",
-                rig.name.c_str(),
-                rig.channels.size(),
-                rig.fish,
-                rig.species.c_str());
+    std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
+    for (const CastMember& member : rig.cast)
+        std::printf("cast: %u fish of %s\n", member.fish, member.species.c_str());
     std::printf("screen: radius %.3f m, %.1f degrees (%.3f m of arc), %.3f m high\n",
                 rig.screen.radiusMetres,
                 rig.screen.arcRadians / kRadiansPerDegree,

@@ -59,7 +59,8 @@ class LivingWorld final : public Simulation {
 
 std::string fileText(const std::filesystem::path& path) {
     std::ifstream file(path);
-    if (!file) throw Error(path.string() + ": cannot be read; is the rig's `species` right?");
+    if (!file)
+        throw Error(path.string() + ": cannot be read; is the `species` of the rig's cast right?");
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
@@ -73,18 +74,50 @@ ByteVector capturedOnce(const std::string& speciesText, const std::filesystem::p
         speciesText, speciesPath.string(), cache, [&](double share) { bar.show(share); });
 }
 
-WorldOptions worldOptions(const MasterOptions& options, const Rig& rig, const Species& species) {
+FishLengths lengthsOf(const SizeRange& size) {
+    return {.meanMetres = static_cast<float>(size.meanMetres),
+            .deviationMetres = static_cast<float>(size.deviationMetres),
+            .leastMetres = static_cast<float>(size.leastMetres),
+            .mostMetres = static_cast<float>(size.mostMetres)};
+}
+
+// One species of the cast: what moves it, and what the nodes are sent.
+struct Member {
+    WorldSpecies species;
+    ByteVector speciesBlob, repertoireBlob;
+};
+
+Member memberOf(const std::filesystem::path& speciesPath, std::uint32_t fish) {
+    const std::string text = fileText(speciesPath);
+    const Species species = parseSpecies(text, speciesPath.string());
+    const auto bytes = std::as_bytes(std::span{text});
+    Member member{.species = {.tables = nullptr, .fish = fish, .lengths = lengthsOf(species.size)},
+                  .speciesBlob = {bytes.begin(), bytes.end()},
+                  .repertoireBlob = capturedOnce(text, speciesPath)};
+    member.species.tables = makeMotorTables(decodeRepertoire(member.repertoireBlob, species.name));
+    return member;
+}
+
+// `--fish` is about the school: the first of the cast.
+std::vector<Member> membersOf(const Rig& rig, const MasterOptions& options) {
+    const auto folder = std::filesystem::path(options.rigPath).parent_path();
+    std::vector<Member> members;
+    for (const CastMember& member : rig.cast) {
+        const bool isSchool = members.empty();
+        members.push_back(memberOf(folder / member.species,
+                                   isSchool ? options.fish.value_or(member.fish) : member.fish));
+    }
+    return members;
+}
+
+WorldOptions worldOptions(const MasterOptions& options, const std::vector<Member>& members) {
     WorldOptions world;
     world.seed = options.seed;
-    world.fishCount = options.fish.value_or(rig.fish);
+    for (const Member& member : members) world.cast.push_back(member.species);
     // One core moves a few thousand fish well inside a tick; more threads would only wait for each
     // other.
-    world.threads =
-        std::clamp(world.fishCount / 2000U, 1U, std::max(std::thread::hardware_concurrency(), 1U));
-    world.lengths = {.meanMetres = static_cast<float>(species.size.meanMetres),
-                     .deviationMetres = static_cast<float>(species.size.deviationMetres),
-                     .leastMetres = static_cast<float>(species.size.leastMetres),
-                     .mostMetres = static_cast<float>(species.size.mostMetres)};
+    world.threads = std::clamp(
+        world.cast.front().fish / 2000U, 1U, std::max(std::thread::hardware_concurrency(), 1U));
     return world;
 }
 
@@ -106,23 +139,20 @@ void runMaster(const MasterOptions& options) {
     checkGeometry(rig, options.rigPath);
     auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
 
-    const auto speciesPath = std::filesystem::path(options.rigPath).parent_path() / rig.species;
-    const std::string speciesText = fileText(speciesPath);
-    const Species species = parseSpecies(speciesText, speciesPath.string());
-    const ByteVector repertoire = capturedOnce(speciesText, speciesPath);
-
-    World world(worldOptions(options, rig, species),
-                makeMotorTables(decodeRepertoire(repertoire, species.name)));
+    const std::vector<Member> members = membersOf(rig, options);
+    World world(worldOptions(options, members));
     LivingWorld simulation(world);
 
-    const auto speciesBytes = std::as_bytes(std::span{speciesText});
     Welcome welcome;
     welcome.rigText = writeRig(rig);
     welcome.school.assign(world.traits().begin(), world.traits().end());
-    welcome.species = digestOf(speciesBytes);
-    welcome.repertoire = digestOf(repertoire);
-    Blobs blobs{{welcome.species, ByteVector(speciesBytes.begin(), speciesBytes.end())},
-                {welcome.repertoire, repertoire}};
+    Blobs blobs;
+    for (const Member& member : members) {
+        welcome.cast.push_back(
+            {digestOf(member.speciesBlob), digestOf(member.repertoireBlob), member.species.fish});
+        blobs.emplace(welcome.cast.back().species, member.speciesBlob);
+        blobs.emplace(welcome.cast.back().repertoire, member.repertoireBlob);
+    }
 
     Conductor conductor(rig,
                         conductorOptions(options),

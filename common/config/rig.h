@@ -66,6 +66,12 @@ struct Timing {
     double membershipSeconds = 0.25;  // silence after which a node is no longer counted
 };
 
+// One species of the show.
+struct CastMember {
+    std::string species;  // path of its file, relative to the rig's folder
+    std::uint32_t fish = 0;
+};
+
 struct Rig {
     std::string name;
     Screen screen;
@@ -74,8 +80,7 @@ struct Rig {
     std::string stateAddress;     // "tcp://127.0.0.1:7401": PUB
     std::vector<Channel> channels;
     Timing timing;
-    std::string species;  // path of the species file, relative to the rig's folder
-    std::uint32_t fish = 51;
+    std::vector<CastMember> cast;  // at least one; the school first
 };
 
 // Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind

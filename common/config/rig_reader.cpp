@@ -188,6 +188,19 @@ std::vector<Channel> readChannels(const TextPlace& root) {
     return channels;
 }
 
+std::vector<CastMember> readCast(const TextPlace& root) {
+    const int count = root.count("cast");
+    if (count < 1)
+        root.refuse("the rig has no cast: add `cast { species: ... fish: ... }` for each species");
+    std::vector<CastMember> cast;
+    for (int i = 0; i < count; ++i) {
+        const TextPlace at = root.in("cast", i);
+        cast.push_back({.species = at.text("species"),
+                        .fish = static_cast<std::uint32_t>(at.number("fish", {1, kMostFish}))});
+    }
+    return cast;
+}
+
 }  // namespace
 
 Rig parseRig(const std::string& text, const std::string& source) {
@@ -201,8 +214,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
     readNetwork(root.in("network"), rig);
     rig.timing.presentDeadlineSeconds = 1 / rig.timing.refreshHertz;
     if (root.has("timing")) rig.timing = readTiming(root.in("timing"));
-    rig.species = root.text("species");
-    rig.fish = static_cast<std::uint32_t>(root.numberOr("fish", {1, kMostFish}, rig.fish));
+    rig.cast = readCast(root);
     rig.channels = readChannels(root);
     return rig;
 }

@@ -68,8 +68,11 @@ std::string writeRig(const Rig& rig) {
     out.mutable_network()->set_control(rig.controlAddress);
     out.mutable_network()->set_state(rig.stateAddress);
     write(rig.timing, *out.mutable_timing());
-    out.set_species(rig.species);
-    out.set_fish(rig.fish);
+    for (const CastMember& member : rig.cast) {
+        auto& written = *out.add_cast();
+        written.set_species(member.species);
+        written.set_fish(member.fish);
+    }
     for (const Channel& channel : rig.channels) write(channel, *out.add_channels());
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);

@@ -87,13 +87,29 @@ std::optional<std::vector<FishTraits>> schoolIn(const v1::Welcome& message) {
     return school;
 }
 
+// Species that together have as many fish as the school.
+std::optional<std::vector<SpeciesBlobs>> castIn(const v1::Welcome& message, std::size_t school) {
+    if (std::size_t(message.cast_size()) > kMaxSpecies) return std::nullopt;
+    std::vector<SpeciesBlobs> cast;
+    std::size_t fish = 0;
+    for (const v1::SpeciesBlobs& member : message.cast()) {
+        const auto species = digestIn(member.species());
+        const auto repertoire = digestIn(member.repertoire());
+        if (!species || !repertoire || member.fish() > kMaxFish) return std::nullopt;
+        cast.push_back({*species, *repertoire, member.fish()});
+        fish += member.fish();
+    }
+    if (fish != school) return std::nullopt;
+    return cast;
+}
+
 std::optional<Message> read(const v1::Welcome& message) {
     const auto pace = paceIn(message.pace());
     const auto pattern = patternIn(message.pattern());
-    const auto species = digestIn(message.species());
-    const auto repertoire = digestIn(message.repertoire());
     auto school = schoolIn(message);
-    if (!pace || !pattern || !species || !repertoire || !school) return std::nullopt;
+    if (!pace || !pattern || !school) return std::nullopt;
+    auto cast = castIn(message, school->size());
+    if (!cast) return std::nullopt;
     if (message.rig_text().size() > kMaxRigTextBytes || !message.has_seed() ||
         !isText(message.state_address(), kMaxReasonBytes)) {
         return std::nullopt;
@@ -104,8 +120,7 @@ std::optional<Message> read(const v1::Welcome& message) {
                    *pace,
                    *pattern,
                    std::move(*school),
-                   *species,
-                   *repertoire};
+                   std::move(*cast)};
 }
 
 std::optional<Message> read(const v1::BlobRequest& message) {

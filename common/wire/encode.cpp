@@ -65,8 +65,12 @@ void write(const Welcome& welcome, v1::Envelope& envelope) {
         message.add_fish_ids(fish.id);
         message.add_length_millimetres(fish.lengthMillimetres);
     }
-    message.set_species(bytesOf(welcome.species));
-    message.set_repertoire(bytesOf(welcome.repertoire));
+    for (const SpeciesBlobs& blobs : welcome.cast) {
+        v1::SpeciesBlobs& member = *message.add_cast();
+        member.set_species(bytesOf(blobs.species));
+        member.set_repertoire(bytesOf(blobs.repertoire));
+        member.set_fish(blobs.fish);
+    }
 }
 
 void write(const BlobRequest& request, v1::Envelope& envelope) {

@@ -26,6 +26,7 @@ inline constexpr std::size_t kMaxFish = 1'000'000;
 inline constexpr std::size_t kMaxBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr std::size_t kMaxNodes = 256;
+inline constexpr std::size_t kMaxSpecies = 64;
 inline constexpr std::size_t kMaxSmallPacketBytes = std::size_t{64} << 10U;  // all but
 // welcomes, states and chunks; nothing larger ever goes from a node to the master
 inline constexpr std::size_t kMaxPacketBytes = std::size_t{64} << 20U;  // two states of kMaxFish

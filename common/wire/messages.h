@@ -39,6 +39,14 @@ enum class Pace : std::uint8_t { Live, Lockstep };
 // What the channels show: the world, or a pattern for setting up and for tests.
 enum class Pattern : std::uint8_t { World, Grid, Grey };
 
+// The fish of one species: in the school they follow those of the species before it.
+struct SpeciesBlobs {
+    Digest species;     // blob: the species file
+    Digest repertoire;  // blob: encodeRepertoire
+    std::uint32_t fish = 0;
+    friend bool operator==(const SpeciesBlobs&, const SpeciesBlobs&) = default;
+};
+
 // What a node needs to take part, sent in answer to its hello.
 struct Welcome {
     std::string rigText;       // writeRig / parseRig
@@ -47,8 +55,7 @@ struct Welcome {
     Pace pace = Pace::Live;
     Pattern pattern = Pattern::World;
     std::vector<FishTraits> school;
-    Digest species;     // blob: the species file
-    Digest repertoire;  // blob: encodeRepertoire
+    std::vector<SpeciesBlobs> cast;  // of all fish of the school, in its order
 };
 
 }  // namespace aquarama

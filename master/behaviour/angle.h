@@ -46,4 +46,14 @@ inline constexpr float kRadiansPerDegree = kPi / 180.0F;
     return angleOf(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z);
 }
 
+// No fish here wants to climb or dive more steeply than by 25 degrees.
+[[nodiscard]] inline glm::vec3 levelled(glm::vec3 direction) {
+    constexpr float kSteepest = 0.42F;  // sine of 25 degrees
+    const float y = std::clamp(direction.y, -kSteepest, kSteepest);
+    const float horizontal = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    if (horizontal < 1.0e-4F) return {1, 0, 0};
+    const float scale = std::sqrt(1 - y * y) / horizontal;
+    return {direction.x * scale, y, direction.z * scale};
+}
+
 }  // namespace aquarama

@@ -28,8 +28,7 @@ constexpr float kCohere = 1.2F;
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
 
-constexpr float kSteepest = 0.42F;  // sine of the steepest pitch, 25 degrees
-constexpr float kSlowest = 0.85F;   // body lengths a second
+constexpr float kSlowest = 0.85F;  // body lengths a second
 constexpr float kFastest = 2.9F;
 constexpr float kMillPace = 1.9F;
 constexpr float kReachSeconds = 2.2F;  // how far ahead the surroundings are felt
@@ -42,14 +41,22 @@ struct Company {
     float brake = 0;  // for those just ahead, body lengths a second
 };
 
-Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::size_t fish) {
+// Of the same species one keeps with; to others one only gives way.
+Company companyOf(const SchoolView& view,
+                  const Neighbours& neighbours,
+                  std::size_t mates,
+                  std::size_t fish) {
     Company company;
+    std::size_t followed = 0;
     const glm::vec3 position = view.position(fish);
     const glm::vec3 heading = view.heading(fish);
     const float perLength = 1 / view.length[fish];
     for (std::size_t i = 0; i < neighbours.count; ++i) {
         const std::size_t other = neighbours.fish[i];
-        const glm::vec3 offset = (view.position(other) - position) * perLength;
+        // Of a larger fish one stays clear by its length.
+        const float scale = std::min(perLength, 1 / view.length[other]);
+        const glm::vec3 offset =
+            (view.position(other) - position) * (other < mates ? perLength : scale);
         const float distance = lengthOf(offset);
         const glm::vec3 towards = directionOf(offset, {0, 1, 0});
         // Fish are long: in file they need more room than abreast; there the one behind brakes and
@@ -66,6 +73,8 @@ Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::siz
         company.separation -=
             directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
         company.brake += repulsion * std::max(0.0F, dot(towards, heading));
+        if (other >= mates) continue;
+        ++followed;
         company.cohesion += towards * tooFar;
         company.alignment += view.heading(other) * inStep;
         company.speed += view.speed[other] * perLength;
@@ -73,8 +82,8 @@ Company companyOf(const SchoolView& view, const Neighbours& neighbours, std::siz
     // Parting by more than a slant would bring the tails together.
     const float parting = lengthOf(company.separation) * kSeparate;
     if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
-    if (neighbours.count == 0) return company;
-    const float share = 1 / static_cast<float>(neighbours.count);
+    if (followed == 0) return company;
+    const float share = 1 / static_cast<float>(followed);
     company.alignment *= share;
     company.cohesion *= share;
     company.hurry = dot(company.cohesion, heading);
@@ -112,14 +121,6 @@ glm::vec3 whim(std::uint32_t seed, std::size_t fish, Tick tick) {
             valueNoise(own, {seconds * 0.5F, 16.5F})};
 }
 
-glm::vec3 levelled(glm::vec3 direction) {
-    const float y = std::clamp(direction.y, -kSteepest, kSteepest);
-    const float horizontal = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-    if (horizontal < 1.0e-4F) return {1, 0, 0};
-    const float scale = std::sqrt(1 - y * y) / horizontal;
-    return {direction.x * scale, y, direction.z * scale};
-}
-
 // The pace of the goal and of those about, quicker where the school is ahead and slower behind
 // others' tails.
 float wantedSpeed(const Goal& goal, const Company& company, float behind, float perLength) {
@@ -147,7 +148,7 @@ void Steering::think(std::size_t fish) const {
     const glm::vec3 position = view->position(fish);
     const glm::vec3 heading = view->heading(fish);
     const Neighbours neighbours = nearestVisible(*view, *grid, static_cast<std::uint32_t>(fish));
-    const Company company = companyOf(*view, neighbours, fish);
+    const Company company = companyOf(*view, neighbours, schoolmates, fish);
     const float reach = kReachMetres + view->speed[fish] * kReachSeconds;
     const glm::vec3 push = avoidance(*surroundings, position, heading, reach);
     const float urgency = lengthOf(push);

@@ -44,6 +44,7 @@ struct Steering {
     const SchoolView* view = nullptr;
     const NeighbourGrid* grid = nullptr;
     const Surroundings* surroundings = nullptr;
+    std::size_t schoolmates = 0;  // fish [0, schoolmates) are the school
     Goal goal;
     float schoolRadius = 0;  // metres
     std::uint32_t seed = 0;

@@ -32,6 +32,7 @@ struct ExportOptions {
 
 std::vector<std::string> segmentNames() {
     std::vector<std::string> names;
+    names.reserve(kCapturedActions);
     for (int i = 0; i < kCapturedActions; ++i) names.emplace_back(nameOf(static_cast<Action>(i)));
     return names;
 }

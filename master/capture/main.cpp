@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// aquarama-capture: captures the repertoires of species, says what they hold, exports it, finds gaits
-// and compares replicas with the fish.
+// aquarama-capture: captures the repertoires of species, says what they hold, exports it, finds
+// gaits and compares replicas with the fish.
 #include <exception>
 #include <iostream>
 

@@ -125,9 +125,11 @@ float tempoOf(std::uint32_t seed, std::size_t fish) {
 
 void startCommands(const Gaits& gaits,
                    std::uint32_t seed,
+                   std::size_t first,
+                   std::size_t last,
                    MotorCommands& commands,
                    ControllerMemory& memory) {
-    for (std::size_t fish = 0; fish < commands.segment.size(); ++fish) {
+    for (std::size_t fish = first; fish < last; ++fish) {
         commands.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
         commands.phaseRate[fish] = gaits.phaseRate[indexOf(Action::ForwardMedium)];
         commands.pitch[fish] = 0;

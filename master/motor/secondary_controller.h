@@ -23,9 +23,11 @@ struct ControllerMemory {
     void resize(std::size_t fish);
 };
 
-// Commands at rest: each fish swims on at medium speed, with its own patience.
+// Commands at rest: each of fish [first, last) swims on at medium speed, with its own patience.
 void startCommands(const Gaits& gaits,
                    std::uint32_t seed,
+                   std::size_t first,
+                   std::size_t last,
                    MotorCommands& commands,
                    ControllerMemory& memory);
 

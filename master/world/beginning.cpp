@@ -8,6 +8,7 @@
 
 #include "common/place/noise.h"
 #include "master/behaviour/angle.h"
+#include "master/behaviour/wandering.h"
 
 namespace aquarama {
 
@@ -52,17 +53,32 @@ Block blockFor(std::size_t fish) {
     return block;
 }
 
+void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionStates& states) {
+    setBodyFrame(states, fish, frame);
+    const std::uint32_t phase =
+        hashOf(hashOf(seed, Phase), static_cast<std::uint32_t>(fish)) >> 16U;
+    states.phase[fish] = static_cast<std::uint16_t>(phase);
+    states.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
+    states.fromPhase[fish] = states.phase[fish];
+    states.fromSegment[fish] = states.segment[fish];
+    states.warpFrame[fish] = 0;
+    states.warpLength[fish] = 0;
+}
+
 }  // namespace
 
 std::vector<FishTraits> traitsOf(const WorldOptions& options) {
-    std::vector<FishTraits> traits(options.fishCount);
-    const FishLengths& lengths = options.lengths;
-    for (std::uint32_t id = 0; id < options.fishCount; ++id) {
-        const float own = bell(hashOf(hashOf(options.seed, Length), id));
-        const float metres = std::clamp(lengths.meanMetres + lengths.deviationMetres * own,
-                                        lengths.leastMetres,
-                                        lengths.mostMetres);
-        traits[id] = {id, static_cast<std::uint16_t>(std::lround(metres * 1000))};
+    std::vector<FishTraits> traits;
+    std::uint32_t id = 0;
+    for (const WorldSpecies& species : options.cast) {
+        const FishLengths& lengths = species.lengths;
+        for (std::uint32_t i = 0; i < species.fish; ++i, ++id) {
+            const float own = bell(hashOf(hashOf(options.seed, Length), id));
+            const float metres = std::clamp(lengths.meanMetres + lengths.deviationMetres * own,
+                                            lengths.leastMetres,
+                                            lengths.mostMetres);
+            traits.push_back({id, static_cast<std::uint16_t>(std::lround(metres * 1000))});
+        }
     }
     return traits;
 }
@@ -71,17 +87,18 @@ void placeSchool(std::uint32_t seed,
                  const Goal& goal,
                  const Region& water,
                  float spacingMetres,
+                 std::size_t fish,
                  MotionStates& states) {
-    const Block block = blockFor(states.size());
+    const Block block = blockFor(fish);
     const glm::quat rotation = facing(goal.velocityMetresPerSecond);
     // A school too large for the water is packed more densely.
     const glm::vec3 room = water.halfExtent * 0.85F;
-    for (std::size_t fish = 0; fish < states.size(); ++fish) {
-        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(fish));
+    for (std::size_t i = 0; i < fish; ++i) {
+        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(i));
         const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
                                signedUnitOf(hashOf(own, 1)),
                                signedUnitOf(hashOf(own, 2))};
-        const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(fish)) + jitter * 0.25F;
+        const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(i)) + jitter * 0.25F;
         const auto half = static_cast<float>(block.across) * 0.5F;
         const float fit = std::min({1.0F,
                                     room.y / (half * spacingMetres),
@@ -90,15 +107,18 @@ void placeSchool(std::uint32_t seed,
         const glm::vec3 spread = rotation * (cell * (spacingMetres * fit));
         const glm::vec3 place =
             glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
-        setBodyFrame(states, fish, {place, rotation});
-        const std::uint32_t phase =
-            hashOf(hashOf(seed, Phase), static_cast<std::uint32_t>(fish)) >> 16U;
-        states.phase[fish] = static_cast<std::uint16_t>(phase);
-        states.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
-        states.fromPhase[fish] = states.phase[fish];
-        states.fromSegment[fish] = states.segment[fish];
-        states.warpFrame[fish] = 0;
-        states.warpLength[fish] = 0;
+        begin(seed, i, {place, rotation}, states);
+    }
+}
+
+void placeWanderers(std::uint32_t seed,
+                    const Region& water,
+                    std::size_t first,
+                    MotionStates& states) {
+    for (std::size_t fish = first; fish < states.size(); ++fish) {
+        const glm::vec3 place = wanderingGoal(seed, water, fish, {});
+        const glm::vec3 towards = water.centre - place;
+        begin(seed, fish, {place, facing(towards)}, states);
     }
 }
 

@@ -14,12 +14,19 @@ namespace aquarama {
 
 [[nodiscard]] std::vector<FishTraits> traitsOf(const WorldOptions& options);
 
-// Loosely spaced about the goal, heading along its way, each at its own phase of the tail beat
-// (else they beat as one).
+// The first so many fish, loosely spaced about the goal, heading along its way, each at its own
+// phase of the tail beat (else they beat as one).
 void placeSchool(std::uint32_t seed,
                  const Goal& goal,
                  const Region& water,
                  float spacingMetres,
+                 std::size_t fish,
                  MotionStates& states);
+
+// The fish from `first` on, each at a place of its own.
+void placeWanderers(std::uint32_t seed,
+                    const Region& water,
+                    std::size_t first,
+                    MotionStates& states);
 
 }  // namespace aquarama

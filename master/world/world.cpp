@@ -9,6 +9,7 @@
 #include "common/units/error.h"
 #include "master/behaviour/angle.h"
 #include "master/behaviour/perception.h"
+#include "master/behaviour/wandering.h"
 #include "master/world/beginning.h"
 
 namespace aquarama {
@@ -44,27 +45,42 @@ std::size_t bytesIn(const Vectors&... vectors) {
 
 }  // namespace
 
-World::World(const WorldOptions& options, std::shared_ptr<const MotorTables> tables)
+World::World(const WorldOptions& options)
     : seed_(options.seed),
-      tables_(std::move(tables)),
-      gaits_(gaitsOf(*tables_)),
       surroundings_(surroundingsOf(options.seed)),
       traits_(traitsOf(options)),
-      grid_(surroundings_.water, kCellMetres, options.fishCount),
+      grid_(surroundings_.water, kCellMetres, traits_.size()),
       goal_(journeyGoal(options.seed, tick_)),
-      schoolRadius_(schoolRadiusMetres(options.fishCount)),
       pool_(options.threads) {
     if (traits_.empty()) throw Error("a world without fish: ask for at least one");
+    for (const WorldSpecies& species : options.cast) addKind(species);
+    schoolRadius_ = schoolRadiusMetres(kinds_.front().last);
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
     intentions_.resize(traits_.size());
     memory_.resize(traits_.size());
     view_.resize(traits_.size());
-    placeSchool(seed_, goal_, surroundings_.water, kSpacingMetres, states_);
-    startCommands(gaits_, seed_, commands_, memory_);
-    for (std::size_t fish = 0; fish < traits_.size(); ++fish)
-        setSpeedBodyLengths(states_, fish, gaits_.speed[indexOf(Action::ForwardMedium)]);
-    look(0, traits_.size());
+    begin();
+}
+
+void World::addKind(const WorldSpecies& species) {
+    const std::size_t first = kinds_.empty() ? 0 : kinds_.back().last;
+    const std::size_t last = first + species.fish;
+    for (std::size_t at = first; at < last; at += kFishInChunk)
+        chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk)});
+    kinds_.push_back({species.tables, gaitsOf(*species.tables), first, last});
+}
+
+void World::begin() {
+    placeSchool(seed_, goal_, surroundings_.water, kSpacingMetres, kinds_.front().last, states_);
+    placeWanderers(seed_, surroundings_.water, kinds_.front().last, states_);
+    for (const Kind& kind : kinds_) {
+        startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
+        const float speed = kind.gaits.speed[indexOf(Action::ForwardMedium)];
+        for (std::size_t fish = kind.first; fish < kind.last; ++fish)
+            setSpeedBodyLengths(states_, fish, speed);
+        look(kind, kind.first, kind.last);
+    }
     for (std::size_t fish = 0; fish < traits_.size(); ++fish) {
         intentions_.directionX[fish] = view_.headingX[fish];
         intentions_.directionY[fish] = view_.headingY[fish];
@@ -74,25 +90,29 @@ World::World(const WorldOptions& options, std::shared_ptr<const MotorTables> tab
 
 template <class Job>
 void World::inChunks(const Job& job) {
-    const std::size_t fish = traits_.size();
-    pool_.run((fish + kFishInChunk - 1) / kFishInChunk, [&](std::size_t chunk) {
-        job(chunk * kFishInChunk, std::min(fish, (chunk + 1) * kFishInChunk));
+    pool_.run(chunks_.size(), [&](std::size_t i) {
+        const Chunk& chunk = chunks_[i];
+        job(chunk.kind, chunk.first, chunk.last);
     });
 }
 
 void World::advance() {
     goal_ = journeyGoal(seed_, tick_);
-    inChunks([this](std::size_t first, std::size_t last) { look(first, last); });
+    inChunks([this](std::size_t kind, std::size_t first, std::size_t last) {
+        look(kinds_[kind], first, last);
+    });
     grid_.rebuild(view_);
-    inChunks([this](std::size_t first, std::size_t last) { think(first, last); });
+    inChunks([this](std::size_t kind, std::size_t first, std::size_t last) {
+        think(kind, first, last);
+    });
     ++tick_.value;
 }
 
 // What all see of fish [first, last).
-void World::look(std::size_t first, std::size_t last) {
+void World::look(const Kind& kind, std::size_t first, std::size_t last) {
     for (std::size_t fish = first; fish < last; ++fish) {
         const glm::vec3 position = bodyFrameOf(states_, fish).position;
-        const glm::vec3 heading = meanRotation(*tables_, states_, fish) * glm::vec3{1, 0, 0};
+        const glm::vec3 heading = meanRotation(*kind.tables, states_, fish) * glm::vec3{1, 0, 0};
         view_.x[fish] = position.x;
         view_.y[fish] = position.y;
         view_.z[fish] = position.z;
@@ -104,12 +124,33 @@ void World::look(std::size_t first, std::size_t last) {
     }
 }
 
-void World::think(std::size_t first, std::size_t last) {
-    Steering{&view_, &grid_, &surroundings_, goal_, schoolRadius_, seed_, tick_, &intentions_}.run(
-        first, last);
-    SecondaryController{&gaits_, &view_, &intentions_, &states_, seed_, tick_, &commands_, &memory_}
+void World::think(std::size_t kind, std::size_t first, std::size_t last) {
+    steer(kind, first, last);
+    const Kind& own = kinds_[kind];
+    SecondaryController{
+        &own.gaits, &view_, &intentions_, &states_, seed_, tick_, &commands_, &memory_}
         .run(first, last);
-    MotorStep{tables_.get(), traits_, &commands_, &states_, first, last}.run();
+    MotorStep{own.tables.get(), traits_, &commands_, &states_, first, last}.run();
+}
+
+void World::steer(std::size_t kind, std::size_t first, std::size_t last) {
+    if (kind == 0) {
+        const std::size_t schoolmates = kinds_.front().last;
+        Steering{&view_,
+                 &grid_,
+                 &surroundings_,
+                 schoolmates,
+                 goal_,
+                 schoolRadius_,
+                 seed_,
+                 tick_,
+                 &intentions_}
+            .run(first, last);
+    } else {
+        const float cruise = kinds_[kind].gaits.speed[indexOf(Action::ForwardSlow)];
+        Wandering{&view_, &grid_, &surroundings_, cruise, seed_, tick_, &intentions_}.run(first,
+                                                                                          last);
+    }
 }
 
 std::uint64_t World::hash() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The living world: a school that perceives, decides and moves, one tick at a time. Same options,
-// same world, on any number of threads.
+// The living world: a school and those who keep to themselves perceive, decide and move, one tick
+// at a time. Same options, same world, on any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -29,17 +29,23 @@ struct FishLengths {
     float mostMetres = 0.28F;
 };
 
+// The fish of one species.
+struct WorldSpecies {
+    std::shared_ptr<const MotorTables> tables;
+    std::uint32_t fish = 0;
+    FishLengths lengths;
+};
+
 struct WorldOptions {
     std::uint32_t seed = 1;
-    std::uint32_t fishCount = 51;
     unsigned threads = 1;
-    FishLengths lengths;
+    std::vector<WorldSpecies> cast;  // the first are the school, the others keep to themselves
 };
 
 class World {
   public:
     // Throws Error when there are no fish.
-    World(const WorldOptions& options, std::shared_ptr<const MotorTables> tables);
+    explicit World(const WorldOptions& options);
 
     void advance();  // one tick; allocates nothing
 
@@ -54,15 +60,28 @@ class World {
     void records(std::vector<FishRecord>& records) const;
 
   private:
-    void look(std::size_t first, std::size_t last);
-    void think(std::size_t first, std::size_t last);
+    // Fish [first, last) are of one species; of the first kind is the school.
+    struct Kind {
+        std::shared_ptr<const MotorTables> tables;
+        Gaits gaits;
+        std::size_t first = 0, last = 0;
+    };
+    struct Chunk {  // a part of a kind, small enough to share out among threads
+        std::size_t kind = 0;
+        std::size_t first = 0, last = 0;
+    };
+    void addKind(const WorldSpecies& species);
+    void begin();
+    void look(const Kind& kind, std::size_t first, std::size_t last);
+    void think(std::size_t kind, std::size_t first, std::size_t last);
+    void steer(std::size_t kind, std::size_t first, std::size_t last);
     template <class Job>
     void inChunks(const Job& job);
 
     std::uint32_t seed_;
     Tick tick_;
-    std::shared_ptr<const MotorTables> tables_;
-    Gaits gaits_;
+    std::vector<Kind> kinds_;
+    std::vector<Chunk> chunks_;
     Surroundings surroundings_;
     std::vector<FishTraits> traits_;
     MotionStates states_;
@@ -72,7 +91,7 @@ class World {
     SchoolView view_;
     NeighbourGrid grid_;
     Goal goal_;
-    float schoolRadius_;
+    float schoolRadius_ = 0;
     WorkerPool pool_;
 };
 

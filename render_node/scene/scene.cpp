@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/scene.h"
 
-#include <optional>
+#include <algorithm>
+#include <vector>
 
 #include <glm/matrix.hpp>
 
@@ -46,7 +47,7 @@ FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
 }  // namespace
 
 struct Scene::Parts {
-    Parts(const SceneOptions& chosen, const FishBody& body, const Repertoire& repertoire)
+    Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           light{chosen.seed, kFilterDepthMetres},
           ground{chosen.seed},
@@ -58,10 +59,18 @@ struct Scene::Parts {
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
-        if (!body.cage.vertices.empty())
-            school.emplace(body, repertoire, SurfaceOptions{chosen.culling, chosen.levelsOfDetail});
+        const auto skins = makeSkinPrograms();
+        for (const SceneSpecies& species : cast) {
+            schools.emplace_back(
+                species.body,
+                species.repertoire,
+                SurfaceOptions{chosen.culling, chosen.levelsOfDetail, species.fish, species.skin},
+                skins);
+            fishOfSchool.push_back(species.fish);
+        }
     }
 
+    void updateFish(const SceneFrame& frame, const FrameUniforms& uniforms);
     void drawSolids(const Viewpoint& viewpoint);
     void drawWater() const;
     void drawSnow() const;
@@ -74,9 +83,20 @@ struct Scene::Parts {
     Reef reef;
     Meadow meadow;
     ScenePicture picture;
-    std::optional<SchoolSurface> school;
+    std::vector<SchoolSurface> schools;  // one of each species
+    std::vector<std::size_t> fishOfSchool;
     gl::ProgramHandle surface, water, snow;
 };
+
+void Scene::Parts::updateFish(const SceneFrame& frame, const FrameUniforms& uniforms) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < schools.size(); ++i) {
+        const std::size_t count = std::min(fishOfSchool[i], frame.fish.size() - first);
+        schools[i].update(
+            frame.fish.subspan(first, count), uniforms.clipFromWorld, frame.eyePositionMetres);
+        first += count;
+    }
+}
 
 // Near things first, so that what they hide is never shaded.
 void Scene::Parts::drawSolids(const Viewpoint& viewpoint) {
@@ -104,8 +124,8 @@ void Scene::Parts::drawSnow() const {
     glDepthMask(GL_TRUE);
 }
 
-Scene::Scene(const SceneOptions& options, const FishBody& body, const Repertoire& repertoire)
-    : parts_{std::make_unique<Parts>(options, body, repertoire)} {}
+Scene::Scene(const SceneOptions& options, std::span<const SceneSpecies> cast)
+    : parts_{std::make_unique<Parts>(options, cast)} {}
 
 Scene::~Scene() = default;
 
@@ -117,8 +137,7 @@ unsigned Scene::draw(const SceneFrame& frame, const View& view) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, parts.frameBlock.name());
     parts.light.update(frame.timeSeconds, frame.eyePositionMetres, uniforms.worldFromClip);
     parts.light.bind();
-    if (parts.school)
-        parts.school->update(frame.fish, uniforms.clipFromWorld, frame.eyePositionMetres);
+    parts.updateFish(frame, uniforms);
     parts.picture.begin(view.sizePixels);
     const Viewpoint viewpoint{Frustum{uniforms.clipFromWorld},
                               frame.eyePositionMetres,
@@ -127,7 +146,7 @@ unsigned Scene::draw(const SceneFrame& frame, const View& view) {
                               detailOf(view.sizePixels)};
     parts.drawSolids(viewpoint);
     parts.drawWater();
-    if (parts.school) parts.school->draw();  // fins are blended over the water
+    for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water
     parts.drawSnow();
     return parts.picture.finish();
 }

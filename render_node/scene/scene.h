@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/body/fish_body.h"
+#include "common/body/fish_skin.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
 
@@ -30,7 +31,15 @@ struct SceneFrame {
     double timeSeconds = 0;
     glm::vec3 eyePositionMetres{};
     glm::quat worldFromWall{1, 0, 0, 0};
-    std::span<const PresentedFish> fish;
+    std::span<const PresentedFish> fish;  // of each species in turn, as many as it has
+};
+
+// One species of the cast.
+struct SceneSpecies {
+    FishBody body;
+    FishSkin skin;
+    Repertoire repertoire;
+    std::size_t fish = 0;
 };
 
 struct SceneOptions {
@@ -43,8 +52,8 @@ struct SceneOptions {
 // Owns its GL objects; construct, use and destroy with the same context current.
 class Scene {
   public:
-    // A body without a cage is a sea without fish.
-    Scene(const SceneOptions& options, const FishBody& body, const Repertoire& repertoire);
+    // Without a cast it is a sea without fish.
+    Scene(const SceneOptions& options, std::span<const SceneSpecies> cast);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;

@@ -139,7 +139,7 @@ void MasterLink::readState(const ByteVector& bytes) {
 void MasterLink::beWelcomed(std::uint64_t session, const Welcome& welcome) {
     session_ = session;
     phase_ = Phase::Fetching;
-    admitted_ = {welcome, {}, {}};
+    admitted_ = {welcome, {}};
     assembly_.reset();
     clock_ = {};
     try {
@@ -152,17 +152,16 @@ void MasterLink::beWelcomed(std::uint64_t session, const Welcome& welcome) {
 
 // Takes from the cache what is there, and asks for the first that is not.
 void MasterLink::fetchNext() {
-    const std::pair<const Digest*, ByteVector*> wanted[] = {
-        {&admitted_.welcome.species, &admitted_.species},
-        {&admitted_.welcome.repertoire, &admitted_.repertoire}};
-    for (const auto& [digest, blob] : wanted) {
-        if (!blob->empty()) continue;
-        auto cached = cache_.find(*digest);
-        if (!cached) {
-            assembly_.emplace(*digest);
-            return requestChunk();
+    for (const SpeciesBlobs& blobs : admitted_.welcome.cast) {
+        for (const Digest& digest : {blobs.species, blobs.repertoire}) {
+            if (admitted_.blobs.contains(digest)) continue;
+            auto cached = cache_.find(digest);
+            if (!cached) {
+                assembly_.emplace(digest);
+                return requestChunk();
+            }
+            admitted_.blobs.emplace(digest, std::move(*cached));
         }
-        *blob = std::move(*cached);
     }
     admit();
 }
@@ -183,9 +182,7 @@ void MasterLink::take(const BlobChunk& chunk) {
                                " than its name says; restart the master");
     }
     cache_.keep(chunk.digest, *blob);
-    auto& welcome = admitted_.welcome;
-    if (chunk.digest == welcome.species) admitted_.species = *blob;
-    if (chunk.digest == welcome.repertoire) admitted_.repertoire = *blob;
+    admitted_.blobs.emplace(chunk.digest, *blob);
     fetchNext();
 }
 

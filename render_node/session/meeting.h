@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -29,8 +30,7 @@ struct ReleaseOrder {
 // What the master gave to a node that it welcomed.
 struct Admitted {
     Welcome welcome;
-    ByteVector species;
-    ByteVector repertoire;
+    std::map<Digest, ByteVector> blobs;  // all that the welcome names
 };
 struct Refused {
     std::string reason;

@@ -17,6 +17,15 @@ std::string textOf(const ByteVector& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+std::vector<AdmittedSpecies> castOf(const Admitted& admitted) {
+    std::vector<AdmittedSpecies> cast;
+    for (const auto& [species, repertoire, fish] : admitted.welcome.cast)
+        cast.push_back({textOf(admitted.blobs.at(species)),
+                        decodeRepertoire(admitted.blobs.at(repertoire), "the master's repertoire"),
+                        fish});
+    return cast;
+}
+
 class LinkSession final : public Session {
   public:
     LinkSession(const std::string& name, Connect connect, const std::filesystem::path& blobs)
@@ -43,8 +52,7 @@ class LinkSession final : public Session {
         if (admitted == nullptr) return std::nullopt;
         return Admission{admitted->welcome,
                          parseRig(admitted->welcome.rigText, "the master's rig"),
-                         textOf(admitted->species),
-                         decodeRepertoire(admitted->repertoire, "the master's repertoire")};
+                         castOf(*admitted)};
     }
 
     void prepared() override { link_.wish(Prepared{}); }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/config/rig.h"
 #include "common/motion/repertoire.h"
@@ -25,11 +26,17 @@ enum class Release : std::uint8_t {
     Quit,     // the show is over
 };
 
+// The fish of one species: in the school they follow those of the species before it.
+struct AdmittedSpecies {
+    std::string text;  // of the species file
+    Repertoire repertoire;
+    std::uint32_t fish = 0;
+};
+
 struct Admission {
     Welcome welcome;
     Rig rig;
-    std::string speciesText;
-    Repertoire repertoire;
+    std::vector<AdmittedSpecies> cast;
 };
 
 // Called from the render thread; every wait also ends when stop() was called from a signal

@@ -37,6 +37,15 @@ std::vector<Label> helpLabels(float dot) {
     return labels;
 }
 
+std::vector<SceneSpecies> castOf(const Admission& admission) {
+    std::vector<SceneSpecies> cast;
+    for (const AdmittedSpecies& admitted : admission.cast) {
+        const Species species = parseSpecies(admitted.text, "the master's species file");
+        cast.push_back({makeBody(species), skinOf(species), admitted.repertoire, admitted.fish});
+    }
+    return cast;
+}
+
 }  // namespace
 
 std::size_t channelIndex(const Rig& rig, const std::string& name) {
@@ -56,9 +65,7 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
       patternPass_{frustum_},
       projection_{map_, admission.rig.channels[channel].id} {
     if (pattern_ == Pattern::World) {
-        const Species species = parseSpecies(admission.speciesText, "the master's species file");
-        scene_.emplace(
-            SceneOptions{.seed = admission.welcome.seed}, makeBody(species), admission.repertoire);
+        scene_.emplace(SceneOptions{.seed = admission.welcome.seed}, castOf(admission));
     } else {
         patternPicture_.emplace(GL_RGBA16F, sceneSize_);
     }

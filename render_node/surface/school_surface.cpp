@@ -2,9 +2,11 @@
 #include "render_node/surface/school_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -22,10 +24,12 @@ namespace {
 constexpr GLuint kSchool = 0, kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 4;
 // Uniforms of fish.comp and fish.vert.
 constexpr GLint kFirstFish = 0, kFirstVertex = 1, kVertexCount = 2;
+// And of reef_skins.glsl.
+constexpr GLint kPattern = 3, kEyeOfSpecies = 4, kGroundColours = 5;
 
 constexpr std::size_t kBytesPerVertex = 16;
 // Half of the least block that GL drivers allow in practice (128 MiB on software Mesa).
-constexpr std::size_t kSurfaceBytes = std::size_t{64} << 20U;
+constexpr std::size_t kMostSurfaceBytes = std::size_t{64} << 20U;
 constexpr std::size_t kLargestDispatch = 65535;
 
 // Fish of one level that follow each other in the school's buffer and share the surface buffer.
@@ -44,21 +48,39 @@ struct VisibleFish {
 
 }  // namespace
 
-struct SchoolSurface::Parts {
-    Parts(const FishBody& body, const Repertoire& repertoire, const SurfaceOptions& surfaceOptions)
-        : Parts(body, recordedPoints(body, repertoire), surfaceOptions) {}
+struct SkinPrograms {
+    gl::ProgramHandle compute = gl::makeProgram({"fish.comp"});
+    gl::ProgramHandle nearScad = gl::makeProgram({"fish.vert", "fish.frag"});
+    gl::ProgramHandle farScad = gl::makeProgram({"fish.vert", "fish_far.frag"});
+    gl::ProgramHandle scadFins = gl::makeProgram({"fish.vert", "fish_fin.frag"});
+    gl::ProgramHandle reefFish = gl::makeProgram({"fish.vert", "reef_fish.frag"});
+    gl::ProgramHandle reefFins = gl::makeProgram({"fish.vert", "reef_fish_fin.frag"});
+};
 
+std::shared_ptr<const SkinPrograms> makeSkinPrograms() {
+    return std::make_shared<const SkinPrograms>();
+}
+
+struct SchoolSurface::Parts {
     Parts(const FishBody& body,
           const std::vector<RecordedPoint>& points,
-          const SurfaceOptions& surfaceOptions)
+          const SurfaceOptions& surfaceOptions,
+          std::shared_ptr<const SkinPrograms> skins)
         : options{surfaceOptions},
+          eye{body.eye},
           reachBodyLengths{reachOf(points)},
-          recorded{makeBuffer(points, "recorded control points")} {
+          recorded{makeBuffer(points, "recorded control points")},
+          programs{std::move(skins)} {
         for (int level = 0; level < kSurfaceLevels; ++level)
             levels.emplace_back(makeLimitTable(body, level));
-        glNamedBufferStorage(surface.name(), kSurfaceBytes, nullptr, 0);
+        roomVertices =
+            std::min(kMostSurfaceBytes / kBytesPerVertex, options.fish * levels.back().vertexCount);
+        const auto bytes = static_cast<GLsizeiptr>(roomVertices * kBytesPerVertex);
+        glNamedBufferStorage(surface.name(), bytes, nullptr, 0);
         glObjectLabel(GL_BUFFER, surface.name(), -1, "fish surfaces");
     }
+
+    [[nodiscard]] bool isScad() const { return options.skin.pattern == SkinPattern::BigeyeScad; }
 
     void cull(std::span<const PresentedFish> fish,
               const glm::mat4& clipFromWorld,
@@ -66,17 +88,17 @@ struct SchoolSurface::Parts {
     void upload();
     void splitIntoBatches();
     void evaluate(const Batch& batch) const;
+    [[nodiscard]] unsigned bodyProgram(int level) const;
     void bind(const Batch& batch, unsigned program) const;
     void drawBatch(const Batch& batch) const;
 
     SurfaceOptions options;
+    glm::vec3 eye;
     float reachBodyLengths;
+    std::size_t roomVertices = 0;
     std::vector<LevelBuffers> levels;
     gl::Buffer recorded, school, surface;
-    gl::ProgramHandle compute = gl::makeProgram({"fish.comp"});
-    gl::ProgramHandle nearSkin = gl::makeProgram({"fish.vert", "fish.frag"});
-    gl::ProgramHandle farSkin = gl::makeProgram({"fish.vert", "fish_far.frag"});
-    gl::ProgramHandle fins = gl::makeProgram({"fish.vert", "fish_fin.frag"});
+    std::shared_ptr<const SkinPrograms> programs;
 
     std::vector<VisibleFish> visible;
     std::vector<PresentedFish> uploaded;
@@ -114,18 +136,17 @@ void SchoolSurface::Parts::upload() {
 }
 
 void SchoolSurface::Parts::splitIntoBatches() {
-    constexpr std::size_t kRoom = kSurfaceBytes / kBytesPerVertex;
     batches.clear();
     allFit = true;
     std::size_t used = 0;
     for (std::size_t first = 0; first < visible.size();) {
         const int level = visible[first].level;
         const std::size_t vertexCount = levels[static_cast<std::size_t>(level)].vertexCount;
-        if (used + vertexCount > kRoom) {
+        if (used + vertexCount > roomVertices) {
             used = 0;
             allFit = false;
         }
-        const std::size_t most = std::min(kLargestDispatch, (kRoom - used) / vertexCount);
+        const std::size_t most = std::min(kLargestDispatch, (roomVertices - used) / vertexCount);
         std::size_t last = first;
         while (last < visible.size() && last - first < most && visible[last].level == level) ++last;
         batches.push_back({level, first, last - first, used});
@@ -134,19 +155,31 @@ void SchoolSurface::Parts::splitIntoBatches() {
     }
 }
 
+unsigned SchoolSurface::Parts::bodyProgram(int level) const {
+    if (!isScad()) return programs->reefFish.name();
+    return level == 0 ? programs->farScad.name() : programs->nearScad.name();
+}
+
 void SchoolSurface::Parts::bind(const Batch& batch, unsigned program) const {
     const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
     glUseProgram(program);
     glUniform1ui(kFirstFish, static_cast<GLuint>(batch.firstFish));
     glUniform1ui(kFirstVertex, static_cast<GLuint>(batch.firstVertex));
     glUniform1ui(kVertexCount, static_cast<GLuint>(level.vertexCount));
+    if (program == programs->reefFish.name() || program == programs->reefFins.name()) {
+        const FishSkin& skin = options.skin;
+        const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
+        glUniform1ui(kPattern, static_cast<GLuint>(skin.pattern));
+        glUniform3fv(kEyeOfSpecies, 1, &eye.x);
+        glUniform3fv(kGroundColours, 3, &colours[0].x);
+    }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSchool, school.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSurface, surface.name());
 }
 
 void SchoolSurface::Parts::evaluate(const Batch& batch) const {
     const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
-    bind(batch, compute.name());
+    bind(batch, programs->compute.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecorded, recorded.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFirstEntries, level.firstEntries.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, level.entries.name());
@@ -161,10 +194,10 @@ void SchoolSurface::Parts::drawBatch(const Batch& batch) const {
     glBindVertexArray(level.vertexArray.name());
     glEnable(GL_CULL_FACE);
 
-    bind(batch, batch.level == 0 ? farSkin.name() : nearSkin.name());
+    bind(batch, bodyProgram(batch.level));
     glDrawElementsInstanced(GL_TRIANGLES, level.bodyIndices, GL_UNSIGNED_INT, nullptr, instances);
 
-    bind(batch, fins.name());
+    bind(batch, isScad() ? programs->scadFins.name() : programs->reefFins.name());
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
@@ -179,10 +212,14 @@ void SchoolSurface::Parts::drawBatch(const Batch& batch) const {
 
 SchoolSurface::SchoolSurface(const FishBody& body,
                              const Repertoire& repertoire,
-                             const SurfaceOptions& options)
-    : parts_{std::make_unique<Parts>(body, repertoire, options)} {}
+                             const SurfaceOptions& options,
+                             std::shared_ptr<const SkinPrograms> skins)
+    : parts_{std::make_unique<Parts>(
+          body, recordedPoints(body, repertoire), options, std::move(skins))} {}
 
 SchoolSurface::~SchoolSurface() = default;
+SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;
+SchoolSurface& SchoolSurface::operator=(SchoolSurface&&) noexcept = default;
 
 void SchoolSurface::update(std::span<const PresentedFish> fish,
                            const glm::mat4& clipFromWorld,

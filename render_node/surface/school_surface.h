@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/body/fish_body.h"
+#include "common/body/fish_skin.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
 
@@ -18,7 +19,13 @@ namespace aquarama {
 struct SurfaceOptions {
     bool culling = true;
     bool levelsOfDetail = true;
+    std::size_t fish = 64;  // that have room at once; more take turns
+    FishSkin skin{};
 };
+
+// The shaders of all skins, which the species share.
+struct SkinPrograms;
+[[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms();
 
 struct SurfaceCounts {  // of the last update
     int visible = 0;
@@ -30,8 +37,11 @@ class SchoolSurface {
   public:
     SchoolSurface(const FishBody& body,
                   const Repertoire& repertoire,
-                  const SurfaceOptions& options);
+                  const SurfaceOptions& options,
+                  std::shared_ptr<const SkinPrograms> skins);
     ~SchoolSurface();
+    SchoolSurface(SchoolSurface&&) noexcept;
+    SchoolSurface& operator=(SchoolSurface&&) noexcept;
     SchoolSurface(const SchoolSurface&) = delete;
     SchoolSurface& operator=(const SchoolSurface&) = delete;
 

@@ -49,11 +49,12 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     const ChannelFrustum frustum = channelFrustum(rig, kMiddle, kMarginRadians);
     const ProjectionMap map = projectionMap(warpMap(rig, kMiddle), frustum);
     const FishBody body = test::scad();
-    Scene scene(
-        {.culling = culling, .levelsOfDetail = levelsOfDetail}, body, test::swaying(body, 0.05F));
     const Projection projection(map, 0);
     const gl::Target target(GL_RGBA8, map.sizePixels);
     const std::vector<PresentedFish> fish = schoolAround();
+    const std::vector<SceneSpecies> cast{
+        {.body = body, .skin = {}, .repertoire = test::swaying(body, 0.05F), .fish = fish.size()}};
+    Scene scene({.culling = culling, .levelsOfDetail = levelsOfDetail}, cast);
     const glm::dmat4 wallFromWorld = glm::translate(glm::dmat4(1), -glm::dvec3(kEyePosition));
     const View view{.clipFromCamera = clipFromCamera(frustum, 0.05F),
                     .cameraFromWorld = glm::mat4(frustum.cameraFromWall * wallFromWorld),

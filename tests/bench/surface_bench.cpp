@@ -24,7 +24,7 @@ float metresFor(std::int64_t level) {
 void surfaceUpdate(benchmark::State& state) {
     const auto context = makeOffscreenContext("auto", {64, 64});
     const FishBody body = test::scad();
-    SchoolSurface surface{body, test::swaying(body, 0.1F), {.culling = false}};
+    SchoolSurface surface{body, test::swaying(body, 0.1F), {.culling = false}, makeSkinPrograms()};
     std::vector<PresentedFish> school;
     for (int i = 0; i < kFish; ++i) {
         school.push_back(test::fishAt({0, 0, -metresFor(state.range(0))}, {1, 0, 0, 0}));

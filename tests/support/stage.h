@@ -279,8 +279,7 @@ class StageMaster {
         Welcome welcome;
         welcome.rigText = writeRig(rig);
         welcome.school = {{1, 200}, {2, 210}, {3, 220}};
-        welcome.species = digestOf(species());
-        welcome.repertoire = digestOf(repertoire());
+        welcome.cast = {{digestOf(species()), digestOf(repertoire()), 3}};
         return welcome;
     }
 

@@ -61,15 +61,16 @@ int addVertices(tinygltf::Model& model, std::span<const glm::vec3> vectors) {
         least = glm::min(least, vector);
         most = glm::max(most, vector);
     }
-    model.accessors.back().minValues = {least.x, least.y, least.z};
-    model.accessors.back().maxValues = {most.x, most.y, most.z};
+    const auto numbers = [](const glm::dvec3& v) { return std::vector<double>{v.x, v.y, v.z}; };
+    model.accessors.back().minValues = numbers(glm::dvec3(least));
+    model.accessors.back().maxValues = numbers(glm::dvec3(most));
     return accessor;
 }
 
 int addTimes(tinygltf::Model& model, std::span<const float> seconds) {
     const int accessor = addKeys(model, seconds);
-    model.accessors.back().minValues = {seconds.front()};
-    model.accessors.back().maxValues = {seconds.back()};
+    model.accessors.back().minValues = {static_cast<double>(seconds.front())};
+    model.accessors.back().maxValues = {static_cast<double>(seconds.back())};
     return accessor;
 }
 

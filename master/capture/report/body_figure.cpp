@@ -37,6 +37,7 @@ void drawSkin(const Picture& picture, const std::vector<glm::dvec3>& cage) {
     static const CageTopology kTopology = makeCageTopology();
     for (const auto& face : kTopology.faces) {
         std::vector<glm::dvec2> corners;
+        corners.reserve(face.size());
         for (const std::uint16_t corner : face) corners.push_back(picture(cage.at(corner)));
         picture.svg.polygon(corners, kSkin);
     }

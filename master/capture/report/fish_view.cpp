@@ -69,7 +69,8 @@ std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
 
 void addRecorded(FishView& view, const std::vector<glm::dvec2>& cage) {
     const auto at = [&](int ring, int column) {
-        return cage.at(static_cast<std::size_t>(ring * kTubeColumns + column));
+        return cage.at(static_cast<std::size_t>(ring) * kTubeColumns +
+                       static_cast<std::size_t>(column));
     };
     view.outline = {view.midline.front()};
     for (int ring = 0; ring < kTubeRings; ++ring) view.outline.push_back(at(ring, kRightFlank));

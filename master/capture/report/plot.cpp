@@ -49,6 +49,7 @@ glm::dvec2 Plot::at(double x, double y) const {
 
 std::vector<glm::dvec2> Plot::at(const std::vector<glm::dvec2>& points) const {
     std::vector<glm::dvec2> onPaper;
+    onPaper.reserve(points.size());
     for (const glm::dvec2& point : points) onPaper.push_back(at(point.x, point.y));
     return onPaper;
 }

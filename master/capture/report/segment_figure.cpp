@@ -129,8 +129,9 @@ std::string drawSegment(const ActionSegment& segment) {
 
     Svg svg(width, height);
     for (std::size_t i = 0; i < kPanels; ++i) {
+        const std::size_t row = i / kColumns;
         const glm::dvec2 corner{kGap + static_cast<double>(i % kColumns) * (kPanelWidth + kGap),
-                                kGap + static_cast<double>(i / kColumns) * (panelHeight + kGap)};
+                                kGap + static_cast<double>(row) * (panelHeight + kGap)};
         svg.rectangle(corner, {kPanelWidth, panelHeight}, kFrame);
         const Chart chart{corner + glm::dvec2(0, kTop), extent.least, scale};
         drawFish(svg, chart, views[i]);

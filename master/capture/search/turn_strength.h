@@ -6,8 +6,8 @@
 
 namespace aquarama {
 
-// Well inside what a gradual turn (20 to 40 degrees) and a sharp one (40 to 80) may be, whatever the
-// point of the beat where it begins.
+// Well inside what a gradual turn (20 to 40 degrees) and a sharp one (40 to 80) may be, whatever
+// the point of the beat where it begins.
 inline constexpr double kGradualDegrees = 30;
 inline constexpr double kSharpDegrees = 58;
 

@@ -24,8 +24,7 @@ network {
   state: "tcp://127.0.0.1:7401"
 }
 timing { refresh_hz: 50 membership_s: 0.5 }
-species: "fish.txtpb"
-fish: 12
+cast { species: "fish.txtpb" fish: 12 }
 channels {
   id: 4
   name: "left"
@@ -55,8 +54,9 @@ TEST(Rig, everyValueArrivesInItsPlace) {
     EXPECT_EQ(rig.stateAddress, "tcp://127.0.0.1:7401");
     EXPECT_EQ(rig.timing.refreshHertz, 50);
     EXPECT_EQ(rig.timing.membershipSeconds, 0.5);
-    EXPECT_EQ(rig.species, "fish.txtpb");
-    EXPECT_EQ(rig.fish, 12U);
+    ASSERT_EQ(rig.cast.size(), 1U);
+    EXPECT_EQ(rig.cast[0].species, "fish.txtpb");
+    EXPECT_EQ(rig.cast[0].fish, 12U);
     ASSERT_EQ(rig.channels.size(), 2U);
 
     const Channel& left = rig.channels[0];
@@ -72,7 +72,7 @@ TEST(Rig, everyValueArrivesInItsPlace) {
     EXPECT_EQ(left.display.monitor, 1);
     EXPECT_EQ(left.display.device, "device:2");
     EXPECT_EQ(left.display.refreshHertz, 50);
-    EXPECT_EQ(left.place.line, 12);
+    EXPECT_EQ(left.place.line, 11);
     EXPECT_EQ(rig.channels[1].display.mode, DisplayMode::Window);
     EXPECT_EQ(rig.channels[1].display.windowPosition, glm::ivec2(-10, 30));
 }
@@ -195,8 +195,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"windowOfNoHeight", "height_px: 241", "height_px: 0", "height_px", "must be from"},
         Mistake{"panoramaTooLarge", "width_px: 640", "width_px: 99999", "width_px", "must be from"},
         Mistake{"focalZero", "focal_y_px: 310", "focal_y_px: 0", "focal_y_px", "must be from"},
-        Mistake{"noFish", "fish: 12", "fish: 0", "fish", "must be from"},
-        Mistake{"tooManyFish", "fish: 12", "fish: 100001", "fish", "must be from"},
+        Mistake{"noCast", "cast { species: \"fish.txtpb\" fish: 12 }", "", "", "no cast"},
+        Mistake{"noFish", "fish: 12", "fish: 0", "fish: 0", "must be from"},
+        Mistake{"tooManyFish", "fish: 12", "fish: 100001", "fish: 100001", "must be from"},
         Mistake{"idTaken", "id: 5", "id: 4", "id: 4", "taken"},
         Mistake{"nameTaken", "name: \"right\"", "name: \"left\"", "name", "taken"},
         Mistake{"nameWithSlash", "name: \"right\"", "name: \"../x\"", "name", "also names files"},

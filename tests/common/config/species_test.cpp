@@ -48,7 +48,7 @@ TEST(Species, theScadIsReadInItsUnits) {
     EXPECT_DOUBLE_EQ(scad.size.meanMetres, 0.24);
     EXPECT_EQ(scad.profile.stations.size(), 15U);
     EXPECT_FLOAT_EQ(scad.fins.pelvic.angleRadians, 0.34906585F);
-    EXPECT_NEAR(scad.swim.backLagRadians, 0.643 * 3.14159265, 1e-6);
+    EXPECT_NEAR(scad.swim.backLagRadians, 123.7 * 3.14159265358979 / 180, 1e-9);
     EXPECT_DOUBLE_EQ(scad.skeleton.rings[1].nodeMass, 11);
 }
 
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "noMass", "nose_mass: 1.1", "nose_mass: 0", "nose_mass is 0: it must be from 0.001"},
         Mistake{"anInfiniteMass", "node_mass: 11", "node_mass: inf", "node_mass is inf"},
-        Mistake{"noNumber", "drag: 570", "drag: nan", "drag is nan: it must be from 0"},
+        Mistake{"noNumber", "drag: 452", "drag: nan", "drag is nan: it must be from 0"},
         Mistake{"aBeatThatNoFishHas", "beat_hz: 3", "beat_hz: 300", "beat_hz is 300: it must be"},
         Mistake{"ringsOutOfOrder", "rings { s: 0.580", "rings { s: 0.380", "move this one back"},
         Mistake{

@@ -44,7 +44,9 @@ TEST(Envelope, aWelcomeKeepsItsFields) {
     EXPECT_EQ(welcome.seed, sent.seed);
     EXPECT_EQ(welcome.pace, Pace::Lockstep);
     EXPECT_EQ(welcome.pattern, Pattern::Grey);
-    EXPECT_EQ(welcome.repertoire, sent.repertoire);
+    ASSERT_EQ(welcome.cast.size(), 2U);
+    EXPECT_EQ(welcome.cast[1].repertoire, sent.cast[1].repertoire);
+    EXPECT_EQ(welcome.cast[1].fish, 1U);
     ASSERT_EQ(welcome.school.size(), 2U);
     EXPECT_EQ(welcome.school[1].id, 4000000000U);
     EXPECT_EQ(welcome.school[1].lengthMillimetres, 65535);
@@ -141,6 +143,19 @@ TEST(Envelope, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = kActions; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.before[0].fromSegment = 255; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
+}
+
+// A node splits the school by the cast: both must have the same fish.
+TEST(Envelope, aCastOfMoreOrFewerFishThanTheSchoolIsRefused) {
+    const auto accepted = [](std::uint32_t fish) {
+        Welcome welcome = sampleWelcome();
+        welcome.cast.back().fish = fish;
+        return decode(encode({1, welcome})).has_value();
+    };
+    EXPECT_TRUE(accepted(1));
+    EXPECT_FALSE(accepted(0));
+    EXPECT_FALSE(accepted(2));
+    EXPECT_FALSE(accepted(0xFFFFFFFFU));
 }
 
 TEST(Envelope, namesAreBoundedAndPrintable) {

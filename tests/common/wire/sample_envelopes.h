@@ -48,8 +48,8 @@ inline Welcome sampleWelcome() {
     welcome.pace = Pace::Lockstep;
     welcome.pattern = Pattern::Grey;
     welcome.school = {{7, 230}, {4000000000U, 65535}};
-    welcome.species = digestOf("species");
-    welcome.repertoire = digestOf("repertoire");
+    welcome.cast = {{digestOf("species"), digestOf("repertoire"), 1},
+                    {digestOf("other species"), digestOf("other repertoire"), 1}};
     return welcome;
 }
 

@@ -29,8 +29,8 @@ struct Scene {
         NeighbourGrid grid(surroundings.water, kCellMetres, view.size());
         grid.rebuild(view);
         for (std::uint64_t tick = 0; tick < kTicksBetweenThoughts; ++tick)
-            Steering{&view, &grid, &surroundings, goal, 0.5F, 1, {tick}, &intentions}.run(
-                0, view.size());
+            Steering{&view, &grid, &surroundings, view.size(), goal, 0.5F, 1, {tick}, &intentions}
+                .run(0, view.size());
         return intentions;
     }
 

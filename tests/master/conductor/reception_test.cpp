@@ -127,7 +127,7 @@ TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
     EXPECT_EQ(welcome->seed, 77U);
     EXPECT_EQ(welcome->pattern, Pattern::Grid);
     EXPECT_EQ(welcome->school.size(), 3U);
-    BlobAssembly assembly(welcome->repertoire);
+    BlobAssembly assembly(welcome->cast.at(0).repertoire);
     while (!assembly.whole()) {
         peer.say(BlobRequest{assembly.digest(), assembly.nextOffset()});
         const auto chunk = peer.hear<BlobChunk>();

@@ -28,7 +28,7 @@ struct Mind {
         intentions.resize(1);
         memory.resize(1);
         view.headingX[0] = 1;
-        startCommands(gaits, 1, commands, memory);
+        startCommands(gaits, 1, 0, commands.segment.size(), commands, memory);
         want(0, 2.0F);
     }
     void want(float degreesToTheLeft, float speed, float urgency = 0) {

@@ -29,7 +29,7 @@ class LoneFish {
         view_.length[0] = 0.24F;
         setBodyFrame(states_, 0, {start, {1, 0, 0, 0}});  // heads along +x
         states_.segment[0] = static_cast<std::uint8_t>(Action::ForwardMedium);
-        startCommands(gaits_, 1, commands_, memory_);
+        startCommands(gaits_, 1, 0, 1, commands_, memory_);
     }
 
     glm::vec3 swim() {
@@ -43,7 +43,7 @@ class LoneFish {
         view_.headingZ[0] = heading.z;
         view_.speed[0] = 2 * view_.length[0];
         grid_.rebuild(view_);
-        Steering{&view_, &grid_, &surroundings_, goal_, 0.3F, 1, tick_, &intentions_}.run(0, 1);
+        Steering{&view_, &grid_, &surroundings_, 1, goal_, 0.3F, 1, tick_, &intentions_}.run(0, 1);
         SecondaryController{&gaits_, &view_, &intentions_, &states_, 1, tick_, &commands_, &memory_}
             .run(0, 1);
         MotorStep{tables_.get(), traits_, &commands_, &states_, 0, 1}.run();

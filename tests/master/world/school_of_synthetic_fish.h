@@ -50,9 +50,9 @@ inline std::shared_ptr<const MotorTables> syntheticTables() {
 inline World syntheticWorld(std::uint32_t seed, std::uint32_t fish, unsigned threads = 1) {
     WorldOptions options;
     options.seed = seed;
-    options.fishCount = fish;
     options.threads = threads;
-    return {options, syntheticTables()};
+    options.cast = {{.tables = syntheticTables(), .fish = fish, .lengths = {}}};
+    return World(options);
 }
 
 }  // namespace aquarama

@@ -77,7 +77,7 @@ class Place : public testing::Test {
     }
     static std::unique_ptr<Scene> fresh(SceneOptions options, int samples = 1) {
         options.samples = samples;
-        return std::make_unique<Scene>(options, FishBody{}, Repertoire{});
+        return std::make_unique<Scene>(options, std::span<const SceneSpecies>{});
     }
     static std::unique_ptr<Context>& context() {
         static std::unique_ptr<Context> instance;

@@ -141,8 +141,8 @@ TEST_F(SessionTest, joinsWithRigSpeciesAndRepertoire) {
     const auto admission = join.get();
     ASSERT_TRUE(admission);
     EXPECT_EQ(admission->rig.channels.size(), 3U);
-    EXPECT_EQ(admission->speciesText, "name: \"scad\"");
-    EXPECT_EQ(admission->repertoire.species, "scad");
+    EXPECT_EQ(admission->cast.at(0).text, "name: \"scad\"");
+    EXPECT_EQ(admission->cast.at(0).repertoire.species, "scad");
     EXPECT_EQ(admission->welcome.school.size(), 3U);
     EXPECT_GT(master_.chunksGiven, 3);
 }

@@ -37,7 +37,9 @@ StateFrame frameWithAFish(const BodyFrame& body = {.position = kFishPlace}) {
 Admission admissionToTheWorld() {
     Admission admission = admissionTo(Pattern::World);
     admission.welcome.school = {{.id = 17, .lengthMillimetres = 240}};
-    admission.repertoire = test::swaying(test::scad(), 0.05F);
+    admission.cast = {{.text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
+                       .repertoire = test::swaying(test::scad(), 0.05F),
+                       .fish = 1}};
     return admission;
 }
 

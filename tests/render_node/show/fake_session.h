@@ -93,7 +93,6 @@ inline Admission admissionTo(Pattern pattern) {
     admission.welcome.rigText = writeRig(admission.rig);
     admission.welcome.seed = 1;
     admission.welcome.pattern = pattern;
-    admission.speciesText = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb");
     return admission;
 }
 

@@ -12,6 +12,7 @@
 #include "render_node/context/context.h"
 #include "render_node/scene/scene.h"
 #include "tests/render_node/surface/test_fish.h"
+#include "tests/support/cast.h"
 
 namespace aquarama {
 namespace {
@@ -46,10 +47,13 @@ float luminance(glm::vec3 c) {
 }
 
 // The fish swims to the left, so the eye sees its left side.
-Picture portrait() {
-    const FishBody body = test::scad();
-    const Repertoire still = test::swaying(body, 0.0F);
-    Scene scene{{.seed = 1, .samples = 4}, body, still};
+Picture portrait(const Species& species) {
+    const FishBody body = makeBody(species);
+    const std::vector<SceneSpecies> cast{{.body = body,
+                                          .skin = skinOf(species),
+                                          .repertoire = test::swaying(body, 0.0F),
+                                          .fish = 1}};
+    Scene scene{{.seed = 1, .samples = 4}, cast};
     const PresentedFish fish = test::fishAt(kEyePosition + glm::vec3{0, 0, -kAway},
                                             glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0}),
                                             kLength);
@@ -78,7 +82,7 @@ Picture portrait() {
 
 TEST(PaintedFish, goldDarkAndBrightAreWhereTheyBelong) {
     const auto context = makeOffscreenContext("mesa", kSize);
-    const Picture picture = portrait();
+    const Picture picture = portrait(castMember("bigeye_scad"));
     const glm::vec3 water = picture.onFish(0.5F, 0.3F);
     const glm::vec3 back = picture.onFish(0.40F, 0.095F), flank = picture.onFish(0.45F, -0.02F),
                     belly = picture.onFish(0.42F, -0.08F), line = picture.onFish(0.42F, 0.038F),
@@ -93,6 +97,52 @@ TEST(PaintedFish, goldDarkAndBrightAreWhereTheyBelong) {
     // Around the fish is water, not fish.
     EXPECT_GT(glm::distance(water, flank), 0.05F);
     EXPECT_LT(water.r, water.b);
+}
+
+float warmth(glm::vec3 c) {
+    return c.r / c.b;
+}
+
+// What tells the others from afar, each on the left side of the body.
+TEST(PaintedFish, everyFishOfTheReefWearsItsColours) {
+    const auto context = makeOffscreenContext("mesa", kSize);
+    const Picture clownfish = portrait(castMember("clownfish"));
+    EXPECT_GT(warmth(clownfish.onFish(0.34F, 0)), 3 * warmth(clownfish.onFish(0.462F, 0))) << "bar";
+    EXPECT_GT(luminance(clownfish.onFish(0.462F, 0)), 1.5F * luminance(clownfish.onFish(0.34F, 0)));
+
+    const Picture idol = portrait(castMember("moorish_idol"));
+    EXPECT_LT(luminance(idol.onFish(0.67F, 0)), 0.3F * luminance(idol.onFish(0.53F, 0)));
+    EXPECT_GT(warmth(idol.onFish(0.56F, 0)), 1.5F * warmth(idol.onFish(0.37F, 0))) << "lemon";
+
+    const Picture tang = portrait(castMember("blue_tang"));
+    EXPECT_GT(warmth(tang.onFish(0.90F, 0)), 8 * warmth(tang.onFish(0.50F, -0.05F))) << "tail";
+    EXPECT_LT(luminance(tang.onFish(0.62F, 0.06F)), 0.6F * luminance(tang.onFish(0.50F, -0.05F)));
+
+    const Picture parrotfish = portrait(castMember("parrotfish"));
+    EXPECT_GT(warmth(parrotfish.onFish(0.150F, -0.03F)),
+              1.5F * warmth(parrotfish.onFish(0.5F, -0.09F)))
+        << "a peach cheek on a green fish";
+
+    const Picture trumpetfish = portrait(castMember("trumpetfish"));
+    EXPECT_GT(warmth(trumpetfish.onFish(0.5F, 0)), 2.0F);
+
+    const Picture shark = portrait(castMember("blacktip_reef_shark"));
+    EXPECT_LT(luminance(shark.onFish(0.40F, 0.04F)), 0.6F * luminance(shark.onFish(0.40F, -0.03F)));
+}
+
+// A species of which no painter knows is plain: its file's back, flank and belly.
+TEST(PaintedFish, aNewSpeciesWearsTheColoursOfItsFile) {
+    const auto context = makeOffscreenContext("mesa", kSize);
+    Species species = castMember("blue_tang");
+    species.name = "new_fish";
+    species.palette = {{"back", {0.5F, 0.02F, 0.02F}},
+                       {"flank", {0.02F, 0.5F, 0.02F}},
+                       {"belly", {0.6F, 0.6F, 0.6F}}};
+    const Picture picture = portrait(species);
+    const glm::vec3 back = picture.onFish(0.45F, 0.16F);
+    const glm::vec3 flank = picture.onFish(0.50F, 0.0F);
+    EXPECT_GT(back.r, back.g);
+    EXPECT_GT(flank.g, 2 * flank.r);
 }
 
 }  // namespace

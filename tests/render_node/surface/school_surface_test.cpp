@@ -94,7 +94,7 @@ class SchoolSurfaceTest : public testing::Test {
 };
 
 TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
-    SchoolSurface surface{body_, repertoire_, {}};
+    SchoolSurface surface{body_, repertoire_, {}, makeSkinPrograms()};
     std::mt19937 random{7};
     std::uniform_real_distribution<float> unit;
     bool levelSeen[3] = {};
@@ -118,7 +118,7 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
 }
 
 TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
-    SchoolSurface surface{body_, repertoire_, {}};
+    SchoolSurface surface{body_, repertoire_, {}, makeSkinPrograms()};
     std::mt19937 random{11};
     std::uniform_real_distribution<float> unit{-1.0F, 1.0F};
     std::vector<glm::vec3> points(kControlPoints);
@@ -149,7 +149,8 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
 }
 
 TEST_F(SchoolSurfaceTest, neighbouringChannelsChooseTheSameLevel) {
-    SchoolSurface left{body_, repertoire_, {}}, right{body_, repertoire_, {}};
+    SchoolSurface left{body_, repertoire_, {}, makeSkinPrograms()};
+    SchoolSurface right{body_, repertoire_, {}, makeSkinPrograms()};
     const glm::vec3 up{0, 1, 0}, eye{0.1F, 0.2F, 0.3F};
     // One channel looks from the shared eye, the other from beside it and with a longer lens.
     const glm::mat4 leftClip = clip_ * glm::lookAt(eye, eye + glm::vec3{-0.3F, 0, -1}, up);
@@ -171,11 +172,13 @@ TEST_F(SchoolSurfaceTest, neighbouringChannelsChooseTheSameLevel) {
 }
 
 TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
-    SchoolSurface surface{body_, repertoire_, {.culling = false, .levelsOfDetail = false}};
+    constexpr std::size_t kRoomFor = 5;
+    SurfaceOptions options{.culling = false, .levelsOfDetail = false};
+    options.fish = kRoomFor;
+    SchoolSurface surface{body_, repertoire_, options, makeSkinPrograms()};
     const std::size_t vertices = makeLimitTable(body_, 2).vertices.size();
-    const std::size_t roomFor = (std::size_t{64} << 20U) / 16 / vertices;
     std::vector<PresentedFish> school;
-    for (std::size_t i = 0; i < roomFor + 2; ++i) {
+    for (std::size_t i = 0; i < kRoomFor + 2; ++i) {
         // Nearer and nearer: the last fish is drawn last.
         school.push_back(
             test::fishAt({0, 0, -3.0F + 0.002F * static_cast<float>(i)}, {1, 0, 0, 0}));
@@ -198,7 +201,7 @@ TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
 }
 
 TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
-    SchoolSurface surface{body_, repertoire_, {}};
+    SchoolSurface surface{body_, repertoire_, {}, makeSkinPrograms()};
     surface.update({}, clip_, glm::vec3{0});
     surface.draw();
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
@@ -209,7 +212,8 @@ TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
 TEST_F(SchoolSurfaceTest, aSegmentWithoutControlPointsIsDrawnAllTheSame) {
     Repertoire bare = repertoire_;
     bare.segments[2].controlPoints.clear();
-    SchoolSurface surface{body_, bare, {.culling = false, .levelsOfDetail = false}};
+    SchoolSurface surface{
+        body_, bare, {.culling = false, .levelsOfDetail = false}, makeSkinPrograms()};
     PresentedFish fish = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
     fish.segment = 2;
     fish.phase = 0.5F;

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A world of several species.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "master/behaviour/angle.h"
+#include "tests/master/world/school_of_synthetic_fish.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::uint32_t kSchool = 51;
+constexpr FishLengths kLarge{
+    .meanMetres = 0.5F, .deviationMetres = 0.05F, .leastMetres = 0.4F, .mostMetres = 0.6F};
+
+WorldOptions reef(unsigned threads) {
+    WorldOptions options;
+    options.threads = threads;
+    options.cast = {{.tables = syntheticTables(), .fish = kSchool, .lengths = {}},
+                    {.tables = syntheticTables(), .fish = 8, .lengths = {}},
+                    {.tables = syntheticTables(), .fish = 1, .lengths = kLarge}};
+    return options;
+}
+
+TEST(Cast, fishStandInTheOrderOfTheirSpeciesAndAreAsLong) {
+    const World world(reef(1));
+    ASSERT_EQ(world.traits().size(), 60U);
+    for (std::uint32_t fish = 0; fish < 60; ++fish) EXPECT_EQ(world.traits()[fish].id, fish);
+    EXPECT_LT(world.traits()[58].lengthMillimetres, 300);
+    EXPECT_GE(world.traits()[59].lengthMillimetres, 400);
+}
+
+TEST(Cast, isOneWorldOnAnyNumberOfThreads) {
+    World one(reef(1));
+    World two(reef(2));
+    for (int i = 0; i < 600; ++i) {
+        one.advance();
+        two.advance();
+    }
+    EXPECT_EQ(one.hash(), two.hash());
+}
+
+TEST(Cast, thoseWhoKeepToThemselvesStayInTheWaterAndGoAbout) {
+    World world(reef(1));
+    const Region water = schoolRegion();
+    for (std::size_t fish = kSchool; fish < 60; ++fish) EXPECT_GT(world.view().speed[fish], 0);
+    std::vector<float> west(60, 100.0F);
+    std::vector<float> east(60, -100.0F);
+    for (int i = 0; i < 5 * 60 * 60; ++i) {
+        world.advance();
+        for (std::size_t fish = kSchool; fish < 60; ++fish) {
+            const glm::vec3 from = world.view().position(fish) - water.centre;
+            const float margin = 0.7F + 0.5F * world.view().length[fish];  // of a turn
+            ASSERT_LT(std::abs(from.x), water.halfExtent.x + margin) << fish;
+            ASSERT_LT(std::abs(from.y), water.halfExtent.y + margin) << fish;
+            ASSERT_LT(std::abs(from.z), water.halfExtent.z + margin) << fish;
+            west[fish] = std::min(west[fish], from.x);
+            east[fish] = std::max(east[fish], from.x);
+        }
+    }
+    for (std::size_t fish = kSchool; fish < 60; ++fish)
+        EXPECT_GT(east[fish] - west[fish], 4.0F) << fish;
+}
+
+// Whatever else swims about, the school keeps its shape: its members stay with it.
+TEST(Cast, theSchoolFollowsNobodyElse) {
+    World world(reef(1));
+    std::vector<float> distances;
+    for (int i = 0; i < 3 * 60 * 60; ++i) {
+        world.advance();
+        if (i % 60 != 0) continue;
+        glm::vec3 centre{};
+        for (std::size_t fish = 0; fish < kSchool; ++fish) centre += world.view().position(fish);
+        centre /= static_cast<float>(kSchool);
+        for (std::size_t fish = 0; fish < kSchool; ++fish)
+            distances.push_back(lengthOf(world.view().position(fish) - centre));
+    }
+    std::ranges::sort(distances);
+    EXPECT_LT(distances[distances.size() * 99 / 100], 2.5F);
+    EXPECT_LT(distances.back(), 5.0F) << "nobody is led away";
+}
+
+}  // namespace
+}  // namespace aquarama
