@@ -52,7 +52,7 @@ inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 struct ActionSegment {
     float periodSeconds = 0.0F;  // of one cycle, for the recorded fish
     bool playsToEnd =
-        false;  // a sharp turn is entered at phase 0 and left at its end; the others anywhere
+        false;  // a turn is entered at phase 0 and left at its end; the others anywhere
     std::array<FrameIncrement, kPhases> increments{};  // from phase k to k + 1
     std::array<NodalPose, kPhases> nodes{};            // deformation d at phase k (eq. 8)
     std::vector<ControlPointPose> controlPoints;  // s at phase k (eq. 9): kPhases of them, or none

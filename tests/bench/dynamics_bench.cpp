@@ -36,7 +36,7 @@ void dynamicsStep(benchmark::State& run) {
 }
 BENCHMARK(dynamicsStep)->Name("dynamics_step");
 
-// One frame of a 60 Hz display: 8 steps of the fish's own time.
+// One frame of a 60 Hz display: 8 steps for each of the fish's own seconds in one of ours.
 void dynamicsTick(benchmark::State& run) {
     SwimmingScad scad;
     const auto steps =
