@@ -91,7 +91,12 @@ Member memberOf(const std::filesystem::path& speciesPath, std::uint32_t fish) {
     const std::string text = fileText(speciesPath);
     const Species species = parseSpecies(text, speciesPath.string());
     const auto bytes = std::as_bytes(std::span{text});
-    Member member{.species = {.tables = nullptr, .fish = fish, .lengths = lengthsOf(species.size)},
+    Member member{.species = {.tables = nullptr,
+                              .fish = fish,
+                              .lengths = lengthsOf(species.size),
+                              .name = species.name,
+                              .habits = species.habits,
+                              .start = {}},
                   .speciesBlob = {bytes.begin(), bytes.end()},
                   .repertoireBlob = capturedOnce(text, speciesPath)};
     member.species.tables = makeMotorTables(decodeRepertoire(member.repertoireBlob, species.name));
@@ -173,7 +178,7 @@ int dispatch(int count, char** arguments) {
     app.add_option("--frames", options.frames, "end after so many frames");
     app.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
     app.add_option("--fish", options.fish, "how many, instead of the rig's number")
-        ->check(CLI::Range(1, 100000));
+        ->check(CLI::Range(1U, kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
     app.add_option(

@@ -82,7 +82,7 @@ void describeRun(CLI::App& run, ShowOptions& options) {
     run.add_option("--frames", options.frames, "end after so many frames; implies lockstep");
     run.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
     run.add_option("--fish", options.fish, "how many, instead of the rig's number")
-        ->check(CLI::Range(1, 100000));
+        ->check(CLI::Range(1U, kMostFish));
     run.add_option("--snapshot",
                    options.snapshotFolder,
                    "folder for pictures of the last frame; implies lockstep");

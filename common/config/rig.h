@@ -11,9 +11,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+#include "common/config/scene.h"
 
-inline constexpr std::uint32_t kMostFish = 100'000;
+namespace aquarama {
 
 // Where something stands in the rig's file, counted from 1, for messages; 0 when built in code.
 struct SourcePlace {
@@ -64,12 +64,6 @@ struct Timing {
     double presentDeadlineSeconds =
         0;  // how long the first ready node waits for the others; default one refresh
     double membershipSeconds = 0.25;  // silence after which a node is no longer counted
-};
-
-// One species of the show.
-struct CastMember {
-    std::string species;  // path of its file, relative to the rig's folder
-    std::uint32_t fish = 0;
 };
 
 struct Rig {

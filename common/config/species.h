@@ -11,6 +11,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/config/habits.h"
+
 namespace aquarama {
 
 // On the animal lengths are body lengths: s from 0 at the nose to 1 at the tip of the tail, y up.
@@ -118,6 +120,7 @@ struct Species {
     Swim swim;
     Turn turn;
     std::optional<SchoolHabits> school;
+    Habits habits;
     std::vector<Paint> palette;
     // The repertoire keeps the control points of every frame (eq. 9) beside the nodal points, which
     // saves time and costs memory: for those that swim in great numbers.

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "common/place/angle.h"
 #include "common/place/noise.h"
-#include "master/behaviour/angle.h"
 
 namespace aquarama {
 
@@ -160,17 +160,17 @@ void SecondaryController::decide(std::size_t fish) const {
     commands->segment[fish] = static_cast<std::uint8_t>(chosen);
     commands->phaseRate[fish] = phaseRateFor(fish, chosen, moment);
     commands->pitch[fish] =
-        static_cast<std::int16_t>(intentions->directionY[fish] * kUnitsOfPitchSine);
+        static_cast<std::int16_t>(courses->directionY[fish] * kUnitsOfPitchSine);
     commands->yawRate[fish] = isTurn(chosen) ? std::int16_t{0} : yawRateFor(moment.yawError);
     commands->brake[fish] = isTurn(chosen) ? std::uint8_t{0} : brakeFor(moment);
 }
 
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
     Moment moment{static_cast<Action>(commands->segment[fish]),
-                  yawBetween(view->heading(fish), intentions->direction(fish)),
-                  intentions->speed[fish],
+                  yawBetween(view->heading(fish), courses->direction(fish)),
+                  courses->speed[fish],
                   speedBodyLengths(*states, fish),
-                  intentions->urgency[fish],
+                  courses->urgency[fish],
                   tick.value - memory->chosenAt[fish]};
     // A turn will be played to its end: what is chosen comes after it.
     const std::size_t playing = states->segment[fish];

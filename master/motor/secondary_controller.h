@@ -8,8 +8,8 @@
 
 #include "common/motion/motion_state.h"
 #include "common/units/ids.h"
-#include "master/behaviour/school_view.h"
-#include "master/behaviour/steering.h"
+#include "master/fish/courses.h"
+#include "master/fish/fish_view.h"
 #include "master/motor/gaits.h"
 
 namespace aquarama {
@@ -37,8 +37,8 @@ void startCommands(const Gaits& gaits,
 // Commands those among fish [first, last) that think at this tick.
 struct SecondaryController {
     const Gaits* gaits = nullptr;
-    const SchoolView* view = nullptr;
-    const Intentions* intentions = nullptr;
+    const FishView* view = nullptr;
+    const Courses* courses = nullptr;
     const MotionStates* states = nullptr;
     std::uint32_t seed = 0;
     Tick tick;

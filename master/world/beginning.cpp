@@ -6,9 +6,9 @@
 
 #include <glm/common.hpp>
 
+#include "common/place/angle.h"
 #include "common/place/noise.h"
-#include "master/behaviour/angle.h"
-#include "master/behaviour/wandering.h"
+#include "master/behaviour/act/wander.h"
 
 namespace aquarama {
 
@@ -65,6 +65,68 @@ void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionS
     states.warpLength[fish] = 0;
 }
 
+// A block about the goal, loosely spaced.
+void placeSchool(std::uint32_t seed,
+                 const Goal& goal,
+                 const Region& water,
+                 std::size_t fish,
+                 MotionStates& states) {
+    constexpr float kSpacingMetres = 0.22F;
+    const Block block = blockFor(fish);
+    const glm::quat rotation = facing(goal.velocityMetresPerSecond);
+    // A school too large for the water is packed more densely.
+    const glm::vec3 room = water.halfExtent * 0.85F;
+    for (std::size_t i = 0; i < fish; ++i) {
+        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(i));
+        const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
+                               signedUnitOf(hashOf(own, 1)),
+                               signedUnitOf(hashOf(own, 2))};
+        const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(i)) + jitter * 0.25F;
+        const auto half = static_cast<float>(block.across) * 0.5F;
+        const float fit = std::min({1.0F,
+                                    room.y / (half * kSpacingMetres),
+                                    room.z / (half * kSpacingMetres),
+                                    room.x / (2 * half * kSpacingMetres)});
+        const glm::vec3 spread = rotation * (cell * (kSpacingMetres * fit));
+        const glm::vec3 place =
+            glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
+        begin(seed, i, {place, rotation}, states);
+    }
+}
+
+void placeWanderers(std::uint32_t seed,
+                    const Region& water,
+                    std::size_t first,
+                    std::size_t last,
+                    MotionStates& states) {
+    for (std::size_t fish = first; fish < last; ++fish) {
+        const glm::vec3 place = wanderingGoal(seed, water, fish, {});
+        const glm::vec3 towards = water.centre - place;
+        begin(seed, fish, {place, facing(towards)}, states);
+    }
+}
+
+void placeAbout(std::uint32_t seed,
+                const Start& start,
+                std::size_t first,
+                std::size_t last,
+                MotionStates& states) {
+    const auto angle = static_cast<float>(start.headingRadians) * 0.5F;
+    // cos and sin of half the angle by their series: no libm.
+    const float square = angle * angle;
+    const float cosine = 1 - square * (0.5F - square * (1 / 24.0F - square / 720));
+    const float sine = angle * (1 - square * (1 / 6.0F - square * (1 / 120.0F - square / 5040)));
+    const glm::quat rotation{cosine, 0, sine, 0};
+    for (std::size_t fish = first; fish < last; ++fish) {
+        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(fish));
+        const glm::vec3 share{signedUnitOf(hashOf(own, 0)),
+                              signedUnitOf(hashOf(own, 1)),
+                              signedUnitOf(hashOf(own, 2))};
+        const glm::vec3 place = start.centre + share * static_cast<float>(start.radiusMetres);
+        begin(seed, fish, {place, rotation}, states);
+    }
+}
+
 }  // namespace
 
 std::vector<FishTraits> traitsOf(const WorldOptions& options) {
@@ -83,42 +145,21 @@ std::vector<FishTraits> traitsOf(const WorldOptions& options) {
     return traits;
 }
 
-void placeSchool(std::uint32_t seed,
-                 const Goal& goal,
-                 const Region& water,
-                 float spacingMetres,
-                 std::size_t fish,
-                 MotionStates& states) {
-    const Block block = blockFor(fish);
-    const glm::quat rotation = facing(goal.velocityMetresPerSecond);
-    // A school too large for the water is packed more densely.
-    const glm::vec3 room = water.halfExtent * 0.85F;
-    for (std::size_t i = 0; i < fish; ++i) {
-        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(i));
-        const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
-                               signedUnitOf(hashOf(own, 1)),
-                               signedUnitOf(hashOf(own, 2))};
-        const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(i)) + jitter * 0.25F;
-        const auto half = static_cast<float>(block.across) * 0.5F;
-        const float fit = std::min({1.0F,
-                                    room.y / (half * spacingMetres),
-                                    room.z / (half * spacingMetres),
-                                    room.x / (2 * half * spacingMetres)});
-        const glm::vec3 spread = rotation * (cell * (spacingMetres * fit));
-        const glm::vec3 place =
-            glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
-        begin(seed, i, {place, rotation}, states);
-    }
-}
-
-void placeWanderers(std::uint32_t seed,
-                    const Region& water,
-                    std::size_t first,
-                    MotionStates& states) {
-    for (std::size_t fish = first; fish < states.size(); ++fish) {
-        const glm::vec3 place = wanderingGoal(seed, water, fish, {});
-        const glm::vec3 towards = water.centre - place;
-        begin(seed, fish, {place, facing(towards)}, states);
+void placeFish(const WorldOptions& options,
+               const Goal& goal,
+               const Surroundings& surroundings,
+               MotionStates& states) {
+    const Region& water = surroundings.obstacles.water;
+    std::size_t first = 0;
+    for (const WorldSpecies& species : options.cast) {
+        const std::size_t last = first + species.fish;
+        if (species.start)
+            placeAbout(options.seed, *species.start, first, last, states);
+        else if (first == 0)
+            placeSchool(options.seed, goal, water, last, states);
+        else
+            placeWanderers(options.seed, water, first, last, states);
+        first = last;
     }
 }
 

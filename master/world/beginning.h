@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a school stands in the water at tick 0.
+// How fish stand in the water at tick 0.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "common/motion/motion_state.h"
-#include "common/place/place.h"
-#include "master/behaviour/journey.h"
+#include "master/surroundings/journey.h"
+#include "master/surroundings/surroundings.h"
 #include "master/world/world.h"
 
 namespace aquarama {
 
 [[nodiscard]] std::vector<FishTraits> traitsOf(const WorldOptions& options);
 
-// The first so many fish, loosely spaced about the goal, heading along its way, each at its own
-// phase of the tail beat (else they beat as one).
-void placeSchool(std::uint32_t seed,
-                 const Goal& goal,
-                 const Region& water,
-                 float spacingMetres,
-                 std::size_t fish,
-                 MotionStates& states);
-
-// The fish from `first` on, each at a place of its own.
-void placeWanderers(std::uint32_t seed,
-                    const Region& water,
-                    std::size_t first,
-                    MotionStates& states);
+// Where every fish is at tick 0, each at its own phase of the tail beat (else they beat as one): a
+// member with a start about that; the school about its goal, heading along its way; the others each
+// at a place of its own.
+void placeFish(const WorldOptions& options,
+               const Goal& goal,
+               const Surroundings& surroundings,
+               MotionStates& states);
 
 }  // namespace aquarama

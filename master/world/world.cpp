@@ -2,15 +2,17 @@
 #include "master/world/world.h"
 
 #include <algorithm>
-#include <bit>
-#include <type_traits>
+#include <string>
 #include <utility>
 
+#include "common/place/angle.h"
 #include "common/units/error.h"
-#include "master/behaviour/angle.h"
-#include "master/behaviour/perception.h"
-#include "master/behaviour/wandering.h"
+#include "common/units/folded_hash.h"
+#include "master/behaviour/act/school.h"
+#include "master/behaviour/feel/temperament.h"
+#include "master/behaviour/think.h"
 #include "master/world/beginning.h"
+#include "master/world/nature_of.h"
 
 namespace aquarama {
 
@@ -18,93 +20,86 @@ namespace {
 
 // Chunks depend on the number of fish alone, never on the number of threads.
 constexpr std::size_t kFishInChunk = 256;
-constexpr float kSpacingMetres = 0.22F;
 
-template <class Value>
-std::uint64_t bitsOf(Value value) {
-    if constexpr (std::is_same_v<Value, float>)
-        return std::bit_cast<std::uint32_t>(value);
-    else
-        return static_cast<std::uint64_t>(value);
-}
-
-// Folds an array into a hash: the multiply-and-shift of splitmix64.
-template <class Value>
-std::uint64_t folded(std::uint64_t hash, const std::vector<Value>& values) {
-    for (const Value value : values) {
-        hash = (hash ^ bitsOf(value)) * 0xbf58476d1ce4e5b9U;
-        hash ^= hash >> 29U;
-    }
-    return hash;
-}
-
-template <class... Vectors>
-std::size_t bytesIn(const Vectors&... vectors) {
-    return (... + (vectors.size() * sizeof(vectors[0])));
+float meanLengthMetres(const WorldOptions& options) {
+    return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
 }
 
 }  // namespace
 
 World::World(const WorldOptions& options)
     : seed_(options.seed),
-      surroundings_(surroundingsOf(options.seed)),
+      gathering_(options.scene.gathering),
+      adaptation_(options.adaptation),
       traits_(traitsOf(options)),
-      grid_(surroundings_.water, kCellMetres, traits_.size()),
+      surroundings_(
+          makeSurroundings(options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
+      grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
       goal_(journeyGoal(options.seed, tick_)),
       pool_(options.threads) {
-    if (traits_.empty()) throw Error("a world without fish: ask for at least one");
-    for (const WorldSpecies& species : options.cast) addKind(species);
-    schoolRadius_ = schoolRadiusMetres(kinds_.front().last);
+    if (options.cast.size() > kMostKinds)
+        throw Error("a cast of " + std::to_string(options.cast.size()) +
+                    " species: there is room for " + std::to_string(kMostKinds));
+    for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
+    if (!kinds_.empty()) schoolRadius_ = schoolRadiusMetres(kinds_.front().last);
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
-    intentions_.resize(traits_.size());
+    minds_.resize(traits_.size());
+    courses_.resize(traits_.size());
     memory_.resize(traits_.size());
     view_.resize(traits_.size());
-    begin();
+    begin(options);
 }
 
-void World::addKind(const WorldSpecies& species) {
+void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast) {
     const std::size_t first = kinds_.empty() ? 0 : kinds_.back().last;
     const std::size_t last = first + species.fish;
-    for (std::size_t at = first; at < last; at += kFishInChunk)
-        chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk)});
+    for (std::size_t at = first; at < last; at += kFishInChunk) {
+        chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk), {}});
+        chunks_.back().deeds.reserve(kFishInChunk);
+    }
     kinds_.push_back({species.tables, gaitsOf(*species.tables), first, last});
+    natures_.push_back(natureOf(cast, kinds_.size() - 1, kinds_.back().gaits, first, last));
 }
 
-void World::begin() {
-    placeSchool(seed_, goal_, surroundings_.water, kSpacingMetres, kinds_.front().last, states_);
-    placeWanderers(seed_, surroundings_.water, kinds_.front().last, states_);
-    for (const Kind& kind : kinds_) {
+void World::begin(const WorldOptions& options) {
+    placeFish(options, goal_, surroundings_, states_);
+    for (const Nature& nature : natures_) {
+        const Kind& kind = kinds_[nature.kind];
         startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
-        const float speed = kind.gaits.speed[indexOf(Action::ForwardMedium)];
-        for (std::size_t fish = kind.first; fish < kind.last; ++fish)
-            setSpeedBodyLengths(states_, fish, speed);
+        for (std::uint32_t fish = nature.first; fish < nature.last; ++fish) {
+            setSpeedBodyLengths(states_, fish, nature.medium);
+            minds_.set(fish, freshMind(nature, seed_, fish));
+            view_.kind[fish] = nature.kind;
+        }
         look(kind, kind.first, kind.last);
     }
-    for (std::size_t fish = 0; fish < traits_.size(); ++fish) {
-        intentions_.directionX[fish] = view_.headingX[fish];
-        intentions_.directionY[fish] = view_.headingY[fish];
-        intentions_.directionZ[fish] = view_.headingZ[fish];
-    }
+    for (std::size_t fish = 0; fish < traits_.size(); ++fish)
+        courses_.set(fish, {view_.heading(fish), 1, 0});
 }
 
 template <class Job>
 void World::inChunks(const Job& job) {
-    pool_.run(chunks_.size(), [&](std::size_t i) {
-        const Chunk& chunk = chunks_[i];
-        job(chunk.kind, chunk.first, chunk.last);
-    });
+    pool_.run(chunks_.size(), [&](std::size_t i) { job(chunks_[i]); });
+}
+
+void World::apply(const WorldInput& input) {
+    if (const auto* food = std::get_if<DropFood>(&input))
+        dropPellets(surroundings_.food, seed_, food->position, food->pellets, tick_);
+    if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
+        surroundings_.submarine.position = moved->position;
+        surroundings_.submarine.velocityMetresPerSecond = moved->velocityMetresPerSecond;
+    }
 }
 
 void World::advance() {
     goal_ = journeyGoal(seed_, tick_);
-    inChunks([this](std::size_t kind, std::size_t first, std::size_t last) {
-        look(kinds_[kind], first, last);
-    });
-    grid_.rebuild(view_);
-    inChunks([this](std::size_t kind, std::size_t first, std::size_t last) {
-        think(kind, first, last);
-    });
+    advanceSurroundings(surroundings_, tick_);
+    inChunks([this](const Chunk& chunk) { look(kinds_[chunk.kind], chunk.first, chunk.last); });
+    grids_.rebuild(view_, surroundings_.food, natures_);
+    inChunks([this](Chunk& chunk) { live(chunk); });
+    for (const Chunk& chunk : chunks_)
+        for (const Deed& deed : chunk.deeds) perform(deed);
     ++tick_.value;
 }
 
@@ -124,48 +119,53 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
     }
 }
 
-void World::think(std::size_t kind, std::size_t first, std::size_t last) {
-    steer(kind, first, last);
-    const Kind& own = kinds_[kind];
-    SecondaryController{
-        &own.gaits, &view_, &intentions_, &states_, seed_, tick_, &commands_, &memory_}
-        .run(first, last);
-    MotorStep{own.tables.get(), traits_, &commands_, &states_, first, last}.run();
+Environment World::environment() const {
+    return {.view = &view_,
+            .grids = &grids_,
+            .surroundings = &surroundings_,
+            .natures = natures_,
+            .gathering = gathering_,
+            .goal = goal_,
+            .schoolRadiusMetres = schoolRadius_,
+            .seed = seed_,
+            .tick = tick_,
+            .adaptation = adaptation_};
 }
 
-void World::steer(std::size_t kind, std::size_t first, std::size_t last) {
-    if (kind == 0) {
-        const std::size_t schoolmates = kinds_.front().last;
-        Steering{&view_,
-                 &grid_,
-                 &surroundings_,
-                 schoolmates,
-                 goal_,
-                 schoolRadius_,
-                 seed_,
-                 tick_,
-                 &intentions_}
-            .run(first, last);
-    } else {
-        const float cruise = kinds_[kind].gaits.speed[indexOf(Action::ForwardSlow)];
-        Wandering{&view_, &grid_, &surroundings_, cruise, seed_, tick_, &intentions_}.run(first,
-                                                                                          last);
-    }
+// Thoughts, motor commands and motion of a chunk.
+void World::live(Chunk& chunk) {
+    chunk.deeds.clear();
+    const Environment around = environment();
+    for (std::size_t fish = chunk.first; fish < chunk.last; ++fish)
+        if (thinksAt(tick_, fish))
+            think(around, static_cast<std::uint32_t>(fish), minds_, courses_, chunk.deeds);
+    const Kind& own = kinds_[chunk.kind];
+    SecondaryController{&own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
+        .run(chunk.first, chunk.last);
+    MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
+}
+
+void World::perform(const Deed& deed) {
+    if (deed.kind == DeedKind::EatParticle) eatFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
-    std::uint64_t hash = hashOf(states_);
+    std::uint64_t hash = hashOf(states_) ^ minds_.hash();
     hash = folded(hash, commands_.segment);
     hash = folded(hash, commands_.phaseRate);
     hash = folded(hash, commands_.pitch);
     hash = folded(hash, commands_.yawRate);
     hash = folded(hash, commands_.brake);
-    for (const auto* values : {&intentions_.directionX,
-                               &intentions_.directionY,
-                               &intentions_.directionZ,
-                               &intentions_.speed,
-                               &intentions_.urgency})
+    for (const auto* values : {&courses_.directionX,
+                               &courses_.directionY,
+                               &courses_.directionZ,
+                               &courses_.speed,
+                               &courses_.urgency,
+                               &surroundings_.food.x,
+                               &surroundings_.food.y,
+                               &surroundings_.food.z})
         hash = folded(hash, *values);
+    hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
     return folded(hash, memory_.patience);
@@ -174,15 +174,17 @@ std::uint64_t World::hash() const {
 std::size_t World::bytes() const {
     const MotionStates& s = states_;
     const MotorCommands& c = commands_;
-    const Intentions& w = intentions_;
-    const SchoolView& v = view_;
-    return grid_.bytes() + bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
+    const Courses& w = courses_;
+    const FishView& v = view_;
+    return grids_.bytes() + minds_.bytes() +
+           bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
            bytesIn(s.x, s.y, s.z, s.orientationA, s.orientationB, s.orientationC) +
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
            bytesIn(s.warpFrame, s.warpLength, s.speed) +
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
            bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency) +
-           bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length);
+           bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
+           bytesIn(v.kind, v.signs, v.partner);
 }
 
 void World::records(std::vector<FishRecord>& records) const {

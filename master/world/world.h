@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// The living world: a school and those who keep to themselves perceive, decide and move, one tick
-// at a time. Same options, same world, on any number of threads.
+// The living world: every fish perceives, feels, decides and moves, one tick at a time. Same
+// options and inputs, same world, on any number of threads.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "common/config/habits.h"
+#include "common/config/scene.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
 #include "common/units/ids.h"
-#include "master/behaviour/neighbour_grid.h"
-#include "master/behaviour/school_view.h"
-#include "master/behaviour/steering.h"
-#include "master/behaviour/surroundings.h"
+#include "master/behaviour/act/routine.h"
+#include "master/behaviour/perceive/environment.h"
+#include "master/fish/adaptation.h"
+#include "master/fish/courses.h"
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
 #include "master/motor/gaits.h"
 #include "master/motor/secondary_controller.h"
+#include "master/world/input.h"
 #include "master/world/worker_pool.h"
 
 namespace aquarama {
@@ -33,29 +40,42 @@ struct FishLengths {
 struct WorldSpecies {
     std::shared_ptr<const MotorTables> tables;
     std::uint32_t fish = 0;
-    FishLengths lengths;
+    FishLengths lengths = {};
+    std::string name = {};  // as Habits::hunts has it
+    Habits habits = {};
+    std::optional<Start> start = {};
 };
 
 struct WorldOptions {
     std::uint32_t seed = 1;
     unsigned threads = 1;
-    std::vector<WorldSpecies> cast;  // the first are the school, the others keep to themselves
+    Scene scene;                     // all of it but the cast
+    std::vector<WorldSpecies> cast;  // the school first; may be without fish
+    Adaptation adaptation;
 };
 
 class World {
   public:
-    // Throws Error when there are no fish.
+    // Throws Error for a cast of more kinds than kMostKinds.
     explicit World(const WorldOptions& options);
 
-    void advance();  // one tick; allocates nothing
+    void apply(const WorldInput& input);  // between two ticks
+    void advance();                       // one tick; allocates nothing
 
     [[nodiscard]] Tick tick() const { return tick_; }
     [[nodiscard]] const MotionStates& states() const { return states_; }
-    [[nodiscard]] const SchoolView& view() const { return view_; }  // as the last tick began
+    [[nodiscard]] const MotorCommands& commands() const { return commands_; }
+    [[nodiscard]] const Minds& minds() const { return minds_; }
+    [[nodiscard]] const Courses& courses() const { return courses_; }
+    [[nodiscard]] const Surroundings& surroundings() const { return surroundings_; }
+    [[nodiscard]] std::span<const Nature> natures() const { return natures_; }
+    [[nodiscard]] const FishView& view() const { return view_; }  // as the last tick began
+    // As the fish saw it that thought in the last tick.
+    [[nodiscard]] Environment environment() const;
     [[nodiscard]] std::span<const FishTraits> traits() const { return traits_; }
     [[nodiscard]] std::size_t bytes() const;  // of all that grows with the school
 
-    // States, commands and all that decisions remember; equal worlds have equal hashes.
+    // States, commands and all that minds remember; equal worlds have equal hashes.
     [[nodiscard]] std::uint64_t hash() const;
     void records(std::vector<FishRecord>& records) const;
 
@@ -69,27 +89,32 @@ class World {
     struct Chunk {  // a part of a kind, small enough to share out among threads
         std::size_t kind = 0;
         std::size_t first = 0, last = 0;
+        Deeds deeds;
     };
-    void addKind(const WorldSpecies& species);
-    void begin();
+    void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
+    void begin(const WorldOptions& options);
     void look(const Kind& kind, std::size_t first, std::size_t last);
-    void think(std::size_t kind, std::size_t first, std::size_t last);
-    void steer(std::size_t kind, std::size_t first, std::size_t last);
+    void live(Chunk& chunk);
+    void perform(const Deed& deed);
     template <class Job>
     void inChunks(const Job& job);
 
     std::uint32_t seed_;
     Tick tick_;
+    Gathering gathering_;
+    Adaptation adaptation_;
     std::vector<Kind> kinds_;
+    std::vector<Nature> natures_;  // one for each kind
     std::vector<Chunk> chunks_;
-    Surroundings surroundings_;
     std::vector<FishTraits> traits_;
+    Surroundings surroundings_;
     MotionStates states_;
     MotorCommands commands_;
-    Intentions intentions_;
+    Minds minds_;
+    Courses courses_;
     ControllerMemory memory_;
-    SchoolView view_;
-    NeighbourGrid grid_;
+    FishView view_;
+    Grids grids_;
     Goal goal_;
     float schoolRadius_ = 0;
     WorkerPool pool_;

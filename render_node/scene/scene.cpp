@@ -46,7 +46,7 @@ FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
 
 }  // namespace
 
-struct Scene::Parts {
+struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           light{chosen.seed, kFilterDepthMetres},
@@ -88,7 +88,7 @@ struct Scene::Parts {
     gl::ProgramHandle surface, water, snow;
 };
 
-void Scene::Parts::updateFish(const SceneFrame& frame, const FrameUniforms& uniforms) {
+void SceneRenderer::Parts::updateFish(const SceneFrame& frame, const FrameUniforms& uniforms) {
     std::size_t first = 0;
     for (std::size_t i = 0; i < schools.size(); ++i) {
         const std::size_t count = std::min(fishOfSchool[i], frame.fish.size() - first);
@@ -99,13 +99,13 @@ void Scene::Parts::updateFish(const SceneFrame& frame, const FrameUniforms& unif
 }
 
 // Near things first, so that what they hide is never shaded.
-void Scene::Parts::drawSolids(const Viewpoint& viewpoint) {
+void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
     meadow.draw(viewpoint);
     reef.draw(viewpoint);
     ground.draw(viewpoint);
 }
 
-void Scene::Parts::drawWater() const {
+void SceneRenderer::Parts::drawWater() const {
     glBindVertexArray(empty.name());
     glUseProgram(surface.name());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -113,7 +113,7 @@ void Scene::Parts::drawWater() const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Scene::Parts::drawSnow() const {
+void SceneRenderer::Parts::drawSnow() const {
     glUseProgram(snow.name());
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
@@ -124,12 +124,12 @@ void Scene::Parts::drawSnow() const {
     glDepthMask(GL_TRUE);
 }
 
-Scene::Scene(const SceneOptions& options, std::span<const SceneSpecies> cast)
+SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SceneSpecies> cast)
     : parts_{std::make_unique<Parts>(options, cast)} {}
 
-Scene::~Scene() = default;
+SceneRenderer::~SceneRenderer() = default;
 
-unsigned Scene::draw(const SceneFrame& frame, const View& view) {
+unsigned SceneRenderer::draw(const SceneFrame& frame, const View& view) {
     Parts& parts = *parts_;
     const FrameUniforms uniforms = uniformsOf(frame, view);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

@@ -50,15 +50,15 @@ struct SceneOptions {
 };
 
 // Owns its GL objects; construct, use and destroy with the same context current.
-class Scene {
+class SceneRenderer {
   public:
     // Without a cast it is a sea without fish.
-    Scene(const SceneOptions& options, std::span<const SceneSpecies> cast);
-    ~Scene();
-    Scene(const Scene&) = delete;
-    Scene& operator=(const Scene&) = delete;
-    Scene(Scene&&) = delete;
-    Scene& operator=(Scene&&) = delete;
+    SceneRenderer(const SceneOptions& options, std::span<const SceneSpecies> cast);
+    ~SceneRenderer();
+    SceneRenderer(const SceneRenderer&) = delete;
+    SceneRenderer& operator=(const SceneRenderer&) = delete;
+    SceneRenderer(SceneRenderer&&) = delete;
+    SceneRenderer& operator=(SceneRenderer&&) = delete;
 
     // Draws into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already exposed and toned
     // to display light (0 black, 1 the projector's full white), and returns its GL name; valid

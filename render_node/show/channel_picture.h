@@ -44,7 +44,7 @@ class ChannelPicture {
     ChannelFrustum frustum_;
     ProjectionMap map_;
     glm::ivec2 sceneSize_;
-    std::optional<Scene> scene_;                // of the world
+    std::optional<SceneRenderer> scene_;        // of the world
     std::optional<gl::Target> patternPicture_;  // of a pattern
     PatternPass patternPass_;
     Projection projection_;

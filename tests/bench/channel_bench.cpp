@@ -54,7 +54,7 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     const std::vector<PresentedFish> fish = schoolAround();
     const std::vector<SceneSpecies> cast{
         {.body = body, .skin = {}, .repertoire = test::swaying(body, 0.05F), .fish = fish.size()}};
-    Scene scene({.culling = culling, .levelsOfDetail = levelsOfDetail}, cast);
+    SceneRenderer scene({.culling = culling, .levelsOfDetail = levelsOfDetail}, cast);
     const glm::dmat4 wallFromWorld = glm::translate(glm::dmat4(1), -glm::dvec3(kEyePosition));
     const View view{.clipFromCamera = clipFromCamera(frustum, 0.05F),
                     .cameraFromWorld = glm::mat4(frustum.cameraFromWall * wallFromWorld),

@@ -32,7 +32,8 @@ View channelTowards(float azimuthDegrees) {
 
 void sceneFrame(benchmark::State& state) {
     const auto context = makeOffscreenContext("auto", {16, 16});
-    Scene scene{{.culling = state.range(1) != 0, .levelsOfDetail = state.range(2) != 0}, {}};
+    SceneRenderer scene{{.culling = state.range(1) != 0, .levelsOfDetail = state.range(2) != 0},
+                        {}};
     const View view = channelTowards(static_cast<float>(state.range(0)));
     SceneFrame frame;
     frame.eyePositionMetres = kEyePosition;
@@ -56,7 +57,7 @@ BENCHMARK(sceneFrame)
 void sceneGrow(benchmark::State& state) {
     const auto context = makeOffscreenContext("auto", {16, 16});
     for (auto iteration : state) {
-        const Scene scene{{}, {}};
+        const SceneRenderer scene{{}, {}};
         glFinish();
     }
 }

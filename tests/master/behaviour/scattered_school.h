@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
+#include "common/place/angle.h"
 #include "common/place/noise.h"
 #include "common/place/place.h"
-#include "master/behaviour/angle.h"
-#include "master/behaviour/school_view.h"
+#include "master/fish/fish_view.h"
 
 namespace aquarama {
 
@@ -17,8 +17,8 @@ inline glm::vec3 scatteredPoint(std::uint32_t hash) {
             signedUnitOf(hashOf(hash, 2))};
 }
 
-inline SchoolView scatteredSchool(std::uint32_t seed, std::size_t fish, const Region& region) {
-    SchoolView view;
+inline FishView scatteredSchool(std::uint32_t seed, std::size_t fish, const Region& region) {
+    FishView view;
     view.resize(fish);
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(i));

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/behaviour/angle.h"
+#include "common/place/angle.h"
 
 namespace aquarama {
 namespace {
@@ -25,7 +25,7 @@ struct Mind {
         view.resize(1);
         states.resize(1);
         commands.resize(1);
-        intentions.resize(1);
+        courses.resize(1);
         memory.resize(1);
         view.headingX[0] = 1;
         startCommands(gaits, 1, 0, commands.segment.size(), commands, memory);
@@ -33,15 +33,15 @@ struct Mind {
     }
     void want(float degreesToTheLeft, float speed, float urgency = 0) {
         const float angle = degreesToTheLeft * kRadiansPerDegree;
-        intentions.directionX[0] = std::cos(angle);
-        intentions.directionZ[0] = -std::sin(angle);
-        intentions.speed[0] = speed;
-        intentions.urgency[0] = urgency;
+        courses.directionX[0] = std::cos(angle);
+        courses.directionZ[0] = -std::sin(angle);
+        courses.speed[0] = speed;
+        courses.urgency[0] = urgency;
     }
     // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
     Action think() {
-        SecondaryController{&gaits, &view, &intentions, &states, 1, {tick}, &commands, &memory}.run(
-            0, 1);
+        SecondaryController{&gaits, &view, &courses, &states, 1, {tick}, &commands, &memory}.run(0,
+                                                                                                 1);
         tick += kTicksBetweenThoughts;
         states.segment[0] = commands.segment[0];
         states.phase[0] = 65535;
@@ -53,10 +53,10 @@ struct Mind {
     }
 
     Gaits gaits = scadGaits();
-    SchoolView view;
+    FishView view;
     MotionStates states;
     MotorCommands commands;
-    Intentions intentions;
+    Courses courses;
     ControllerMemory memory;
     std::uint64_t tick = 0;
 };

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/behaviour/angle.h"
+#include "common/place/angle.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
 namespace aquarama {
@@ -17,9 +17,13 @@ constexpr FishLengths kLarge{
 WorldOptions reef(unsigned threads) {
     WorldOptions options;
     options.threads = threads;
-    options.cast = {{.tables = syntheticTables(), .fish = kSchool, .lengths = {}},
-                    {.tables = syntheticTables(), .fish = 8, .lengths = {}},
-                    {.tables = syntheticTables(), .fish = 1, .lengths = kLarge}};
+    WorldSpecies school{.tables = syntheticTables(), .fish = kSchool};
+    school.habits.shares.schooling = 1;
+    WorldSpecies few{.tables = syntheticTables(), .fish = 8};
+    few.habits.role = Role::Pacifist;
+    WorldSpecies one{.tables = syntheticTables(), .fish = 1, .lengths = kLarge};
+    one.habits.role = Role::Pacifist;
+    options.cast = {school, few, one};
     return options;
 }
 

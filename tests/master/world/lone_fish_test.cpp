@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#include "master/behaviour/angle.h"
-#include "master/behaviour/perception.h"
+#include "common/place/angle.h"
+#include "master/behaviour/think.h"
 #include "master/motor/secondary_controller.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
@@ -17,14 +17,20 @@ namespace {
 
 class LoneFish {
   public:
-    LoneFish(Surroundings surroundings, glm::vec3 start, glm::vec3 lure)
-        : surroundings_(std::move(surroundings)),
-          grid_(surroundings_.water, kCellMetres, 1),
-          goal_{lure, {}} {
+    LoneFish(const Obstacles& obstacles, glm::vec3 start, glm::vec3 lure)
+        : grids_(obstacles.water, 1, 0), goal_{lure, {}} {
+        surroundings_.obstacles = obstacles;
+        surroundings_.submarine.position = {100, 0, 0};
+        nature_.habits.shares.schooling = 1;
+        nature_.last = 1;
+        minds_.resize(1);
+        minds_.likes[0] = kLikesSchooling;
+        minds_.eaten[0] = 1000;
+        minds_.sinceMeal[0] = 0;
         view_.resize(1);
         states_.resize(1);
         commands_.resize(1);
-        intentions_.resize(1);
+        courses_.resize(1);
         memory_.resize(1);
         view_.length[0] = 0.24F;
         setBodyFrame(states_, 0, {start, {1, 0, 0, 0}});  // heads along +x
@@ -42,9 +48,9 @@ class LoneFish {
         view_.headingY[0] = heading.y;
         view_.headingZ[0] = heading.z;
         view_.speed[0] = 2 * view_.length[0];
-        grid_.rebuild(view_);
-        Steering{&view_, &grid_, &surroundings_, 1, goal_, 0.3F, 1, tick_, &intentions_}.run(0, 1);
-        SecondaryController{&gaits_, &view_, &intentions_, &states_, 1, tick_, &commands_, &memory_}
+        grids_.rebuild(view_, surroundings_.food, {&nature_, 1});
+        if (thinksAt(tick_, 0)) think(environment(), 0, minds_, courses_, deeds_);
+        SecondaryController{&gaits_, &view_, &courses_, &states_, 1, tick_, &commands_, &memory_}
             .run(0, 1);
         MotorStep{tables_.get(), traits_, &commands_, &states_, 0, 1}.run();
         ++tick_.value;
@@ -52,21 +58,37 @@ class LoneFish {
     }
 
   private:
+    [[nodiscard]] Environment environment() const {
+        return {.view = &view_,
+                .grids = &grids_,
+                .surroundings = &surroundings_,
+                .natures = {&nature_, 1},
+                .gathering = Gathering::Journey,
+                .goal = goal_,
+                .schoolRadiusMetres = 0.3F,
+                .seed = 1,
+                .tick = tick_,
+                .adaptation = {}};
+    }
+
     std::shared_ptr<const MotorTables> tables_ = syntheticTables();
     Gaits gaits_ = gaitsOf(*tables_);
     std::array<FishTraits, 1> traits_{{{0, 240}}};
     Surroundings surroundings_;
-    NeighbourGrid grid_;
+    Nature nature_;
+    Grids grids_;
+    Minds minds_;
+    Deeds deeds_;
     Goal goal_;
-    SchoolView view_;
+    FishView view_;
     MotionStates states_;
     MotorCommands commands_;
-    Intentions intentions_;
+    Courses courses_;
     ControllerMemory memory_;
     Tick tick_;
 };
 
-const Surroundings kOpenWater{3, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
+const Obstacles kOpenWater{3, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
 
 TEST(LoneFish, turnsInTimeBeforeEveryWall) {
     for (const glm::vec3 lure : {glm::vec3{20, -5, -5},
@@ -87,14 +109,14 @@ TEST(LoneFish, turnsInTimeBeforeEveryWall) {
 
 TEST(LoneFish, goesRoundARockOnItsWay) {
     for (const float aside : {-0.4F, -0.1F, 0.0F, 0.2F, 0.5F}) {
-        Surroundings surroundings = kOpenWater;
-        surroundings.rocks = {{{0.5F, -5, -5 + aside}, 0.6F, 1}};
-        LoneFish fish(surroundings, {-2.5F, -5, -5}, {2.5F, -5, -5});
+        Obstacles obstacles = kOpenWater;
+        obstacles.rocks = {{{0.5F, -5, -5 + aside}, 0.6F, 1}};
+        LoneFish fish(obstacles, {-2.5F, -5, -5}, {2.5F, -5, -5});
         float nearest = 99;
         float farthest = -99;
         for (int tick = 0; tick < 30 * 60; ++tick) {
             const glm::vec3 position = fish.swim();
-            nearest = std::min(nearest, lengthOf(position - surroundings.rocks[0].centre));
+            nearest = std::min(nearest, lengthOf(position - obstacles.rocks[0].centre));
             farthest = std::max(farthest, position.x);
         }
         EXPECT_GT(nearest, 0.6F) << "rock " << aside << " m aside";

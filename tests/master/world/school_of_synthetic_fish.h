@@ -51,7 +51,10 @@ inline World syntheticWorld(std::uint32_t seed, std::uint32_t fish, unsigned thr
     WorldOptions options;
     options.seed = seed;
     options.threads = threads;
-    options.cast = {{.tables = syntheticTables(), .fish = fish, .lengths = {}}};
+    WorldSpecies school{.tables = syntheticTables(), .fish = fish};
+    school.name = "synthetic scad";
+    school.habits.shares.schooling = 1;
+    options.cast = {school};
     return World(options);
 }
 

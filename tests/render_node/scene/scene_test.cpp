@@ -49,7 +49,7 @@ View viewTowards(float azimuthDegrees) {
     return view;
 }
 
-Shot shoot(Scene& scene, double timeSeconds, float azimuthDegrees) {
+Shot shoot(SceneRenderer& scene, double timeSeconds, float azimuthDegrees) {
     SceneFrame frame;
     frame.timeSeconds = timeSeconds;
     frame.eyePositionMetres = kEyePosition;
@@ -75,16 +75,16 @@ class Place : public testing::Test {
         scene().reset();
         context().reset();
     }
-    static std::unique_ptr<Scene> fresh(SceneOptions options, int samples = 1) {
+    static std::unique_ptr<SceneRenderer> fresh(SceneOptions options, int samples = 1) {
         options.samples = samples;
-        return std::make_unique<Scene>(options, std::span<const SceneSpecies>{});
+        return std::make_unique<SceneRenderer>(options, std::span<const SceneSpecies>{});
     }
     static std::unique_ptr<Context>& context() {
         static std::unique_ptr<Context> instance;
         return instance;
     }
-    static std::unique_ptr<Scene>& scene() {
-        static std::unique_ptr<Scene> instance;
+    static std::unique_ptr<SceneRenderer>& scene() {
+        static std::unique_ptr<SceneRenderer> instance;
         return instance;
     }
 };

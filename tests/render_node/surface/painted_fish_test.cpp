@@ -53,7 +53,7 @@ Picture portrait(const Species& species) {
                                           .skin = skinOf(species),
                                           .repertoire = test::swaying(body, 0.0F),
                                           .fish = 1}};
-    Scene scene{{.seed = 1, .samples = 4}, cast};
+    SceneRenderer scene{{.seed = 1, .samples = 4}, cast};
     const PresentedFish fish = test::fishAt(kEyePosition + glm::vec3{0, 0, -kAway},
                                             glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0}),
                                             kLength);

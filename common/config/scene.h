@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene: which water, who swims in it, and what happens there, as its file says. World frame:
+// metres, Y up, the surface is y = 0.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace aquarama {
+
+inline constexpr std::uint32_t kMostFish = 1'000'000;
+inline constexpr std::uint32_t kMostPlankton = 60'000;
+
+enum class PlaceKind : std::uint8_t {
+    Reef,     // sand, rocks and plants about the wall
+    OpenSea,  // nothing but water
+};
+
+// What a school is drawn to.
+enum class Gathering : std::uint8_t {
+    None,     // goes where its members go
+    Journey,  // a staged way past the eye, near and far
+    Mill,     // circles in the middle of the water: a bait ball
+};
+
+// Where the fish of a member begin, and in which mood; left out, they begin where the scene has
+// room.
+struct Start {
+    glm::vec3 centre{};         // metres
+    double radiusMetres = 1;    // about the centre
+    double headingRadians = 0;  // about up; 0 is along +x, to the left (-z) positive
+    double hunger = 0;          // 0 to 1
+    double libido = 0;
+};
+
+// The fish of one species.
+struct CastMember {
+    std::string species;  // path of its file, relative to the scene's folder
+    std::uint32_t fish = 0;
+    std::optional<Start> start = {};
+};
+
+// The water that fish keep to: a box. Where the fish would have less room than leastLengthsCubed
+// each (in cubes of their own mean length), an open sea's box grows about its centre.
+struct SceneWater {
+    glm::vec3 centre{0.0F, -5.8F, -5.5F};
+    glm::vec3 halfExtent{5.0F, 1.8F, 3.5F};
+    double leastLengthsCubed = 4;
+    double clarityMetres = 12;                            // no fish sees farther
+    double surfaceCelsius = 28, celsiusPerMetre = -0.15;  // with depth
+};
+
+// Brightness over a day: 1 at noon, `night` at midnight. Length 0: always as at the start.
+struct Day {
+    double lengthSeconds = 0;
+    double startsAt = 0.5;  // 0 midnight, 0.5 noon
+    double night = 0.2;
+};
+
+// Something for the fish: pellets that a visitor could have dropped.
+struct FoodDrop {
+    double atSeconds = 0;
+    glm::vec3 position{};
+    std::uint32_t pellets = 12;
+};
+
+struct Scene {
+    std::string name = "reef";
+    PlaceKind place = PlaceKind::Reef;
+    glm::vec3 eye{0.0F, -6.0F, 0.0F};  // where the submarine stands, looking along -z
+    SceneWater water;
+    Gathering gathering = Gathering::Journey;
+    std::uint32_t plankton = 300;  // particles; eaten ones drift in again
+    Day day;
+    std::vector<FoodDrop> drops;
+    std::vector<CastMember> cast;  // the school first; may be empty in an empty sea
+};
+
+}  // namespace aquarama

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/act/act.h"
+
+#include "master/behaviour/act/avoid_fish.h"
+#include "master/behaviour/act/avoid_obstacle.h"
+#include "master/behaviour/act/eat.h"
+#include "master/behaviour/act/escape.h"
+#include "master/behaviour/act/leave.h"
+#include "master/behaviour/act/mate.h"
+#include "master/behaviour/act/school.h"
+#include "master/behaviour/act/wander.h"
+
+namespace aquarama {
+
+Course act(const Situation& situation, Mind& mind, Deeds& deeds) {
+    switch (mind.intention) {
+        case Intention::AvoidObstacle:
+            return avoidObstacle(situation);
+        case Intention::AvoidFish:
+            return avoidFish(situation);
+        case Intention::Escape:
+            return escape(situation);
+        case Intention::Eat:
+            return eat(situation, mind, deeds);
+        case Intention::Mate:
+            return mate(situation, mind, deeds);
+        case Intention::School:
+            return school(situation);
+        case Intention::Leave:
+            return leave(situation);
+        case Intention::Wander:
+            break;
+    }
+    return wander(situation);
+}
+
+}  // namespace aquarama

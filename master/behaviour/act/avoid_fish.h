@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// Slows, or turns away from the fish that is in its sensitivity box (Tu 1996, section 5.6.1).
+#pragma once
+
+#include "master/behaviour/act/routine.h"
+
+namespace aquarama {
+
+[[nodiscard]] Course avoidFish(const Situation& situation);
+
+}  // namespace aquarama

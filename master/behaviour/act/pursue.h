@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chasing a target (Tu 1996, section 5.6.2; paper, section 5.2): a general direction from far off,
+// the exact one when near, and slower then.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "master/behaviour/act/routine.h"
+
+namespace aquarama {
+
+// towards: from the body to the target, metres; speed in body lengths a second when far.
+[[nodiscard]] Course pursue(const Situation& situation, glm::vec3 towards, float speed);
+
+// The course that goes along `wish` (any length) and heeds what pushes.
+[[nodiscard]] Course heading(const Situation& situation, glm::vec3 wish, float speed);
+
+}  // namespace aquarama

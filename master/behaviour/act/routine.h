@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every behaviour routine is given. A routine takes one step towards its goal: it answers with
+// a course, may move its own stage in `mind`, and reports deeds that others must learn of.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/perceive/environment.h"
+#include "master/behaviour/perceive/senses.h"
+#include "master/fish/courses.h"
+#include "master/fish/minds.h"
+#include "master/fish/nature.h"
+
+namespace aquarama {
+
+struct Situation {
+    const Environment& environment;
+    const Nature& nature;
+    std::uint32_t fish;
+    const Senses& senses;
+    const Feelings& feelings;
+};
+
+using Deeds = std::vector<Deed>;  // with room for one of each fish of a chunk
+
+}  // namespace aquarama

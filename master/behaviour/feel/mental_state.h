@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hunger, libido and fear (Tu & Terzopoulos 1994, section 6.1; Tu 1996, section 5.2), each 0 to 1.
+#pragma once
+
+#include "master/behaviour/perceive/senses.h"
+#include "master/fish/minds.h"
+#include "master/fish/nature.h"
+
+namespace aquarama {
+
+struct Feelings {
+    float hunger = 0, libido = 0;
+    float fear = 0;          // of all predators in sight together
+    float greatestFear = 0;  // of the most dangerous one
+};
+
+[[nodiscard]] Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses);
+
+}  // namespace aquarama

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/think.h"
+
+#include "master/behaviour/act/act.h"
+#include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/perceive/perceive.h"
+
+namespace aquarama {
+
+void think(const Environment& environment,
+           std::uint32_t fish,
+           Minds& minds,
+           Courses& courses,
+           Deeds& deeds) {
+    const Nature& nature = environment.natures[environment.view->kind[fish]];
+    Mind mind = minds.at(fish);
+    const Senses senses = perceive(environment, nature, fish, mind);
+    const Feelings feelings = feel(nature, mind, senses);
+    remember(mind, decide(nature, mind, senses, feelings));
+    courses.set(fish, act({environment, nature, fish, senses, feelings}, mind, deeds));
+    minds.set(fish, mind);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What reaches the world from outside: the only things beside seed and scene that change it, and
+// so all that a recording must hold.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include <glm/vec3.hpp>
+
+namespace aquarama {
+
+// A visitor feeds the fish.
+struct DropFood {
+    glm::vec3 position{};  // metres, world frame
+    std::uint32_t pellets = 12;
+};
+
+// Where the submarine is from now on.
+struct MoveSubmarine {
+    glm::vec3 position{};
+    glm::vec3 velocityMetresPerSecond{};
+};
+
+using WorldInput = std::variant<DropFood, MoveSubmarine>;
+
+}  // namespace aquarama

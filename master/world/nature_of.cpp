@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/world/nature_of.h"
+
+#include <algorithm>
+#include <string>
+
+namespace aquarama {
+
+namespace {
+
+bool names(const std::vector<std::string>& list, const std::string& name) {
+    return std::ranges::find(list, name) != list.end();
+}
+
+std::uint64_t kindsNamed(const std::vector<WorldSpecies>& cast,
+                         const std::vector<std::string>& list) {
+    std::uint64_t kinds = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        if (names(list, cast[i].name)) kinds |= std::uint64_t{1} << i;
+    return kinds;
+}
+
+std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string& name) {
+    std::uint64_t kinds = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        if (names(cast[i].habits.hunts, name)) kinds |= std::uint64_t{1} << i;
+    return kinds;
+}
+
+}  // namespace
+
+Nature natureOf(const std::vector<WorldSpecies>& cast,
+                std::size_t kind,
+                const Gaits& gaits,
+                std::size_t first,
+                std::size_t last) {
+    const Habits& habits = cast[kind].habits;
+    const auto single = [](double value) { return static_cast<float>(value); };
+    return {.role = habits.role,
+            .kind = static_cast<std::uint8_t>(kind),
+            .first = static_cast<std::uint32_t>(first),
+            .last = static_cast<std::uint32_t>(last),
+            .hunts = kindsNamed(cast, habits.hunts),
+            .huntedBy = huntersOf(cast, cast[kind].name),
+            .shadows = kindsNamed(cast, habits.shadows),
+            .appetite = single(habits.appetiteParticles),
+            .digestion = single(habits.digestionPerSecond),
+            .libido = single(habits.libidoPerSecond),
+            .fearMetres = single(habits.fearMetres),
+            .fearFrom = single(habits.fearFrom),
+            .fearAlone = single(habits.fearAlone),
+            .slow = gaits.speed[indexOf(Action::ForwardSlow)],
+            .medium = gaits.speed[indexOf(Action::ForwardMedium)],
+            .fast = gaits.speed[indexOf(Action::ForwardFast)],
+            .visionBodyLengths = single(habits.visionBodyLengths),
+            .smellBodyLengths = single(habits.smellBodyLengths),
+            .boxAhead = single(habits.box.aheadBodyLengths),
+            .boxAside = single(habits.box.asideBodyLengths),
+            .boxUp = single(habits.box.upBodyLengths),
+            .persistence = single(habits.persistence),
+            .habits = habits};
+}
+
+}  // namespace aquarama

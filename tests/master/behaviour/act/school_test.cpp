@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/act/school.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/master/behaviour/aquarium.h"
+#include "tests/master/behaviour/scattered_school.h"
+
+namespace aquarama {
+namespace {
+
+float right(const Courses& courses, std::size_t fish) {
+    return courses.directionZ[fish];  // heading +x, a fish has +z to its right
+}
+
+TEST(SchoolRoutine, fishTooNearPartByASlant) {
+    Aquarium scene({{0, 0, -0.04F}, {0, 0, 0.04F}});
+    const Courses wanted = scene.think();
+    EXPECT_LT(right(wanted, 0), -0.25F);
+    EXPECT_GT(right(wanted, 1), 0.25F);
+    EXPECT_LT(right(wanted, 1) - right(wanted, 0), 1.2F) << "turned more, their tails would meet";
+}
+
+TEST(SchoolRoutine, fishFarApartDrawTogether) {
+    Aquarium scene({{0, 0, -0.45F}, {0, 0, 0.45F}});
+    const Courses wanted = scene.think();
+    EXPECT_GT(right(wanted, 0) - right(wanted, 1), 0.1F);
+}
+
+TEST(SchoolRoutine, aFishFallsInWithTheCourseOfItsNeighbours) {
+    Aquarium scene({{0, 0, 0}, {0.2F, 0, -0.2F}, {0.2F, 0, 0.2F}});
+    for (const std::size_t other : {1U, 2U}) {
+        scene.head(other, {0.7071F, 0, 0.7071F});
+    }
+    EXPECT_GT(right(scene.think(), 0), 0.2F);
+}
+
+TEST(SchoolRoutine, oneBehindATailBrakes) {
+    Aquarium scene({{0, 0, 0}, {0.23F, 0, 0}});
+    const Courses wanted = scene.think();
+    EXPECT_LT(wanted.speed[0], wanted.speed[1] - 0.3F);
+}
+
+TEST(SchoolRoutine, aFishThatFellBehindHurriesAndOneAheadWaits) {
+    Aquarium scene({{-1.5F, 0, 0}, {1.5F, 0, 0}});
+    const Courses wanted = scene.think();
+    EXPECT_GT(wanted.speed[0], wanted.speed[1] + 0.5F);
+}
+
+TEST(SchoolRoutine, wantedDirectionsAreUnitVectorsOfModeratePitch) {
+    Aquarium scene(std::vector<glm::vec3>(400));
+    const FishView strewn = scatteredSchool(5, 400, scene.surroundings.obstacles.water);
+    for (std::size_t fish = 0; fish < 400; ++fish) {
+        scene.put(fish, strewn.position(fish) - Aquarium::kCentre);
+        scene.head(fish, strewn.heading(fish));
+    }
+    const Courses wanted = scene.think();
+    for (std::size_t fish = 0; fish < scene.view.size(); ++fish) {
+        EXPECT_NEAR(lengthOf(wanted.direction(fish)), 1, 1e-5F);
+        EXPECT_LT(std::abs(wanted.directionY[fish]), 0.43F);
+    }
+}
+
+TEST(SchoolRoutine, eachFishThinksOnceInEightTicksAndAnEighthOfThemAtATime) {
+    for (std::uint64_t tick = 0; tick < 16; ++tick) {
+        int thinking = 0;
+        for (std::size_t fish = 0; fish < 800; ++fish) thinking += thinksAt({tick}, fish) ? 1 : 0;
+        EXPECT_EQ(thinking, 100);
+    }
+    for (std::size_t fish = 0; fish < 9; ++fish)
+        EXPECT_EQ(thinksAt({3}, fish), thinksAt({11}, fish));
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small open water for tests of minds: a few fish of one or more species, put where a test wants
+// them, that think without moving.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "common/place/angle.h"
+#include "master/behaviour/perceive/environment.h"
+#include "master/behaviour/think.h"
+#include "master/fish/courses.h"
+#include "master/fish/minds.h"
+
+namespace aquarama {
+
+struct Aquarium {
+    static constexpr glm::vec3 kCentre{0, -4, -5};
+
+    // One kind that schools and has no other habits; more may be added to natures.
+    explicit Aquarium(const std::vector<glm::vec3>& offsets = {}) {
+        surroundings.obstacles = {3, {kCentre, {6, 3, 4}}, {}};
+        surroundings.submarine.position = kCentre + glm::vec3{100, 0, 0};
+        Nature nature;
+        nature.habits.shares.schooling = 1;
+        natures.push_back(nature);
+        for (const glm::vec3 offset : offsets) addFish(offset);
+    }
+
+    // At the centre and an offset, heading along +x; fish of one kind stand together.
+    std::uint32_t addFish(glm::vec3 offset, std::uint8_t kind = 0, float length = 0.24F) {
+        const std::size_t fish = view.size();
+        view.resize(fish + 1);
+        minds.resize(fish + 1);
+        courses.resize(fish + 1);
+        put(fish, offset);
+        view.headingX[fish] = 1;
+        view.speed[fish] = 0.4F;
+        view.length[fish] = length;
+        view.kind[fish] = kind;
+        if (natures[kind].last == 0) natures[kind].first = static_cast<std::uint32_t>(fish);
+        natures[kind].last = static_cast<std::uint32_t>(fish) + 1;
+        Mind mind;
+        mind.likes = kLikesSchooling;
+        mind.eaten = 100;
+        mind.sinceMeal = 0;
+        minds.set(fish, mind);
+        return static_cast<std::uint32_t>(fish);
+    }
+    void put(std::size_t fish, glm::vec3 offset) {
+        view.x[fish] = kCentre.x + offset.x;
+        view.y[fish] = kCentre.y + offset.y;
+        view.z[fish] = kCentre.z + offset.z;
+    }
+    void head(std::size_t fish, glm::vec3 heading) {
+        view.headingX[fish] = heading.x;
+        view.headingY[fish] = heading.y;
+        view.headingZ[fish] = heading.z;
+    }
+
+    // The grids must be made anew before they are asked.
+    [[nodiscard]] Environment environment(Grids& grids) const {
+        return {.view = &view,
+                .grids = &grids,
+                .surroundings = &surroundings,
+                .natures = natures,
+                .gathering = gathering,
+                .goal = goal,
+                .schoolRadiusMetres = 0.5F,
+                .seed = 1,
+                .tick = tick,
+                .adaptation = {}};
+    }
+    [[nodiscard]] Grids freshGrids() const {
+        Grids grids(surroundings.obstacles.water, view.size(), surroundings.food.size());
+        grids.rebuild(view, surroundings.food, natures);
+        return grids;
+    }
+
+    // Every fish thinks once.
+    const Courses& think() {
+        Grids grids = freshGrids();
+        deeds.clear();
+        for (std::uint32_t fish = 0; fish < view.size(); ++fish)
+            aquarama::think(environment(grids), fish, minds, courses, deeds);
+        tick.value += kTicksBetweenThoughts;
+        return courses;
+    }
+
+    FishView view;
+    Minds minds;
+    Courses courses;
+    Deeds deeds;
+    Surroundings surroundings;
+    std::vector<Nature> natures;
+    Gathering gathering = Gathering::Journey;
+    Goal goal{kCentre, {0.4F, 0, 0}};
+    Tick tick;
+};
+
+}  // namespace aquarama
