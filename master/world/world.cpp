@@ -97,7 +97,12 @@ void World::inChunks(const Job& job) {
 
 void World::apply(const WorldInput& input) {
     if (const auto* food = std::get_if<DropFood>(&input))
-        dropPellets(surroundings_.food, seed_, food->position, food->pellets, tick_);
+        dropPellets(surroundings_.food,
+                    seed_,
+                    surroundings_.obstacles,
+                    food->position,
+                    food->pellets,
+                    tick_);
     if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
         surroundings_.submarine.position = moved->position;
         surroundings_.submarine.velocityMetresPerSecond = moved->velocityMetresPerSecond;
@@ -159,7 +164,8 @@ void World::live(Chunk& chunk) {
 }
 
 void World::perform(const Deed& deed) {
-    if (deed.kind == DeedKind::EatParticle) eatFood(surroundings_.food, deed.object, tick_);
+    if (deed.kind == DeedKind::EatParticle && takeFood(surroundings_.food, deed.object))
+        removeFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
@@ -178,6 +184,7 @@ std::uint64_t World::hash() const {
                                &surroundings_.food.y,
                                &surroundings_.food.z})
         hash = folded(hash, *values);
+    hash = folded(hash, courses_.openToChange);
     hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
@@ -195,7 +202,7 @@ std::size_t World::bytes() const {
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
            bytesIn(s.warpFrame, s.warpLength, s.speed) +
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
-           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency) +
+           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency, w.openToChange) +
            bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
            bytesIn(v.kind, v.signs, v.partner);
 }
