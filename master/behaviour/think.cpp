@@ -3,6 +3,7 @@
 
 #include "master/behaviour/act/act.h"
 #include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/decide/recommendation.h"
 #include "master/behaviour/feel/mental_state.h"
 #include "master/behaviour/perceive/perceive.h"
 #include "master/fish/drives.h"
@@ -20,7 +21,10 @@ void think(const Environment& environment,
     const Senses senses = perceive(environment, nature, fish, mind);
     const Feelings feelings = feel(nature, mind, senses);
     remember(mind, decide(nature, mind, senses, feelings));
-    courses.set(fish, act({environment, nature, fish, senses, feelings}, mind, deeds));
+    Course course = act({environment, nature, fish, senses, feelings}, mind, deeds);
+    course.openToChange = environment.adaptation.recommendations &&
+                          acceptsRecommendation(nature, mind, senses, feelings);
+    courses.set(fish, course);
     minds.set(fish, mind);
 }
 

@@ -183,6 +183,7 @@ std::uint64_t World::hash() const {
                                &surroundings_.food.y,
                                &surroundings_.food.z})
         hash = folded(hash, *values);
+    hash = folded(hash, courses_.openToChange);
     hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
@@ -200,7 +201,7 @@ std::size_t World::bytes() const {
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
            bytesIn(s.warpFrame, s.warpLength, s.speed) +
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
-           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency) +
+           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency, w.openToChange) +
            bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
            bytesIn(v.kind, v.signs, v.partner, v.stage) +
            meals_.swallows.capacity() * sizeof(Meals::Swallow) +
