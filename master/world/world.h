@@ -102,6 +102,7 @@ class World {
     void feed(std::uint32_t fish);
     void receive();
     void arrive(std::uint32_t fish);
+    [[nodiscard]] Goal goal() const;
     template <class Job>
     void inChunks(const Job& job);
 
