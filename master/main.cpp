@@ -52,6 +52,9 @@ class LivingWorld final : public Simulation {
     void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
     [[nodiscard]] Eye eye() const override { return {.positionMetres = kEyePosition}; }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
+    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
+        return {fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
+    }
 
   private:
     World& world_;

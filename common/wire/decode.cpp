@@ -220,6 +220,29 @@ std::optional<Message> read(const v1::StatusReply& message) {
     return reply;
 }
 
+std::optional<Message> read(const v1::ExplainRequest& message) {
+    if (!message.has_fish()) return std::nullopt;
+    return ExplainRequest{message.fish()};
+}
+
+// Drawn with a font of ASCII, and printed.
+bool isLine(const std::string& line) {
+    return line.size() <= kMaxExplanationLineBytes &&
+           std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+std::optional<Message> read(const v1::Explanation& message) {
+    if (!message.has_fish() || !message.has_school() || !message.has_tick()) return std::nullopt;
+    if (message.school() > kMaxFish || std::size_t(message.lines_size()) > kMaxExplanationLines ||
+        !std::ranges::all_of(message.lines(), isLine)) {
+        return std::nullopt;
+    }
+    return Explanation{message.fish(),
+                       message.school(),
+                       {message.tick()},
+                       {message.lines().begin(), message.lines().end()}};
+}
+
 std::optional<Message> read(const v1::Envelope& envelope) {
     switch (envelope.message_case()) {
         case v1::Envelope::kHello:
@@ -258,6 +281,10 @@ std::optional<Message> read(const v1::Envelope& envelope) {
             return StatusRequest{};
         case v1::Envelope::kStatusReply:
             return read(envelope.status_reply());
+        case v1::Envelope::kExplainRequest:
+            return read(envelope.explain_request());
+        case v1::Envelope::kExplanation:
+            return read(envelope.explanation());
         case v1::Envelope::MESSAGE_NOT_SET:
             break;
     }

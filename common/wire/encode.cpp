@@ -164,6 +164,18 @@ void write(const StatusReply& reply, v1::Envelope& envelope) {
     }
 }
 
+void write(const ExplainRequest& request, v1::Envelope& envelope) {
+    envelope.mutable_explain_request()->set_fish(request.fish);
+}
+
+void write(const Explanation& explanation, v1::Envelope& envelope) {
+    auto& message = *envelope.mutable_explanation();
+    message.set_fish(explanation.fish);
+    message.set_school(explanation.school);
+    message.set_tick(explanation.tick.value);
+    for (const std::string& line : explanation.lines) message.add_lines(line);
+}
+
 Packet packed(const v1::Envelope& envelope) {
     Packet packet(envelope.ByteSizeLong());
     assert(packet.size() <= kMaxPacketBytes);

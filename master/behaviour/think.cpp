@@ -6,6 +6,7 @@
 #include "master/behaviour/decide/recommendation.h"
 #include "master/behaviour/feel/mental_state.h"
 #include "master/behaviour/perceive/perceive.h"
+#include "master/fish/drives.h"
 
 namespace aquarama {
 
@@ -16,6 +17,7 @@ void think(const Environment& environment,
            Deeds& deeds) {
     const Nature& nature = environment.natures[environment.view->kind[fish]];
     Mind mind = minds.at(fish);
+    passTime(nature, mind);
     const Senses senses = perceive(environment, nature, fish, mind);
     const Feelings feelings = feel(nature, mind, senses);
     remember(mind, decide(nature, mind, senses, feelings));

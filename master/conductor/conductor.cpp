@@ -98,6 +98,7 @@ ShowReport Conductor::run() {
         const Instant now = monotonicNow();
         hear(now);
         takeTicks();
+        answer();
         conduct(now);
         if (now - lastPublished_ > kBeacon) {
             channels_->publishState(encode({session_, Beacon{}}));

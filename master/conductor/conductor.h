@@ -10,9 +10,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/config/rig.h"
+#include "common/net/bounded_queue.h"
 #include "common/net/channels.h"
 #include "common/net/present_barrier.h"
 #include "common/wire/envelope.h"
@@ -76,6 +78,8 @@ class Conductor {
     void giveChunk(const PeerId& peer, const BlobRequest& request);
     void vacate(std::size_t node, const std::string& why);
     void obey(const Input& input);
+    void ask(const PeerId& peer, const ExplainRequest& question);
+    void answer();
     [[nodiscard]] StatusReply status() const;
 
     void takeTicks();
@@ -108,6 +112,8 @@ class Conductor {
     bool over_ = false;
     std::string failure_;
 
+    // From the tick thread; whoever hears no answer asks again.
+    BoundedQueue<std::pair<PeerId, Explanation>> explanations_{256};
     std::unique_ptr<Ticker> ticker_;
     Timeline timeline_;
     Frame next_;                         // is drawn, or will be as soon as it can

@@ -54,6 +54,8 @@ void Conductor::hear(Instant now) {
             greet(from->peer, *hello, now);
         } else if (std::holds_alternative<StatusRequest>(envelope->message)) {
             say(from->peer, status());
+        } else if (const auto* question = std::get_if<ExplainRequest>(&envelope->message)) {
+            ask(from->peer, *question);
         } else if (const auto node = seatOf(from->peer); node && envelope->session == session_) {
             seats_[*node].lastHeard = now;
             barrier_.heard(*node, now);
@@ -154,6 +156,22 @@ void Conductor::vacate(std::size_t node, const std::string& why) {
     say(seat.peer, Dismissed{why});
     seat.peer.clear();
     seat.prepared = false;
+}
+
+// Minds are looked into between two ticks.
+void Conductor::ask(const PeerId& peer, const ExplainRequest& question) {
+    if (!ticker_) return;  // farewells are being said
+    const bool asked =
+        ticker_->betweenTicks([this, peer, fish = question.fish](const Simulation& simulation) {
+            explanations_.tryPut({peer, simulation.explain(fish)});
+            channels_->wake();
+        });
+    if (!asked) ++report_.refusedPackets;
+}
+
+void Conductor::answer() {
+    while (const auto explanation = explanations_.tryTake())
+        say(explanation->first, explanation->second);
 }
 
 void Conductor::obey(const Input& input) {

@@ -7,6 +7,7 @@
 
 #include "common/motion/motion_state.h"
 #include "common/units/ids.h"
+#include "common/wire/envelope.h"
 #include "common/wire/messages.h"
 
 namespace aquarama {
@@ -20,6 +21,8 @@ class Simulation {
     virtual void records(std::vector<FishRecord>& fish) const = 0;
     [[nodiscard]] virtual Eye eye() const = 0;
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
+    // What goes on in the mind of a fish; no lines for one that is not of the school.
+    [[nodiscard]] virtual Explanation explain(std::uint32_t fish) const = 0;
 };
 
 }  // namespace aquarama

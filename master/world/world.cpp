@@ -11,6 +11,8 @@
 #include "master/behaviour/act/school.h"
 #include "master/behaviour/feel/temperament.h"
 #include "master/behaviour/think.h"
+#include "master/fish/drives.h"
+#include "master/fish/signs.h"
 #include "master/world/beginning.h"
 #include "master/world/nature_of.h"
 
@@ -23,6 +25,16 @@ constexpr std::size_t kFishInChunk = 256;
 
 float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
+}
+
+Mind beginningMind(const Nature& nature,
+                   const std::optional<Start>& start,
+                   std::uint32_t seed,
+                   std::uint32_t fish) {
+    Mind mind = freshMind(nature, seed, fish);
+    if (start)
+        setMood(nature, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
+    return mind;
 }
 
 }  // namespace
@@ -69,7 +81,7 @@ void World::begin(const WorldOptions& options) {
         startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
         for (std::uint32_t fish = nature.first; fish < nature.last; ++fish) {
             setSpeedBodyLengths(states_, fish, nature.medium);
-            minds_.set(fish, freshMind(nature, seed_, fish));
+            minds_.set(fish, beginningMind(nature, options.cast[nature.kind].start, seed_, fish));
             view_.kind[fish] = nature.kind;
         }
         look(kind, kind.first, kind.last);
@@ -116,6 +128,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
         view_.headingZ[fish] = heading.z;
         view_.length[fish] = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
         view_.speed[fish] = speedBodyLengths(states_, fish) * view_.length[fish];
+        showMood(natures_[view_.kind[fish]], minds_, static_cast<std::uint32_t>(fish), view_);
     }
 }
 

@@ -37,6 +37,9 @@ class CountingWorld final : public Simulation {
     }
     Eye eye() const override { return {}; }
     std::uint64_t hash() const override { return hashAt(tick_); }
+    Explanation explain(std::uint32_t fish) const override {
+        return {fish, 3, tick_, {"at tick " + std::to_string(tick_.value)}};
+    }
     static std::uint64_t hashAt(Tick tick) { return tick.value * 0x9E3779B97F4A7C15U + 1; }
 
   private:

@@ -168,6 +168,20 @@ TEST(Envelope, namesAreBoundedAndPrintable) {
     EXPECT_FALSE(accepted("left\nmaster: all is well"));
 }
 
+// What a master says of a mind is drawn over the picture and printed in terminals.
+TEST(Envelope, anExplanationIsBoundedAndPrintable) {
+    const auto accepted = [](std::size_t lines, const std::string& line, std::uint32_t school) {
+        const std::vector<std::string> all(lines, line);
+        return decode(encode({1, Explanation{0, school, {}, all}})).has_value();
+    };
+    EXPECT_TRUE(accepted(kMaxExplanationLines, std::string(kMaxExplanationLineBytes, '~'), 1));
+    EXPECT_FALSE(accepted(kMaxExplanationLines + 1, "", 1));
+    EXPECT_FALSE(accepted(1, std::string(kMaxExplanationLineBytes + 1, ' '), 1));
+    EXPECT_FALSE(accepted(1, "\x1b[2J", 1));
+    EXPECT_FALSE(accepted(1, "\xc3\xa9", 1));
+    EXPECT_FALSE(accepted(1, "", kMaxFish + 1));
+}
+
 TEST(Envelope, aChunkStaysInsideItsBlob) {
     const auto accepted = [](std::uint64_t offset, std::uint64_t total, std::size_t size) {
         return decode(encode({1, BlobChunk{{}, offset, total, Packet(size)}})).has_value();

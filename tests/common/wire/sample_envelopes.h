@@ -82,7 +82,9 @@ inline std::vector<Envelope> sampleEnvelopes() {
                                      Pong{-1, 77},
                                      Input{InputKind::TogglePause},
                                      StatusRequest{},
-                                     reply};
+                                     reply,
+                                     ExplainRequest{59},
+                                     Explanation{59, 60, {7200}, {"59  bigeye_scad", "", "~"}}};
     std::vector<Envelope> envelopes;
     for (Message& message : messages) envelopes.push_back({0x0123456789ABCDEFU, message});
     return envelopes;

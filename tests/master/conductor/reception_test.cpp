@@ -136,6 +136,19 @@ TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
     EXPECT_EQ(assembly.checked(), StageMaster::repertoire());
 }
 
+// As of the status: a terminal is no node. Nobody draws, so the lockstep show stands still.
+TEST_F(Reception, tellsAnybodyOfAMindAlsoWhileTheShowWaits) {
+    const StageMaster master(lockstepOf({"left"}), net_.master());
+    Peer asker(net_);
+    asker.say(ExplainRequest{2});
+    const auto explanation = asker.hear<Explanation>();
+    ASSERT_TRUE(explanation);
+    EXPECT_EQ(explanation->fish, 2U);
+    EXPECT_EQ(explanation->school, 3U);
+    EXPECT_EQ(explanation->lines,
+              std::vector{"at tick " + std::to_string(explanation->tick.value)});
+}
+
 TEST_F(Reception, aSecondNodeOfANameWaitsUntilTheFirstIsSilent) {
     const StageMaster master(ConductorOptions{}, net_.master());
     Peer first(net_);
