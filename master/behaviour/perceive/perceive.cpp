@@ -7,6 +7,7 @@
 #include "common/place/angle.h"
 #include "master/behaviour/perceive/climate_sense.h"
 #include "master/behaviour/perceive/collision.h"
+#include "master/behaviour/perceive/mate_choice.h"
 #include "master/behaviour/perceive/stimulus.h"
 #include "master/behaviour/perceive/vision.h"
 #include "master/fish/drives.h"
@@ -210,6 +211,21 @@ float worthLooking(
     return std::min(sense, onlooker.senses.length * bodyLengthsOf(range, lacking));
 }
 
+bool isInASchool(const Onlooker& onlooker) {
+    return onlooker.nature.role == Role::Prey && (onlooker.mind.likes & kLikesSchooling) != 0 &&
+           onlooker.senses.schoolmates.count > 0;
+}
+
+// A school that feeds stays one: its members dart at the plankton beside them, and leave it for
+// pellets alone.
+constexpr float kDartBodyLengths = 2.5F;
+
+bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float distance) {
+    const Food& food = onlooker.environment.surroundings->food;
+    return food.kind[particle] == FoodKind::Pellet || !isInASchool(onlooker) ||
+           distance < kDartBodyLengths * onlooker.senses.length;
+}
+
 // Food is sensed in all directions, and never hidden: it smells.
 void senseFood(const Onlooker& onlooker) {
     const Nature& nature = onlooker.nature;
@@ -218,12 +234,13 @@ void senseFood(const Onlooker& onlooker) {
         return;
     Senses& senses = onlooker.senses;
     const Food& food = onlooker.environment.surroundings->food;
-    const float smell = std::min(nature.smellBodyLengths * senses.length, onlooker.clarity());
+    float smell = std::min(nature.smellBodyLengths * senses.length, onlooker.clarity());
+    if (isInASchool(onlooker) && food.pellets == 0)
+        smell = std::min(smell, kDartBodyLengths * senses.length);
     float reach = worthLooking(
         onlooker, innerHunger(nature, onlooker.mind), kHungerStimulus, kFoodStimulus, smell);
     const std::uint32_t pursued = onlooker.aim.target;
-    if (onlooker.aim.intention == Intention::Eat && pursued < food.size() &&
-        food.isThere(pursued)) {
+    if (onlooker.aim.intention == Intention::Eat && pursued < food.size() && food.isFree(pursued)) {
         const glm::vec3 offset = food.position(pursued) - senses.position;
         const float distance = lengthOf(offset);
         if (distance <= reach) {
@@ -235,30 +252,29 @@ void senseFood(const Onlooker& onlooker) {
         cheapestIn(onlooker.environment.grids->food,
                    senses.position,
                    reach,
-                   [](std::uint32_t, glm::vec3, float distance) { return distance; });
+                   [&](std::uint32_t particle, glm::vec3, float distance) {
+                       return isWorthLeaving(onlooker, particle, distance) ? distance : kNever;
+                   });
     if (nearer.seen()) senses.food = nearer;
 }
 
-// A male courts the nearest; a female prefers the larger among the near.
+// A male courts the nearest; a female prefers the larger among the near, and him who courts her.
 float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
     const FishView& view = onlooker.view();
-    const bool female = (onlooker.mind.likes & kIsFemale) != 0;
-    const bool suits = view.kind[other] == onlooker.nature.kind && other != onlooker.fish &&
-                       view.shows(other, kWilling) && !view.shows(other, kAway) &&
-                       view.shows(other, kFemale) != female;
-    if (!suits || !inFieldOfView(onlooker.senses.heading, offset)) return kNever;
-    if (!female) return distance;
-    return distance * std::max(1.0F, onlooker.senses.length / view.length[other]);
+    if (!suitsAsMate(view, onlooker.mind.likes, onlooker.fish, other)) return kNever;
+    // Whom it courts already it feels behind it too.
+    if (other != onlooker.aim.target && !inFieldOfView(onlooker.senses.heading, offset))
+        return kNever;
+    return distance * dearnessOfMate(view, onlooker.mind.likes, onlooker.fish, other);
 }
 
 void seeMate(const Onlooker& onlooker) {
     if (!mates(onlooker.nature)) return;
     const float hunger = innerHunger(onlooker.nature, onlooker.mind);
-    const float sight = worthLooking(onlooker,
-                                     innerLibido(onlooker.nature, onlooker.mind, hunger),
-                                     kLibidoStimulus,
-                                     kMateStimulus,
-                                     onlooker.sight(1));
+    const float libido = innerLibido(onlooker.nature, onlooker.mind, hunger);
+    if (libido < kTemptedFrom) return;
+    const float sight =
+        worthLooking(onlooker, libido, kLibidoStimulus, kMateStimulus, onlooker.sight(1));
     onlooker.senses.mate = attend(onlooker,
                                   onlooker.environment.grids->mates,
                                   Intention::Mate,
