@@ -102,7 +102,12 @@ void World::inChunks(const Job& job) {
 
 void World::apply(const WorldInput& input) {
     if (const auto* food = std::get_if<DropFood>(&input))
-        dropPellets(surroundings_.food, seed_, food->position, food->pellets, tick_);
+        dropPellets(surroundings_.food,
+                    seed_,
+                    surroundings_.obstacles,
+                    food->position,
+                    food->pellets,
+                    tick_);
     if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
         surroundings_.submarine.position = moved->position;
         surroundings_.submarine.velocityMetresPerSecond = moved->velocityMetresPerSecond;
@@ -170,7 +175,8 @@ void World::live(Chunk& chunk) {
 }
 
 void World::perform(const Deed& deed) {
-    if (deed.kind == DeedKind::EatParticle) eatFood(surroundings_.food, deed.object, tick_);
+    if (deed.kind == DeedKind::EatParticle && takeFood(surroundings_.food, deed.object))
+        removeFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
