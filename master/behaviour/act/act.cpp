@@ -19,7 +19,7 @@ Course act(const Situation& situation, Mind& mind, Deeds& deeds) {
         case Intention::AvoidFish:
             return avoidFish(situation, mind);
         case Intention::Escape:
-            return escape(situation);
+            return escape(situation, mind);
         case Intention::Eat:
             return eat(situation, mind, deeds);
         case Intention::Mate:

@@ -21,7 +21,7 @@ constexpr float kHomeInside = 0.6F;  // of the water's half height
 // A beat is swum towards a point 40 degrees ahead on its oval.
 constexpr float kBeatCosine = 0.766F;
 constexpr float kBeatSine = 0.643F;
-constexpr std::uint64_t kTicksOfPass = 16 * 60;  // from side to side of a bait ball
+constexpr std::uint64_t kTicksOfPass = 16 * 60;  // one of some predators goes through the bait ball
 
 glm::vec3 shareOf(std::uint32_t hash) {
     return {signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
@@ -49,16 +49,18 @@ const Rock* rockFor(const Obstacles& obstacles, std::uint32_t hash) {
     return nullptr;
 }
 
-// From rim to rim through the ball, each time to another side.
-glm::vec3 passGoal(const Environment& environment, std::uint32_t fish) {
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Beats), fish);
-    const auto pass =
-        static_cast<std::uint32_t>((environment.tick.value + own % kTicksOfPass) / kTicksOfPass);
-    const glm::vec3 share = shareOf(hashOf(own, pass));
-    const glm::vec3 side =
-        directionOf({share.x, 0, share.z}, {1, 0, 0}) * (pass % 2 == 0 ? 1.0F : -1.0F);
-    const Region& water = environment.surroundings->obstacles.water;
-    return water.centre + glm::vec3{side.x, 0.4F * share.y, side.z} * (kInside * water.halfExtent);
+// Of every three spells one goes through the school, each predator in its turn.
+bool passes(const Environment& environment, std::uint32_t fish) {
+    return (environment.tick.value / kTicksOfPass + fish) % 3 == 0;
+}
+
+// Through the middle of the ball and out on its other side.
+glm::vec3 passGoal(const Environment& environment, glm::vec3 position, glm::vec3 course) {
+    const glm::vec3 ball = environment.goal.position;
+    const glm::vec3 towards = ball - position;
+    const bool through =
+        lengthOf(towards) < 2 * environment.schoolRadiusMetres && dot(towards, course) < 0;
+    return through ? position + course * (2 * environment.schoolRadiusMetres) : ball;
 }
 
 }  // namespace
@@ -95,7 +97,8 @@ glm::vec3 beatGoal(const Environment& environment,
                    const Nature& nature,
                    std::uint32_t fish,
                    glm::vec3 position) {
-    if (environment.gathering == Gathering::Mill) return passGoal(environment, fish);
+    if (environment.gathering == Gathering::Mill && passes(environment, fish))
+        return passGoal(environment, position, environment.view->heading(fish));
     const Region& water = environment.surroundings->obstacles.water;
     const std::uint32_t own = hashOf(hashOf(environment.seed, Beats), fish);
     const float sine = (own & 1U) != 0 ? kBeatSine : -kBeatSine;

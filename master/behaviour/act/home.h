@@ -31,8 +31,8 @@ namespace aquarama {
 // Of fish of one species, every two live together.
 [[nodiscard]] std::uint32_t householdOf(std::uint32_t firstOfKind, std::uint32_t fish);
 
-// The next point of a predator's beat: an oval near the borders of the water, or across the bait
-// ball from side to side.
+// The next point of a predator's beat: an oval near the borders of the water, and now and then
+// through the bait ball.
 [[nodiscard]] glm::vec3 beatGoal(const Environment& environment,
                                  const Nature& nature,
                                  std::uint32_t fish,
