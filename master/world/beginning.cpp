@@ -187,4 +187,8 @@ void placeFish(const WorldOptions& options,
     }
 }
 
+void placeFishAt(MotionStates& states, std::size_t fish, glm::vec3 place, glm::vec3 course) {
+    setBodyFrame(states, fish, {place, facing(course)});
+}
+
 }  // namespace aquarama
