@@ -11,7 +11,7 @@ namespace {
 const glm::vec3 kForward{1, 0, 0};
 
 Obstacles openWater() {
-    return {3, {{0, -4, -5}, {6, 3, 4}}, {}};
+    return {{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
 }
 
 TEST(Avoidance, openWaterDoesNotPush) {
