@@ -47,13 +47,18 @@ World::World(const WorldOptions& options)
       surroundings_(
           makeSurroundings(options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
       grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
-      goal_(journeyGoal(options.seed, tick_)),
       pool_(options.threads) {
     if (options.cast.size() > kMostKinds)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
                     " species: there is room for " + std::to_string(kMostKinds));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
-    if (!kinds_.empty()) schoolRadius_ = schoolRadiusMetres(kinds_.front().last);
+    if (!kinds_.empty())
+        schoolRadius_ = gathering_ == Gathering::Mill
+                            ? millRadiusMetres(surroundings_.obstacles.water,
+                                               kinds_.front().last,
+                                               meanLengthMetres(options))
+                            : schoolRadiusMetres(kinds_.front().last);
+    goal_ = goal();
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
     minds_.resize(traits_.size());
@@ -97,15 +102,26 @@ void World::inChunks(const Job& job) {
 
 void World::apply(const WorldInput& input) {
     if (const auto* food = std::get_if<DropFood>(&input))
-        dropPellets(surroundings_.food, seed_, food->position, food->pellets, tick_);
+        dropPellets(surroundings_.food,
+                    seed_,
+                    surroundings_.obstacles,
+                    food->position,
+                    food->pellets,
+                    tick_);
     if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
         surroundings_.submarine.position = moved->position;
         surroundings_.submarine.velocityMetresPerSecond = moved->velocityMetresPerSecond;
     }
 }
 
+Goal World::goal() const {
+    return gathering_ == Gathering::Mill
+               ? millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
+               : journeyGoal(seed_, tick_);
+}
+
 void World::advance() {
-    goal_ = journeyGoal(seed_, tick_);
+    goal_ = goal();
     advanceSurroundings(surroundings_, tick_);
     inChunks([this](const Chunk& chunk) { look(kinds_[chunk.kind], chunk.first, chunk.last); });
     grids_.rebuild(view_, surroundings_.food, natures_);
@@ -159,7 +175,8 @@ void World::live(Chunk& chunk) {
 }
 
 void World::perform(const Deed& deed) {
-    if (deed.kind == DeedKind::EatParticle) eatFood(surroundings_.food, deed.object, tick_);
+    if (deed.kind == DeedKind::EatParticle && takeFood(surroundings_.food, deed.object))
+        removeFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
