@@ -8,7 +8,9 @@ namespace aquarama {
 namespace {
 
 Scenario scenarioOf(std::string name, std::string what, StudyCast cast) {
-    Scenario scenario{.name = std::move(name), .what = std::move(what)};
+    Scenario scenario;
+    scenario.name = std::move(name);
+    scenario.what = std::move(what);
     scenario.world.cast = std::move(cast.species);
     scenario.halfWidths = std::move(cast.halfWidths);
     return scenario;
@@ -16,7 +18,9 @@ Scenario scenarioOf(std::string name, std::string what, StudyCast cast) {
 
 // Open water without plankton: whatever is met there is a fish or what a visitor gave.
 Scene tank(glm::vec3 halfExtent) {
-    Scene scene{.name = "tank", .place = PlaceKind::OpenSea};
+    Scene scene;
+    scene.name = "tank";
+    scene.place = PlaceKind::OpenSea;
     scene.water.halfExtent = halfExtent;
     scene.water.leastLengthsCubed = 0;
     scene.gathering = Gathering::None;
@@ -43,6 +47,12 @@ Scenario reefScenario(const Stock& stock) {
                                   {"parrotfish", 1},
                                   {"trumpetfish", 1},
                                   {"blacktip_reef_shark", 1}}));
+}
+
+Scenario schoolScenario(const Stock& stock) {
+    return scenarioOf("school",
+                      "51 scad by themselves, in the water of the reef.",
+                      stock.cast({{"bigeye_scad", 51}}));
 }
 
 Scenario crowdedTank(const Stock& stock) {
@@ -72,7 +82,7 @@ Scenario feedingTime(const Stock& stock) {
 }
 
 std::vector<Scenario> scenariosOf(const Stock& stock) {
-    return {reefScenario(stock), crowdedTank(stock), feedingTime(stock)};
+    return {reefScenario(stock), schoolScenario(stock), crowdedTank(stock), feedingTime(stock)};
 }
 
 }  // namespace aquarama

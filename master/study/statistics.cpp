@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/study/statistics.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aquarama {
 
 namespace {
+
+// Student's t, two-sided 95 %, for 1, 2 ... degrees of freedom; beyond, as for the last.
+constexpr std::array kStudent{
+    12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26, 2.23, 2.20, 2.18, 2.16, 2.14, 2.13};
 
 double valueOf(const Figures& figures, Quantity quantity) {
     return figures.at(static_cast<std::size_t>(quantity));
@@ -43,7 +49,9 @@ Estimate differenceOf(const std::vector<Figures>& without,
 }
 
 bool isClear(const Estimate& difference) {
-    return difference.seeds > 1 && std::abs(difference.mean) > 2 * difference.standardError;
+    if (difference.seeds < 2) return false;
+    const double bound = kStudent.at(std::min(difference.seeds - 2, kStudent.size() - 1));
+    return std::abs(difference.mean) > bound * difference.standardError;
 }
 
 }  // namespace aquarama

@@ -20,7 +20,7 @@ struct Estimate {
                                     const std::vector<Figures>& with,
                                     Quantity quantity);
 
-// More than chance would do: beyond twice its standard error.
+// More than chance would do in 95 of 100 studies.
 [[nodiscard]] bool isClear(const Estimate& difference);
 
 }  // namespace aquarama

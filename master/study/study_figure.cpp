@@ -19,8 +19,8 @@ struct Panel {
     Quantity quantity;
 };
 constexpr std::array kPanels{
-    Panel{"recommendations", 1, "reef", Quantity::SameSegment},
-    Panel{"recommendations", 1, "reef", Quantity::InStep},
+    Panel{"recommendations", 1, "school", Quantity::SameSegment},
+    Panel{"recommendations", 1, "school", Quantity::InStep},
     Panel{"enlarged regions", 2, "crowded tank", Quantity::Touches},
     Panel{"enlarged regions", 2, "reef", Quantity::Touches},
     Panel{"earlier pursuit", 3, "feeding", Quantity::PinchSeconds},
