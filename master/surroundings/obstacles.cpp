@@ -32,7 +32,7 @@ float borderPush(float fromCentre, float halfExtent, float margin) {
 glm::vec3 bordersAt(const Obstacles& obstacles, glm::vec3 position) {
     const glm::vec3 from = position - obstacles.water.centre;
     const glm::vec3 half = obstacles.water.halfExtent;
-    const float floor = floorHeight(obstacles.placeSeed, {position.x, position.z});
+    const float floor = floorHeight(obstacles.place, {position.x, position.z});
     const float lowest = floor + kFloorClearanceMetres + kHeightMarginMetres;
     const float highest = -kSurfaceClearanceMetres - kHeightMarginMetres;
     return {borderPush(from.x, half.x, kSideMarginMetres),
@@ -55,9 +55,9 @@ glm::vec3 ballPush(
     return directionOf(away, {0, 1, 0}) * (soon * ramp(kRockMarginMetres - gap, kRockMarginMetres));
 }
 
-Obstacles obstaclesOf(std::uint32_t placeSeed, const Region& water) {
-    Obstacles obstacles{placeSeed, water, {}};
-    for (const Rock& rock : rocksOf(placeSeed)) {
+Obstacles obstaclesOf(const Place& place, const Region& water) {
+    Obstacles obstacles{place, water, {}};
+    for (const Rock& rock : rocksOf(place)) {
         const glm::vec3 from = rock.centre - water.centre;
         const float reach = rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres;
         const glm::vec3 nearest{std::clamp(from.x, -water.halfExtent.x, water.halfExtent.x),

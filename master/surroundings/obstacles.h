@@ -2,7 +2,6 @@
 // What a fish must not swim into: sand, rocks, the borders of its water and the surface.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -12,11 +11,11 @@
 namespace aquarama {
 
 struct Obstacles {
-    std::uint32_t placeSeed = 0;
+    Place place;
     Region water;
     std::vector<Rock> rocks;  // only those that reach into the water
 };
-[[nodiscard]] Obstacles obstaclesOf(std::uint32_t placeSeed, const Region& water);
+[[nodiscard]] Obstacles obstaclesOf(const Place& place, const Region& water);
 
 // Where the obstacles push a fish that swims from `position` along `heading`. Its length is 0 in
 // the open and grows past 1 where only turning away matters; the path is felt `reachMetres` ahead,
