@@ -75,13 +75,9 @@ Senses perceive(const Environment& environment,
     senses.heading = view.heading(fish);
     senses.speed = view.speed[fish];
     senses.length = view.length[fish];
-    const Neighbours near = nearestVisible(view, environment.grids->fish, fish);
-    for (std::size_t i = 0; i < near.count; ++i) {
-        const bool mate = near.fish[i] >= nature.first && near.fish[i] < nature.last;
-        Neighbours& those = mate ? senses.schoolmates : senses.others;
-        those.fish[those.count] = near.fish[i];
-        those.distanceSquared[those.count++] = near.distanceSquared[i];
-    }
+    const NearestFish nearest = nearestVisible(view, *environment.grids, nature, fish);
+    senses.schoolmates = nearest.schoolmates;
+    senses.others = nearest.others;
     seePredators(environment, nature, senses);
     const float smell =
         std::min(nature.smellBodyLengths * senses.length, environment.surroundings->clarityMetres);
