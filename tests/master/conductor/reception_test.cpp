@@ -184,7 +184,7 @@ TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
         ASSERT_TRUE(left.hear<Present>());
     }
     EXPECT_EQ(pellets(*state), 1U);
-    EXPECT_EQ(status().refusedPackets, refused + 1);
+    EXPECT_EQ(status().refusedPackets, refused + 2);  // and the farewell of who asked before
 }
 
 TEST_F(Reception, aSecondNodeOfANameWaitsUntilTheFirstIsSilent) {
