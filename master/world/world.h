@@ -96,6 +96,7 @@ class World {
     void look(const Kind& kind, std::size_t first, std::size_t last);
     void live(Chunk& chunk);
     void perform(const Deed& deed);
+    [[nodiscard]] Goal goal() const;
     template <class Job>
     void inChunks(const Job& job);
 

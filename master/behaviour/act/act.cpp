@@ -15,9 +15,9 @@ namespace aquarama {
 Course act(const Situation& situation, Mind& mind, Deeds& deeds) {
     switch (mind.intention) {
         case Intention::AvoidObstacle:
-            return avoidObstacle(situation);
+            return avoidObstacle(situation, mind);
         case Intention::AvoidFish:
-            return avoidFish(situation);
+            return avoidFish(situation, mind);
         case Intention::Escape:
             return escape(situation);
         case Intention::Eat:

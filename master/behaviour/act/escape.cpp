@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/act/escape.h"
 
+#include <algorithm>
+
 #include "common/place/angle.h"
+#include "master/behaviour/act/company.h"
+#include "master/behaviour/act/flight.h"
 #include "master/behaviour/act/pursue.h"
 
 namespace aquarama {
 
+namespace {
+
+constexpr float kFlee = 2.5F;        // against the unit vector of one's own course
+constexpr float kSharpStart = 1.0F;  // urgency from which the motor turns sharply
+
+}  // namespace
+
 Course escape(const Situation& situation) {
     const Senses& senses = situation.senses;
-    glm::vec3 away{};
-    for (std::size_t i = 0; i < senses.predatorCount; ++i) {
-        const Sighting& predator = senses.predators[i];
-        away -= predator.offset / (predator.distance * predator.distance + 0.01F);
-    }
-    Course course = heading(situation, directionOf(away, senses.heading), situation.nature.fast);
-    course.urgency = std::max(course.urgency, 1.0F);
+    const glm::vec3 wish = senses.heading + flightFrom(situation) * kFlee +
+                           roomFrom(*situation.environment.view, senses, situation.fish);
+    Course course = heading(situation, wish, situation.nature.fast);
+    course.urgency = std::max(course.urgency, kSharpStart);
     return course;
 }
 

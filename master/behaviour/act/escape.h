@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flees from all predators in sight, the nearer the more, as fast as it can.
+// Flees from all predators in sight, the nearer the more, as fast as it can, out of the way of all
+// who flee beside it (Tu 1996, section 5.6.4).
 #pragma once
 
 #include "master/behaviour/act/routine.h"
