@@ -11,6 +11,8 @@
 #include "master/behaviour/act/school.h"
 #include "master/behaviour/feel/temperament.h"
 #include "master/behaviour/think.h"
+#include "master/fish/drives.h"
+#include "master/fish/signs.h"
 #include "master/world/beginning.h"
 #include "master/world/nature_of.h"
 
@@ -23,6 +25,16 @@ constexpr std::size_t kFishInChunk = 256;
 
 float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
+}
+
+Mind beginningMind(const Nature& nature,
+                   const std::optional<Start>& start,
+                   std::uint32_t seed,
+                   std::uint32_t fish) {
+    Mind mind = freshMind(nature, seed, fish);
+    if (start)
+        setMood(nature, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
+    return mind;
 }
 
 }  // namespace
@@ -69,7 +81,7 @@ void World::begin(const WorldOptions& options) {
         startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
         for (std::uint32_t fish = nature.first; fish < nature.last; ++fish) {
             setSpeedBodyLengths(states_, fish, nature.medium);
-            minds_.set(fish, freshMind(nature, seed_, fish));
+            minds_.set(fish, beginningMind(nature, options.cast[nature.kind].start, seed_, fish));
             view_.kind[fish] = nature.kind;
         }
         look(kind, kind.first, kind.last);
@@ -85,7 +97,12 @@ void World::inChunks(const Job& job) {
 
 void World::apply(const WorldInput& input) {
     if (const auto* food = std::get_if<DropFood>(&input))
-        dropPellets(surroundings_.food, seed_, food->position, food->pellets, tick_);
+        dropPellets(surroundings_.food,
+                    seed_,
+                    surroundings_.obstacles,
+                    food->position,
+                    food->pellets,
+                    tick_);
     if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
         surroundings_.submarine.position = moved->position;
         surroundings_.submarine.velocityMetresPerSecond = moved->velocityMetresPerSecond;
@@ -116,6 +133,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
         view_.headingZ[fish] = heading.z;
         view_.length[fish] = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
         view_.speed[fish] = speedBodyLengths(states_, fish) * view_.length[fish];
+        showMood(natures_[view_.kind[fish]], minds_, static_cast<std::uint32_t>(fish), view_);
     }
 }
 
@@ -146,7 +164,8 @@ void World::live(Chunk& chunk) {
 }
 
 void World::perform(const Deed& deed) {
-    if (deed.kind == DeedKind::EatParticle) eatFood(surroundings_.food, deed.object, tick_);
+    if (deed.kind == DeedKind::EatParticle && takeFood(surroundings_.food, deed.object))
+        removeFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
@@ -165,6 +184,7 @@ std::uint64_t World::hash() const {
                                &surroundings_.food.y,
                                &surroundings_.food.z})
         hash = folded(hash, *values);
+    hash = folded(hash, courses_.openToChange);
     hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
@@ -182,7 +202,7 @@ std::size_t World::bytes() const {
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
            bytesIn(s.warpFrame, s.warpLength, s.speed) +
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
-           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency) +
+           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency, w.openToChange) +
            bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
            bytesIn(v.kind, v.signs, v.partner);
 }

@@ -40,7 +40,7 @@ void Grids::rebuild(const FishView& view, const Food& particles, std::span<const
                       return there(i) && view.shows(i, kWilling);
                   }));
     food.rebuild({particles.x, particles.y, particles.z},
-                 choose(particles.size(), [&](std::uint32_t i) { return particles.isThere(i); }));
+                 choose(particles.size(), [&](std::uint32_t i) { return particles.isFree(i); }));
 }
 
 std::size_t Grids::bytes() const {
