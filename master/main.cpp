@@ -36,13 +36,38 @@ struct MasterOptions {
     std::string traceFolder;
 };
 
+FoodRecord::Kind kindOf(FoodKind kind) {
+    switch (kind) {
+        case FoodKind::Plankton:
+            return FoodRecord::Kind::Plankton;
+        case FoodKind::Pellet:
+            return FoodRecord::Kind::Pellet;
+        case FoodKind::None:
+            break;
+    }
+    return FoodRecord::Kind::None;
+}
+
+// As the nodes are told of it.
+FoodCloud cloudOf(const Surroundings& surroundings) {
+    const Food& food = surroundings.food;
+    FoodCloud cloud{surroundings.obstacles.water.centre, std::vector<FoodRecord>(food.size())};
+    for (std::size_t i = 0; i < food.size(); ++i)
+        cloud.particles[i] = foodRecord(
+            kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
+    return cloud;
+}
+
 class LivingWorld final : public Simulation {
   public:
     explicit LivingWorld(World& world) : world_(world) {}
     void advance() override { world_.advance(); }
+    void apply(const WorldInput& input) override { world_.apply(input); }
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
     void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
     [[nodiscard]] Eye eye() const override { return {.positionMetres = kEyePosition}; }
+    void food(FoodCloud& cloud) const override { cloud = cloudOf(world_.surroundings()); }
+    [[nodiscard]] float daylight() const override { return world_.surroundings().daylight; }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
     [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
         return {fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
