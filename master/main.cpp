@@ -13,14 +13,13 @@
 #include "common/cli/signals.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
-#include "common/place/place.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
 #include "master/conductor/conductor.h"
 #include "master/conductor/status.h"
+#include "master/production/living_world.h"
 #include "master/production/production.h"
-#include "master/world/world.h"
 
 namespace aquarama {
 
@@ -34,47 +33,6 @@ struct MasterOptions {
     std::optional<std::uint32_t> fish;
     std::string pattern = "world";
     std::string traceFolder;
-};
-
-FoodRecord::Kind kindOf(FoodKind kind) {
-    switch (kind) {
-        case FoodKind::Plankton:
-            return FoodRecord::Kind::Plankton;
-        case FoodKind::Pellet:
-            return FoodRecord::Kind::Pellet;
-        case FoodKind::None:
-            break;
-    }
-    return FoodRecord::Kind::None;
-}
-
-// As the nodes are told of it.
-FoodCloud cloudOf(const Surroundings& surroundings) {
-    const Food& food = surroundings.food;
-    FoodCloud cloud{surroundings.obstacles.water.centre, std::vector<FoodRecord>(food.size())};
-    for (std::size_t i = 0; i < food.size(); ++i)
-        cloud.particles[i] = foodRecord(
-            kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
-    return cloud;
-}
-
-class LivingWorld final : public Simulation {
-  public:
-    explicit LivingWorld(World& world) : world_(world) {}
-    void advance() override { world_.advance(); }
-    void apply(const WorldInput& input) override { world_.apply(input); }
-    [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    [[nodiscard]] Eye eye() const override { return {.positionMetres = kEyePosition}; }
-    void food(FoodCloud& cloud) const override { cloud = cloudOf(world_.surroundings()); }
-    [[nodiscard]] float daylight() const override { return world_.surroundings().daylight; }
-    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
-        return {fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    }
-
-  private:
-    World& world_;
 };
 
 ConductorOptions conductorOptions(const MasterOptions& options) {
@@ -109,14 +67,14 @@ void runMaster(const MasterOptions& options) {
 
     const Production production =
         readProduction(rig, options.rigPath, {.seed = options.seed, .fish = options.fish});
-    World world(worldOptionsOf(production));
-    LivingWorld simulation(world);
+    LivingWorld simulation(worldOptionsOf(production));
 
     Blobs blobs;
     Welcome welcome;
     welcome.rigText = writeRig(rig);
     welcome.cast = castOf(production, blobs);
-    welcome.school.assign(world.traits().begin(), world.traits().end());
+    const auto school = simulation.world().traits();
+    welcome.school.assign(school.begin(), school.end());
 
     Conductor conductor(rig,
                         conductorOptions(options),
