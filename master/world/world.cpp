@@ -47,19 +47,26 @@ World::World(const WorldOptions& options)
       surroundings_(
           makeSurroundings(options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
       grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
-      goal_(journeyGoal(options.seed, tick_)),
       pool_(options.threads) {
     if (options.cast.size() > kMostKinds)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
                     " species: there is room for " + std::to_string(kMostKinds));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
-    if (!kinds_.empty()) schoolRadius_ = schoolRadiusMetres(kinds_.front().last);
+    if (!kinds_.empty())
+        schoolRadius_ = gathering_ == Gathering::Mill
+                            ? millRadiusMetres(surroundings_.obstacles.water,
+                                               kinds_.front().last,
+                                               meanLengthMetres(options))
+                            : schoolRadiusMetres(kinds_.front().last);
+    goal_ = goal();
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
     minds_.resize(traits_.size());
     courses_.resize(traits_.size());
     memory_.resize(traits_.size());
     view_.resize(traits_.size());
+    meals_ = makeMeals(traits_.size());
+    absences_ = makeAbsences(natures_);
     begin(options);
 }
 
@@ -109,10 +116,18 @@ void World::apply(const WorldInput& input) {
     }
 }
 
+Goal World::goal() const {
+    return gathering_ == Gathering::Mill
+               ? millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
+               : journeyGoal(seed_, tick_);
+}
+
 void World::advance() {
-    goal_ = journeyGoal(seed_, tick_);
+    goal_ = goal();
     advanceSurroundings(surroundings_, tick_);
+    receive();
     inChunks([this](const Chunk& chunk) { look(kinds_[chunk.kind], chunk.first, chunk.last); });
+    advanceMeals(meals_, view_, surroundings_.food, tick_);
     grids_.rebuild(view_, surroundings_.food, natures_);
     inChunks([this](Chunk& chunk) { live(chunk); });
     for (const Chunk& chunk : chunks_)
@@ -155,17 +170,12 @@ void World::live(Chunk& chunk) {
     chunk.deeds.clear();
     const Environment around = environment();
     for (std::size_t fish = chunk.first; fish < chunk.last; ++fish)
-        if (thinksAt(tick_, fish))
+        if (thinksAt(tick_, fish) && !view_.shows(fish, kAway))
             think(around, static_cast<std::uint32_t>(fish), minds_, courses_, chunk.deeds);
     const Kind& own = kinds_[chunk.kind];
     SecondaryController{&own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
         .run(chunk.first, chunk.last);
     MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
-}
-
-void World::perform(const Deed& deed) {
-    if (deed.kind == DeedKind::EatParticle && takeFood(surroundings_.food, deed.object))
-        removeFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
@@ -204,7 +214,9 @@ std::size_t World::bytes() const {
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
            bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency, w.openToChange) +
            bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
-           bytesIn(v.kind, v.signs, v.partner);
+           bytesIn(v.kind, v.signs, v.partner, v.stage) +
+           meals_.swallows.capacity() * sizeof(Meals::Swallow) +
+           absences_.capacity() * sizeof(Absence);
 }
 
 void World::records(std::vector<FishRecord>& records) const {
