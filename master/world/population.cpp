@@ -26,7 +26,7 @@ glm::vec3 placeDrawn(const Obstacles& obstacles, std::uint32_t hash) {
     const glm::vec3 share{
         signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
     glm::vec3 place = obstacles.water.centre + obstacles.water.halfExtent * share * kShore;
-    const float lowest = floorHeight(obstacles.placeSeed, {place.x, place.z}) + kFloorRoomMetres;
+    const float lowest = floorHeight(obstacles.place, {place.x, place.z}) + kFloorRoomMetres;
     place.y = std::min(std::max(place.y, lowest), -kSurfaceRoomMetres);
     return place;
 }
