@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/signals.h"
+#include "common/config/cast.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
@@ -27,6 +28,7 @@ namespace {
 
 struct MasterOptions {
     std::string rigPath;
+    std::string scenePath;  // empty: the rig's
     bool lockstep = false;
     std::optional<std::uint64_t> frames;
     std::uint32_t seed = 1;
@@ -94,8 +96,10 @@ int dispatch(int count, char** arguments) {
     app.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
     app.add_option("--frames", options.frames, "end after so many frames");
     app.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
-    app.add_option("--fish", options.fish, "how many, instead of the rig's number")
-        ->check(CLI::Range(1U, kMostFish));
+    app.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    app.add_option(
+           "--fish", options.fish, "how many of the first species, instead of the scene's number")
+        ->check(CLI::Range(0U, kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
     app.add_option(
