@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "common/units/folded_hash.h"
+
 namespace aquarama {
 
 Region waterFor(const Scene& scene, std::size_t fish, float meanLengthMetres) {
@@ -42,6 +44,20 @@ Surroundings makeSurroundings(const Scene& scene,
 void advanceSurroundings(Surroundings& surroundings, Tick tick) {
     surroundings.daylight = daylight(surroundings.climate.day, tick);
     driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
+}
+
+std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroundings) {
+    const Food& food = surroundings.food;
+    for (const auto* values : {&food.x, &food.y, &food.z, &food.lowest})
+        hash = folded(hash, *values);
+    hash = folded(hash, food.kind);
+    hash = folded(hash, food.taken);
+    hash = folded(hash, food.generation);
+    hash = folded(hash, food.absentUntil);
+    const Submarine& submarine = surroundings.submarine;
+    for (const glm::vec3 vector : {submarine.position, submarine.velocityMetresPerSecond})
+        for (const float number : {vector.x, vector.y, vector.z}) hash = foldedOne(hash, number);
+    return hash;
 }
 
 }  // namespace aquarama
