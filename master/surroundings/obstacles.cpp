@@ -121,7 +121,7 @@ glm::vec3 ballPush(
     return pushAway(away, lengthOf(away) - radius, kRockMarginMetres, along / reachMetres);
 }
 
-Obstacles obstaclesOf(const Place& place, const Region& water) {
+Obstacles obstaclesOf(const PlaceKey& place, const Region& water) {
     Obstacles obstacles{place, water, {}};
     for (const Rock& rock : rocksOf(place)) {
         const float reach = rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres;
