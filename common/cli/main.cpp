@@ -15,6 +15,7 @@
 #include "common/cli/show.h"
 #include "common/cli/siblings.h"
 #include "common/config/rig.h"
+#include "common/config/scene.h"
 #include "common/units/error.h"
 
 namespace aquarama {
@@ -51,7 +52,8 @@ constexpr std::array kDelegations{
                "controllers",
                "what each motor controller makes the biomechanical fish do"},
     Delegation{"study", "study", "", "with and without each adaptation of the mind to its motor"},
-    Delegation{"check", "calibrate", "check", "validate a rig: aquarama check RIG"},
+    Delegation{
+        "check", "calibrate", "check", "validate a rig, a scene or a species: aquarama check FILE"},
     Delegation{"status", "master", "status", "what the running wall is doing"},
 };
 
@@ -82,8 +84,10 @@ void describeRun(CLI::App& run, ShowOptions& options) {
     run.add_flag("--headless", options.headless, "without a display; implies lockstep");
     run.add_option("--frames", options.frames, "end after so many frames; implies lockstep");
     run.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
-    run.add_option("--fish", options.fish, "how many, instead of the rig's number")
-        ->check(CLI::Range(1U, kMostFish));
+    run.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    run.add_option(
+           "--fish", options.fish, "how many of the first species, instead of the scene's number")
+        ->check(CLI::Range(0U, kMostFish));
     run.add_option("--snapshot",
                    options.snapshotFolder,
                    "folder for pictures of the last frame; implies lockstep");

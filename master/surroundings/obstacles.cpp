@@ -55,7 +55,7 @@ glm::vec3 ballPush(
     return directionOf(away, {0, 1, 0}) * (soon * ramp(kRockMarginMetres - gap, kRockMarginMetres));
 }
 
-Obstacles obstaclesOf(const Place& place, const Region& water) {
+Obstacles obstaclesOf(const PlaceKey& place, const Region& water) {
     Obstacles obstacles{place, water, {}};
     for (const Rock& rock : rocksOf(place)) {
         const glm::vec3 from = rock.centre - water.centre;

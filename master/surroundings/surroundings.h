@@ -31,8 +31,6 @@ struct Surroundings {
     float daylight = 1;        // of this tick
 };
 
-// The water of a scene for so many fish of a mean length: an open sea's box grows with them.
-[[nodiscard]] Region waterFor(const Scene& scene, std::size_t fish, float meanLengthMetres);
 [[nodiscard]] Surroundings makeSurroundings(const Scene& scene,
                                             std::uint32_t seed,
                                             std::size_t fish,
