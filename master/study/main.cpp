@@ -44,8 +44,8 @@ std::vector<Sample> watched(const StudyPlan& plan) {
 }
 
 void study(const StudyOptions& options) {
-    const Stock stock(options.config.empty() ? findConfigFolder() : fs::path(options.config));
-    const StudyPlan plan{.scenarios = scenariosOf(stock),
+    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
+    const StudyPlan plan{.scenarios = scenariosOf(config),
                          .minutes = options.minutes,
                          .seeds = options.seeds,
                          .threads = std::max(std::thread::hardware_concurrency(), 1U)};
@@ -66,7 +66,7 @@ int dispatch(int count, char** arguments) {
         ->check(CLI::Range(0.1, 1440.0));
     app.add_option("--seeds", options.seeds, "runs of each kind; 5 when not given")
         ->check(CLI::Range(1U, 100U));
-    app.add_option("--config", options.config, "folder that holds species/*.txtpb");
+    app.add_option("--config", options.config, "folder that holds scenes and species");
     try {
         app.parse(count, arguments);
     } catch (const CLI::ParseError& wrong) {
