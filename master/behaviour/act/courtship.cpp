@@ -4,8 +4,8 @@
 #include <array>
 
 #include "common/place/angle.h"
-#include "master/behaviour/act/mouth.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/fish/mouth.h"
 
 namespace aquarama {
 
@@ -19,6 +19,7 @@ constexpr std::array<std::uint32_t, 6> kLongestSeconds{20, 12, 25, 30, 15, 20};
 constexpr std::uint32_t kLoopSeconds = 6;  // about one loop; at least
 constexpr std::uint32_t kCircleSeconds = 8;
 constexpr std::uint32_t kAscentSeconds = 4;
+constexpr std::uint32_t kNuzzleSeconds = 3;
 
 // Distances in body lengths.
 constexpr float kTogether = 4.0F;  // no farther than this they court
@@ -111,7 +112,8 @@ bool isComplete(CourtshipStage stage,
         case CourtshipStage::Nuzzle:
             break;
     }
-    return distance < kTouches * couple.length && fromHerToHim.y < 0;
+    return distance < kTouches * couple.length && ticks > kNuzzleSeconds * kSecond &&
+           fromHerToHim.y < 0;
 }
 
 std::uint32_t longestTicks(CourtshipStage stage) {

@@ -11,6 +11,7 @@
 #include "master/behaviour/perceive/stimulus.h"
 #include "master/behaviour/perceive/vision.h"
 #include "master/fish/drives.h"
+#include "master/fish/mouth.h"
 #include "master/surroundings/obstacles.h"
 
 namespace aquarama {
@@ -226,6 +227,15 @@ bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float dist
            distance < kDartBodyLengths * onlooker.senses.length;
 }
 
+// What is before the mouth costs its distance alone; for what is behind, a fish has to come about.
+constexpr float kComeAboutBodyLengths = 2;
+
+float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
+    const glm::vec3 fromMouth = offset - senses.heading * (kMouthBodyLengths * senses.length);
+    const float cosine = dot(directionOf(fromMouth, senses.heading), senses.heading);
+    return distance + 0.5F * kComeAboutBodyLengths * senses.length * (1 - cosine);
+}
+
 // Food is sensed in all directions, and never hidden: it smells.
 void senseFood(const Onlooker& onlooker) {
     const Nature& nature = onlooker.nature;
@@ -237,25 +247,28 @@ void senseFood(const Onlooker& onlooker) {
     float smell = std::min(nature.smellBodyLengths * senses.length, onlooker.clarity());
     if (isInASchool(onlooker) && food.pellets == 0)
         smell = std::min(smell, kDartBodyLengths * senses.length);
-    float reach = worthLooking(
+    const float reach = worthLooking(
         onlooker, innerHunger(nature, onlooker.mind), kHungerStimulus, kFoodStimulus, smell);
+    float best = reach + kComeAboutBodyLengths * senses.length;
     const std::uint32_t pursued = onlooker.aim.target;
     if (onlooker.aim.intention == Intention::Eat && pursued < food.size() && food.isFree(pursued)) {
         const glm::vec3 offset = food.position(pursued) - senses.position;
         const float distance = lengthOf(offset);
         if (distance <= reach) {
             senses.food = {pursued, offset, distance};
-            reach = distance * (1 - nature.persistence);
+            best = costOfFood(senses, offset, distance) * (1 - nature.persistence);
         }
     }
-    const Sighting nearer =
+    const Sighting better =
         cheapestIn(onlooker.environment.grids->food,
                    senses.position,
-                   reach,
-                   [&](std::uint32_t particle, glm::vec3, float distance) {
-                       return isWorthLeaving(onlooker, particle, distance) ? distance : kNever;
+                   best,
+                   [&](std::uint32_t particle, glm::vec3 offset, float distance) {
+                       return distance <= reach && isWorthLeaving(onlooker, particle, distance)
+                                  ? costOfFood(senses, offset, distance)
+                                  : kNever;
                    });
-    if (nearer.seen()) senses.food = nearer;
+    if (better.seen()) senses.food = better;
 }
 
 // A male courts the nearest; a female prefers the larger among the near, and him who courts her.

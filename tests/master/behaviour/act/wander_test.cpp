@@ -7,7 +7,7 @@
 namespace aquarama {
 namespace {
 
-const Obstacles kOpenWater{3, {{0, -4, -5}, {6, 3, 4}}, {}};
+const Obstacles kOpenWater{{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
 
 TEST(Wandering, everyPlaceIsInTheWaterAndAnotherFollowsIt) {
     for (std::size_t fish = 0; fish < 20; ++fish) {
