@@ -10,6 +10,7 @@
 #include "common/config/rig.pb.h"
 #include "common/config/scene.pb.h"
 #include "common/config/species.pb.h"
+#include "common/config/text_reader.h"
 
 namespace aquarama {
 
@@ -52,6 +53,10 @@ FileKind fileKindOf(const std::string& text) {
     for (std::size_t i = 1; i < schemas.size(); ++i)
         if (known[i] > known[best]) best = i;
     return static_cast<FileKind>(best);
+}
+
+FileKind fileKindAt(const std::string& path) {
+    return fileKindOf(readTextFile(path));
 }
 
 }  // namespace aquarama

@@ -10,6 +10,7 @@
 #include "common/config/cast.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
+#include "common/net/blob.h"
 #include "common/place/water.h"
 #include "common/units/error.h"
 #include "master/capture/compile/progress_bar.h"

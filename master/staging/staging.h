@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/config/scene.h"
-#include "common/net/blob.h"
+#include "common/net/channels.h"
 #include "master/world/world.h"
 
 namespace aquarama {
