@@ -89,7 +89,7 @@ float distanceToWater(const Region& water, glm::vec3 point) {
     return lengthOf(from - nearest);
 }
 
-std::vector<Stem> stemsIn(const Place& place, const Region& water) {
+std::vector<Stem> stemsIn(const PlaceKey& place, const Region& water) {
     std::vector<Stem> stems;
     for (const Plant& plant : plantsOf(place)) {
         const float top = plant.root.y + plant.heightMetres;
