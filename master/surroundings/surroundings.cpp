@@ -5,6 +5,24 @@
 
 namespace aquarama {
 
+namespace {
+
+void dropWhatIsDue(Surroundings& surroundings, Tick tick) {
+    const double now = static_cast<double>(tick.value) / static_cast<double>(kTicksPerSecond);
+    for (; surroundings.nextDrop < surroundings.drops.size(); ++surroundings.nextDrop) {
+        const FoodDrop& drop = surroundings.drops[surroundings.nextDrop];
+        if (drop.atSeconds > now) return;
+        dropPellets(surroundings.food,
+                    surroundings.seed,
+                    surroundings.obstacles,
+                    drop.position,
+                    drop.pellets,
+                    tick);
+    }
+}
+
+}  // namespace
+
 Surroundings makeSurroundings(const Scene& scene,
                               std::uint32_t seed,
                               std::size_t fish,
@@ -17,11 +35,13 @@ Surroundings makeSurroundings(const Scene& scene,
             .food = makeFood(seed, obstacles, scene.plankton),
             .submarine = {.position = scene.eye},
             .clarityMetres = static_cast<float>(scene.water.clarityMetres),
-            .daylight = daylight(scene.day, {})};
+            .daylight = daylight(scene.day, {}),
+            .drops = scene.drops};
 }
 
 void advanceSurroundings(Surroundings& surroundings, Tick tick) {
     surroundings.daylight = daylight(surroundings.climate.day, tick);
+    dropWhatIsDue(surroundings, tick);
     driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
 }
 

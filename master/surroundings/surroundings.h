@@ -3,7 +3,9 @@
 // submarine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -27,8 +29,10 @@ struct Surroundings {
     Climate climate;
     Food food;
     Submarine submarine;
-    float clarityMetres = 12;  // no fish sees farther
-    float daylight = 1;        // of this tick
+    float clarityMetres = 12;     // no fish sees farther
+    float daylight = 1;           // of this tick
+    std::vector<FoodDrop> drops;  // of the scene, in their order
+    std::size_t nextDrop = 0;
 };
 
 [[nodiscard]] Surroundings makeSurroundings(const Scene& scene,
