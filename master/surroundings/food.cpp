@@ -39,7 +39,7 @@ Region reachable(const Region& water) {
 }
 
 float lowestAt(const Obstacles& obstacles, float x, float z) {
-    return floorHeight(obstacles.placeSeed, {x, z}) + kFloorRoomMetres;
+    return floorHeight(obstacles.place, {x, z}) + kFloorRoomMetres;
 }
 
 bool isClear(const Obstacles& obstacles, glm::vec3 place) {
@@ -208,8 +208,7 @@ void dropPellets(Food& food,
         const glm::vec3 aside{
             signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
         glm::vec3 place = position + aside * kSpreadMetres;
-        const float sand =
-            floorHeight(obstacles.placeSeed, {place.x, place.z}) + kPelletOnSandMetres;
+        const float sand = floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
         place.y = std::min(std::max(place.y, sand), 0.0F);
         put(food, i, FoodKind::Pellet, place, sand);
         ++food.pellets;

@@ -11,7 +11,7 @@ namespace aquarama {
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { Absent = 601, Place };
+enum Draw : std::uint32_t { Absent = 601, Arrival };
 
 constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
 constexpr std::uint32_t kLongestAbsence = 60 * 60;
@@ -26,7 +26,7 @@ glm::vec3 placeDrawn(const Obstacles& obstacles, std::uint32_t hash) {
     const glm::vec3 share{
         signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
     glm::vec3 place = obstacles.water.centre + obstacles.water.halfExtent * share * kShore;
-    const float lowest = floorHeight(obstacles.placeSeed, {place.x, place.z}) + kFloorRoomMetres;
+    const float lowest = floorHeight(obstacles.place, {place.x, place.z}) + kFloorRoomMetres;
     place.y = std::min(std::max(place.y, lowest), -kSurfaceRoomMetres);
     return place;
 }
@@ -55,7 +55,7 @@ Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
 }
 
 glm::vec3 arrivalPlace(const Surroundings& surroundings, std::uint32_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Place), fish),
+    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Arrival), fish),
                                      static_cast<std::uint32_t>(tick.value));
     glm::vec3 best = surroundings.obstacles.water.centre;
     float farthest = -1;

@@ -162,10 +162,11 @@ void feelCollision(const Environment& environment,
                    const Mind& mind,
                    Senses& senses) {
     Watch watch{environment, nature, mind, senses};
-    const bool inFormation = watch.aim.intention == Intention::School;
+    // Those who like to school bear one another near: also while they feed among the others.
+    const bool bearsMates = nature.role == Role::Prey && (mind.likes & kLikesSchooling) != 0;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
         const std::uint32_t other = senses.schoolmates.fish[i];
-        if (inFormation && watch.view.shows(other, kSchooling))
+        if (bearsMates)
             watch.heedSchoolmate(other);
         else
             watch.heed(other);

@@ -43,7 +43,7 @@ bool sandHides(const Obstacles& obstacles, const Ray& ray) {
     for (int i = 1; i <= kSandSamples; ++i) {
         const float along = static_cast<float>(i) / static_cast<float>(kSandSamples + 1);
         const glm::vec3 at = ray.from + ray.offset * along;
-        if (at.y < kHighestSandMetres && at.y < floorHeight(obstacles.placeSeed, {at.x, at.z}))
+        if (at.y < kHighestSandMetres && at.y < floorHeight(obstacles.place, {at.x, at.z}))
             return true;
     }
     return false;

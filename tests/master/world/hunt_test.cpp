@@ -120,7 +120,7 @@ TEST(Hunt, IsOneWorldOnAnyNumberOfThreads) {
     World two(options);
     options.threads = 4;
     World four(options);
-    for (int i = 0; i < 3 * 3600; ++i) {
+    for (int i = 0; i < 3600; ++i) {
         if (i == 600) {
             for (World* world : {&one, &two, &four}) world->apply(DropFood{{0, -5, -5}, 60});
         }
