@@ -13,7 +13,7 @@ constexpr std::uint32_t kSeed = 5;
 constexpr std::uint32_t kPlankton = 300;
 
 Obstacles reef() {
-    return obstaclesOf(kSeed, schoolRegion());
+    return obstaclesOf({kSeed}, schoolRegion());
 }
 
 void drift(Food& food, const Obstacles& obstacles, Tick& tick, int ticks) {
@@ -33,7 +33,7 @@ TEST(Food, planktonDriftsAndStaysInTheWaterAndOffTheSandForTenMinutes) {
             EXPECT_LT(std::abs(from.x), obstacles.water.halfExtent.x);
             EXPECT_LT(std::abs(from.z), obstacles.water.halfExtent.z);
             EXPECT_LT(food.y[i], 0);
-            EXPECT_GT(food.y[i], floorHeight(kSeed, {food.x[i], food.z[i]}) + 0.5F);
+            EXPECT_GT(food.y[i], floorHeight({kSeed}, {food.x[i], food.z[i]}) + 0.5F);
             if (minute == 0)
                 farthest = std::max(farthest, lengthOf(food.position(i) - before.position(i)));
         }
@@ -87,7 +87,7 @@ TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
     dropPellets(food, kSeed, obstacles, place, 12, tick);
     EXPECT_EQ(food.pellets, 12U);
     EXPECT_LT(lengthOf(food.position(0) - place), 0.6F);
-    const float sand = floorHeight(kSeed, {food.x[0], food.z[0]});
+    const float sand = floorHeight({kSeed}, {food.x[0], food.z[0]});
     const int sinks = static_cast<int>((food.y[0] - sand) / 0.05F * 60);
     drift(food, obstacles, tick, sinks + 60);
     EXPECT_TRUE(food.isThere(0));
@@ -96,6 +96,22 @@ TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
     drift(food, obstacles, tick, 60 * 60);
     EXPECT_EQ(food.pellets, 0U);
     for (std::size_t i = 0; i < food.size(); ++i) EXPECT_FALSE(food.isThere(i));
+}
+
+TEST(Food, pelletsThatSinkIntoTheDeepDissolveWhereNoFishGoes) {
+    const Region water = schoolRegion();
+    const Obstacles sea = obstaclesOf({kSeed, PlaceKind::OpenSea}, water);
+    Food food = makeFood(kSeed, sea, 0);
+    Tick tick;
+    dropPellets(food, kSeed, sea, water.centre, 12, tick);
+    while (food.pellets > 0) {
+        for (std::size_t i = 0; i < 12; ++i)
+            if (food.isThere(i)) {
+                ASSERT_GT(food.y[i], water.centre.y - water.halfExtent.y - 0.01F);
+            }
+        drift(food, sea, tick, 60);
+        ASSERT_LT(tick.value, 120U * 60);
+    }
 }
 
 TEST(Food, thereIsRoomForSoManyPellets) {
