@@ -93,6 +93,7 @@ void World::begin(const WorldOptions& options) {
         }
         look(kind, kind.first, kind.last);
     }
+    grids_.expect(view_, natures_);
     for (std::size_t fish = 0; fish < traits_.size(); ++fish)
         courses_.set(fish, {view_.heading(fish), 1, 0});
 }
@@ -126,13 +127,24 @@ void World::advance() {
     goal_ = goal();
     advanceSurroundings(surroundings_, tick_);
     receive();
-    inChunks([this](const Chunk& chunk) { look(kinds_[chunk.kind], chunk.first, chunk.last); });
+    rebuildGrids();
     advanceMeals(meals_, view_, surroundings_.food, tick_);
-    grids_.rebuild(view_, surroundings_.food, natures_);
     inChunks([this](Chunk& chunk) { live(chunk); });
     for (const Chunk& chunk : chunks_)
         for (const Deed& deed : chunk.deeds) perform(deed);
     ++tick_.value;
+}
+
+void World::rebuildGrids() {
+    grids_.rebuild(
+        view_,
+        surroundings_.food,
+        natures_,
+        [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
+        [this](std::size_t first, std::size_t last) {
+            for (const Kind& kind : kinds_)
+                look(kind, std::max(first, kind.first), std::min(last, kind.last));
+        });
 }
 
 // What all see of fish [first, last).
