@@ -1,2 +1,2 @@
 set(SPECIES_PROTOS species.proto)
-set(SPECIES_SOURCES species.cpp species_shape.cpp)
+set(SPECIES_SOURCES species.cpp species_habits.cpp species_shape.cpp)

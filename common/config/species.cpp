@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/species.h"
 
+#include <google/protobuf/text_format.h>
+
 #include "common/config/angle.h"
 #include "common/config/species.pb.h"
+#include "common/config/species_habits.h"
 #include "common/config/species_shape.h"
 #include "common/config/text_reader.h"
 
@@ -13,8 +16,6 @@ namespace {
 constexpr Range kShare{0, 1};
 constexpr Range kStrength{0.001, 1e6};
 constexpr Range kMetres{0.005, 20};
-constexpr Range kBodyLengths{0.01, 100};
-constexpr Range kDepth{0, 1000};
 
 SizeRange readSize(const TextPlace& at) {
     SizeRange size;
@@ -81,27 +82,6 @@ Turn readTurn(const TextPlace& at) {
     return {.gradual = readBend(at.in("gradual")), .sharp = readBend(at.in("sharp"))};
 }
 
-SchoolHabits readSchool(const TextPlace& at) {
-    const SchoolHabits school{
-        .neighbours = static_cast<std::uint32_t>(at.number("neighbours", {1, 7})),
-        .repelBodyLengths = at.number("repel_bl", kBodyLengths),
-        .alignBodyLengths = at.number("align_bl", kBodyLengths),
-        .attractBodyLengths = at.number("attract_bl", kBodyLengths),
-        .blindRadians = radiansOf(at.number("blind_deg", {0, 180})),
-        .leastDepthMetres = at.number("least_depth_m", kDepth),
-        .bestDepthMetres = at.number("best_depth_m", kDepth),
-        .mostDepthMetres = at.number("most_depth_m", kDepth)};
-    if (school.alignBodyLengths <= school.repelBodyLengths)
-        at.refuse("align_bl", "align_bl must be more than repel_bl: exchange them");
-    if (school.attractBodyLengths <= school.alignBodyLengths)
-        at.refuse("attract_bl", "attract_bl must be more than align_bl: exchange them");
-    if (school.bestDepthMetres < school.leastDepthMetres)
-        at.refuse("best_depth_m", "best_depth_m is less than least_depth_m: exchange them");
-    if (school.mostDepthMetres < school.bestDepthMetres)
-        at.refuse("most_depth_m", "most_depth_m is less than best_depth_m: exchange them");
-    return school;
-}
-
 std::vector<Paint> readPalette(const TextPlace& root) {
     std::vector<Paint> palette;
     for (int i = 0; i < root.count("palette"); ++i) {
@@ -141,10 +121,20 @@ Species parseSpecies(const std::string& text, const std::string& source) {
                      .finDrag = root.in("water").number("fin_drag", {0, 100})};
     species.swim = readSwim(root.in("swim"));
     species.turn = readTurn(root.in("turn"));
-    if (root.has("school")) species.school = readSchool(root.in("school"));
+    species.habits = readHabits(root.in("habits"), species.name);
     species.palette = readPalette(root);
     species.recordsControlPoints = message.recorded_control_points();
     return species;
+}
+
+std::string motionText(const std::string& text, const std::string& source) {
+    v1::Species message;
+    const TextReader reader(text, source, message);
+    message.clear_habits();
+    message.clear_palette();
+    std::string kept;
+    google::protobuf::TextFormat::PrintToString(message, &kept);
+    return kept;
 }
 
 Species readSpecies(const std::string& path) {

@@ -96,13 +96,6 @@ struct SizeRange {
     double meanMetres = 0, deviationMetres = 0, leastMetres = 0, mostMetres = 0;
 };
 
-struct SchoolHabits {
-    std::uint32_t neighbours = 0;
-    double repelBodyLengths = 0, alignBodyLengths = 0, attractBodyLengths = 0;
-    double blindRadians = 0;
-    double leastDepthMetres = 0, bestDepthMetres = 0, mostDepthMetres = 0;
-};
-
 struct Paint {
     std::string part;
     glm::vec3 linear{};  // Rec. 709
@@ -119,7 +112,6 @@ struct Species {
     Water water;
     Swim swim;
     Turn turn;
-    std::optional<SchoolHabits> school;
     Habits habits;
     std::vector<Paint> palette;
     // The repertoire keeps the control points of every frame (eq. 9) beside the nodal points, which
@@ -130,5 +122,8 @@ struct Species {
 // Throws Error with file:line:column for whatever the schema or the animal cannot have.
 [[nodiscard]] Species readSpecies(const std::string& path);
 [[nodiscard]] Species parseSpecies(const std::string& text, const std::string& source);
+// All of the file that moves the animal, in one form: no habits, colours or comments. Two files that
+// agree in it swim alike.
+[[nodiscard]] std::string motionText(const std::string& text, const std::string& source);
 
 }  // namespace aquarama

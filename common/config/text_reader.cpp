@@ -150,6 +150,10 @@ double TextPlace::numberOr(const std::string& name, Range range, double fallback
     return has(name) ? number(name, range) : fallback;
 }
 
+bool TextPlace::truth(const std::string& name) const {
+    return message_->GetReflection()->GetBool(*message_, &present(name, kSingle));
+}
+
 std::string TextPlace::text(const std::string& name, int index) const {
     const Field& field = present(name, index);
     const pb::Reflection& get = *message_->GetReflection();

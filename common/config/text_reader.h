@@ -33,6 +33,7 @@ class TextPlace {
     // Of any numeric type; finite and inside the range.
     [[nodiscard]] double number(const std::string& field, Range range, int index = kSingle) const;
     [[nodiscard]] double numberOr(const std::string& field, Range range, double fallback) const;
+    [[nodiscard]] bool truth(const std::string& field) const;
     // Set, and not empty.
     [[nodiscard]] std::string text(const std::string& field, int index = kSingle) const;
     // The name of the enumeration's value.

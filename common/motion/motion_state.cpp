@@ -141,6 +141,26 @@ void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame
     states.orientationLargest[fish] = packed.largest;
 }
 
+namespace {
+
+// Half-way down: wherever the motor takes an absent fish, it stays below.
+constexpr std::int32_t kAwayBelow =
+    static_cast<std::int32_t>(kAwayHeightMetres / kPositionUnitMetres) / 2;
+
+}  // namespace
+
+bool isAway(const FishRecord& record) {
+    return record.y < kAwayBelow;
+}
+
+bool isAway(const MotionStates& states, std::size_t fish) {
+    return states.y[fish] < kAwayBelow;
+}
+
+void setAway(MotionStates& states, std::size_t fish) {
+    states.y[fish] = positionUnits(kAwayHeightMetres);
+}
+
 float speedBodyLengths(const MotionStates& states, std::size_t fish) {
     return static_cast<float>(states.speed[fish]) / kSpeedUnitsPerBodyLength;
 }

@@ -101,6 +101,13 @@ void setBodyFrame(MotionStates& states,
 [[nodiscard]] float speedBodyLengths(const MotionStates& states, std::size_t fish);
 void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed);
 
+// A fish that is not in the water: eaten, until another comes in its place. It keeps its index, and
+// its body frame is so far below every sea floor that no wall ever shows it.
+inline constexpr float kAwayHeightMetres = -16384.0F;
+[[nodiscard]] bool isAway(const FishRecord& record);
+[[nodiscard]] bool isAway(const MotionStates& states, std::size_t fish);
+void setAway(MotionStates& states, std::size_t fish);
+
 // Folds every bit of the state into one number; equal worlds have equal hashes.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
 

@@ -96,6 +96,11 @@ PresentedFish present(const FishRecord& before,
                       const FishRecord& after,
                       float fraction,
                       const FishTraits& traits) {
+    // One that goes or comes between the two is away, not on its way.
+    if (isAway(before) != isAway(after)) {
+        const FishRecord& away = isAway(before) ? before : after;
+        return present(away, away, fraction, traits);
+    }
     PresentedFish fish;
     fish.positionMetres = {metres(before.x, after.x, fraction),
                            metres(before.y, after.y, fraction),

@@ -32,7 +32,8 @@ struct PresentedFish {
 static_assert(sizeof(PresentedFish) == 64);
 
 // fraction 0 shows `before`, 1 shows `after` (the next tick). A fish that
-// left its segment in between glides from the pose it left; one that jumped is shown as `after`.
+// left its segment in between glides from the pose it left; one that jumped is shown as `after`;
+// of one that is away at either tick the record of that tick is shown: nothing.
 [[nodiscard]] PresentedFish present(const FishRecord& before,
                                     const FishRecord& after,
                                     float fraction,

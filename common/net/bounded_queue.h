@@ -34,6 +34,12 @@ class BoundedQueue {
         return true;
     }
 
+    // To the only thread that puts, false stays false.
+    [[nodiscard]] bool full() const {
+        const std::lock_guard lock(mutex_);
+        return items_.size() >= capacity_;
+    }
+
     std::optional<T> tryTake() {
         const std::lock_guard lock(mutex_);
         if (items_.empty()) return std::nullopt;
@@ -50,7 +56,7 @@ class BoundedQueue {
     }
 
   private:
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable space_;
     std::deque<T> items_;
     std::size_t capacity_;

@@ -182,8 +182,15 @@ std::optional<Message> read(const v1::Pong& message) {
 }
 
 std::optional<Message> read(const v1::Input& message) {
-    if (message.kind() == v1::INPUT_QUIT) return Input{InputKind::Quit};
-    if (message.kind() == v1::INPUT_TOGGLE_PAUSE) return Input{InputKind::TogglePause};
+    const auto& at = message.position();
+    const auto isNear = [](float number) { return std::abs(number) <= kMaxInputMetres; };
+    if (message.kind() == v1::INPUT_DROP_FOOD) {  // a number that is none is not near
+        if (at.size() != 3 || !std::ranges::all_of(at, isNear)) return std::nullopt;
+        return Input{InputKind::DropFood, {at[0], at[1], at[2]}};
+    }
+    if (!at.empty()) return std::nullopt;
+    if (message.kind() == v1::INPUT_QUIT) return Input{InputKind::Quit, {}};
+    if (message.kind() == v1::INPUT_TOGGLE_PAUSE) return Input{InputKind::TogglePause, {}};
     return std::nullopt;
 }
 
@@ -218,6 +225,29 @@ std::optional<Message> read(const v1::StatusReply& message) {
         reply.nodes.push_back(std::move(*status));
     }
     return reply;
+}
+
+std::optional<Message> read(const v1::ExplainRequest& message) {
+    if (!message.has_fish()) return std::nullopt;
+    return ExplainRequest{message.fish()};
+}
+
+// Drawn with a font of ASCII, and printed.
+bool isLine(const std::string& line) {
+    return line.size() <= kMaxExplanationLineBytes &&
+           std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+std::optional<Message> read(const v1::Explanation& message) {
+    if (!message.has_fish() || !message.has_school() || !message.has_tick()) return std::nullopt;
+    if (message.school() > kMaxFish || std::size_t(message.lines_size()) > kMaxExplanationLines ||
+        !std::ranges::all_of(message.lines(), isLine)) {
+        return std::nullopt;
+    }
+    return Explanation{message.fish(),
+                       message.school(),
+                       {message.tick()},
+                       {message.lines().begin(), message.lines().end()}};
 }
 
 std::optional<Message> read(const v1::Envelope& envelope) {
@@ -258,6 +288,10 @@ std::optional<Message> read(const v1::Envelope& envelope) {
             return StatusRequest{};
         case v1::Envelope::kStatusReply:
             return read(envelope.status_reply());
+        case v1::Envelope::kExplainRequest:
+            return read(envelope.explain_request());
+        case v1::Envelope::kExplanation:
+            return read(envelope.explanation());
         case v1::Envelope::MESSAGE_NOT_SET:
             break;
     }

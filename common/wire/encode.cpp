@@ -28,6 +28,18 @@ v1::Pattern patternOf(Pattern pattern) {
     return v1::PATTERN_GREY;
 }
 
+v1::InputKind inputKindOf(InputKind kind) {
+    switch (kind) {
+        case InputKind::Quit:
+            return v1::INPUT_QUIT;
+        case InputKind::TogglePause:
+            return v1::INPUT_TOGGLE_PAUSE;
+        case InputKind::DropFood:
+            break;
+    }
+    return v1::INPUT_DROP_FOOD;
+}
+
 v1::NodeCondition conditionOf(NodeCondition condition) {
     switch (condition) {
         case NodeCondition::Absent:
@@ -136,8 +148,11 @@ void write(const Pong& pong, v1::Envelope& envelope) {
 }
 
 void write(const Input& input, v1::Envelope& envelope) {
-    envelope.mutable_input()->set_kind(input.kind == InputKind::Quit ? v1::INPUT_QUIT
-                                                                     : v1::INPUT_TOGGLE_PAUSE);
+    auto& message = *envelope.mutable_input();
+    message.set_kind(inputKindOf(input.kind));
+    if (input.kind != InputKind::DropFood) return;
+    const glm::vec3& at = input.positionMetres;
+    for (const float number : {at.x, at.y, at.z}) message.add_position(number);
 }
 
 void write(const StatusRequest&, v1::Envelope& envelope) {
@@ -162,6 +177,18 @@ void write(const StatusReply& reply, v1::Envelope& envelope) {
         node.set_late(status.late);
         node.set_dropped(status.dropped);
     }
+}
+
+void write(const ExplainRequest& request, v1::Envelope& envelope) {
+    envelope.mutable_explain_request()->set_fish(request.fish);
+}
+
+void write(const Explanation& explanation, v1::Envelope& envelope) {
+    auto& message = *envelope.mutable_explanation();
+    message.set_fish(explanation.fish);
+    message.set_school(explanation.school);
+    message.set_tick(explanation.tick.value);
+    for (const std::string& line : explanation.lines) message.add_lines(line);
 }
 
 Packet packed(const v1::Envelope& envelope) {

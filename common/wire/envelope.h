@@ -27,6 +27,9 @@ inline constexpr std::size_t kMaxBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr std::size_t kMaxNodes = 256;
 inline constexpr std::size_t kMaxSpecies = 64;
+inline constexpr float kMaxInputMetres = 10'000;  // of a position, on each axis
+inline constexpr std::size_t kMaxExplanationLines = 48;
+inline constexpr std::size_t kMaxExplanationLineBytes = 120;
 inline constexpr std::size_t kMaxSmallPacketBytes = std::size_t{64} << 10U;  // all but
 // welcomes, states and chunks; nothing larger ever goes from a node to the master
 inline constexpr std::size_t kMaxPacketBytes = std::size_t{64} << 20U;  // two states of kMaxFish
@@ -97,9 +100,10 @@ struct Pong {
     std::int64_t masterNs = 0;  // in the master's
 };
 
-enum class InputKind : std::uint8_t { Quit, TogglePause };
+enum class InputKind : std::uint8_t { Quit, TogglePause, DropFood };
 struct Input {
     InputKind kind = InputKind::Quit;
+    glm::vec3 positionMetres{};  // of the food, world frame
 };
 
 struct StatusRequest {};
@@ -123,6 +127,18 @@ struct StatusReply {
     std::vector<NodeStatus> nodes;
 };
 
+// Asks what goes on in the mind of a fish; anybody may.
+struct ExplainRequest {
+    std::uint32_t fish = 0;
+};
+
+struct Explanation {
+    std::uint32_t fish = 0;
+    std::uint32_t school = 0;  // so many fish there are, 0 to school - 1; others have no lines
+    Tick tick;
+    std::vector<std::string> lines;  // printable ASCII
+};
+
 using Message = std::variant<Hello,
                              Refusal,
                              Welcome,
@@ -140,7 +156,9 @@ using Message = std::variant<Hello,
                              Pong,
                              Input,
                              StatusRequest,
-                             StatusReply>;
+                             StatusReply,
+                             ExplainRequest,
+                             Explanation>;
 
 struct Envelope {
     std::uint64_t session = 0;  // of the master's run; 0 where the node has not been welcomed yet

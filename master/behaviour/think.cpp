@@ -3,8 +3,10 @@
 
 #include "master/behaviour/act/act.h"
 #include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/decide/recommendation.h"
 #include "master/behaviour/feel/mental_state.h"
 #include "master/behaviour/perceive/perceive.h"
+#include "master/fish/drives.h"
 
 namespace aquarama {
 
@@ -15,10 +17,14 @@ void think(const Environment& environment,
            Deeds& deeds) {
     const Nature& nature = environment.natures[environment.view->kind[fish]];
     Mind mind = minds.at(fish);
+    passTime(nature, mind);
     const Senses senses = perceive(environment, nature, fish, mind);
     const Feelings feelings = feel(nature, mind, senses);
     remember(mind, decide(nature, mind, senses, feelings));
-    courses.set(fish, act({environment, nature, fish, senses, feelings}, mind, deeds));
+    Course course = act({environment, nature, fish, senses, feelings}, mind, deeds);
+    course.openToChange = environment.adaptation.recommendations &&
+                          acceptsRecommendation(nature, mind, senses, feelings);
+    courses.set(fish, course);
     minds.set(fish, mind);
 }
 

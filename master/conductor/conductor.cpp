@@ -98,6 +98,7 @@ ShowReport Conductor::run() {
         const Instant now = monotonicNow();
         hear(now);
         takeTicks();
+        answer();
         conduct(now);
         if (now - lastPublished_ > kBeacon) {
             channels_->publishState(encode({session_, Beacon{}}));
@@ -205,6 +206,7 @@ bool Conductor::publish(Frame frame, Instant now) {
     if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
+    eye_ = state->eye;
     report_.tick = state->tick;
     report_.worldHash = state->worldHash;
     return true;

@@ -10,9 +10,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/config/rig.h"
+#include "common/net/bounded_queue.h"
 #include "common/net/channels.h"
 #include "common/net/present_barrier.h"
 #include "common/wire/envelope.h"
@@ -66,6 +68,7 @@ class Conductor {
         bool prepared = false;
         Instant lastHeard{};
         std::uint64_t dropped = 0;
+        Instant lastFed{};  // when a visitor last dropped food in its window
     };
 
     void hear(Instant now);
@@ -75,7 +78,10 @@ class Conductor {
     void admit(std::size_t node);
     void giveChunk(const PeerId& peer, const BlobRequest& request);
     void vacate(std::size_t node, const std::string& why);
-    void obey(const Input& input);
+    void obey(std::size_t node, const Input& input, Instant now);
+    void feed(std::size_t node, glm::vec3 positionMetres, Instant now);
+    void ask(const PeerId& peer, const ExplainRequest& question);
+    void answer();
     [[nodiscard]] StatusReply status() const;
 
     void takeTicks();
@@ -108,6 +114,8 @@ class Conductor {
     bool over_ = false;
     std::string failure_;
 
+    // From the tick thread; whoever hears no answer asks again.
+    BoundedQueue<std::pair<PeerId, Explanation>> explanations_{256};
     std::unique_ptr<Ticker> ticker_;
     Timeline timeline_;
     Frame next_;                         // is drawn, or will be as soon as it can
@@ -116,6 +124,7 @@ class Conductor {
     std::map<Frame, Packet> published_;  // the last two: sent again to whoever may lack them
     Instant lastPublished_{};            // of anything, also of a beacon
     Instant lastRepeat_{};
+    Eye eye_;  // of the last state that was published
     std::optional<Present> lastPresent_;
     Instant lastRelease_{};
     ShowReport report_;

@@ -12,6 +12,8 @@ namespace {
 // Ticks that are overdue by less are simulated at once, one after the other; beyond it the world
 // has lost time for good, and we say so.
 constexpr Instant kMostCatchUp = 15 * kTickPeriod;
+// Between two ticks: nobody who asks for more holds up the world.
+constexpr std::size_t kMostJobs = 64;
 
 }  // namespace
 
@@ -47,17 +49,69 @@ bool Ticker::paused() const {
     return paused_;
 }
 
+std::optional<Snapshot> Ticker::take() {
+    auto snapshot = snapshots_.tryTake();
+    if (snapshot) {
+        // The tick thread has looked for room and waits, or will look.
+        { const std::lock_guard lock(mutex_); }
+        changed_.notify_all();
+    }
+    return snapshot;
+}
+
+bool Ticker::betweenTicks(Job job) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (jobs_.size() >= kMostJobs) return false;
+        jobs_.push_back(std::move(job));
+    }
+    changed_.notify_all();
+    return true;
+}
+
+void Ticker::serve(std::unique_lock<std::mutex>& lock) {
+    const std::vector<Job> jobs = std::exchange(jobs_, {});
+    lock.unlock();
+    for (const Job& job : jobs) job(simulation_);
+    lock.lock();
+}
+
+bool Ticker::awaitRoom() {
+    std::unique_lock lock(mutex_);
+    while (!stopped_) {
+        serve(lock);
+        if (!snapshots_.full()) return true;
+        changed_.wait(lock, [&] { return stopped_ || !jobs_.empty() || !snapshots_.full(); });
+    }
+    return false;
+}
+
+void Ticker::serveUntilStopped() {
+    std::unique_lock lock(mutex_);
+    while (!stopped_) {
+        serve(lock);
+        changed_.wait(lock, [&] { return stopped_ || !jobs_.empty(); });
+    }
+}
+
 bool Ticker::put(Instant due) {
-    Snapshot snapshot{simulation_.tick(), due, simulation_.hash(), simulation_.eye(), {}};
+    Snapshot snapshot{simulation_.tick(),
+                      due,
+                      simulation_.hash(),
+                      simulation_.eye(),
+                      simulation_.daylight(),
+                      {},
+                      {}};
     simulation_.records(snapshot.fish);
+    simulation_.food(snapshot.food);
     const bool taken = snapshots_.put(std::move(snapshot));
     onTick_();
     return taken;
 }
 
 void Ticker::runLockstep() {
-    while (put(Instant{})) {
-        if (lastTick_ && simulation_.tick() >= *lastTick_) return;
+    while (awaitRoom() && put(Instant{})) {
+        if (lastTick_ && simulation_.tick() >= *lastTick_) return serveUntilStopped();
         simulation_.advance();
     }
 }
@@ -65,10 +119,17 @@ void Ticker::runLockstep() {
 bool Ticker::sleepUntil(Instant due, Instant& pausedFor) {
     std::unique_lock lock(mutex_);
     const auto when = std::chrono::steady_clock::time_point(due);
-    changed_.wait_until(lock, when, [&] { return stopped_ || paused_; });
+    const auto disturbed = [&] { return stopped_ || paused_ || !jobs_.empty(); };
+    while (changed_.wait_until(lock, when, disturbed) && !stopped_ && !paused_) {
+        serve(lock);
+        if (monotonicNow() >= due) break;
+    }
     const Instant pause = monotonicNow();
     const bool wasPaused = paused_;
-    changed_.wait(lock, [&] { return stopped_ || !paused_; });
+    while (paused_ && !stopped_) {
+        serve(lock);
+        changed_.wait(lock, [&] { return stopped_ || !paused_ || !jobs_.empty(); });
+    }
     pausedFor = wasPaused ? monotonicNow() - pause : Instant{};
     return !stopped_;
 }

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "common/net/bounded_queue.h"
 #include "master/conductor/simulation.h"
@@ -28,15 +29,25 @@ class Ticker {
     Ticker(const Ticker&) = delete;
     Ticker& operator=(const Ticker&) = delete;
 
-    [[nodiscard]] std::optional<Snapshot> take() { return snapshots_.tryTake(); }
+    [[nodiscard]] std::optional<Snapshot> take();
     // Live only: a lockstep show is the same every time.
     void togglePause();
     [[nodiscard]] bool paused() const;
+
+    // Is called from the tick thread between two ticks, soon, in the order given; also while the
+    // world is paused or has come to its last tick. False: too many wait already.
+    using Job = std::function<void(Simulation&)>;
+    [[nodiscard]] bool betweenTicks(Job job);
 
   private:
     void runLive();
     void runLockstep();
     bool put(Instant due);
+    // Does the jobs that wait; others may be given meanwhile.
+    void serve(std::unique_lock<std::mutex>& lock);
+    // Serves until there is room for a snapshot. False: stopped.
+    bool awaitRoom();
+    void serveUntilStopped();
     // False: stopped. True: the instant has come, and `pausedFor` it came later than planned.
     bool sleepUntil(Instant due, Instant& pausedFor);
 
@@ -47,6 +58,7 @@ class Ticker {
     BoundedQueue<Snapshot> snapshots_{Timeline::kKept / 2};
     mutable std::mutex mutex_;
     std::condition_variable changed_;
+    std::vector<Job> jobs_;
     bool paused_ = false;
     bool stopped_ = false;
     std::thread thread_;  // last: it uses all of the above

@@ -22,17 +22,21 @@ inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
 struct Course {
     glm::vec3 direction{1, 0, 0};  // unit vector
     float speed = 0;               // body lengths a second; under a quarter of slow: hover
-    float urgency = 0;  // 0 in the open; from 1 on it turns sharply and heeds no recommendation
+    float urgency = 0;             // 0 in the open; from 1 on it turns sharply
+    // Whether another swim pattern for a while is welcome; set for all routines alike, after them.
+    bool openToChange = false;
 };
 
 struct Courses {  // structure of arrays, as Course
     std::vector<float> directionX, directionY, directionZ;
     std::vector<float> speed;
     std::vector<float> urgency;
+    std::vector<std::uint8_t> openToChange;
 
     void resize(std::size_t fish) {
         for (auto* values : {&directionX, &directionY, &directionZ, &speed, &urgency})
             values->resize(fish);
+        openToChange.resize(fish);
     }
     [[nodiscard]] glm::vec3 direction(std::size_t fish) const {
         return {directionX[fish], directionY[fish], directionZ[fish]};
@@ -43,6 +47,7 @@ struct Courses {  // structure of arrays, as Course
         directionZ[fish] = course.direction.z;
         speed[fish] = course.speed;
         urgency[fish] = course.urgency;
+        openToChange[fish] = course.openToChange ? 1 : 0;
     }
 };
 

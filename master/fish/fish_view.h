@@ -30,6 +30,7 @@ struct FishView {
     std::vector<std::uint8_t> kind;                   // its species, an index into the cast
     std::vector<std::uint8_t> signs;                  // of Sign
     std::vector<std::uint32_t> partner;               // whom it courts; kNobody
+    std::vector<std::uint8_t> stage;                  // of its courtship or hunt: Mind::stage
 
     void resize(std::size_t fish) {
         for (auto* values : {&x, &y, &z, &headingX, &headingY, &headingZ, &speed, &length})
@@ -37,6 +38,7 @@ struct FishView {
         kind.resize(fish);
         signs.resize(fish);
         partner.resize(fish, kNobody);
+        stage.resize(fish);
     }
     [[nodiscard]] std::size_t size() const { return x.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t fish) const { return {x[fish], y[fish], z[fish]}; }

@@ -17,6 +17,8 @@ void each(auto& minds, const Column& column) {
     column(minds.sinceRemembered, &Mind::sinceRemembered);
     column(minds.sinceMeal, &Mind::sinceMeal);
     column(minds.sinceSpawning, &Mind::sinceSpawning);
+    column(minds.sinceChase, &Mind::sinceChase);
+    column(minds.alarm, &Mind::alarm);
     column(minds.eaten, &Mind::eaten);
     column(minds.likes, &Mind::likes);
     column(minds.stage, &Mind::stage);

@@ -26,18 +26,28 @@ inline constexpr std::size_t kIntentions = 8;
 // Times are in ticks, counted up at every thought, and stop at kLongAgo.
 inline constexpr std::uint32_t kLongAgo = 0x7fffffffU;
 
+// Fear that is heeded, kept from one thought to the next so that it ends later than it began.
+enum class Alarm : std::uint8_t {
+    Calm,
+    Together,  // afraid, in the shelter of the school
+    Alone,     // more afraid: it flees by itself
+};
+
 struct Mind {
     Intention intention = Intention::Wander;
     // What it is about: a fish (Mate, Eat of a predator, School, AvoidFish), or a particle of food
     // (Eat of the others).
     std::uint32_t target = kNobody;
-    std::uint32_t pursued = 0;  // for so long
+    std::uint32_t pursued = 0;  // its aim, for so long; interruptions count in
     // The one-item memory: what was interrupted and will be resumed.
     Intention remembered = Intention::Wander;
     std::uint32_t rememberedTarget = kNobody;
     std::uint32_t sinceRemembered = kLongAgo;
     std::uint32_t sinceMeal = kLongAgo;
     std::uint32_t sinceSpawning = kLongAgo;
+    // Of a predator: since its chase began, or since the last one ended, whichever was later.
+    std::uint32_t sinceChase = kLongAgo;
+    Alarm alarm = Alarm::Calm;
     std::uint16_t eaten = 0;       // particles since the last one was digested
     std::uint8_t likes = 0;        // of Like
     std::uint8_t stage = 0;        // of the routine that has stages: courtship, hunt
@@ -55,10 +65,30 @@ enum Like : std::uint8_t {
     kIsFemale = 32,
 };
 
+// Collision and fear interrupt what a fish is about; the other intentions are aims of its own.
+[[nodiscard]] constexpr bool interrupts(Intention intention, Alarm alarm) {
+    return intention >= Intention::Escape ||
+           (intention == Intention::School && alarm == Alarm::Together);
+}
+
+struct Aim {
+    Intention intention = Intention::Wander;
+    std::uint32_t target = kNobody;
+    friend bool operator==(const Aim&, const Aim&) = default;
+};
+// What a fish is about, seen through an interruption.
+[[nodiscard]] constexpr Aim aimOf(const Mind& mind) {
+    if (interrupts(mind.intention, mind.alarm) && mind.remembered != Intention::Wander)
+        return {mind.remembered, mind.rememberedTarget};
+    return {mind.intention, mind.target};
+}
+
 struct Minds {  // structure of arrays, as Mind
     std::vector<Intention> intention, remembered;
     std::vector<std::uint32_t> target, rememberedTarget;
-    std::vector<std::uint32_t> pursued, sinceRemembered, sinceMeal, sinceSpawning, sinceStage;
+    std::vector<std::uint32_t> pursued, sinceRemembered, sinceMeal, sinceSpawning, sinceChase;
+    std::vector<std::uint32_t> sinceStage;
+    std::vector<Alarm> alarm;
     std::vector<std::uint16_t> eaten;
     std::vector<std::uint8_t> likes, stage;
 

@@ -26,10 +26,12 @@ constexpr float kRateMargin = 0.15F;                   // of the recorded phase 
 constexpr float kTempoMargin = 0.08F;                  // about a fish's own tempo
 constexpr float kSpeedHysteresis = 0.12F;              // body lengths a second
 constexpr float kBrakeFrom = 0.6F;                     // of these too fast; by one more, wholly
+constexpr float kHoverBelow = 0.25F;                   // of the slow gait's speed
+constexpr float kHoverBrakeGain = 4.0F;                // wholly from a quarter body length a second
 constexpr std::uint64_t kShortestGaitTicks = 36;
 constexpr float kSpeedMayDiffer = 0.9F;  // of a recommended gait, body lengths a second
 constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree;
-constexpr float kCalm = 0.15F;  // urgency up to which a recommendation is considered
+constexpr std::uint32_t kShortestHoldTicks = 30, kHoldSpreadTicks = 46;  // of a recommended one
 
 std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Draw draw, std::uint64_t tick) {
     return hashOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(fish)), draw),
@@ -39,6 +41,12 @@ std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Draw draw, std::uint64
 // U(4, 10) seconds.
 std::uint16_t patienceOf(std::uint32_t seed, std::size_t fish, std::uint64_t tick) {
     return static_cast<std::uint16_t>(240 + drawn(seed, fish, Patience, tick) % 361);
+}
+
+// Any of the other patterns.
+Action otherThan(Action present, std::uint32_t hash) {
+    const std::size_t step = 1 + hash % (kActions - 1);
+    return static_cast<Action>((indexOf(present) + step) % kActions);
 }
 
 Action gradual(bool left) {
@@ -71,17 +79,24 @@ struct SecondaryController::Moment {
     float swims;          // at present
     float urgency;        // of the surroundings
     std::uint64_t since;  // ticks that the present segment has been pursued
+    bool isOpen;          // to what is recommended
 };
 
 namespace {
 
 using Moment = SecondaryController::Moment;
 
+// Wants to be where it is: its fins brake and turn it.
+bool hovers(const Gaits& gaits, const Moment& moment) {
+    return moment.speed < kHoverBelow * gaits.speed[indexOf(Action::ForwardSlow)];
+}
+
 Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
     const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
     if (error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
+    if (hovers(gaits, moment) && moment.urgency < 1) return Action::Glide;
     if (error > kGradualFrom) return gradual(left);
     const Action gait = gaitFor(gaits, moment.speed, moment.present);
     const bool tooSoon =
@@ -95,14 +110,15 @@ std::int16_t yawRateFor(float yawError) {
                                      kRadiansOfYawUnit);
 }
 
-std::uint8_t brakeFor(const Moment& moment) {
-    const float excess = moment.swims - moment.speed - kBrakeFrom;
-    return static_cast<std::uint8_t>(255 * std::clamp(excess, 0.0F, 1.0F));
+std::uint8_t brakeFor(const Gaits& gaits, const Moment& moment) {
+    const float excess = moment.swims - moment.speed;
+    const float share = hovers(gaits, moment) ? excess * kHoverBrakeGain : excess - kBrakeFrom;
+    return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0F, 1.0F));
 }
 
-// The intention generator's word on a recommendation.
-bool accepts(const Gaits& gaits, const Moment& moment, Action recommended) {
-    if (moment.urgency > kCalm || isSharp(recommended)) return false;
+// Whether a pattern still leads about where the fish wants to go, about as fast.
+bool serves(const Gaits& gaits, const Moment& moment, Action recommended) {
+    if (isSharp(recommended)) return false;
     if (isTurn(recommended))
         return std::abs(moment.yawError - gaits.turn[indexOf(recommended)]) < kCourseMayDiffer;
     if (std::abs(moment.yawError) > kGradualFrom) return false;
@@ -162,7 +178,7 @@ void SecondaryController::decide(std::size_t fish) const {
     commands->pitch[fish] =
         static_cast<std::int16_t>(courses->directionY[fish] * kUnitsOfPitchSine);
     commands->yawRate[fish] = isTurn(chosen) ? std::int16_t{0} : yawRateFor(moment.yawError);
-    commands->brake[fish] = isTurn(chosen) ? std::uint8_t{0} : brakeFor(moment);
+    commands->brake[fish] = isTurn(chosen) ? std::uint8_t{0} : brakeFor(*gaits, moment);
 }
 
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
@@ -171,7 +187,8 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
                   courses->speed[fish],
                   speedBodyLengths(*states, fish),
                   courses->urgency[fish],
-                  tick.value - memory->chosenAt[fish]};
+                  tick.value - memory->chosenAt[fish],
+                  courses->openToChange[fish] != 0};
     // A turn will be played to its end: what is chosen comes after it.
     const std::size_t playing = states->segment[fish];
     const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
@@ -182,15 +199,16 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
 Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
     const Action chosen = turnOrSwim(*gaits, moment);
     if (tick.value < memory->heldUntil[fish])
-        return moment.urgency < 1 && !isSharp(chosen) ? moment.present : chosen;
+        return moment.isOpen && !isSharp(chosen) ? moment.present : chosen;
     if (chosen != moment.present || moment.since <= memory->patience[fish]) return chosen;
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);
-    const auto recommended = static_cast<Action>(drawn(seed, fish, Recommended, tick.value) %
-                                                 static_cast<std::uint32_t>(kActions));
-    if (!accepts(*gaits, moment, recommended)) return chosen;
+    const Action recommended =
+        otherThan(moment.present, drawn(seed, fish, Recommended, tick.value));
+    if (!moment.isOpen || !serves(*gaits, moment, recommended)) return chosen;
     if (isTurn(recommended)) return recommended;  // it holds by itself
-    memory->heldUntil[fish] = tick.value + 30 + drawn(seed, fish, Hold, tick.value) % 46;
+    memory->heldUntil[fish] =
+        tick.value + kShortestHoldTicks + drawn(seed, fish, Hold, tick.value) % kHoldSpreadTicks;
     return recommended;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/surroundings/food.h"
 
+#include <algorithm>
+
+#include "common/place/angle.h"
 #include "common/place/noise.h"
 
 namespace aquarama {
@@ -10,77 +13,230 @@ namespace {
 enum Draw : std::uint32_t { Place = 401, Absence, Spread };
 
 constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
-constexpr std::uint32_t kPelletTicks = 60 * 60;      // then it is gone
-constexpr float kSinkMetres = 0.03F / 60;            // a tick
-constexpr float kSpreadMetres = 0.35F;
+// Particles are looked after in turns: each about once in four seconds.
+constexpr std::uint64_t kTurns = 256;
+constexpr int kPlacesTried = 8;
 
-glm::vec3 strewn(std::uint32_t seed,
-                 const Region& water,
-                 std::uint32_t particle,
-                 std::uint32_t turn) {
-    const std::uint32_t hash = hashOf(hashOf(hashOf(seed, Place), particle), turn);
-    const glm::vec3 share{
-        signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
-    return water.centre + water.halfExtent * share;
+constexpr float kShoreMetres = 0.5F;      // no plankton so near to a border: fish turn back there
+constexpr float kRockRoomMetres = 0.6F;   // nor so near to a rock
+constexpr float kFloorRoomMetres = 0.7F;  // nor to the sand
+constexpr float kSurfaceRoomMetres = 0.9F;
+
+constexpr float kSinkMetres = 0.05F / 60;      // a tick: feed of some millimetres
+constexpr std::uint32_t kLiesTicks = 20 * 60;  // on the sand
+constexpr float kPelletOnSandMetres = 0.02F;   // of its middle over the sand
+constexpr float kSpreadMetres = 0.3F;          // of pellets that are dropped together
+constexpr float kCurrentMetres = 0.03F;        // a second
+constexpr float kCurrentUpMetres = 0.008F;     // a second
+constexpr std::uint64_t kSwellTicks = 12'288;  // of its longest period, some three minutes
+constexpr float kPerTick = 1.0F / static_cast<float>(kTicksPerSecond);
+
+// Where plankton may be.
+Region reachable(const Region& water) {
+    const auto within = [](float half) { return std::max(half - kShoreMetres, 0.5F * half); };
+    return {water.centre,
+            {within(water.halfExtent.x), within(water.halfExtent.y), within(water.halfExtent.z)}};
 }
 
-void put(Food& food, std::size_t i, FoodKind kind, glm::vec3 position) {
+float lowestAt(const Obstacles& obstacles, float x, float z) {
+    return floorHeight(obstacles.place, {x, z}) + kFloorRoomMetres;
+}
+
+bool isClear(const Obstacles& obstacles, glm::vec3 place) {
+    return std::ranges::none_of(obstacles.rocks, [&](const Rock& rock) {
+        return lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
+    });
+}
+
+glm::vec3 strewn(std::uint32_t seed,
+                 const Obstacles& obstacles,
+                 std::uint32_t particle,
+                 std::uint32_t turn) {
+    const Region water = reachable(obstacles.water);
+    glm::vec3 place{};
+    for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
+        const std::uint32_t hash = hashOf(hashOf(hashOf(hashOf(seed, Place), particle), turn), i);
+        const glm::vec3 share{
+            signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+        place = water.centre + water.halfExtent * share;
+        place.y =
+            std::min(std::max(place.y, lowestAt(obstacles, place.x, place.z)), -kSurfaceRoomMetres);
+        if (isClear(obstacles, place)) break;
+    }
+    return place;
+}
+
+void put(Food& food, std::size_t i, FoodKind kind, glm::vec3 position, float lowest) {
     food.x[i] = position.x;
     food.y[i] = position.y;
     food.z[i] = position.z;
+    food.lowest[i] = lowest;
     food.kind[i] = kind;
+    food.taken[i] = 0;
     ++food.generation[i];
+}
+
+void strew(Food& food,
+           std::uint32_t seed,
+           const Obstacles& obstacles,
+           std::uint32_t i,
+           std::uint32_t turn) {
+    const glm::vec3 place = strewn(seed, obstacles, i, turn);
+    put(food, i, FoodKind::Plankton, place, lowestAt(obstacles, place.x, place.z));
+}
+
+// A wave between -1 and 1 of parabolas, period 1: it stands for a sine.
+inline float wave(float cycles) {
+    const float t = cycles - static_cast<float>(static_cast<std::int32_t>(cycles + 4096.0F) - 4096);
+    const float half = 2 * t - 1;
+    const float hump = 4 * (half < 0 ? half + half * half : half - half * half);
+    return -hump;
+}
+
+// The swell of one tick.
+struct Swell {
+    glm::vec3 centre, perHalf;
+    float time;  // cycles of the longest period
+
+    Swell(const Region& water, Tick tick)
+        : centre(water.centre),
+          perHalf(1 / water.halfExtent.x, 1 / water.halfExtent.y, 1 / water.halfExtent.z),
+          time(static_cast<float>(tick.value % kSwellTicks) / static_cast<float>(kSwellTicks)) {}
+
+    // Whole cycles in the longest period, so that nothing jumps when it begins anew; no way out at
+    // a border, as the flow across it ends there.
+    [[nodiscard]] float alongX(float x, float y, float z) const {
+        return kCurrentMetres * calm(x, centre.x, perHalf.x) *
+               wave(0.11F * z + 0.17F * y + 3 * time);
+    }
+    [[nodiscard]] float alongY(float x, float y, float z) const {
+        return kCurrentUpMetres * calm(y, centre.y, perHalf.y) *
+               wave(0.23F * x + 0.19F * z + 11 * time);
+    }
+    [[nodiscard]] float alongZ(float x, float y, float z) const {
+        return kCurrentMetres * calm(z, centre.z, perHalf.z) *
+               wave(0.13F * x + 0.15F * y + 5 * time);
+    }
+    [[nodiscard]] static float calm(float at, float centre, float perHalf) {
+        const float share = (at - centre) * perHalf;
+        const float left = 1 - share * share;
+        return left > 0 ? left : 0.0F;
+    }
+};
+
+// All plankton, there or not: a loop without branches.
+void drift(Food& food, std::size_t count, const Swell& swell) {
+    float* const x = food.x.data();
+    float* const y = food.y.data();
+    float* const z = food.z.data();
+    for (std::size_t i = 0; i < count; ++i) {
+        const float atX = x[i];
+        const float atY = y[i];
+        const float atZ = z[i];
+        x[i] = atX + kPerTick * swell.alongX(atX, atY, atZ);
+        y[i] = atY + kPerTick * swell.alongY(atX, atY, atZ);
+        z[i] = atZ + kPerTick * swell.alongZ(atX, atY, atZ);
+    }
+}
+
+bool isDue(const Food& food, std::size_t i, std::uint32_t now) {
+    return static_cast<std::int32_t>(now - food.absentUntil[i]) >= 0;
+}
+
+// The sand under it has changed as it drifted, or it is due again.
+void lookAfter(Food& food,
+               std::uint32_t seed,
+               const Obstacles& obstacles,
+               std::uint32_t i,
+               std::uint32_t now) {
+    if (food.isThere(i)) {
+        food.lowest[i] = lowestAt(obstacles, food.x[i], food.z[i]);
+        food.y[i] = std::max(food.y[i], food.lowest[i]);
+        if (food.taken[i] == 0 && !isClear(obstacles, food.position(i)))
+            strew(food, seed, obstacles, i, now);
+    } else if (isDue(food, i, now)) {
+        strew(food, seed, obstacles, i, now);
+    }
+}
+
+void sink(Food& food, std::size_t i, std::uint32_t now) {
+    if (food.taken[i] != 0) return;
+    food.y[i] = std::max(food.y[i] - kSinkMetres, food.lowest[i]);
+    if (!isDue(food, i, now)) return;
+    food.kind[i] = FoodKind::None;
+    --food.pellets;
 }
 
 }  // namespace
 
-Food makeFood(std::uint32_t seed, const Region& water, std::uint32_t plankton) {
+Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plankton) {
     const std::size_t room = plankton + kMostPellets;
     Food food{std::vector<float>(room),
               std::vector<float>(room),
               std::vector<float>(room),
+              std::vector<float>(room),
               std::vector<FoodKind>(room),
               std::vector<std::uint8_t>(room),
-              std::vector<std::uint32_t>(room, 0xffffffffU)};
-    for (std::uint32_t i = 0; i < plankton; ++i)
-        put(food, i, FoodKind::Plankton, strewn(seed, water, i, 0));
+              std::vector<std::uint8_t>(room),
+              std::vector<std::uint32_t>(room)};
+    for (std::uint32_t i = 0; i < plankton; ++i) strew(food, seed, obstacles, i, 0);
     return food;
 }
 
-void driftFood(Food& food, std::uint32_t seed, const Region& water, Tick tick) {
+void driftFood(Food& food, std::uint32_t seed, const Obstacles& obstacles, Tick tick) {
     const std::size_t plankton = food.size() - kMostPellets;
     const auto now = static_cast<std::uint32_t>(tick.value);
-    for (std::uint32_t i = 0; i < plankton; ++i) {
-        if (!food.isThere(i) && now == food.absentUntil[i])
-            put(food, i, FoodKind::Plankton, strewn(seed, water, i, now));
-    }
-    for (std::size_t i = plankton; i < food.size(); ++i) {
-        if (!food.isThere(i)) continue;
-        food.y[i] -= kSinkMetres;
-        if (now == food.absentUntil[i]) food.kind[i] = FoodKind::None;
-    }
+    drift(food, plankton, Swell(reachable(obstacles.water), tick));
+    const std::uint64_t turn = tick.value % kTurns;
+    const auto until = static_cast<std::uint32_t>(plankton * (turn + 1) / kTurns);
+    for (auto i = static_cast<std::uint32_t>(plankton * turn / kTurns); i < until; ++i)
+        lookAfter(food, seed, obstacles, i, now);
+    for (std::size_t i = plankton; i < food.size(); ++i)
+        if (food.isThere(i)) sink(food, i, now);
 }
 
-void dropPellets(
-    Food& food, std::uint32_t seed, glm::vec3 position, std::uint32_t pellets, Tick tick) {
+void dropPellets(Food& food,
+                 std::uint32_t seed,
+                 const Obstacles& obstacles,
+                 glm::vec3 position,
+                 std::uint32_t pellets,
+                 Tick tick) {
     const auto now = static_cast<std::uint32_t>(tick.value);
     for (std::size_t i = food.size() - kMostPellets; i < food.size() && pellets > 0; ++i) {
         if (food.isThere(i)) continue;
         const std::uint32_t hash = hashOf(hashOf(hashOf(seed, Spread), now), pellets--);
         const glm::vec3 aside{
             signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
-        put(food, i, FoodKind::Pellet, position + aside * kSpreadMetres);
-        food.absentUntil[i] = now + kPelletTicks;
+        glm::vec3 place = position + aside * kSpreadMetres;
+        const float sand = floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
+        place.y = std::min(std::max(place.y, sand), 0.0F);
+        put(food, i, FoodKind::Pellet, place, sand);
+        ++food.pellets;
+        food.absentUntil[i] =
+            now + static_cast<std::uint32_t>((place.y - sand) / kSinkMetres) + kLiesTicks;
     }
 }
 
-bool eatFood(Food& food, std::uint32_t particle, Tick tick) {
-    if (particle >= food.size() || !food.isThere(particle)) return false;
+bool takeFood(Food& food, std::uint32_t particle) {
+    if (particle >= food.size() || !food.isFree(particle)) return false;
+    food.taken[particle] = 1;
+    return true;
+}
+
+void removeFood(Food& food, std::uint32_t particle, Tick tick) {
+    if (food.kind[particle] == FoodKind::Pellet) --food.pellets;
     food.kind[particle] = FoodKind::None;
+    food.taken[particle] = 0;
     const auto now = static_cast<std::uint32_t>(tick.value);
     food.absentUntil[particle] =
         now + kShortestAbsence + hashOf(hashOf(particle, Absence), now) % kShortestAbsence;
-    return true;
+}
+
+glm::vec3 currentAt(const Region& water, glm::vec3 position, Tick tick) {
+    const Swell swell(reachable(water), tick);
+    return {swell.alongX(position.x, position.y, position.z),
+            swell.alongY(position.x, position.y, position.z),
+            swell.alongZ(position.x, position.y, position.z)};
 }
 
 }  // namespace aquarama

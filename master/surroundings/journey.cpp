@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "common/place/noise.h"
 
@@ -89,6 +90,48 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
     return {from + (leaving + (square + cube * u) * u) * u,
             (leaving + (square * 2.0F + cube * (3.0F * u)) * u) / seconds,
             mill};
+}
+
+namespace {
+
+constexpr float kHeightOfMill = 0.75F;           // of the water's, at most
+constexpr std::uint64_t kTicksOfMill = 20 * 60;  // up and down once
+constexpr float kRiseMetres = 0.5F;              // above the middle and below it
+// A fish of a dense ball has 0.36 body lengths of room about it; a living one is half as wide again
+// and more, as it is stirred.
+constexpr float kRoomOfMill = 0.36F * 1.6F;
+
+// By Newton's steps: exact arithmetic on every machine.
+float cubeRoot(float x) {
+    float root = std::max(1.0F, x);
+    for (int i = 0; i < 60; ++i) root -= (root - x / (root * root)) / 3;
+    return root;
+}
+
+float ballRadius(std::size_t fish, float lengthMetres) {
+    return kRoomOfMill * lengthMetres * cubeRoot(static_cast<float>(fish));
+}
+
+}  // namespace
+
+float millRadiusMetres(const Region& water, std::size_t fish, float lengthMetres) {
+    const float ball = ballRadius(fish, lengthMetres);
+    const float high = std::min(ball, kHeightOfMill * water.halfExtent.y);
+    return ball * std::sqrt(ball / high);
+}
+
+Goal millGoal(std::uint32_t seed, const Region& water, float radius, Tick tick) {
+    const float u = static_cast<float>(tick.value % kTicksOfMill) / float{kTicksOfMill};
+    // Smoothstep up and down again.
+    const float half = u < 0.5F ? 2 * u : 2 - 2 * u;
+    const float risen = half * half * (3 - 2 * half);
+    const float slope = (u < 0.5F ? 1.0F : -1.0F) * 12 * half * (1 - half);  // a round
+    const float seconds = float{kTicksOfMill} / float{kTicksPerSecond};
+    const float metres = std::min(kRiseMetres, 0.25F * water.halfExtent.y);
+    return {water.centre + glm::vec3{0, (2 * risen - 1) * metres, 0},
+            {0, 2 * slope * metres / seconds, 0},
+            (hashOf(seed) & 1U) != 0 ? 1.0F : -1.0F,
+            std::min(1.0F, kHeightOfMill * water.halfExtent.y / radius)};
 }
 
 }  // namespace aquarama

@@ -28,11 +28,12 @@ Surroundings makeSurroundings(const Scene& scene,
                               std::uint32_t seed,
                               std::size_t fish,
                               float meanLengthMetres) {
-    const Region water = waterFor(scene, fish, meanLengthMetres);
+    const Obstacles obstacles =
+        obstaclesOf({seed, scene.place}, waterFor(scene, fish, meanLengthMetres));
     return {.seed = seed,
-            .obstacles = obstaclesOf(seed, water),
+            .obstacles = obstacles,
             .climate = climateOf(scene),
-            .food = makeFood(seed, water, scene.plankton),
+            .food = makeFood(seed, obstacles, scene.plankton),
             .submarine = {.position = scene.eye},
             .clarityMetres = static_cast<float>(scene.water.clarityMetres),
             .daylight = daylight(scene.day, {})};
@@ -40,7 +41,7 @@ Surroundings makeSurroundings(const Scene& scene,
 
 void advanceSurroundings(Surroundings& surroundings, Tick tick) {
     surroundings.daylight = daylight(surroundings.climate.day, tick);
-    driftFood(surroundings.food, surroundings.seed, surroundings.obstacles.water, tick);
+    driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
 }
 
 }  // namespace aquarama

@@ -11,6 +11,8 @@
 #include "master/behaviour/act/school.h"
 #include "master/behaviour/feel/temperament.h"
 #include "master/behaviour/think.h"
+#include "master/fish/drives.h"
+#include "master/fish/signs.h"
 #include "master/world/beginning.h"
 #include "master/world/nature_of.h"
 
@@ -25,6 +27,16 @@ float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
 }
 
+Mind beginningMind(const Nature& nature,
+                   const std::optional<Start>& start,
+                   std::uint32_t seed,
+                   std::uint32_t fish) {
+    Mind mind = freshMind(nature, seed, fish);
+    if (start)
+        setMood(nature, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
+    return mind;
+}
+
 }  // namespace
 
 World::World(const WorldOptions& options)
@@ -35,19 +47,26 @@ World::World(const WorldOptions& options)
       surroundings_(
           makeSurroundings(options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
       grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
-      goal_(journeyGoal(options.seed, tick_)),
       pool_(options.threads) {
     if (options.cast.size() > kMostKinds)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
                     " species: there is room for " + std::to_string(kMostKinds));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
-    if (!kinds_.empty()) schoolRadius_ = schoolRadiusMetres(kinds_.front().last);
+    if (!kinds_.empty())
+        schoolRadius_ = gathering_ == Gathering::Mill
+                            ? millRadiusMetres(surroundings_.obstacles.water,
+                                               kinds_.front().last,
+                                               meanLengthMetres(options))
+                            : schoolRadiusMetres(kinds_.front().last);
+    goal_ = goal();
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
     minds_.resize(traits_.size());
     courses_.resize(traits_.size());
     memory_.resize(traits_.size());
     view_.resize(traits_.size());
+    meals_ = makeMeals(traits_.size());
+    absences_ = makeAbsences(natures_);
     begin(options);
 }
 
@@ -69,7 +88,7 @@ void World::begin(const WorldOptions& options) {
         startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
         for (std::uint32_t fish = nature.first; fish < nature.last; ++fish) {
             setSpeedBodyLengths(states_, fish, nature.medium);
-            minds_.set(fish, freshMind(nature, seed_, fish));
+            minds_.set(fish, beginningMind(nature, options.cast[nature.kind].start, seed_, fish));
             view_.kind[fish] = nature.kind;
         }
         look(kind, kind.first, kind.last);
@@ -86,17 +105,30 @@ void World::inChunks(const Job& job) {
 
 void World::apply(const WorldInput& input) {
     if (const auto* food = std::get_if<DropFood>(&input))
-        dropPellets(surroundings_.food, seed_, food->position, food->pellets, tick_);
+        dropPellets(surroundings_.food,
+                    seed_,
+                    surroundings_.obstacles,
+                    food->position,
+                    food->pellets,
+                    tick_);
     if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
         surroundings_.submarine.position = moved->position;
         surroundings_.submarine.velocityMetresPerSecond = moved->velocityMetresPerSecond;
     }
 }
 
+Goal World::goal() const {
+    return gathering_ == Gathering::Mill
+               ? millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
+               : journeyGoal(seed_, tick_);
+}
+
 void World::advance() {
-    goal_ = journeyGoal(seed_, tick_);
+    goal_ = goal();
     advanceSurroundings(surroundings_, tick_);
+    receive();
     rebuildGrids();
+    advanceMeals(meals_, view_, surroundings_.food, tick_);
     inChunks([this](Chunk& chunk) { live(chunk); });
     for (const Chunk& chunk : chunks_)
         for (const Deed& deed : chunk.deeds) perform(deed);
@@ -128,6 +160,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
         view_.headingZ[fish] = heading.z;
         view_.length[fish] = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
         view_.speed[fish] = speedBodyLengths(states_, fish) * view_.length[fish];
+        showMood(natures_[view_.kind[fish]], minds_, static_cast<std::uint32_t>(fish), view_);
     }
 }
 
@@ -149,16 +182,12 @@ void World::live(Chunk& chunk) {
     chunk.deeds.clear();
     const Environment around = environment();
     for (std::size_t fish = chunk.first; fish < chunk.last; ++fish)
-        if (thinksAt(tick_, fish))
+        if (thinksAt(tick_, fish) && !view_.shows(fish, kAway))
             think(around, static_cast<std::uint32_t>(fish), minds_, courses_, chunk.deeds);
     const Kind& own = kinds_[chunk.kind];
     SecondaryController{&own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
         .run(chunk.first, chunk.last);
     MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
-}
-
-void World::perform(const Deed& deed) {
-    if (deed.kind == DeedKind::EatParticle) eatFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
@@ -177,6 +206,7 @@ std::uint64_t World::hash() const {
                                &surroundings_.food.y,
                                &surroundings_.food.z})
         hash = folded(hash, *values);
+    hash = folded(hash, courses_.openToChange);
     hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
@@ -194,9 +224,11 @@ std::size_t World::bytes() const {
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
            bytesIn(s.warpFrame, s.warpLength, s.speed) +
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
-           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency) +
+           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency, w.openToChange) +
            bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
-           bytesIn(v.kind, v.signs, v.partner);
+           bytesIn(v.kind, v.signs, v.partner, v.stage) +
+           meals_.swallows.capacity() * sizeof(Meals::Swallow) +
+           absences_.capacity() * sizeof(Absence);
 }
 
 void World::records(std::vector<FishRecord>& records) const {

@@ -2,6 +2,7 @@
 #include "render_node/scene/scene.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <glm/matrix.hpp>
@@ -33,6 +34,15 @@ float detailOf(glm::ivec2 sizePixels) {
     return sizePixels.y < kSmallWindow ? 0.5F : 1.0F;
 }
 
+// The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
+// sun is mirrored away; what is left then comes from above, and is bluer. Never nothing: a wall
+// that is dark is broken. Exactly 1 at noon.
+glm::vec4 daylightOf(float daylight) {
+    const glm::vec4 night{0.02F, 0.16F, 0.24F, 0.36F};
+    const float sun = daylight * daylight;
+    return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
+}
+
 FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
     FrameUniforms uniforms;
     uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
@@ -41,8 +51,17 @@ FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
     uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
     const glm::vec2 size(view.sizePixels);
     uniforms.viewport = glm::vec4(size, 1.0F / size);
+    uniforms.daylight = daylightOf(frame.daylight);
     return uniforms;
 }
+
+// All that stands on the sea floor. In the open sea it lies too deep to be seen.
+struct Bottom {
+    explicit Bottom(std::uint32_t seed) : ground{seed}, reef{seed}, meadow{seed} {}
+    Ground ground;
+    Reef reef;
+    Meadow meadow;
+};
 
 }  // namespace
 
@@ -50,13 +69,11 @@ struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           light{chosen.seed, kFilterDepthMetres},
-          ground{chosen.seed},
-          reef{chosen.seed},
-          meadow{chosen.seed},
           picture{chosen.samples},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
+        if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed);
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         const auto skins = makeSkinPrograms();
@@ -79,12 +96,11 @@ struct SceneRenderer::Parts {
     gl::Buffer frameBlock;
     gl::VertexArray empty;
     SeaLight light;
-    Ground ground;
-    Reef reef;
-    Meadow meadow;
+    std::optional<Bottom> bottom;
     ScenePicture picture;
     std::vector<SchoolSurface> schools;  // one of each species
     std::vector<std::size_t> fishOfSchool;
+    FoodSpecks food;
     gl::ProgramHandle surface, water, snow;
 };
 
@@ -100,9 +116,10 @@ void SceneRenderer::Parts::updateFish(const SceneFrame& frame, const FrameUnifor
 
 // Near things first, so that what they hide is never shaded.
 void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
-    meadow.draw(viewpoint);
-    reef.draw(viewpoint);
-    ground.draw(viewpoint);
+    if (!bottom) return;
+    bottom->meadow.draw(viewpoint);
+    bottom->reef.draw(viewpoint);
+    bottom->ground.draw(viewpoint);
 }
 
 void SceneRenderer::Parts::drawWater() const {
@@ -114,6 +131,7 @@ void SceneRenderer::Parts::drawWater() const {
 }
 
 void SceneRenderer::Parts::drawSnow() const {
+    glBindVertexArray(empty.name());
     glUseProgram(snow.name());
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
@@ -147,6 +165,8 @@ unsigned SceneRenderer::draw(const SceneFrame& frame, const View& view) {
     parts.drawSolids(viewpoint);
     parts.drawWater();
     for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water
+    parts.food.update(frame.food, viewpoint);
+    parts.food.draw();
     parts.drawSnow();
     return parts.picture.finish();
 }

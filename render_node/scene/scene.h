@@ -13,8 +13,10 @@
 
 #include "common/body/fish_body.h"
 #include "common/body/fish_skin.h"
+#include "common/config/scene.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
+#include "render_node/scene/food_specks.h"
 
 namespace aquarama {
 
@@ -32,6 +34,8 @@ struct SceneFrame {
     glm::vec3 eyePositionMetres{};
     glm::quat worldFromWall{1, 0, 0, 0};
     std::span<const PresentedFish> fish;  // of each species in turn, as many as it has
+    std::span<const FoodParticle> food = {};
+    float daylight = 1.0F;  // of the sky: 1 at noon, towards 0 at night
 };
 
 // One species of the cast.
@@ -44,6 +48,7 @@ struct SceneSpecies {
 
 struct SceneOptions {
     std::uint32_t seed = 1;
+    PlaceKind place = PlaceKind::Reef;
     int samples = 0;      // of multisampling, 1 for none; 0: 4 on a GPU, 1 on software GL
     bool culling = true;  // off only to measure what it saves
     bool levelsOfDetail = true;

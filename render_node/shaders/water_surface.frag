@@ -12,7 +12,8 @@ vec3 sky(vec3 direction) {
     float away = dot(direction, sun) - 1.0;
     vec3 blue = mix(vec3(0.060, 0.076, 0.095), vec3(0.030, 0.050, 0.090),
                     smoothstep(0.0, 0.9, direction.y));
-    return blue + vec3(1.0, 0.93, 0.82) * (2.2 * exp(260.0 * away) + 0.16 * exp(14.0 * away));
+    return blue * daylight.yzw +
+           daylight.x * vec3(1.0, 0.93, 0.82) * (2.2 * exp(260.0 * away) + 0.16 * exp(14.0 * away));
 }
 
 void main() {

@@ -5,6 +5,7 @@
 #include "master/behaviour/act/avoid_obstacle.h"
 #include "master/behaviour/act/eat.h"
 #include "master/behaviour/act/escape.h"
+#include "master/behaviour/act/hunt.h"
 #include "master/behaviour/act/leave.h"
 #include "master/behaviour/act/mate.h"
 #include "master/behaviour/act/school.h"
@@ -15,13 +16,14 @@ namespace aquarama {
 Course act(const Situation& situation, Mind& mind, Deeds& deeds) {
     switch (mind.intention) {
         case Intention::AvoidObstacle:
-            return avoidObstacle(situation);
+            return avoidObstacle(situation, mind);
         case Intention::AvoidFish:
-            return avoidFish(situation);
+            return avoidFish(situation, mind);
         case Intention::Escape:
-            return escape(situation);
+            return escape(situation, mind);
         case Intention::Eat:
-            return eat(situation, mind, deeds);
+            return situation.nature.role == Role::Predator ? hunt(situation, mind, deeds)
+                                                           : eat(situation, mind, deeds);
         case Intention::Mate:
             return mate(situation, mind, deeds);
         case Intention::School:

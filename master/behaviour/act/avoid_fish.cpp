@@ -1,15 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/act/avoid_fish.h"
 
+#include <algorithm>
+
 #include "common/place/angle.h"
+#include "master/behaviour/act/company.h"
 #include "master/behaviour/act/pursue.h"
 
 namespace aquarama {
 
-Course avoidFish(const Situation& situation) {
+namespace {
+
+constexpr float kLookAheadSeconds = 2.0F;
+constexpr float kAhead = 0.7F;             // cosine of 45 degrees: the threat is before the fish
+constexpr float kSameWay = 0.5F;           // cosine of 60 degrees between two courses
+constexpr float kTurnAway = 1.6F;          // against the unit vector of the own course
+constexpr float kBrake = 0.25F;            // of slow, behind a tail
+constexpr float kSureMissLengths = 0.05F;  // a smaller miss says nothing of a side
+
+glm::vec3 rightOf(glm::vec3 heading) {
+    return directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
+}
+
+// From the fish to where the other will be when they are nearest.
+glm::vec3 missOf(glm::vec3 offset, glm::vec3 approach) {
+    const float squared = dot(approach, approach);
+    if (squared < 1.0e-6F) return offset;
+    const float soonest = -dot(offset, approach) / squared;
+    return offset + approach * std::clamp(soonest, 0.0F, kLookAheadSeconds);
+}
+
+// Away from where the other passes. Of two that would meet nose to nose each turns to its right.
+glm::vec3 asideFrom(glm::vec3 miss, glm::vec3 heading, float length) {
+    const glm::vec3 across = miss - heading * dot(miss, heading);
+    if (lengthOf(across) < kSureMissLengths * length) return rightOf(heading);
+    return -directionOf(across, rightOf(heading));
+}
+
+}  // namespace
+
+Course avoidFish(const Situation& situation, const Mind& mind) {
+    const FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
-    const glm::vec3 away = directionOf(-senses.collision.offset, {0, 1, 0});
-    return heading(situation, senses.heading + away, situation.nature.slow);
+    const Sighting& threat = senses.collision;
+    if (!threat.seen()) return heading(situation, senses.heading, situation.nature.slow);
+    const glm::vec3 theirs = view.heading(threat.object) * view.speed[threat.object];
+    const glm::vec3 miss = missOf(threat.offset, theirs - senses.heading * senses.speed);
+    glm::vec3 wish = senses.heading + asideFrom(miss, senses.heading, senses.length) * kTurnAway;
+    const bool ahead = dot(directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
+    const bool sameWay = dot(view.heading(threat.object), senses.heading) > kSameWay;
+    float speed = situation.nature.slow;
+    if (ahead && sameWay)
+        speed = std::min(speed, view.speed[threat.object] / senses.length) * (1 - kBrake);
+    else if (!ahead)
+        speed = std::max(speed, senses.speed / senses.length);
+    const bool schooling = (mind.likes & kLikesSchooling) != 0;
+    if (schooling && situation.nature.role == Role::Prey) {
+        const Company company = companyOf(view, senses, situation.fish, kSpacing);
+        wish += pullOf(company);
+        if (company.speed > 0) speed = std::max(speed, company.speed - company.brake);
+    } else {
+        wish += roomFrom(view, senses, situation.fish);
+    }
+    return heading(situation, wish, speed);
 }
 
 }  // namespace aquarama

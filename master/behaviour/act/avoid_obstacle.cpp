@@ -1,12 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/act/avoid_obstacle.h"
 
+#include <cmath>
+
+#include "common/place/angle.h"
+#include "master/behaviour/act/company.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/school.h"
 
 namespace aquarama {
 
-Course avoidObstacle(const Situation& situation) {
-    return heading(situation, situation.senses.heading, situation.nature.medium);
+namespace {
+
+// A push within 12 degrees of straight back says nothing of a side.
+constexpr float kHeadOn = 0.2F;
+
+// Of a side that the push leaves open: towards the middle of the water.
+float openSide(const Situation& situation, glm::vec3 right) {
+    const glm::vec3 middle = situation.environment.surroundings->obstacles.water.centre;
+    return dot(middle - situation.senses.position, right) < 0 ? -1.0F : 1.0F;
+}
+
+}  // namespace
+
+glm::vec3 wayRound(const Situation& situation) {
+    const Senses& senses = situation.senses;
+    const float back = -dot(senses.push, senses.heading);
+    const glm::vec3 right = directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
+    const float aside = dot(senses.push, right);
+    const float up = senses.push.y + back * senses.heading.y;
+    if (back <= 0 || aside * aside + up * up > kHeadOn * kHeadOn * back * back) return senses.push;
+    const bool even = std::abs(aside) < 0.05F * back;
+    const float side = even ? openSide(situation, right) : (aside < 0 ? -1.0F : 1.0F);
+    return senses.push + right * (side * back);
+}
+
+Course avoidObstacle(const Situation& situation, const Mind& mind) {
+    if ((mind.likes & kLikesSchooling) != 0 && situation.nature.role == Role::Prey)
+        return school(situation);
+    const glm::vec3 room = roomFrom(*situation.environment.view, situation.senses, situation.fish);
+    return heading(situation, situation.senses.heading + room, situation.nature.slow);
 }
 
 }  // namespace aquarama

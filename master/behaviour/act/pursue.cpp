@@ -1,17 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/act/pursue.h"
 
+#include <algorithm>
+
 #include "common/place/angle.h"
+#include "master/behaviour/act/avoid_obstacle.h"
 
 namespace aquarama {
 
-Course pursue(const Situation& situation, glm::vec3 towards, float speed) {
-    return heading(situation, directionOf(towards, situation.senses.heading), speed);
+namespace {
+
+// Distances in body lengths. A biomechanical fish can still correct its way within the first; this
+// motor, which plays turns to their end, begins from the second (paper, section 5.2).
+constexpr float kCarefulWithin = 2.5F;
+constexpr float kEarlierWithin = 5.0F;
+constexpr float kGeneralCosine = 0.94F;  // 20 degrees: near enough a direction from far off
+constexpr float kTurnsWithin = 1.5F;     // a nearer target abeam would only be circled
+constexpr float kAbeamCosine = 0.5F;
+constexpr float kTurningPace = 0.6F;  // of slow, while turning towards it
+constexpr float kCarefulPace = 0.8F;  // of slow, at the target
+constexpr float kMostLeadSeconds = 1.5F;
+
+// Where the target will be when the fish can be there.
+glm::vec3 lead(const Situation& situation, glm::vec3 towards, float speed, glm::vec3 velocity) {
+    const float metresPerSecond = std::max(0.05F, speed * situation.senses.length);
+    return towards + velocity * std::min(kMostLeadSeconds, lengthOf(towards) / metresPerSecond);
+}
+
+}  // namespace
+
+Course pursue(const Situation& situation, glm::vec3 towards, float speed, glm::vec3 velocity) {
+    const Senses& senses = situation.senses;
+    const float slow = situation.nature.slow;
+    const glm::vec3 to = lead(situation, towards, speed, velocity);
+    const glm::vec3 direction = directionOf(to, senses.heading);
+    const float lengths = lengthOf(to) / senses.length;
+    const float along = dot(direction, senses.heading);
+    const float careful =
+        situation.environment.adaptation.earlierPursuit ? kEarlierWithin : kCarefulWithin;
+    if (lengths >= careful)
+        return heading(situation, along > kGeneralCosine ? senses.heading : direction, speed);
+    if (lengths < kTurnsWithin && along < kAbeamCosine)
+        return heading(situation, direction, kTurningPace * slow);
+    const float least = std::min(speed, kCarefulPace * slow);
+    // A target that swims off must be swum after.
+    const float chase = std::max(0.0F, dot(velocity, direction)) / senses.length;
+    const float pace = least + (speed - least) * lengths / careful;
+    return heading(situation, direction, std::min(speed, pace + chase));
 }
 
 Course heading(const Situation& situation, glm::vec3 wish, float speed) {
     const Senses& senses = situation.senses;
-    const glm::vec3 direction = levelled(directionOf(wish + senses.push, senses.heading));
+    const glm::vec3 direction = levelled(directionOf(wish + wayRound(situation), senses.heading));
     return {direction, speed, senses.urgency};
 }
 

@@ -5,95 +5,33 @@
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
+#include "master/behaviour/act/avoid_obstacle.h"
+#include "master/behaviour/act/company.h"
+#include "master/behaviour/act/flight.h"
 
 namespace aquarama {
 
 namespace {
 
-// Distances in body lengths. Huth & Wissel 1992 have zones (repulse 0.5, align 2, attract 5); here
-// the zones fade into one another, so that the school settles at its spacing instead of dithering
-// at a border.
-constexpr float kSpacing = 0.9F;
-constexpr float kAbreastToFile = 0.6F;  // room abreast for room in file
-constexpr float kAsideShare = 0.25F;    // of a push in file that is along it: the rest is sideways
-constexpr float kAlignFully = 2.0F;
-constexpr float kAttractFully = 5.0F;
-
 constexpr float kKeepCourse = 0.8F;  // weights against the unit vector of one's own course
-constexpr float kSeparate = 2.2F;
-constexpr float kMostSeparation = 0.9F;
-constexpr float kAlign = 0.9F;
-constexpr float kCohere = 1.2F;
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
+constexpr float kGiveWayToHunter = 0.8F;
 
 constexpr float kSlowest = 0.85F;  // body lengths a second
 constexpr float kFastest = 2.9F;
 constexpr float kMillPace = 1.9F;
+constexpr float kBaitBallPace = 2.1F;
+constexpr float kAlarmedPace = 0.5F;  // more than at ease
 
-struct Company {
-    glm::vec3 separation{}, alignment{}, cohesion{};
-    float speed = 0;  // mean of theirs, body lengths a second
-    float hurry = 0;  // to close up, body lengths a second
-    float brake = 0;  // for those just ahead, body lengths a second
-};
+constexpr std::uint32_t kLevels = 341;  // stream of the seed
+constexpr float kKeepLevel = 1.0F;      // against the way round the ball
 
-struct Neighbour {
-    glm::vec3 offset;  // in lengths: of the fish itself, or of a larger one that it meets
-    glm::vec3 towards;
-    float distance;
-};
-
-Neighbour neighbourOf(const FishView& view, const Senses& senses, std::uint32_t other, float per) {
-    const glm::vec3 offset = (view.position(other) - senses.position) * per;
-    return {offset, directionOf(offset, {0, 1, 0}), lengthOf(offset)};
-}
-
-// Fish are long: in file they need more room than abreast; there the one behind brakes and moves
-// aside.
-void giveWay(Company& company, const Neighbour& neighbour, glm::vec3 heading) {
-    const float ahead = dot(neighbour.offset, heading);
-    const glm::vec3 aside = neighbour.offset - heading * ahead;
-    const float room = lengthOf(aside + heading * (ahead * kAbreastToFile));
-    const float tooNear = std::max(0.0F, 1 - room / kSpacing);
-    const float repulsion = tooNear * (1 + 2 * tooNear * tooNear);
-    company.separation -=
-        directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
-    company.brake += repulsion * std::max(0.0F, dot(neighbour.towards, heading));
-}
-
-// Of the same species one keeps with; to others one only gives way.
-Company companyOf(const FishView& view, const Senses& senses, std::uint32_t fish) {
-    Company company;
-    const float perLength = 1 / view.length[fish];
-    for (std::size_t i = 0; i < senses.others.count; ++i) {
-        // Of a larger fish one stays clear by its length.
-        const std::uint32_t other = senses.others.fish[i];
-        const float per = std::min(perLength, 1 / view.length[other]);
-        giveWay(company, neighbourOf(view, senses, other, per), senses.heading);
-    }
-    for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
-        const std::uint32_t other = senses.schoolmates.fish[i];
-        const Neighbour mate = neighbourOf(view, senses, other, perLength);
-        giveWay(company, mate, senses.heading);
-        const float tooFar =
-            std::clamp((mate.distance - kSpacing) / (kAttractFully - kSpacing), 0.0F, 1.0F);
-        const float inStep =
-            std::clamp((kAttractFully - mate.distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
-        company.cohesion += mate.towards * tooFar;
-        company.alignment += view.heading(other) * inStep;
-        company.speed += view.speed[other] * perLength;
-    }
-    // Parting by more than a slant would bring the tails together.
-    const float parting = lengthOf(company.separation) * kSeparate;
-    if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
-    if (senses.schoolmates.count == 0) return company;
-    const float share = 1 / static_cast<float>(senses.schoolmates.count);
-    company.alignment *= share;
-    company.cohesion *= share;
-    company.hurry = dot(company.cohesion, senses.heading);
-    company.speed *= share;
-    return company;
+// How far from the goal, in the shape of the school: a ball, flatter where the water is shallow.
+glm::vec3 fromGoal(const Goal& goal, glm::vec3 position) {
+    glm::vec3 towards = goal.position - position;
+    towards.y /= goal.flatness;
+    return towards;
 }
 
 // Where the school as a whole goes: along with the goal, and towards it from outside the school.
@@ -108,11 +46,27 @@ glm::vec3 circled(const Goal& goal, glm::vec3 towards, float pull) {
     return directionOf(around, {1, 0, 0}) * 1.6F + directionOf(towards, {}) * (pull + 0.3F);
 }
 
-glm::vec3 commonWay(const Goal& goal, glm::vec3 position, float schoolRadiusMetres) {
-    const glm::vec3 towards = goal.position - position;
-    const float outside = lengthOf(towards) - schoolRadiusMetres;
-    const float pull = std::clamp(outside / schoolRadiusMetres, 0.0F, 1.5F);
+// Of a bait ball every fish keeps a level of its own, more of them near the middle; else all would
+// mill in one flat ring.
+float levelOf(const Environment& environment, std::uint32_t fish) {
+    const std::uint32_t own = hashOf(hashOf(environment.seed, kLevels), fish);
+    return unitOf(own) + unitOf(hashOf(own)) - 1;
+}
+
+glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 towards) {
+    const float high = environment.schoolRadiusMetres;
+    const float climb = towards.y + levelOf(environment, fish) * high;
+    return {0, std::clamp(climb / (0.3F * high), -1.0F, 1.0F) * kKeepLevel, 0};
+}
+
+glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec3 position) {
+    const Goal& goal = environment.goal;
+    const glm::vec3 towards = fromGoal(goal, position);
+    const float outside = lengthOf(towards) - environment.schoolRadiusMetres;
+    const float pull = std::clamp(outside / environment.schoolRadiusMetres, 0.0F, 1.5F);
     const glm::vec3 follow = followed(goal, towards, pull);
+    if (environment.gathering == Gathering::Mill)
+        return circled(goal, towards, pull) + toLevel(environment, fish, towards);
     if (goal.mill == 0) return follow;
     return follow + (circled(goal, towards, pull) - follow) * std::abs(goal.mill);
 }
@@ -128,11 +82,30 @@ glm::vec3 whim(std::uint32_t seed, std::size_t fish, Tick tick) {
 
 // The pace of the goal and of those about, quicker where the school is ahead and slower behind
 // others' tails.
-float wantedSpeed(const Goal& goal, const Company& company, float behind, float perLength) {
-    const float goalPace = lengthOf(goal.velocityMetresPerSecond) * perLength + 0.12F * behind;
-    const float own = goalPace + (kMillPace - goalPace) * std::abs(goal.mill);
+float wantedSpeed(const Situation& situation, const Company& company, float alarm) {
+    const Goal& goal = situation.environment.goal;
+    const Senses& senses = situation.senses;
+    float own = situation.nature.medium;
+    if (situation.environment.gathering != Gathering::None) {
+        const float perLength = 1 / senses.length;
+        const float behind = dot(goal.position - senses.position, senses.heading) * perLength;
+        const float goalPace = lengthOf(goal.velocityMetresPerSecond) * perLength + 0.12F * behind;
+        const bool ball = situation.environment.gathering == Gathering::Mill;
+        const float round = ball ? kBaitBallPace : kMillPace;
+        own = goalPace + (round - goalPace) * std::abs(goal.mill);
+    }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
-    return std::clamp(pace + company.hurry - company.brake, kSlowest, kFastest);
+    return std::clamp(
+        pace + company.hurry - company.brake + kAlarmedPace * alarm, kSlowest, kFastest);
+}
+
+// Schoolmates give way to a predator before it comes so near that each flees for itself.
+glm::vec3 clearing(const Situation& situation) {
+    const Nature& nature = situation.nature;
+    const float fear = situation.feelings.greatestFear - nature.fearFrom;
+    if (fear <= 0) return {};
+    const float share = std::min(1.0F, fear / std::max(nature.fearAlone - nature.fearFrom, 0.01F));
+    return flightFrom(situation) * (kGiveWayToHunter * share);
 }
 
 }  // namespace
@@ -146,23 +119,21 @@ float schoolRadiusMetres(std::size_t fish) {
 
 Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
-    const FishView& view = *environment.view;
     const Senses& senses = situation.senses;
-    const std::uint32_t fish = situation.fish;
-    const Company company = companyOf(view, senses, fish);
+    const float alarm =
+        std::min(1.0F, situation.feelings.fear / std::max(situation.nature.fearFrom, 0.01F));
+    const Company company = companyOf(
+        *environment.view, senses, situation.fish, kSpacing + (kAlarmedSpacing - kSpacing) * alarm);
     // What must be avoided comes before where one would like to go.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     glm::vec3 way{};
     if (environment.gathering != Gathering::None)
-        way = commonWay(environment.goal, senses.position, environment.schoolRadiusMetres);
-    const glm::vec3 wish = senses.heading * kKeepCourse + company.separation * kSeparate +
-                           company.alignment * kAlign + company.cohesion * kCohere + way * follow +
-                           whim(environment.seed, fish, environment.tick) * kWander + senses.push;
-    const float perLength = 1 / senses.length;
-    const float behind =
-        dot(environment.goal.position - senses.position, senses.heading) * perLength;
+        way = commonWay(environment, situation.fish, senses.position);
+    const glm::vec3 wish = senses.heading * kKeepCourse + pullOf(company) + way * follow +
+                           whim(environment.seed, situation.fish, environment.tick) * kWander +
+                           clearing(situation) + wayRound(situation);
     return {levelled(directionOf(wish, senses.heading)),
-            wantedSpeed(environment.goal, company, behind, perLength),
+            wantedSpeed(situation, company, alarm),
             senses.urgency};
 }
 

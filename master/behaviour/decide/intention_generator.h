@@ -3,6 +3,10 @@
 // what was interrupted, then hunger and libido by strength, then habits.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include "master/behaviour/feel/mental_state.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
@@ -13,6 +17,7 @@ namespace aquarama {
 struct Decision {
     Intention intention = Intention::Wander;
     std::uint32_t target = kNobody;
+    Alarm alarm = Alarm::Calm;
 };
 
 [[nodiscard]] Decision decide(const Nature& nature,
@@ -22,5 +27,53 @@ struct Decision {
 
 // The mind with the decision taken: what it interrupts is remembered, what it resumes forgotten.
 void remember(Mind& mind, const Decision& decision);
+
+// The ladder that decide() climbs down: the first rung that wins is the decision.
+enum class Rung : std::uint8_t {
+    Obstacle,   // AvoidObstacle
+    OtherFish,  // AvoidFish
+    Fear,       // School or Escape
+    Memory,     // what was interrupted
+    Hunger,     // Eat
+    Libido,     // Mate
+    Climate,    // Leave
+    Company,    // School
+    Ease,       // Wander: always wins
+};
+inline constexpr std::size_t kRungs = 9;
+
+// What became of a rung.
+enum class Verdict : std::uint8_t {
+    Wins,
+    Outranked,      // would have won, but a rung above it did
+    AgainstNature,  // its role or habits do not allow it
+    TooWeak,        // value is not above threshold
+    NoTarget,       // wanted, but nothing of the kind is in view (Climate: nowhere is better)
+    Nothing,        // Memory: nothing was interrupted
+    TooOld,         // Memory: interrupted for longer than threshold; forgotten
+    Resting,        // Hunger of a predator: the last chase is not long enough ago
+    Yields,         // the other of hunger and libido is stronger
+};
+
+struct Weighed {
+    Intention intention = Intention::Wander;  // that the rung stands for
+    std::uint32_t target = kNobody;
+    Verdict verdict = Verdict::Wins;
+    // Obstacle: urgency. OtherFish: share of the other's body in the box. Fear, Hunger, Libido: the
+    // feeling. Memory: seconds since. Climate: Senses::discomfort.
+    float value = 0;
+    float threshold = 0;
+};
+
+// How a mind came to its decision: rung by rung, by the same functions that decide() climbs down.
+struct Reasoning {
+    std::array<Weighed, kRungs> rungs;  // by Rung
+    Decision decision;
+    Rung winner = Rung::Ease;
+};
+[[nodiscard]] Reasoning reason(const Nature& nature,
+                               const Mind& mind,
+                               const Senses& senses,
+                               const Feelings& feelings);
 
 }  // namespace aquarama

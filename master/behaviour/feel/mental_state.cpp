@@ -3,25 +3,35 @@
 
 #include <algorithm>
 
-#include "common/units/ids.h"
+#include "master/behaviour/perceive/stimulus.h"
+#include "master/fish/drives.h"
 
 namespace aquarama {
 
 namespace {
 
-float seconds(std::uint32_t ticks) {
-    return static_cast<float>(ticks) / static_cast<float>(kTicksPerSecond);
+// No stimulus tempts those who never mate.
+float libidoOf(const Nature& nature, const Mind& mind, const Senses& senses, float hunger) {
+    if (!mates(nature)) return 0;
+    const float stimulus = stimulusOf(kMateStimulus, senses.mate.distance / senses.length);
+    return std::min(1.0F, innerLibido(nature, mind, hunger) + kLibidoStimulus * stimulus);
+}
+
+// A predator is not tempted: it hunts when it is hungry.
+float hungerOf(const Nature& nature, const Mind& mind, const Senses& senses) {
+    if (isGorged(nature, mind)) return 0;
+    const float inner = innerHunger(nature, mind);
+    if (nature.role == Role::Predator) return inner;
+    const float stimulus = stimulusOf(kFoodStimulus, senses.food.distance / senses.length);
+    return std::min(1.0F, inner + kHungerStimulus * stimulus);
 }
 
 }  // namespace
 
 Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses) {
     Feelings feelings;
-    const float left = std::max(0.0F, 1 - nature.digestion * seconds(mind.sinceMeal));
-    feelings.hunger =
-        std::clamp(1 - static_cast<float>(mind.eaten) * left / nature.appetite, 0.0F, 1.0F);
-    feelings.libido =
-        std::clamp(nature.libido * seconds(mind.sinceSpawning) * (1 - feelings.hunger), 0.0F, 1.0F);
+    feelings.hunger = hungerOf(nature, mind, senses);
+    feelings.libido = libidoOf(nature, mind, senses, feelings.hunger);
     for (std::size_t i = 0; i < senses.predatorCount; ++i) {
         const float fear = std::min(nature.fearMetres / senses.predators[i].distance, 1.0F);
         feelings.fear = std::min(1.0F, feelings.fear + fear);

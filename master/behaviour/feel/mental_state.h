@@ -14,6 +14,8 @@ struct Feelings {
     float greatestFear = 0;  // of the most dangerous one
 };
 
+// Hunger H = 1 - n_e R / alpha + a_h S_h, libido L = s (1 - H) + a_l S_l, fear F = sum of
+// min(D0 / d, 1) over the predators in sight.
 [[nodiscard]] Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses);
 
 }  // namespace aquarama

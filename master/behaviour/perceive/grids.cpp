@@ -96,7 +96,7 @@ void Grids::rebuildSparse(std::size_t which, const Points& fishPoints, const Foo
     std::vector<std::uint32_t>& there = chosen_[kFood];
     there.clear();
     for (std::uint32_t i = 0; i < particles.size(); ++i)
-        if (particles.isThere(i)) there.push_back(i);
+        if (particles.isFree(i)) there.push_back(i);
     food.rebuild({particles.x, particles.y, particles.z}, there);
 }
 

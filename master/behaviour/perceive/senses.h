@@ -46,6 +46,10 @@ struct Senses {
     float urgency = 0;
     float light = 1;  // 0 to 1, where it is
     float celsius = 26;
+    // How far light or warmth are outside what its habits like, in the whole light or in ten
+    // degrees; below 0 it is at ease by so much.
+    float discomfort = -1;
+    float betterUp = 0;  // where its habits are better met: 1 up, -1 down, 0 nowhere in its water
 };
 
 }  // namespace aquarama

@@ -23,7 +23,7 @@ constexpr const char* kCaptureVersion = "aquarama capture 4\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
 
 fs::path cachedPath(const Species& species, const std::string& text, const fs::path& folder) {
-    const std::string key = toHex(digestOf(kCaptureVersion + text));
+    const std::string key = toHex(digestOf(kCaptureVersion + motionText(text, species.name)));
     return folder / (species.name + "-" + key + ".aqrep");
 }
 

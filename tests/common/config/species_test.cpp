@@ -130,14 +130,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "base { s: 0.268 y: -0.036 }",
                 "ends where it begins: spread it"},
         Mistake{"sizesExchanged", "least_m: 0.20", "least_m: 0.25", "least_m is more than mean_m"},
-        Mistake{"zonesExchanged",
-                "align_bl: 2",
-                "align_bl: 0.2",
-                "align_bl must be more than repel_bl"},
-        Mistake{"depthsExchanged",
-                "best_depth_m: 9",
-                "best_depth_m: 1",
-                "best_depth_m is less than least_depth_m"},
         Mistake{"aColourBeyondWhite", "blue: 0.79", "blue: 1.79", "blue is 1.79: it must be"},
         Mistake{"aNameThatIsNoFileName", "\"bigeye_scad\"", "\"../scad\"", "rename it"}),
     [](const auto& mistake) { return std::string(mistake.param.name); });
@@ -152,15 +144,10 @@ TEST(Species, theOnlyDorsalFinMayNotReachTheTail) {
     EXPECT_THAT(refusalOf(text), HasSubstr("first_dorsal ends behind the last profile station"));
 }
 
-TEST(Species, thatSchoolsNeedNotAndKeepsItsControlPointsOnlyIfItSaysSo) {
-    EXPECT_TRUE(parseSpecies(scadText(), "fish.txtpb").school.has_value());
+TEST(Species, keepsItsControlPointsOnlyIfItSaysSo) {
     EXPECT_TRUE(parseSpecies(scadText(), "fish.txtpb").recordsControlPoints);
-    std::string text = edited("recorded_control_points: true", "");
-    const std::size_t from = text.find("school {");
-    text.erase(from, text.find('}', from) + 1 - from);
-    const Species loner = parseSpecies(text, "fish.txtpb");
-    EXPECT_FALSE(loner.school.has_value());
-    EXPECT_FALSE(loner.recordsControlPoints);
+    const std::string text = edited("recorded_control_points: true", "");
+    EXPECT_FALSE(parseSpecies(text, "fish.txtpb").recordsControlPoints);
 }
 
 TEST(Species, allOfTheCastAreReadUnderTheirFilesNames) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/conductor/ticker.h"
 
+#include <algorithm>
 #include <atomic>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +76,61 @@ TEST(Ticker, aPausePutsOffAllThatIsDue) {
     const Instant resumed = monotonicNow();
     ticker.togglePause();
     EXPECT_GE(next(ticker).due, resumed);
+}
+
+// A job that notes the tick at which it was called.
+void askAndExpectAnAnswer(Ticker& ticker) {
+    std::atomic<bool> answered = false;
+    ASSERT_TRUE(ticker.betweenTicks([&](Simulation& world) {
+        EXPECT_EQ(world.hash(), CountingWorld::hashAt(world.tick()));
+        answered = true;
+    }));
+    while (!answered) std::this_thread::yield();  // the suite's budget would stop it
+}
+
+TEST(Ticker, doesJobsWhileItRunsWhileItIsPausedAndWhileNobodyTakesItsTicks) {
+    CountingWorld world;
+    Ticker live(world, Pace::Live, {}, [] {});
+    askAndExpectAnAnswer(live);
+    live.togglePause();
+    askAndExpectAnAnswer(live);
+
+    CountingWorld other;
+    Ticker lockstep(other, Pace::Lockstep, {}, [] {});
+    while (other.tick().value < Timeline::kKept / 2) std::this_thread::yield();
+    askAndExpectAnAnswer(lockstep);
+}
+
+TEST(Ticker, doesJobsAfterTheLastTick) {
+    CountingWorld world;
+    Ticker ticker(world, Pace::Lockstep, Tick{0}, [] {});
+    next(ticker);
+    askAndExpectAnAnswer(ticker);
+    EXPECT_EQ(world.tick(), Tick{0});
+}
+
+// Jobs run one after the other with the world, so they need no lock of their own.
+TEST(Ticker, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
+    CountingWorld world;
+    std::atomic<bool> holding = false, held = true;
+    std::atomic<int> done = 0;
+    std::vector<int> order;
+    Ticker ticker(world, Pace::Live, {}, [] {});
+    ASSERT_TRUE(ticker.betweenTicks([&](Simulation&) {
+        holding = true;
+        while (held) std::this_thread::yield();
+    }));
+    while (!holding) std::this_thread::yield();
+    int accepted = 0;
+    while (ticker.betweenTicks([&, job = accepted](Simulation&) {
+        order.push_back(job);
+        ++done;
+    }))
+        ++accepted;
+    EXPECT_GE(accepted, 16);
+    held = false;
+    while (done < accepted) std::this_thread::yield();
+    EXPECT_TRUE(std::ranges::is_sorted(order));
 }
 
 TEST(Ticker, endsWhileItWaits) {

@@ -37,6 +37,7 @@ struct Mind {
         courses.directionZ[0] = -std::sin(angle);
         courses.speed[0] = speed;
         courses.urgency[0] = urgency;
+        courses.openToChange[0] = 1;
     }
     // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
     Action think() {
@@ -204,9 +205,42 @@ TEST(SecondaryController, oneWhoSwamOnePatternForLongChangesItForAWhile) {
 TEST(SecondaryController, theIntentionMayRefuseARecommendation) {
     Mind mind;
     for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {
-        mind.want(0, 2.0F, 0.5F);  // a little too near to something
+        mind.want(0, 2.0F);
+        mind.courses.openToChange[0] = 0;
         EXPECT_EQ(mind.think(), Action::ForwardMedium);
     }
+}
+
+TEST(SecondaryController, theIntentionMayWithdrawItsConsent) {
+    Mind mind;
+    int withdrawn = 0;
+    for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {
+        mind.want(0, 2.0F);
+        const Action action = mind.think();
+        if (!isForward(action) || action == Action::ForwardMedium) continue;
+        mind.courses.openToChange[0] = 0;
+        EXPECT_EQ(mind.think(), Action::ForwardMedium);
+        ++withdrawn;
+    }
+    EXPECT_GT(withdrawn, 0);
+}
+
+TEST(SecondaryController, aFishThatWantsToBeWhereItIsGlidesAndBrakes) {
+    Mind mind;
+    mind.want(50, 0.1F);
+    setSpeedBodyLengths(mind.states, 0, 1.0F);
+    EXPECT_EQ(mind.think(), Action::Glide);
+    EXPECT_EQ(mind.commands.brake[0], 255);
+    EXPECT_GT(mind.commands.yawRate[0], 0) << "it turns about its fins";
+    setSpeedBodyLengths(mind.states, 0, 0.05F);
+    EXPECT_EQ(mind.think(), Action::Glide);
+    EXPECT_EQ(mind.commands.brake[0], 0);
+}
+
+TEST(SecondaryController, oneThatHoversTurnsAwayFromDanger) {
+    Mind mind;
+    mind.want(50, 0.0F, 1.5F);
+    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
 }
 
 TEST(SecondaryController, temposDifferByTenPercentAtMost) {

@@ -46,7 +46,9 @@ TEST(Cast, isOneWorldOnAnyNumberOfThreads) {
 }
 
 TEST(Cast, thoseWhoKeepToThemselvesStayInTheWaterAndGoAbout) {
-    World world(reef(1));
+    WorldOptions options = reef(1);
+    options.scene.plankton = 0;  // no food keeps them anywhere
+    World world(options);
     const Region water = schoolRegion();
     for (std::size_t fish = kSchool; fish < 60; ++fish) EXPECT_GT(world.view().speed[fish], 0);
     std::vector<float> west(60, 100.0F);
@@ -69,7 +71,9 @@ TEST(Cast, thoseWhoKeepToThemselvesStayInTheWaterAndGoAbout) {
 
 // Whatever else swims about, the school keeps its shape: its members stay with it.
 TEST(Cast, theSchoolFollowsNobodyElse) {
-    World world(reef(1));
+    WorldOptions options = reef(1);
+    options.scene.plankton = 0;  // nor is there food to leave it for
+    World world(options);
     std::vector<float> distances;
     for (int i = 0; i < 3 * 60 * 60; ++i) {
         world.advance();

@@ -47,7 +47,7 @@ inline std::shared_ptr<const MotorTables> syntheticTables() {
     return tables;
 }
 
-inline World syntheticWorld(std::uint32_t seed, std::uint32_t fish, unsigned threads = 1) {
+inline WorldOptions optionsOfSchool(std::uint32_t seed, std::uint32_t fish, unsigned threads = 1) {
     WorldOptions options;
     options.seed = seed;
     options.threads = threads;
@@ -55,7 +55,11 @@ inline World syntheticWorld(std::uint32_t seed, std::uint32_t fish, unsigned thr
     school.name = "synthetic scad";
     school.habits.shares.schooling = 1;
     options.cast = {school};
-    return World(options);
+    return options;
+}
+
+inline World syntheticWorld(std::uint32_t seed, std::uint32_t fish, unsigned threads = 1) {
+    return World(optionsOfSchool(seed, fish, threads));
 }
 
 }  // namespace aquarama

@@ -55,9 +55,16 @@ struct Diary {
     std::vector<std::set<int>> actions = std::vector<std::set<int>>(kFish);
 };
 
+// In water where there is nothing to leave the school for.
+World fedSchool(std::uint32_t seed) {
+    WorldOptions options = optionsOfSchool(seed, kFish);
+    options.scene.plankton = 0;
+    return World(options);
+}
+
 class Watch {
   public:
-    explicit Watch(std::uint32_t seed) : seed_(seed), world_(syntheticWorld(seed, kFish)) {
+    explicit Watch(std::uint32_t seed) : seed_(seed), world_(fedSchool(seed)) {
         for (int tick = 0; tick < kTicks; ++tick) {
             world_.advance();
             note(tick % kTicksBetweenGlances == 0);
@@ -87,7 +94,7 @@ class Watch {
     void notePlace(glm::vec3 position) {
         const Region water = schoolRegion();
         const glm::vec3 out = glm::abs(position - water.centre) - water.halfExtent;
-        const float floor = floorHeight(seed_, {position.x, position.z});
+        const float floor = floorHeight({seed_}, {position.x, position.z});
         const glm::vec3 fromEye = position - kEyePosition;
         diary_.farthestOutOfWater = std::max({diary_.farthestOutOfWater, out.x, out.y, out.z});
         diary_.nearestToSand = std::min(diary_.nearestToSand, position.y - floor);

@@ -49,9 +49,17 @@ TEST_F(RepertoireCache, capturesOnceAndKeepsOneFile) {
     EXPECT_EQ(bytes_, first);
     EXPECT_EQ(files().size(), 1U);
 
-    text_ += "# another word\n";
-    EXPECT_TRUE(fetch()) << "a changed species is captured anew";
+    const auto change = [this](const std::string& from, const std::string& to) {
+        text_.replace(text_.find(from), from.size(), to);
+    };
+    change("fin_drag: 1 ", "fin_drag: 1.1 ");
+    EXPECT_TRUE(fetch()) << "an animal that swims otherwise is captured anew";
     EXPECT_EQ(files().size(), 2U);
+
+    text_ += "# another word\n";
+    change("appetite_particles: 4", "appetite_particles: 5");
+    change("blue: 0.79", "blue: 0.78");
+    EXPECT_FALSE(fetch()) << "habits, colours and comments move no fin";
 }
 
 TEST_F(RepertoireCache, aDamagedFileIsCapturedAnew) {

@@ -100,7 +100,7 @@ TEST_P(Closed, controlPointsAreRecordedForThoseThatAskForThem) {
     for (int action = 0; action < kCapturedActions; ++action)
         EXPECT_EQ(segment(static_cast<Action>(action)).controlPoints.size(),
                   species().recordsControlPoints ? std::size_t{kPhases} : 0U);
-    EXPECT_TRUE(!species().school || species().recordsControlPoints)
+    EXPECT_TRUE(species().habits.shares.schooling <= 0 || species().recordsControlPoints)
         << "those that school are many";
 }
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the fish next to one ask of it: room, a common course, and not to be left behind (Reynolds
+// 1987; Huth & Wissel 1992).
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "master/behaviour/perceive/senses.h"
+#include "master/fish/fish_view.h"
+
+namespace aquarama {
+
+// Between the middles of neighbours, in body lengths: at ease, and when a predator is about.
+inline constexpr float kSpacing = 0.9F;
+inline constexpr float kAlarmedSpacing = 0.5F;
+
+struct Company {
+    glm::vec3 separation{}, alignment{}, cohesion{};
+    float speed = 0;  // mean of theirs, body lengths a second; 0: alone
+    float hurry = 0;  // to close up, body lengths a second
+    float brake = 0;  // for those just ahead, body lengths a second
+};
+
+// Of the same species one keeps with; to others one only gives way.
+[[nodiscard]] Company companyOf(const FishView& view,
+                                const Senses& senses,
+                                std::uint32_t fish,
+                                float spacingBodyLengths);
+
+// The three together, against the unit vector of one's own course.
+[[nodiscard]] glm::vec3 pullOf(const Company& company);
+
+// Away from all that are too near, whoever they are, against the same.
+[[nodiscard]] glm::vec3 roomFrom(const FishView& view, const Senses& senses, std::uint32_t fish);
+
+}  // namespace aquarama

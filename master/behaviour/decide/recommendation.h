@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The intention generator's word on what the secondary controller recommends (paper, section 5.1).
+#pragma once
+
+#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/perceive/senses.h"
+#include "master/fish/minds.h"
+#include "master/fish/nature.h"
+
+namespace aquarama {
+
+// Whether a fish with this intention may swim another pattern for a while, for no reason but
+// variety. Not while a stroke counts: in flight, in fear, in another's way, near what it eats, in
+// courtship.
+[[nodiscard]] bool acceptsRecommendation(const Nature& nature,
+                                         const Mind& mind,
+                                         const Senses& senses,
+                                         const Feelings& feelings);
+
+}  // namespace aquarama

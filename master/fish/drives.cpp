@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/fish/drives.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/units/ids.h"
+#include "master/fish/courses.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr float kTicksASecond = static_cast<float>(kTicksPerSecond);
+
+float seconds(std::uint32_t ticks) {
+    return static_cast<float>(ticks) / kTicksASecond;
+}
+
+std::uint32_t ticksOf(float seconds) {
+    return static_cast<std::uint32_t>(
+        std::min(seconds * kTicksASecond, static_cast<float>(kLongAgo / 2)));
+}
+
+// R of the thesis: 1 after a meal, 0 when it is digested.
+float undigested(const Nature& nature, const Mind& mind) {
+    return std::max(0.0F, 1 - nature.digestion * seconds(mind.sinceMeal));
+}
+
+}  // namespace
+
+float innerHunger(const Nature& nature, const Mind& mind) {
+    const float stomach = static_cast<float>(mind.eaten) * undigested(nature, mind);
+    return std::clamp(1 - stomach / nature.appetite, 0.0F, 1.0F);
+}
+
+bool isGorged(const Nature& nature, const Mind& mind) {
+    return static_cast<float>(mind.eaten) > 2 * nature.appetite;
+}
+
+float innerLibido(const Nature& nature, const Mind& mind, float hunger) {
+    if (!mates(nature)) return 0;
+    return std::min(1.0F, nature.libido * seconds(mind.sinceSpawning)) * (1 - hunger);
+}
+
+bool mates(const Nature& nature) {
+    return nature.role == Role::Pacifist && nature.libido > 0;
+}
+
+void passTime(const Nature& nature, Mind& mind) {
+    for (std::uint32_t* ticks : {&mind.pursued,
+                                 &mind.sinceRemembered,
+                                 &mind.sinceMeal,
+                                 &mind.sinceSpawning,
+                                 &mind.sinceChase,
+                                 &mind.sinceStage})
+        if (*ticks < kLongAgo) *ticks += kTicksBetweenThoughts;
+    if (undigested(nature, mind) <= 0) mind.eaten = 0;
+}
+
+void setMood(const Nature& nature, float hunger, float libido, Mind& mind) {
+    const float meal = std::max(1.0F, std::ceil(nature.appetite));
+    const float left = std::clamp((1 - hunger) * nature.appetite / meal, 0.0F, 1.0F);
+    mind.eaten = static_cast<std::uint16_t>(meal);
+    mind.sinceMeal = ticksOf((1 - left) / nature.digestion);
+    const float growth = nature.libido * std::max(1 - hunger, 0.0F);
+    mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/fish/signs.h"
+
+#include "master/fish/drives.h"
+
+namespace aquarama {
+
+namespace {
+
+bool wouldMate(const Nature& nature, const Mind& mind, Intention aim) {
+    if (!mates(nature)) return false;
+    return aim == Intention::Mate || innerLibido(nature, mind, innerHunger(nature, mind)) > kDesire;
+}
+
+// Of a kind that neither mates nor hunts only this much differs from fish to fish.
+unsigned moodOf(std::uint8_t likes, Intention aim) {
+    return ((likes & kIsFemale) != 0 ? unsigned{kFemale} : 0U) |
+           (aim == Intention::School ? unsigned{kSchooling} : 0U);
+}
+
+}  // namespace
+
+void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, FishView& view) {
+    const unsigned away = view.signs[fish] & unsigned{kAway};
+    if (nature.role == Role::Prey) {  // most fish are; they need but three bytes of their mind
+        const bool schools = minds.intention[fish] == Intention::School ||
+                             minds.remembered[fish] == Intention::School;
+        view.signs[fish] = static_cast<std::uint8_t>(
+            away | moodOf(minds.likes[fish], schools ? Intention::School : minds.intention[fish]));
+        return;
+    }
+    const Mind mind = minds.at(fish);
+    const Aim aim = aimOf(mind);
+    unsigned signs = away | moodOf(mind.likes, aim.intention);
+    if (wouldMate(nature, mind, aim.intention)) signs |= kWilling;
+    if (nature.role == Role::Predator && aim.intention == Intention::Eat) signs |= kHunting;
+    view.signs[fish] = static_cast<std::uint8_t>(signs);
+    view.stage[fish] = mind.stage;
+    view.partner[fish] = aim.intention == Intention::Mate ? aim.target : kNobody;
+}
+
+}  // namespace aquarama

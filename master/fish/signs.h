@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a fish's mind to what others see of its mood.
+#pragma once
+
+#include <cstdint>
+
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
+#include "master/fish/nature.h"
+
+namespace aquarama {
+
+// Writes all signs of a fish but kAway, which is kept, and whom it courts.
+void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, FishView& view);
+
+}  // namespace aquarama

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/study/overlap_log.h"
+
+#include <algorithm>
+
+namespace aquarama {
+
+std::span<const Overlap> OverlapLog::note(Tick tick, std::span<const Rod> rods) {
+    fresh_.clear();
+    for (std::uint32_t a = 0; a < rods.size(); ++a)
+        for (std::uint32_t b = a + 1; b < rods.size(); ++b)
+            if (const float share = overlapOf(rods[a], rods[b]); share > 0) meet(tick, a, b, share);
+    std::erase_if(open_, [&](const auto& entry) {
+        if (entry.second.last.value == tick.value) return false;
+        ended_.push_back(entry.second.overlap);
+        return true;
+    });
+    return fresh_;
+}
+
+void OverlapLog::meet(Tick tick, std::uint32_t a, std::uint32_t b, float share) {
+    const auto [entry, isNew] = open_.try_emplace({a, b});
+    Open& open = entry->second;
+    if (isNew) {
+        open.overlap = {.a = a, .b = b, .from = tick};
+        fresh_.push_back(open.overlap);
+    }
+    open.last = tick;
+    open.overlap.ticks += between_;
+    open.overlap.deepest = std::max(open.overlap.deepest, share);
+    open.deepRun = share > kDeepShare ? open.deepRun + between_ : 0;
+    open.overlap.deepTicks = std::max(open.overlap.deepTicks, open.deepRun);
+    pairTicks_ += between_;
+}
+
+std::vector<Overlap> OverlapLog::all() const {
+    std::vector<Overlap> all = ended_;
+    for (const auto& [pair, open] : open_) all.push_back(open.overlap);
+    return all;
+}
+
+}  // namespace aquarama

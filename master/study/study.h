@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same scenes with and without each adaptation of the mind to its weaker motor (paper, sections
+// 5.1 and 5.2), over several seeds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "master/fish/adaptation.h"
+#include "master/study/quantities.h"
+#include "master/world/world.h"
+
+namespace aquarama {
+
+struct Condition {
+    const char* name;
+    Adaptation adaptation;
+};
+inline constexpr std::array kConditions{
+    Condition{"all", {}},
+    Condition{"no recommendations", {.recommendations = false}},
+    Condition{"regions not enlarged", {.enlargedRegions = false}},
+    Condition{"late pursuit", {.earlierPursuit = false}},
+    Condition{"none",
+              {.recommendations = false, .enlargedRegions = false, .earlierPursuit = false}},
+};
+
+struct Scenario {
+    std::string name;
+    std::string what;                       // in a sentence
+    WorldOptions world;                     // its seed and adaptation are the run's
+    std::vector<float> halfWidths;          // body lengths, by kind of the cast
+    std::uint64_t ticksBetweenPinches = 0;  // of food; 0: nobody feeds
+};
+
+// Figures of one scenario: [condition][seed].
+using Sample = std::array<std::vector<Figures>, kConditions.size()>;
+
+struct StudyPlan {
+    std::vector<Scenario> scenarios;
+    double minutes = 10;  // of each run
+    std::uint32_t seeds = 5;
+    unsigned threads = 1;
+};
+
+[[nodiscard]] Figures runOnce(const Scenario& scenario,
+                              const Adaptation& adaptation,
+                              std::uint32_t seed,
+                              double minutes);
+
+// A sample for each scenario. `done` hears after each run which share is done, from any thread.
+[[nodiscard]] std::vector<Sample> runStudy(const StudyPlan& plan,
+                                           const std::function<void(double)>& done);
+
+}  // namespace aquarama

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/decide/recommendation.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/master/behaviour/aquarium.h"
+
+namespace aquarama {
+namespace {
+
+// A fish of 0.24 m in the open, with one intention.
+struct Moment {
+    explicit Moment(Intention intention) {
+        mind.intention = intention;
+        senses.length = 0.24F;
+    }
+    [[nodiscard]] bool accepts() const {
+        return acceptsRecommendation(nature, mind, senses, feelings);
+    }
+    Nature nature;
+    Mind mind;
+    Senses senses;
+    Feelings feelings;
+};
+
+TEST(Recommendation, isWelcomeAtEase) {
+    for (const Intention at : {Intention::Wander, Intention::School, Intention::Leave})
+        EXPECT_TRUE(Moment(at).accepts()) << static_cast<int>(at);
+}
+
+TEST(Recommendation, isRefusedWhereEveryStrokeCounts) {
+    for (const Intention at :
+         {Intention::Escape, Intention::AvoidFish, Intention::AvoidObstacle, Intention::Mate})
+        EXPECT_FALSE(Moment(at).accepts()) << static_cast<int>(at);
+}
+
+TEST(Recommendation, isRefusedNearAnObstacle) {
+    Moment moment(Intention::School);
+    moment.senses.urgency = 0.5F;
+    EXPECT_FALSE(moment.accepts());
+}
+
+TEST(Recommendation, isRefusedByASchoolInFear) {
+    Moment moment(Intention::School);
+    moment.feelings.fear = moment.nature.fearFrom + 0.1F;
+    EXPECT_FALSE(moment.accepts());
+}
+
+TEST(Recommendation, isRefusedNearAMealButNotOnTheLongWayThere) {
+    for (const Role role : {Role::Pacifist, Role::Predator}) {
+        Moment moment(Intention::Eat);
+        moment.nature.role = role;
+        Sighting& meal = role == Role::Predator ? moment.senses.prey : moment.senses.food;
+        meal = {0, {0.3F, 0, 0}, 0.3F};
+        EXPECT_FALSE(moment.accepts());
+        meal = {0, {3, 0, 0}, 3};
+        EXPECT_TRUE(moment.accepts());
+    }
+}
+
+TEST(Recommendation, isHeededByNobodyWhereTheAdaptationIsOff) {
+    Aquarium aquarium({glm::vec3{}});
+    aquarium.think();
+    EXPECT_TRUE(aquarium.courses.openToChange[0]);
+    Grids grids = aquarium.freshGrids();
+    Environment environment = aquarium.environment(grids);
+    environment.adaptation.recommendations = false;
+    think(environment, 0, aquarium.minds, aquarium.courses, aquarium.deeds);
+    EXPECT_FALSE(aquarium.courses.openToChange[0]);
+}
+
+}  // namespace
+}  // namespace aquarama
