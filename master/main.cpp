@@ -1,34 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The master of a rig: wires the world to the conductor.
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
-#include <sstream>
+#include <span>
 #include <string>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "common/cli/signals.h"
 #include "common/config/rig.h"
-#include "common/config/species.h"
-#include "common/motion/motor.h"
-#include "common/motion/repertoire.h"
-#include "common/net/blob.h"
 #include "common/net/channels.h"
-#include "common/place/place.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
-#include "master/capture/compile/progress_bar.h"
-#include "master/capture/compile/repertoire_cache.h"
 #include "master/conductor/conductor.h"
 #include "master/conductor/status.h"
-#include "master/world/world.h"
+#include "master/production/living_world.h"
+#include "master/production/production.h"
 
 namespace aquarama {
 
@@ -44,116 +35,6 @@ struct MasterOptions {
     std::string traceFolder;
 };
 
-FoodRecord::Kind kindOf(FoodKind kind) {
-    switch (kind) {
-        case FoodKind::Plankton:
-            return FoodRecord::Kind::Plankton;
-        case FoodKind::Pellet:
-            return FoodRecord::Kind::Pellet;
-        case FoodKind::None:
-            break;
-    }
-    return FoodRecord::Kind::None;
-}
-
-// As the nodes are told of it.
-FoodCloud cloudOf(const Surroundings& surroundings) {
-    const Food& food = surroundings.food;
-    FoodCloud cloud{surroundings.obstacles.water.centre, std::vector<FoodRecord>(food.size())};
-    for (std::size_t i = 0; i < food.size(); ++i)
-        cloud.particles[i] = foodRecord(
-            kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
-    return cloud;
-}
-
-class LivingWorld final : public Simulation {
-  public:
-    explicit LivingWorld(World& world) : world_(world) {}
-    void advance() override { world_.advance(); }
-    void apply(const WorldInput& input) override { world_.apply(input); }
-    [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    [[nodiscard]] Eye eye() const override { return {.positionMetres = kEyePosition}; }
-    void food(FoodCloud& cloud) const override { cloud = cloudOf(world_.surroundings()); }
-    [[nodiscard]] float daylight() const override { return world_.surroundings().daylight; }
-    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
-        return {fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    }
-
-  private:
-    World& world_;
-};
-
-std::string fileText(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    if (!file)
-        throw Error(path.string() + ": cannot be read; is the `species` of the rig's cast right?");
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-// The first show of a species on this machine simulates it; later ones find what it swam.
-ByteVector capturedOnce(const std::string& speciesText, const std::filesystem::path& speciesPath) {
-    ProgressBar bar("capturing " + speciesPath.stem().string());
-    const auto cache = defaultBlobDirectory().parent_path() / "repertoires";
-    return repertoireFor(
-        speciesText, speciesPath.string(), cache, [&](double share) { bar.show(share); });
-}
-
-FishLengths lengthsOf(const SizeRange& size) {
-    return {.meanMetres = static_cast<float>(size.meanMetres),
-            .deviationMetres = static_cast<float>(size.deviationMetres),
-            .leastMetres = static_cast<float>(size.leastMetres),
-            .mostMetres = static_cast<float>(size.mostMetres)};
-}
-
-// One species of the cast: what moves it, and what the nodes are sent.
-struct Member {
-    WorldSpecies species;
-    ByteVector speciesBlob, repertoireBlob;
-};
-
-Member memberOf(const std::filesystem::path& speciesPath, std::uint32_t fish) {
-    const std::string text = fileText(speciesPath);
-    const Species species = parseSpecies(text, speciesPath.string());
-    const auto bytes = std::as_bytes(std::span{text});
-    Member member{.species = {.tables = nullptr,
-                              .fish = fish,
-                              .lengths = lengthsOf(species.size),
-                              .name = species.name,
-                              .habits = species.habits,
-                              .start = {}},
-                  .speciesBlob = {bytes.begin(), bytes.end()},
-                  .repertoireBlob = capturedOnce(text, speciesPath)};
-    member.species.tables = makeMotorTables(decodeRepertoire(member.repertoireBlob, species.name));
-    return member;
-}
-
-// `--fish` is about the school: the first of the cast.
-std::vector<Member> membersOf(const Rig& rig, const MasterOptions& options) {
-    const auto folder = std::filesystem::path(options.rigPath).parent_path();
-    std::vector<Member> members;
-    for (const CastMember& member : rig.cast) {
-        const bool isSchool = members.empty();
-        members.push_back(memberOf(folder / member.species,
-                                   isSchool ? options.fish.value_or(member.fish) : member.fish));
-    }
-    return members;
-}
-
-WorldOptions worldOptions(const MasterOptions& options, const std::vector<Member>& members) {
-    WorldOptions world;
-    world.seed = options.seed;
-    for (const Member& member : members) world.cast.push_back(member.species);
-    // One core moves a few thousand fish well inside a tick; more threads would only wait for each
-    // other.
-    world.threads = std::clamp(
-        world.cast.front().fish / 2000U, 1U, std::max(std::thread::hardware_concurrency(), 1U));
-    return world;
-}
-
 ConductorOptions conductorOptions(const MasterOptions& options) {
     ConductorOptions conductor;
     conductor.pace = options.lockstep ? Pace::Lockstep : Pace::Live;
@@ -166,26 +47,34 @@ ConductorOptions conductorOptions(const MasterOptions& options) {
     return conductor;
 }
 
+// What the nodes are told of the cast, and the blobs that they may then ask for.
+std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
+    std::vector<SpeciesBlobs> cast;
+    for (const ProducedSpecies& species : production.cast) {
+        const auto text = std::as_bytes(std::span{species.text});
+        cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
+        blobs.emplace(cast.back().species, ByteVector{text.begin(), text.end()});
+        blobs.emplace(cast.back().repertoire, species.repertoire);
+    }
+    return cast;
+}
+
 void runMaster(const MasterOptions& options) {
     holdSignals();
     const Rig rig = readRig(options.rigPath);
     checkGeometry(rig, options.rigPath);
     auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
 
-    const std::vector<Member> members = membersOf(rig, options);
-    World world(worldOptions(options, members));
-    LivingWorld simulation(world);
+    const Production production =
+        readProduction(rig, options.rigPath, {.seed = options.seed, .fish = options.fish});
+    LivingWorld simulation(worldOptionsOf(production));
 
+    Blobs blobs;
     Welcome welcome;
     welcome.rigText = writeRig(rig);
-    welcome.school.assign(world.traits().begin(), world.traits().end());
-    Blobs blobs;
-    for (const Member& member : members) {
-        welcome.cast.push_back(
-            {digestOf(member.speciesBlob), digestOf(member.repertoireBlob), member.species.fish});
-        blobs.emplace(welcome.cast.back().species, member.speciesBlob);
-        blobs.emplace(welcome.cast.back().repertoire, member.repertoireBlob);
-    }
+    welcome.cast = castOf(production, blobs);
+    const auto school = simulation.world().traits();
+    welcome.school.assign(school.begin(), school.end());
 
     Conductor conductor(rig,
                         conductorOptions(options),

@@ -72,9 +72,9 @@ glm::vec2 inDisc(std::uint32_t seed, std::uint32_t index) {
     return glm::vec2{0.0F};  // once in 10^11
 }
 
-Rock rockAt(std::uint32_t seed, glm::vec2 xz, float radiusMetres, std::uint32_t rockSeed) {
+Rock rockAt(const Place& place, glm::vec2 xz, float radiusMetres, std::uint32_t rockSeed) {
     constexpr float kSunk = 0.12F;  // of the radius: a boulder lies in the sand, not on it
-    return {{xz.x, floorHeight(seed, xz) + kSunk * radiusMetres, xz.y}, radiusMetres, rockSeed};
+    return {{xz.x, floorHeight(place, xz) + kSunk * radiusMetres, xz.y}, radiusMetres, rockSeed};
 }
 
 bool standsInRock(const std::vector<Rock>& rocks, glm::vec3 root) {
@@ -95,7 +95,7 @@ struct Sowing {
 
 void sow(std::vector<Plant>& plants,
          const std::vector<Rock>& rocks,
-         std::uint32_t placeSeed,
+         const Place& place,
          const Stand& stand,
          const Sowing& sowing) {
     for (int i = 0; i < stand.plants; ++i) {
@@ -103,7 +103,7 @@ void sow(std::vector<Plant>& plants,
         const glm::vec2 offset = inDisc(sowing.seed, index);
         const glm::vec2 xz{stand.xz.x + offset.x * stand.radiusMetres,
                            stand.xz.y + offset.y * stand.radiusMetres};
-        const glm::vec3 root{xz.x, floorHeight(placeSeed, xz), xz.y};
+        const glm::vec3 root{xz.x, floorHeight(place, xz), xz.y};
         if (standsInRock(rocks, root)) continue;
         const std::uint32_t plantSeed = hashOf(sowing.seed ^ 0xa5a5a5a5U, index);
         const float share =
@@ -114,50 +114,53 @@ void sow(std::vector<Plant>& plants,
 
 }  // namespace
 
-float floorHeight(std::uint32_t seed, glm::vec2 xz) {
+float floorHeight(const Place& place, glm::vec2 xz) {
+    if (place.kind == PlaceKind::OpenSea) return -kOpenSeaFloorDepthMetres;
     // Two scales: long dunes of 14 m and hummocks of 3 m.
     const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
     const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
-    return -kMeanFloorDepthMetres + 0.22F * fractalNoise(hashOf(seed, Dunes), dunes, 2) +
-           0.07F * fractalNoise(hashOf(seed, Hummocks), hummocks, 2);
+    return -kMeanFloorDepthMetres + 0.22F * fractalNoise(hashOf(place.seed, Dunes), dunes, 2) +
+           0.07F * fractalNoise(hashOf(place.seed, Hummocks), hummocks, 2);
 }
 
-std::vector<Rock> rocksOf(std::uint32_t seed) {
+std::vector<Rock> rocksOf(const Place& place) {
     std::vector<Rock> rocks;
-    std::uint32_t next = hashOf(seed, Rocks);
+    if (place.kind == PlaceKind::OpenSea) return rocks;
+    std::uint32_t next = hashOf(place.seed, Rocks);
     for (const RockGroup& group : kRockGroups) {
         next = hashOf(next);
         const glm::vec2 shift = inDisc(next, 0);
         const glm::vec2 main{group.xz.x + 0.3F * shift.x, group.xz.y + 0.3F * shift.y};
         const float radius = group.radiusMetres * (0.92F + 0.16F * unitOf(hashOf(next, 1)));
-        rocks.push_back(rockAt(seed, main, radius, next));
+        rocks.push_back(rockAt(place, main, radius, next));
         for (int i = 0; i < group.satellites; ++i) {
             next = hashOf(next);
             const glm::vec2 away = inDisc(next, 0);
             const glm::vec2 xz{main.x + away.x * radius * 1.5F, main.y + away.y * radius * 1.5F};
             const float share = 0.25F + 0.4F * unitOf(hashOf(next, 1));
-            rocks.push_back(rockAt(seed, xz, radius * share, next));
+            rocks.push_back(rockAt(place, xz, radius * share, next));
         }
     }
     return rocks;
 }
 
-std::vector<Plant> plantsOf(std::uint32_t seed) {
-    const std::vector<Rock> rocks = rocksOf(seed);
+std::vector<Plant> plantsOf(const Place& place) {
     std::vector<Plant> plants;
+    if (place.kind == PlaceKind::OpenSea) return plants;
+    const std::vector<Rock> rocks = rocksOf(place);
     std::uint32_t stand = 0;
     for (const Stand& kelp : kKelpStands)
         sow(plants,
             rocks,
-            seed,
+            place,
             kelp,
-            {PlantKind::Kelp, hashOf(hashOf(seed, Kelp), stand++), 0.55F});
+            {PlantKind::Kelp, hashOf(hashOf(place.seed, Kelp), stand++), 0.55F});
     for (const Stand& meadow : kMeadows)
         sow(plants,
             rocks,
-            seed,
+            place,
             meadow,
-            {PlantKind::Seagrass, hashOf(hashOf(seed, Meadow), stand++), 0.45F});
+            {PlantKind::Seagrass, hashOf(hashOf(place.seed, Meadow), stand++), 0.45F});
     return plants;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place: sea floor, plants and surge as functions of a seed, the same in the master (avoidance)
-// and the nodes (drawing).
+// The place: sea floor, rocks and plants as functions of its kind and a seed, the same in the
+// master (avoidance) and the nodes (drawing).
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,23 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/config/scene.h"
+
 namespace aquarama {
 
-// World frame: metres, Y up. The surface of the sea is the plane y = 0; the reference eye is at
+// World frame: metres, Y up. The surface of the sea is the plane y = 0; the reef's eye is at
 // kEyePosition, looking along -Z.
 inline constexpr glm::vec3 kEyePosition{0.0F, -6.0F, 0.0F};
-inline constexpr float kMeanFloorDepthMetres = 8.6F;
+inline constexpr float kMeanFloorDepthMetres = 8.6F;  // of the reef
+inline constexpr float kOpenSeaFloorDepthMetres = 60.0F;
 
-// Height (y, negative) of the sand at a place. Exact arithmetic only: the master's world depends on
-// it.
-[[nodiscard]] float floorHeight(std::uint32_t seed, glm::vec2 xz);
+struct Place {
+    std::uint32_t seed = 0;
+    PlaceKind kind = PlaceKind::Reef;
+};
+
+// Height (y, negative) of the sand. Exact arithmetic only: the master's world depends on it.
+[[nodiscard]] float floorHeight(const Place& place, glm::vec2 xz);
 
 // A boulder, half sunk in the sand; everything that grows on it is within the radius.
 struct Rock {
@@ -26,7 +33,7 @@ struct Rock {
     float radiusMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-[[nodiscard]] std::vector<Rock> rocksOf(std::uint32_t seed);
+[[nodiscard]] std::vector<Rock> rocksOf(const Place& place);  // none in the open sea
 
 enum class PlantKind : std::uint8_t { Kelp, Seagrass };
 
@@ -36,7 +43,7 @@ struct Plant {
     float heightMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-[[nodiscard]] std::vector<Plant> plantsOf(std::uint32_t seed);
+[[nodiscard]] std::vector<Plant> plantsOf(const Place& place);  // none in the open sea
 
 // The water in which the school lives: fish keep inside it. Chosen so that the wall always has them
 // in view.

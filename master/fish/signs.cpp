@@ -35,6 +35,7 @@ void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, Fish
     if (wouldMate(nature, mind, aim.intention)) signs |= kWilling;
     if (nature.role == Role::Predator && aim.intention == Intention::Eat) signs |= kHunting;
     view.signs[fish] = static_cast<std::uint8_t>(signs);
+    view.stage[fish] = mind.stage;
     view.partner[fish] = aim.intention == Intention::Mate ? aim.target : kNobody;
 }
 

@@ -39,7 +39,7 @@ Region reachable(const Region& water) {
 }
 
 float lowestAt(const Obstacles& obstacles, float x, float z) {
-    return floorHeight(obstacles.placeSeed, {x, z}) + kFloorRoomMetres;
+    return floorHeight(obstacles.place, {x, z}) + kFloorRoomMetres;
 }
 
 bool isClear(const Obstacles& obstacles, glm::vec3 place) {
@@ -162,7 +162,9 @@ void lookAfter(Food& food,
 void sink(Food& food, std::size_t i, std::uint32_t now) {
     if (food.taken[i] != 0) return;
     food.y[i] = std::max(food.y[i] - kSinkMetres, food.lowest[i]);
-    if (isDue(food, i, now)) food.kind[i] = FoodKind::None;
+    if (!isDue(food, i, now)) return;
+    food.kind[i] = FoodKind::None;
+    --food.pellets;
 }
 
 }  // namespace
@@ -206,10 +208,10 @@ void dropPellets(Food& food,
         const glm::vec3 aside{
             signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
         glm::vec3 place = position + aside * kSpreadMetres;
-        const float sand =
-            floorHeight(obstacles.placeSeed, {place.x, place.z}) + kPelletOnSandMetres;
+        const float sand = floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
         place.y = std::min(std::max(place.y, sand), 0.0F);
         put(food, i, FoodKind::Pellet, place, sand);
+        ++food.pellets;
         food.absentUntil[i] =
             now + static_cast<std::uint32_t>((place.y - sand) / kSinkMetres) + kLiesTicks;
     }
@@ -222,6 +224,7 @@ bool takeFood(Food& food, std::uint32_t particle) {
 }
 
 void removeFood(Food& food, std::uint32_t particle, Tick tick) {
+    if (food.kind[particle] == FoodKind::Pellet) --food.pellets;
     food.kind[particle] = FoodKind::None;
     food.taken[particle] = 0;
     const auto now = static_cast<std::uint32_t>(tick.value);

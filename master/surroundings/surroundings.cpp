@@ -28,7 +28,8 @@ Surroundings makeSurroundings(const Scene& scene,
                               std::uint32_t seed,
                               std::size_t fish,
                               float meanLengthMetres) {
-    const Obstacles obstacles = obstaclesOf(seed, waterFor(scene, fish, meanLengthMetres));
+    const Obstacles obstacles =
+        obstaclesOf({seed, scene.place}, waterFor(scene, fish, meanLengthMetres));
     return {.seed = seed,
             .obstacles = obstacles,
             .climate = climateOf(scene),

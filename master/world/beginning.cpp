@@ -8,7 +8,7 @@
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
-#include "master/behaviour/act/wander.h"
+#include "master/behaviour/act/home.h"
 
 namespace aquarama {
 
@@ -94,13 +94,36 @@ void placeSchool(std::uint32_t seed,
     }
 }
 
+// At home, or at the first place that they are bound for.
+glm::vec3 restingPlace(std::uint32_t seed,
+                       const Habits& habits,
+                       const Obstacles& obstacles,
+                       std::size_t first,
+                       std::size_t fish) {
+    const auto depth = static_cast<float>(habits.bestDepthMetres);
+    if (habits.home.kind != HomeKind::Place)
+        return wanderingGoal(seed, obstacles.water, depth, fish, {});
+    const auto index = static_cast<std::uint32_t>(fish);
+    const std::uint32_t own = hashOf(hashOf(seed, Place), index);
+    const glm::vec3 share{
+        signedUnitOf(hashOf(own, 0)), signedUnitOf(hashOf(own, 1)), signedUnitOf(hashOf(own, 2))};
+    const std::uint32_t household = householdOf(static_cast<std::uint32_t>(first), index);
+    return homeOf(seed, habits.home, obstacles, depth, household) +
+           share * (0.5F * static_cast<float>(habits.home.radiusMetres));
+}
+
 void placeWanderers(std::uint32_t seed,
-                    const Region& water,
+                    const Habits& habits,
+                    const Obstacles& obstacles,
                     std::size_t first,
                     std::size_t last,
                     MotionStates& states) {
+    const Region& water = obstacles.water;
     for (std::size_t fish = first; fish < last; ++fish) {
-        const glm::vec3 place = wanderingGoal(seed, water, fish, {});
+        const glm::vec3 inner = water.halfExtent * 0.85F;
+        const glm::vec3 place = glm::clamp(restingPlace(seed, habits, obstacles, first, fish),
+                                           water.centre - inner,
+                                           water.centre + inner);
         const glm::vec3 towards = water.centre - place;
         begin(seed, fish, {place, facing(towards)}, states);
     }
@@ -158,9 +181,14 @@ void placeFish(const WorldOptions& options,
         else if (first == 0)
             placeSchool(options.seed, goal, water, last, states);
         else
-            placeWanderers(options.seed, water, first, last, states);
+            placeWanderers(
+                options.seed, species.habits, surroundings.obstacles, first, last, states);
         first = last;
     }
+}
+
+void placeFishAt(MotionStates& states, std::size_t fish, glm::vec3 place, glm::vec3 course) {
+    setBodyFrame(states, fish, {place, facing(course)});
 }
 
 }  // namespace aquarama

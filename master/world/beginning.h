@@ -22,4 +22,7 @@ void placeFish(const WorldOptions& options,
                const Surroundings& surroundings,
                MotionStates& states);
 
+// One fish at a place, level and along `course`; its tail beats on.
+void placeFishAt(MotionStates& states, std::size_t fish, glm::vec3 place, glm::vec3 course);
+
 }  // namespace aquarama

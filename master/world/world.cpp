@@ -65,6 +65,8 @@ World::World(const WorldOptions& options)
     courses_.resize(traits_.size());
     memory_.resize(traits_.size());
     view_.resize(traits_.size());
+    meals_ = makeMeals(traits_.size());
+    absences_ = makeAbsences(natures_);
     begin(options);
 }
 
@@ -91,6 +93,7 @@ void World::begin(const WorldOptions& options) {
         }
         look(kind, kind.first, kind.last);
     }
+    grids_.expect(view_, natures_);
     for (std::size_t fish = 0; fish < traits_.size(); ++fish)
         courses_.set(fish, {view_.heading(fish), 1, 0});
 }
@@ -123,12 +126,25 @@ Goal World::goal() const {
 void World::advance() {
     goal_ = goal();
     advanceSurroundings(surroundings_, tick_);
-    inChunks([this](const Chunk& chunk) { look(kinds_[chunk.kind], chunk.first, chunk.last); });
-    grids_.rebuild(view_, surroundings_.food, natures_);
+    receive();
+    rebuildGrids();
+    advanceMeals(meals_, view_, surroundings_.food, tick_);
     inChunks([this](Chunk& chunk) { live(chunk); });
     for (const Chunk& chunk : chunks_)
         for (const Deed& deed : chunk.deeds) perform(deed);
     ++tick_.value;
+}
+
+void World::rebuildGrids() {
+    grids_.rebuild(
+        view_,
+        surroundings_.food,
+        natures_,
+        [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
+        [this](std::size_t first, std::size_t last) {
+            for (const Kind& kind : kinds_)
+                look(kind, std::max(first, kind.first), std::min(last, kind.last));
+        });
 }
 
 // What all see of fish [first, last).
@@ -166,17 +182,12 @@ void World::live(Chunk& chunk) {
     chunk.deeds.clear();
     const Environment around = environment();
     for (std::size_t fish = chunk.first; fish < chunk.last; ++fish)
-        if (thinksAt(tick_, fish))
+        if (thinksAt(tick_, fish) && !view_.shows(fish, kAway))
             think(around, static_cast<std::uint32_t>(fish), minds_, courses_, chunk.deeds);
     const Kind& own = kinds_[chunk.kind];
     SecondaryController{&own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
         .run(chunk.first, chunk.last);
     MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
-}
-
-void World::perform(const Deed& deed) {
-    if (deed.kind == DeedKind::EatParticle && takeFood(surroundings_.food, deed.object))
-        removeFood(surroundings_.food, deed.object, tick_);
 }
 
 std::uint64_t World::hash() const {
@@ -215,7 +226,9 @@ std::size_t World::bytes() const {
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
            bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency, w.openToChange) +
            bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
-           bytesIn(v.kind, v.signs, v.partner);
+           bytesIn(v.kind, v.signs, v.partner, v.stage) +
+           meals_.swallows.capacity() * sizeof(Meals::Swallow) +
+           absences_.capacity() * sizeof(Absence);
 }
 
 void World::records(std::vector<FishRecord>& records) const {

@@ -24,6 +24,8 @@
 #include "master/motor/gaits.h"
 #include "master/motor/secondary_controller.h"
 #include "master/world/input.h"
+#include "master/world/meals.h"
+#include "master/world/population.h"
 #include "master/world/worker_pool.h"
 
 namespace aquarama {
@@ -73,6 +75,7 @@ class World {
     // As the fish saw it that thought in the last tick.
     [[nodiscard]] Environment environment() const;
     [[nodiscard]] std::span<const FishTraits> traits() const { return traits_; }
+    [[nodiscard]] const WorldCounts& counts() const { return counts_; }
     [[nodiscard]] std::size_t bytes() const;  // of all that grows with the school
 
     // States, commands and all that minds remember; equal worlds have equal hashes.
@@ -93,9 +96,13 @@ class World {
     };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     void begin(const WorldOptions& options);
+    void rebuildGrids();
     void look(const Kind& kind, std::size_t first, std::size_t last);
     void live(Chunk& chunk);
     void perform(const Deed& deed);
+    void feed(std::uint32_t fish);
+    void receive();
+    void arrive(std::uint32_t fish);
     [[nodiscard]] Goal goal() const;
     template <class Job>
     void inChunks(const Job& job);
@@ -115,6 +122,9 @@ class World {
     Courses courses_;
     ControllerMemory memory_;
     FishView view_;
+    Meals meals_;
+    std::vector<Absence> absences_;
+    WorldCounts counts_;
     Grids grids_;
     Goal goal_;
     float schoolRadius_ = 0;

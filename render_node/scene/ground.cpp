@@ -26,14 +26,14 @@ constexpr int kShadeTexels = 320;
 
 glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     constexpr float kStep = 0.05F;
-    const float here = floorHeight(seed, xz);
-    const float slopeX = (floorHeight(seed, {xz.x + kStep, xz.y}) - here) / kStep;
-    const float slopeZ = (floorHeight(seed, {xz.x, xz.y + kStep}) - here) / kStep;
+    const float here = floorHeight({seed}, xz);
+    const float slopeX = (floorHeight({seed}, {xz.x + kStep, xz.y}) - here) / kStep;
+    const float slopeZ = (floorHeight({seed}, {xz.x, xz.y + kStep}) - here) / kStep;
     return glm::normalize(glm::vec3{-slopeX, 1.0F, -slopeZ});
 }
 
 gl::Texture bakeShade(std::uint32_t seed) {
-    const std::vector<Rock> rocks = rocksOf(seed);
+    const std::vector<Rock> rocks = rocksOf({seed});
     std::vector<glm::u8vec2> texels;
     for (int row = 0; row < kShadeTexels; ++row)
         for (int column = 0; column < kShadeTexels; ++column) {
@@ -68,7 +68,7 @@ Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells)
             const bool rim = inside != glm::ivec2{column, row} - 1;
             const glm::vec2 xz =
                 corner + glm::vec2(inside) * (sideMetres / static_cast<float>(cells));
-            const float height = floorHeight(seed, xz) - (rim ? kRimMetres : 0.0F);
+            const float height = floorHeight({seed}, xz) - (rim ? kRimMetres : 0.0F);
             addVertex(mesh, {xz.x, height, xz.y}, sandNormal(seed, xz), {}, 1.0F);
         }
     joinRows(mesh, 0, width, width);
@@ -93,7 +93,7 @@ Ground::Ground(std::uint32_t seed)
             glm::vec2{i % kPatchesASide, i / kPatchesASide} * kPatchMetres - kHalf;
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
         Patch& patch = patches_.emplace_back();
-        patch.centre = {middle.x, floorHeight(seed, middle), middle.y};
+        patch.centre = {middle.x, floorHeight({seed}, middle), middle.y};
         patch.finest = finestLevelOf(patch.centre, kLevelMetres);
         for (std::size_t level = patch.finest; level < levels_.size(); ++level) {
             const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells[level]);

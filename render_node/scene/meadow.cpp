@@ -52,7 +52,7 @@ glm::vec4 tintAndSwayOf(const Plant& plant) {
 }  // namespace
 
 Meadow::Meadow(std::uint32_t seed) : program_{gl::makeProgram({"plant.vert", "lit.frag"})} {
-    const std::vector<Plant> plants = plantsOf(seed);
+    const std::vector<Plant> plants = plantsOf({seed});
     addSpecies(PlantKind::Kelp, plants, {10.5F, 17.0F});
     addSpecies(PlantKind::Seagrass, plants, {8.0F, 13.0F});
     std::vector<PlantVertex> vertices;

@@ -66,7 +66,7 @@ Reef::Reef(std::uint32_t seed)
     : stoneProgram_{gl::makeProgram({"rock.vert", "rock.frag"})},
       growthProgram_{gl::makeProgram({"coral.vert", "lit.frag"})},
       detail_{makeTexture(rockTile())} {
-    const std::vector<Rock> rocks = rocksOf(seed);
+    const std::vector<Rock> rocks = rocksOf({seed});
     Mesh all;
     for (const Rock& rock : rocks) {
         Boulder& boulder = boulders_.emplace_back();

@@ -2,6 +2,7 @@
 #include "render_node/scene/scene.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <glm/matrix.hpp>
@@ -54,19 +55,25 @@ FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
     return uniforms;
 }
 
+// All that stands on the sea floor. In the open sea it lies too deep to be seen.
+struct Bottom {
+    explicit Bottom(std::uint32_t seed) : ground{seed}, reef{seed}, meadow{seed} {}
+    Ground ground;
+    Reef reef;
+    Meadow meadow;
+};
+
 }  // namespace
 
 struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           light{chosen.seed, kFilterDepthMetres},
-          ground{chosen.seed},
-          reef{chosen.seed},
-          meadow{chosen.seed},
           picture{chosen.samples},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
+        if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed);
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         const auto skins = makeSkinPrograms();
@@ -89,9 +96,7 @@ struct SceneRenderer::Parts {
     gl::Buffer frameBlock;
     gl::VertexArray empty;
     SeaLight light;
-    Ground ground;
-    Reef reef;
-    Meadow meadow;
+    std::optional<Bottom> bottom;
     ScenePicture picture;
     std::vector<SchoolSurface> schools;  // one of each species
     std::vector<std::size_t> fishOfSchool;
@@ -111,9 +116,10 @@ void SceneRenderer::Parts::updateFish(const SceneFrame& frame, const FrameUnifor
 
 // Near things first, so that what they hide is never shaded.
 void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
-    meadow.draw(viewpoint);
-    reef.draw(viewpoint);
-    ground.draw(viewpoint);
+    if (!bottom) return;
+    bottom->meadow.draw(viewpoint);
+    bottom->reef.draw(viewpoint);
+    bottom->ground.draw(viewpoint);
 }
 
 void SceneRenderer::Parts::drawWater() const {

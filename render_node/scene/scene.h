@@ -13,6 +13,7 @@
 
 #include "common/body/fish_body.h"
 #include "common/body/fish_skin.h"
+#include "common/config/scene.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
 #include "render_node/scene/food_specks.h"
@@ -47,6 +48,7 @@ struct SceneSpecies {
 
 struct SceneOptions {
     std::uint32_t seed = 1;
+    PlaceKind place = PlaceKind::Reef;
     int samples = 0;      // of multisampling, 1 for none; 0: 4 on a GPU, 1 on software GL
     bool culling = true;  // off only to measure what it saves
     bool levelsOfDetail = true;

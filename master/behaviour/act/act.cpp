@@ -5,6 +5,7 @@
 #include "master/behaviour/act/avoid_obstacle.h"
 #include "master/behaviour/act/eat.h"
 #include "master/behaviour/act/escape.h"
+#include "master/behaviour/act/hunt.h"
 #include "master/behaviour/act/leave.h"
 #include "master/behaviour/act/mate.h"
 #include "master/behaviour/act/school.h"
@@ -19,9 +20,10 @@ Course act(const Situation& situation, Mind& mind, Deeds& deeds) {
         case Intention::AvoidFish:
             return avoidFish(situation, mind);
         case Intention::Escape:
-            return escape(situation);
+            return escape(situation, mind);
         case Intention::Eat:
-            return eat(situation, mind, deeds);
+            return situation.nature.role == Role::Predator ? hunt(situation, mind, deeds)
+                                                           : eat(situation, mind, deeds);
         case Intention::Mate:
             return mate(situation, mind, deeds);
         case Intention::School:

@@ -1,18 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/act/eat.h"
 
+#include "common/place/angle.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/fish/mouth.h"
 
 namespace aquarama {
 
+namespace {
+
+// The cone of suction from the mouth, in body lengths. It is as long as a fish comes forward
+// between two thoughts, so that it misses nothing that it swims through.
+constexpr float kSuction = 0.3F;
+constexpr float kSuctionCosine = 0.6F;  // half an angle of 53 degrees
+constexpr float kAtTheLips = 0.08F;     // in every direction
+
+// A particle that it has come too near to, without having it before the mouth, would be circled:
+// the fish swims on and turns back for it from farther off.
+enum Stage : std::uint8_t { kApproach, kRunUp };
+constexpr float kTooNear = 2.0F;  // body lengths
+constexpr float kRunUpLengths = 3.0F;
+constexpr float kAbeamCosine = 0.35F;
+constexpr std::uint32_t kRunUpTicks = 90;  // at most
+constexpr float kSteepest = 0.42F;         // sine of the steepest way up or down
+
+void enter(Mind& mind, Stage stage) {
+    mind.stage = stage;
+    mind.sinceStage = 0;
+}
+
+bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
+    const float distance = lengthOf(fromMouth);
+    if (distance > kTooNear * senses.length) return false;
+    return dot(fromMouth, senses.heading) < kAbeamCosine * distance ||
+           std::abs(fromMouth.y) > 2 * kSteepest * distance;
+}
+
+}  // namespace
+
+bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
+    const glm::vec3 fromMouth = offset - senses.heading * (kMouthBodyLengths * senses.length);
+    const float distance = lengthOf(fromMouth) / senses.length;
+    return distance <= kAtTheLips ||
+           (distance <= kSuction &&
+            dot(fromMouth, senses.heading) >= kSuctionCosine * lengthOf(fromMouth));
+}
+
 Course eat(const Situation& situation, Mind& mind, Deeds& deeds) {
-    const Sighting& food = situation.senses.food;
-    if (food.distance < 0.5F * situation.senses.length) {
+    const Senses& senses = situation.senses;
+    const Sighting& food = senses.food;
+    const float slow = situation.nature.slow;
+    if (isBeforeTheMouth(senses, food.offset))
         deeds.push_back({DeedKind::EatParticle, situation.fish, food.object});
-        ++mind.eaten;
-        mind.sinceMeal = 0;
-    }
-    return pursue(situation, food.offset, situation.nature.medium);
+    const glm::vec3 fromMouth = food.offset - senses.heading * (kMouthBodyLengths * senses.length);
+    if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
+    const bool farEnough = food.distance > kRunUpLengths * senses.length;
+    if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
+        enter(mind, kApproach);
+    if (mind.stage == kRunUp)
+        return heading(situation, {senses.heading.x, 0, senses.heading.z}, slow);
+    return pursue(situation, fromMouth, situation.nature.medium);
 }
 
 }  // namespace aquarama

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goes for the particle or the prey of its intention and takes it at the mouth.
+// Goes for the particle of its intention and snaps at it: what is in a small cone before the mouth
+// is drawn in with the water (Tu 1996, section 5.6.3).
 #pragma once
 
 #include "master/behaviour/act/routine.h"
 
 namespace aquarama {
+
+// Whether a thing is where the mouth's suction reaches; offset is from the body frame's origin,
+// metres.
+[[nodiscard]] bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset);
 
 [[nodiscard]] Course eat(const Situation& situation, Mind& mind, Deeds& deeds);
 

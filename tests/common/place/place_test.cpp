@@ -42,9 +42,9 @@ TEST(Place, sandHasNoStepAndNoCliff) {
     constexpr float kStep = 0.01F;
     for (float x = -40.0F; x < 40.0F; x += 0.37F)
         for (float z = -40.0F; z < 10.0F; z += 0.41F) {
-            const float here = floorHeight(kSeed, {x, z});
-            ASSERT_NEAR(floorHeight(kSeed, {x + kStep, z}), here, 0.5F * kStep);
-            ASSERT_NEAR(floorHeight(kSeed, {x, z + kStep}), here, 0.5F * kStep);
+            const float here = floorHeight({kSeed}, {x, z});
+            ASSERT_NEAR(floorHeight({kSeed}, {x + kStep, z}), here, 0.5F * kStep);
+            ASSERT_NEAR(floorHeight({kSeed}, {x, z + kStep}), here, 0.5F * kStep);
             ASSERT_NEAR(here, -kMeanFloorDepthMetres, 0.6F);
         }
 }
@@ -55,22 +55,22 @@ TEST(Place, sandIsTheSameToTheBit) {
     std::uint32_t hash = 0;
     for (std::uint32_t i = 0; i < 5000; ++i) {
         const glm::vec2 xz{60.0F * signedUnitOf(hashOf(1, i)), 60.0F * signedUnitOf(hashOf(2, i))};
-        hash = hashOf(hash ^ std::bit_cast<std::uint32_t>(floorHeight(kSeed, xz)));
+        hash = hashOf(hash ^ std::bit_cast<std::uint32_t>(floorHeight({kSeed}, xz)));
     }
     EXPECT_EQ(hash, 1276618391U);
 }
 
 TEST(Place, anotherSeedIsAnotherPlace) {
-    EXPECT_NE(floorHeight(1, {3.0F, -7.0F}), floorHeight(2, {3.0F, -7.0F}));
-    EXPECT_NE(rocksOf(1).front().centre, rocksOf(2).front().centre);
-    EXPECT_NE(plantsOf(1).front().root, plantsOf(2).front().root);
+    EXPECT_NE(floorHeight({1}, {3.0F, -7.0F}), floorHeight({2}, {3.0F, -7.0F}));
+    EXPECT_NE(rocksOf({1}).front().centre, rocksOf({2}).front().centre);
+    EXPECT_NE(plantsOf({1}).front().root, plantsOf({2}).front().root);
 }
 
 TEST(Place, plantsStandOnTheSandAndNotInRock) {
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
-        const std::vector<Rock> rocks = rocksOf(seed);
-        for (const Plant& plant : plantsOf(seed)) {
-            ASSERT_EQ(plant.root.y, floorHeight(seed, {plant.root.x, plant.root.z}));
+        const std::vector<Rock> rocks = rocksOf({seed});
+        for (const Plant& plant : plantsOf({seed})) {
+            ASSERT_EQ(plant.root.y, floorHeight({seed}, {plant.root.x, plant.root.z}));
             ASSERT_LT(plant.root.y + plant.heightMetres, 0.0F) << "grows out of the sea";
             for (const Rock& rock : rocks)
                 ASSERT_GT(glm::distance(glm::vec2(rock.centre.x, rock.centre.z),
@@ -83,7 +83,7 @@ TEST(Place, plantsStandOnTheSandAndNotInRock) {
 TEST(Place, everyThirdOfTheWallHasSomethingToLookAt) {
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
         std::array<int, 3> rocksPerThird{};
-        for (const Rock& rock : rocksOf(seed)) {
+        for (const Rock& rock : rocksOf({seed})) {
             const glm::vec3 fromEye = rock.centre - kEyePosition;
             const float azimuthDegrees = 57.29578F * std::atan2(fromEye.x, -fromEye.z);
             if (std::abs(azimuthDegrees) > 60.0F || glm::length(fromEye) > 20.0F) continue;
@@ -101,13 +101,21 @@ TEST(Place, schoolHasWaterAllRoundIt) {
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
         for (float x = lowest.x; x <= highest.x; x += 0.5F)
             for (float z = lowest.z; z <= highest.z; z += 0.5F)
-                ASSERT_LT(floorHeight(seed, {x, z}), lowest.y - 0.3F);
-        for (const Rock& rock : rocksOf(seed)) {
+                ASSERT_LT(floorHeight({seed}, {x, z}), lowest.y - 0.3F);
+        for (const Rock& rock : rocksOf({seed})) {
             const glm::vec3 nearest = glm::clamp(rock.centre, lowest, highest);
             EXPECT_GT(glm::distance(nearest, rock.centre), 0.35F * rock.radiusMetres)
                 << "a rock fills the school's water";
         }
     }
+}
+
+TEST(OpenSea, holdsNothingButWaterOverADeepFloor) {
+    const Place sea{.seed = 3, .kind = PlaceKind::OpenSea};
+    EXPECT_TRUE(rocksOf(sea).empty());
+    EXPECT_TRUE(plantsOf(sea).empty());
+    for (const float x : {-500.0F, 0.0F, 7.5F})
+        EXPECT_EQ(floorHeight(sea, {x, -x}), -kOpenSeaFloorDepthMetres);
 }
 
 }  // namespace

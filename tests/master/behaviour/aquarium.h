@@ -19,7 +19,7 @@ struct Aquarium {
 
     // One kind that schools and has no other habits; more may be added to natures.
     explicit Aquarium(const std::vector<glm::vec3>& offsets = {}) {
-        surroundings.obstacles = {3, {kCentre, {6, 3, 4}}, {}};
+        surroundings.obstacles = {{3}, {kCentre, {6, 3, 4}}, {}};
         surroundings.submarine.position = kCentre + glm::vec3{100, 0, 0};
         Nature nature;
         nature.habits.shares.schooling = 1;

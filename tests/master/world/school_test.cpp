@@ -94,7 +94,7 @@ class Watch {
     void notePlace(glm::vec3 position) {
         const Region water = schoolRegion();
         const glm::vec3 out = glm::abs(position - water.centre) - water.halfExtent;
-        const float floor = floorHeight(seed_, {position.x, position.z});
+        const float floor = floorHeight({seed_}, {position.x, position.z});
         const glm::vec3 fromEye = position - kEyePosition;
         diary_.farthestOutOfWater = std::max({diary_.farthestOutOfWater, out.x, out.y, out.z});
         diary_.nearestToSand = std::min(diary_.nearestToSand, position.y - floor);

@@ -59,7 +59,7 @@ TEST(Plants, fartherLevelsHaveFewerTriangles) {
 }
 
 TEST(Reef, coralsKeepToTheirBoulder) {
-    const std::vector<Rock> rocks = rocksOf(kSeed);
+    const std::vector<Rock> rocks = rocksOf({kSeed});
     for (const Rock& rock : rocks) {
         std::size_t triangles = ~std::size_t{0};
         for (int level = 1; level < kReefLevels; ++level) {
@@ -77,7 +77,7 @@ TEST(Reef, coralsKeepToTheirBoulder) {
 
 // Fish keep clear of the ball: no stone may stand out of it.
 TEST(Reef, stoneKeepsWithinItsBall) {
-    for (const Rock& rock : rocksOf(kSeed)) {
+    for (const Rock& rock : rocksOf({kSeed})) {
         Mesh mesh;
         addBoulder(mesh, rock, 1);
         for (const SolidVertex& vertex : mesh.vertices)
@@ -86,7 +86,7 @@ TEST(Reef, stoneKeepsWithinItsBall) {
 }
 
 TEST(Reef, stoneLooksOutward) {
-    const Rock rock = rocksOf(kSeed).front();
+    const Rock rock = rocksOf({kSeed}).front();
     Mesh mesh;
     addBoulder(mesh, rock, 0);
     int inward = 0;
@@ -101,7 +101,7 @@ TEST(Ground, theSandIsWhereTheMasterHasIt) {
     ASSERT_TRUE(namesItsOwnVertices(mesh));
     int onSand = 0;
     for (const SolidVertex& vertex : mesh.vertices) {
-        const float sand = floorHeight(kSeed, {vertex.position.x, vertex.position.z});
+        const float sand = floorHeight({kSeed}, {vertex.position.x, vertex.position.z});
         ASSERT_LE(vertex.position.y, sand);
         onSand += vertex.position.y == sand ? 1 : 0;
     }

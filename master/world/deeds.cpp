@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the fish did to one another and to the food, done one after the other: of two that want the
+// same the first has it.
+#include <algorithm>
+
+#include "common/place/angle.h"
+#include "common/place/noise.h"
+#include "master/behaviour/feel/temperament.h"
+#include "master/world/beginning.h"
+#include "master/world/world.h"
+
+namespace aquarama {
+
+void World::perform(const Deed& deed) {
+    switch (deed.kind) {
+        case DeedKind::EatParticle:
+            if (!takeFood(surroundings_.food, deed.object)) return;
+            beginSwallow(meals_, deed.fish, deed.object);
+            feed(deed.fish);
+            ++counts_.meals;
+            return;
+        case DeedKind::EatFish:
+            if (isAway(states_, deed.object)) return;
+            setAway(states_, deed.object);
+            view_.signs[deed.object] = kAway;
+            absences_.push_back(absenceFrom(seed_, deed.object, tick_));
+            feed(deed.fish);
+            minds_.sinceChase[deed.fish] = kLongAgo;  // one is enough for a chase
+            ++counts_.catches;
+            return;
+        case DeedKind::Spawn:
+            // Whoever spawned in this very tick has no more to give.
+            if (minds_.sinceSpawning[deed.fish] == 0 || minds_.sinceSpawning[deed.object] == 0)
+                return;
+            minds_.sinceSpawning[deed.fish] = 0;
+            minds_.sinceSpawning[deed.object] = 0;
+            ++counts_.spawnings;
+            return;
+    }
+}
+
+void World::feed(std::uint32_t fish) {
+    if (minds_.eaten[fish] < 0xffffU) ++minds_.eaten[fish];
+    minds_.sinceMeal[fish] = 0;
+}
+
+// Those whose time it is come back as others: with a mind and likes of their own.
+void World::receive() {
+    std::erase_if(absences_, [this](const Absence& absence) {
+        if (absence.until.value > tick_.value) return false;
+        arrive(absence.fish);
+        return true;
+    });
+}
+
+void World::arrive(std::uint32_t fish) {
+    const Nature& nature = natures_[view_.kind[fish]];
+    const glm::vec3 place = arrivalPlace(surroundings_, fish, tick_);
+    const glm::vec3 inwards =
+        directionOf(surroundings_.obstacles.water.centre - place, glm::vec3{1, 0, 0});
+    placeFishAt(states_, fish, place, inwards);
+    setSpeedBodyLengths(states_, fish, nature.medium);
+    const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
+    minds_.set(fish, freshMind(nature, drawn, fish));
+    courses_.set(fish, {levelled(inwards), nature.medium, 0});
+    view_.signs[fish] = 0;
+    ++counts_.returns;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Food on its way into a mouth: a fish that snaps draws it in with the water (Tu 1996, section
+// 5.6.3), which takes a few ticks in which all can see it go.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/units/ids.h"
+#include "master/fish/fish_view.h"
+#include "master/surroundings/food.h"
+
+namespace aquarama {
+
+struct Meals {
+    struct Swallow {
+        std::uint32_t fish = kNobody;
+        std::uint32_t particle = kNobody;
+        std::uint32_t ticksLeft = 0;
+    };
+    std::vector<Swallow> swallows;  // in the order in which they began
+};
+
+// With room for one of each fish: none snaps again before it has swallowed.
+[[nodiscard]] Meals makeMeals(std::size_t fish);
+// Of a particle that the fish has taken.
+void beginSwallow(Meals& meals, std::uint32_t fish, std::uint32_t particle);
+// One tick: each particle comes nearer to the mouth, and vanishes in it.
+void advanceMeals(Meals& meals, const FishView& view, Food& food, Tick tick);
+
+}  // namespace aquarama

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/world/population.h"
+
+#include <algorithm>
+
+#include "common/place/angle.h"
+#include "common/place/noise.h"
+
+namespace aquarama {
+
+namespace {
+
+// Streams of one seed: what a number is drawn for.
+enum Draw : std::uint32_t { Absent = 601, Arrival };
+
+constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
+constexpr std::uint32_t kLongestAbsence = 60 * 60;
+constexpr float kHazeMetres = 12;        // beyond, the haze has swallowed a fish of the school
+constexpr float kShore = 0.85F;          // of the water's half extent
+constexpr float kSurfaceRoomMetres = 1;  // under the surface
+constexpr float kFloorRoomMetres = 1;    // over the sand
+constexpr float kRockRoomMetres = 1;
+constexpr std::uint32_t kPlacesTried = 16;
+
+glm::vec3 placeDrawn(const Obstacles& obstacles, std::uint32_t hash) {
+    const glm::vec3 share{
+        signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+    glm::vec3 place = obstacles.water.centre + obstacles.water.halfExtent * share * kShore;
+    const float lowest = floorHeight(obstacles.place, {place.x, place.z}) + kFloorRoomMetres;
+    place.y = std::min(std::max(place.y, lowest), -kSurfaceRoomMetres);
+    return place;
+}
+
+bool isClear(const Obstacles& obstacles, glm::vec3 place) {
+    return std::ranges::none_of(obstacles.rocks, [&](const Rock& rock) {
+        return lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
+    });
+}
+
+}  // namespace
+
+std::vector<Absence> makeAbsences(std::span<const Nature> natures) {
+    std::size_t hunted = 0;
+    for (const Nature& nature : natures)
+        if (nature.huntedBy != 0) hunted += nature.last - nature.first;
+    std::vector<Absence> absences;
+    absences.reserve(hunted);
+    return absences;
+}
+
+Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
+    const std::uint32_t hash =
+        hashOf(hashOf(hashOf(seed, Absent), fish), static_cast<std::uint32_t>(now.value));
+    return {fish, {now.value + kShortestAbsence + hash % (kLongestAbsence - kShortestAbsence)}};
+}
+
+glm::vec3 arrivalPlace(const Surroundings& surroundings, std::uint32_t fish, Tick tick) {
+    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Arrival), fish),
+                                     static_cast<std::uint32_t>(tick.value));
+    glm::vec3 best = surroundings.obstacles.water.centre;
+    float farthest = -1;
+    for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
+        const glm::vec3 place = placeDrawn(surroundings.obstacles, hashOf(own, i));
+        if (!isClear(surroundings.obstacles, place)) continue;
+        const float far = std::min(lengthOf(place - surroundings.submarine.position), kHazeMetres);
+        if (far <= farthest) continue;
+        farthest = far;
+        best = place;
+    }
+    return best;
+}
+
+}  // namespace aquarama
