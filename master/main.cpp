@@ -2,8 +2,10 @@
 // The master of a rig: wires the world to the conductor.
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -11,15 +13,14 @@
 #include "common/cli/signals.h"
 #include "common/config/cast.h"
 #include "common/config/rig.h"
-#include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
 #include "master/conductor/conductor.h"
 #include "master/conductor/status.h"
-#include "master/staging/staging.h"
-#include "master/world/world.h"
+#include "master/production/living_world.h"
+#include "master/production/production.h"
 
 namespace aquarama {
 
@@ -36,24 +37,6 @@ struct MasterOptions {
     std::string traceFolder;
 };
 
-class LivingWorld final : public Simulation {
-  public:
-    explicit LivingWorld(World& world) : world_(world) {}
-    void advance() override { world_.advance(); }
-    [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    [[nodiscard]] Eye eye() const override {
-        return {.positionMetres = world_.surroundings().submarine.position};
-    }
-    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
-        return {fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    }
-
-  private:
-    World& world_;
-};
-
 ConductorOptions conductorOptions(const MasterOptions& options) {
     ConductorOptions conductor;
     conductor.pace = options.lockstep ? Pace::Lockstep : Pace::Live;
@@ -66,29 +49,36 @@ ConductorOptions conductorOptions(const MasterOptions& options) {
     return conductor;
 }
 
+// What the nodes are told of the cast, and the blobs that they may then ask for.
+std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
+    std::vector<SpeciesBlobs> cast;
+    for (const ProducedSpecies& species : production.cast) {
+        const auto text = std::as_bytes(std::span{species.text});
+        cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
+        blobs.emplace(cast.back().species, ByteVector{text.begin(), text.end()});
+        blobs.emplace(cast.back().repertoire, species.repertoire);
+    }
+    return cast;
+}
+
 void runMaster(const MasterOptions& options) {
     holdSignals();
     const Rig rig = readRig(options.rigPath);
     checkGeometry(rig, options.rigPath);
     auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
 
-    const Staging staging = stageScene(
+    const Production production = readProduction(
         options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
-        options.fish);
-    World world(worldOptionsOf(staging, options.seed));
-    LivingWorld simulation(world);
+        {.seed = options.seed, .fish = options.fish});
+    LivingWorld simulation(worldOptionsOf(production));
 
+    Blobs blobs;
     Welcome welcome;
     welcome.rigText = writeRig(rig);
-    welcome.sceneText = writeScene(staging.scene);
-    welcome.school.assign(world.traits().begin(), world.traits().end());
-    Blobs blobs;
-    for (const StagedSpecies& member : staging.cast) {
-        welcome.cast.push_back(
-            {digestOf(member.speciesBlob), digestOf(member.repertoireBlob), member.species.fish});
-        blobs.emplace(welcome.cast.back().species, member.speciesBlob);
-        blobs.emplace(welcome.cast.back().repertoire, member.repertoireBlob);
-    }
+    welcome.sceneText = production.scene;
+    welcome.cast = castOf(production, blobs);
+    const auto school = simulation.world().traits();
+    welcome.school.assign(school.begin(), school.end());
 
     Conductor conductor(rig,
                         conductorOptions(options),

@@ -51,6 +51,7 @@ constexpr std::array kDelegations{
                "capture",
                "controllers",
                "what each motor controller makes the biomechanical fish do"},
+    Delegation{"study", "study", "", "with and without each adaptation of the mind to its motor"},
     Delegation{
         "check", "calibrate", "check", "validate a rig, a scene or a species: aquarama check FILE"},
     Delegation{"status", "master", "status", "what the running wall is doing"},

@@ -20,7 +20,7 @@ bool isInTerrain(const Obstacles& obstacles, const Rod& rod) {
     if (rod.length == 0) return false;
     const glm::vec3 at = rod.origin;
     if (at.y > -rod.halfWidth) return true;
-    if (at.y < floorHeight(obstacles.placeSeed, {at.x, at.z}) + rod.halfWidth) return true;
+    if (at.y < floorHeight(obstacles.place, {at.x, at.z}) + rod.halfWidth) return true;
     return std::ranges::any_of(obstacles.rocks, [&](const Rock& rock) {
         return glm::distance(rock.centre, at) < rock.radiusMetres + rod.halfWidth;
     });

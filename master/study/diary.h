@@ -19,9 +19,9 @@ struct Tally {
     double fishTicks = 0;
     std::uint64_t ticks = 0;
 
-    std::uint64_t touches = 0;        // overlaps that began
-    double overlapTicks = 0;          // fish of it
-    std::uint64_t bumps = 0;          // into rock, sand or surface, that began
+    std::uint64_t touches = 0;  // overlaps that began
+    double overlapTicks = 0;    // fish of it
+    std::uint64_t bumps = 0;    // into rock, sand or surface, that began
     double nearestNeighbour = 0, polarisation = 0, rotation = 0;  // of the school, at each glance
     double resultant = 0, sameSegment = 0, inStep = 0;            // likewise
     std::uint64_t glances = 0;

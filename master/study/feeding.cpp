@@ -14,7 +14,8 @@ constexpr std::uint32_t kPinches = 701;  // stream of the seed
 
 // In the upper half of the water, not at its borders.
 glm::vec3 placeOf(const Region& water, std::uint32_t hash) {
-    const glm::vec3 share{signedUnitOf(hash), unitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+    const glm::vec3 share{
+        signedUnitOf(hash), unitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
     return water.centre + water.halfExtent * share * 0.6F;
 }
 

@@ -162,7 +162,9 @@ void lookAfter(Food& food,
 void sink(Food& food, std::size_t i, std::uint32_t now) {
     if (food.taken[i] != 0) return;
     food.y[i] = std::max(food.y[i] - kSinkMetres, food.lowest[i]);
-    if (isDue(food, i, now)) food.kind[i] = FoodKind::None;
+    if (!isDue(food, i, now)) return;
+    food.kind[i] = FoodKind::None;
+    --food.pellets;
 }
 
 }  // namespace
@@ -209,6 +211,7 @@ void dropPellets(Food& food,
         const float sand = floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
         place.y = std::min(std::max(place.y, sand), 0.0F);
         put(food, i, FoodKind::Pellet, place, sand);
+        ++food.pellets;
         food.absentUntil[i] =
             now + static_cast<std::uint32_t>((place.y - sand) / kSinkMetres) + kLiesTicks;
     }
@@ -221,6 +224,7 @@ bool takeFood(Food& food, std::uint32_t particle) {
 }
 
 void removeFood(Food& food, std::uint32_t particle, Tick tick) {
+    if (food.kind[particle] == FoodKind::Pellet) --food.pellets;
     food.kind[particle] = FoodKind::None;
     food.taken[particle] = 0;
     const auto now = static_cast<std::uint32_t>(tick.value);

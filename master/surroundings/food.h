@@ -23,6 +23,7 @@ struct Food {
     std::vector<std::uint8_t> taken;         // 1: on its way into a mouth
     std::vector<std::uint8_t> generation;    // counts up when another takes the place
     std::vector<std::uint32_t> absentUntil;  // tick, low 32 bits; of a pellet when it dissolves
+    std::uint32_t pellets = 0;               // in the water
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }

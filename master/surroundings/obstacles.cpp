@@ -15,6 +15,8 @@ constexpr float kFloorClearanceMetres = 0.35F;
 constexpr float kSurfaceClearanceMetres = 0.5F;
 constexpr float kRockClearanceMetres = 0.3F;
 constexpr float kRockMarginMetres = 0.6F;
+constexpr float kStemRadiusMetres = 0.15F;  // of a kelp plant with its fronds
+constexpr float kStemMarginMetres = 0.35F;
 constexpr float kStrongest = 6.0F;
 
 // 0 at the margin's beginning, 1.5 at the limit, growing with the square beyond.
@@ -29,17 +31,85 @@ float borderPush(float fromCentre, float halfExtent, float margin) {
     return fromCentre > 0 ? -ramp(fromCentre - inner, margin) : ramp(-fromCentre - inner, margin);
 }
 
+// Of the sides and heights that the water itself has; the surface too.
 glm::vec3 bordersAt(const Obstacles& obstacles, glm::vec3 position) {
     const glm::vec3 from = position - obstacles.water.centre;
     const glm::vec3 half = obstacles.water.halfExtent;
-    const float floor = floorHeight(obstacles.place, {position.x, position.z});
-    const float lowest = floor + kFloorClearanceMetres + kHeightMarginMetres;
     const float highest = -kSurfaceClearanceMetres - kHeightMarginMetres;
     return {borderPush(from.x, half.x, kSideMarginMetres),
-            borderPush(from.y, half.y, kHeightMarginMetres) +
-                ramp(lowest - position.y, kHeightMarginMetres) -
+            borderPush(from.y, half.y, kHeightMarginMetres) -
                 ramp(position.y - highest, kHeightMarginMetres),
             borderPush(from.z, half.z, kSideMarginMetres)};
+}
+
+glm::vec3 sandPush(float sand, glm::vec3 position) {
+    const float lowest = sand + kFloorClearanceMetres + kHeightMarginMetres;
+    return {0, ramp(lowest - position.y, kHeightMarginMetres), 0};
+}
+
+float plainSand(const Obstacles& obstacles, glm::vec3 position) {
+    return floorHeight(obstacles.place, {position.x, position.z});
+}
+
+// What is near counts more than what the path meets later.
+glm::vec3 pushAway(glm::vec3 away, float gap, float margin, float share) {
+    if (gap >= margin) return {};
+    return directionOf(away, {0, 1, 0}) * ((1 - 0.5F * share) * ramp(margin - gap, margin));
+}
+
+// A stem is passed in plan, below its top.
+glm::vec3 stemPush(const Stem& stem, glm::vec3 position, glm::vec3 heading, float reachMetres) {
+    if (position.y > stem.topMetres) return {};
+    const glm::vec3 to{stem.foot.x - position.x, 0, stem.foot.y - position.z};
+    const glm::vec3 level{heading.x, 0, heading.z};
+    const float along = std::clamp(dot(to, level), 0.0F, reachMetres);
+    const glm::vec3 away = level * along - to;
+    return pushAway(
+        away, lengthOf(away) - kStemRadiusMetres, kStemMarginMetres, along / reachMetres);
+}
+
+glm::vec3 pushOf(const Obstacles& obstacles,
+                 std::size_t index,
+                 glm::vec3 position,
+                 glm::vec3 heading,
+                 float reachMetres) {
+    const std::size_t rocks = obstacles.rocks.size();
+    if (index >= rocks)
+        return stemPush(obstacles.stems[index - rocks], position, heading, reachMetres);
+    const Rock& rock = obstacles.rocks[index];
+    return ballPush(
+        rock.centre, rock.radiusMetres + kRockClearanceMetres, position, heading, reachMetres);
+}
+
+float distanceToWater(const Region& water, glm::vec3 point) {
+    const glm::vec3 from = point - water.centre;
+    const glm::vec3 nearest{std::clamp(from.x, -water.halfExtent.x, water.halfExtent.x),
+                            std::clamp(from.y, -water.halfExtent.y, water.halfExtent.y),
+                            std::clamp(from.z, -water.halfExtent.z, water.halfExtent.z)};
+    return lengthOf(from - nearest);
+}
+
+std::vector<Stem> stemsIn(const PlaceKey& place, const Region& water) {
+    std::vector<Stem> stems;
+    for (const Plant& plant : plantsOf(place)) {
+        const float top = plant.root.y + plant.heightMetres;
+        const float height = std::clamp(water.centre.y, plant.root.y, top);
+        const glm::vec3 nearest{plant.root.x, height, plant.root.z};
+        if (plant.kind == PlantKind::Kelp &&
+            distanceToWater(water, nearest) < kStemRadiusMetres + kStemMarginMetres)
+            stems.push_back({{plant.root.x, plant.root.z}, top});
+    }
+    return stems;
+}
+
+Chart chartOf(const Obstacles& obstacles) {
+    std::vector<Chart::Footprint> footprints;
+    for (const Rock& rock : obstacles.rocks)
+        footprints.push_back({{rock.centre.x, rock.centre.z},
+                              rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres});
+    for (const Stem& stem : obstacles.stems)
+        footprints.push_back({stem.foot, kStemRadiusMetres + kStemMarginMetres});
+    return {obstacles.place, obstacles.water, footprints};
 }
 
 }  // namespace
@@ -48,35 +118,50 @@ glm::vec3 ballPush(
     glm::vec3 centre, float radius, glm::vec3 position, glm::vec3 heading, float reachMetres) {
     const float along = std::clamp(dot(centre - position, heading), 0.0F, reachMetres);
     const glm::vec3 away = position + heading * along - centre;
-    const float gap = lengthOf(away) - radius;
-    if (gap >= kRockMarginMetres) return {};
-    // What is near counts more than what the path meets later.
-    const float soon = 1 - 0.5F * along / reachMetres;
-    return directionOf(away, {0, 1, 0}) * (soon * ramp(kRockMarginMetres - gap, kRockMarginMetres));
+    return pushAway(away, lengthOf(away) - radius, kRockMarginMetres, along / reachMetres);
 }
 
 Obstacles obstaclesOf(const PlaceKey& place, const Region& water) {
     Obstacles obstacles{place, water, {}};
     for (const Rock& rock : rocksOf(place)) {
-        const glm::vec3 from = rock.centre - water.centre;
         const float reach = rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres;
-        const glm::vec3 nearest{std::clamp(from.x, -water.halfExtent.x, water.halfExtent.x),
-                                std::clamp(from.y, -water.halfExtent.y, water.halfExtent.y),
-                                std::clamp(from.z, -water.halfExtent.z, water.halfExtent.z)};
-        if (lengthOf(from - nearest) < reach) obstacles.rocks.push_back(rock);
+        if (distanceToWater(water, rock.centre) < reach) obstacles.rocks.push_back(rock);
     }
+    obstacles.stems = stemsIn(place, water);
+    obstacles.chart = chartOf(obstacles);
     return obstacles;
+}
+
+glm::vec3 plainAvoidance(const Obstacles& obstacles,
+                         glm::vec3 position,
+                         glm::vec3 heading,
+                         float reachMetres) {
+    const glm::vec3 ahead = position + heading * reachMetres;
+    glm::vec3 push = bordersAt(obstacles, position) + bordersAt(obstacles, ahead) +
+                     sandPush(plainSand(obstacles, position), position) +
+                     sandPush(plainSand(obstacles, ahead), ahead);
+    for (std::size_t i = 0; i < obstacles.rocks.size() + obstacles.stems.size(); ++i)
+        push += pushOf(obstacles, i, position, heading, reachMetres);
+    return push;
 }
 
 glm::vec3 avoidance(const Obstacles& obstacles,
                     glm::vec3 position,
                     glm::vec3 heading,
                     float reachMetres) {
-    glm::vec3 push =
-        bordersAt(obstacles, position) + bordersAt(obstacles, position + heading * reachMetres);
-    for (const Rock& rock : obstacles.rocks)
-        push += ballPush(
-            rock.centre, rock.radiusMetres + kRockClearanceMetres, position, heading, reachMetres);
+    const Chart& chart = obstacles.chart;
+    const glm::vec3 ahead = position + heading * reachMetres;
+    const glm::vec2 here{position.x, position.z};
+    const glm::vec2 there{ahead.x, ahead.z};
+    if (reachMetres > kChartReachMetres || !chart.covers(here) || !chart.covers(there))
+        return plainAvoidance(obstacles, position, heading, reachMetres);
+    glm::vec3 push = bordersAt(obstacles, position) + bordersAt(obstacles, ahead);
+    // In open water no sand is near.
+    if (std::min(position.y, ahead.y) <
+        chart.highestSand() + kFloorClearanceMetres + kHeightMarginMetres)
+        push += sandPush(chart.sand(here), position) + sandPush(chart.sand(there), ahead);
+    for (const std::uint32_t index : chart.near(here))
+        push += pushOf(obstacles, index, position, heading, reachMetres);
     return push;
 }
 

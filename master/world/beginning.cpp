@@ -8,7 +8,7 @@
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
-#include "master/behaviour/act/wander.h"
+#include "master/behaviour/act/home.h"
 
 namespace aquarama {
 
@@ -65,7 +65,7 @@ void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionS
     states.warpLength[fish] = 0;
 }
 
-// A block about the goal, loosely spaced.
+// A block about the goal, loosely spaced; a large one is moved into the water.
 void placeSchool(std::uint32_t seed,
                  const Goal& goal,
                  const Region& water,
@@ -76,31 +76,59 @@ void placeSchool(std::uint32_t seed,
     const glm::quat rotation = facing(goal.velocityMetresPerSecond);
     // A school too large for the water is packed more densely.
     const glm::vec3 room = water.halfExtent * 0.85F;
+    const auto half = static_cast<float>(block.across) * 0.5F;
+    const float fit = std::min({1.0F,
+                                room.y / (half * kSpacingMetres),
+                                room.z / (half * kSpacingMetres),
+                                room.x / (2 * half * kSpacingMetres)});
+    const glm::vec3 reach = (glm::abs(rotation * glm::vec3{2 * half, 0, 0}) +
+                             glm::abs(rotation * glm::vec3{0, half, half})) *
+                            (kSpacingMetres * fit);
+    const glm::vec3 play = glm::max(room - reach, glm::vec3{0});
+    const glm::vec3 middle = glm::clamp(goal.position, water.centre - play, water.centre + play);
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(i));
         const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
                                signedUnitOf(hashOf(own, 1)),
                                signedUnitOf(hashOf(own, 2))};
         const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(i)) + jitter * 0.25F;
-        const auto half = static_cast<float>(block.across) * 0.5F;
-        const float fit = std::min({1.0F,
-                                    room.y / (half * kSpacingMetres),
-                                    room.z / (half * kSpacingMetres),
-                                    room.x / (2 * half * kSpacingMetres)});
         const glm::vec3 spread = rotation * (cell * (kSpacingMetres * fit));
         const glm::vec3 place =
-            glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
+            glm::clamp(middle + spread, water.centre - room, water.centre + room);
         begin(seed, i, {place, rotation}, states);
     }
 }
 
+// At home, or at the first place that they are bound for.
+glm::vec3 restingPlace(std::uint32_t seed,
+                       const Habits& habits,
+                       const Obstacles& obstacles,
+                       std::size_t first,
+                       std::size_t fish) {
+    const auto depth = static_cast<float>(habits.bestDepthMetres);
+    if (habits.home.kind != HomeKind::Place)
+        return wanderingGoal(seed, obstacles.water, depth, fish, {});
+    const auto index = static_cast<std::uint32_t>(fish);
+    const std::uint32_t own = hashOf(hashOf(seed, Place), index);
+    const glm::vec3 share{
+        signedUnitOf(hashOf(own, 0)), signedUnitOf(hashOf(own, 1)), signedUnitOf(hashOf(own, 2))};
+    const std::uint32_t household = householdOf(static_cast<std::uint32_t>(first), index);
+    return homeOf(seed, habits.home, obstacles, depth, household) +
+           share * (0.5F * static_cast<float>(habits.home.radiusMetres));
+}
+
 void placeWanderers(std::uint32_t seed,
-                    const Region& water,
+                    const Habits& habits,
+                    const Obstacles& obstacles,
                     std::size_t first,
                     std::size_t last,
                     MotionStates& states) {
+    const Region& water = obstacles.water;
     for (std::size_t fish = first; fish < last; ++fish) {
-        const glm::vec3 place = wanderingGoal(seed, water, fish, {});
+        const glm::vec3 inner = water.halfExtent * 0.85F;
+        const glm::vec3 place = glm::clamp(restingPlace(seed, habits, obstacles, first, fish),
+                                           water.centre - inner,
+                                           water.centre + inner);
         const glm::vec3 towards = water.centre - place;
         begin(seed, fish, {place, facing(towards)}, states);
     }
@@ -158,7 +186,8 @@ void placeFish(const WorldOptions& options,
         else if (first == 0)
             placeSchool(options.seed, goal, water, last, states);
         else
-            placeWanderers(options.seed, water, first, last, states);
+            placeWanderers(
+                options.seed, species.habits, surroundings.obstacles, first, last, states);
         first = last;
     }
 }

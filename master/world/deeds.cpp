@@ -25,6 +25,7 @@ void World::perform(const Deed& deed) {
             view_.signs[deed.object] = kAway;
             absences_.push_back(absenceFrom(seed_, deed.object, tick_));
             feed(deed.fish);
+            minds_.sinceChase[deed.fish] = kLongAgo;  // one is enough for a chase
             ++counts_.catches;
             return;
         case DeedKind::Spawn:

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "master/behaviour/act/mouth.h"
 #include "master/fish/courses.h"
+#include "master/fish/mouth.h"
 
 namespace aquarama {
 

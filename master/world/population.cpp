@@ -11,7 +11,7 @@ namespace aquarama {
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { Absent = 601, Place };
+enum Draw : std::uint32_t { Absent = 601, Arrival };
 
 constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
 constexpr std::uint32_t kLongestAbsence = 60 * 60;
@@ -55,7 +55,7 @@ Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
 }
 
 glm::vec3 arrivalPlace(const Surroundings& surroundings, std::uint32_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Place), fish),
+    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Arrival), fish),
                                      static_cast<std::uint32_t>(tick.value));
     glm::vec3 best = surroundings.obstacles.water.centre;
     float farthest = -1;

@@ -20,7 +20,7 @@ Course act(const Situation& situation, Mind& mind, Deeds& deeds) {
         case Intention::AvoidFish:
             return avoidFish(situation, mind);
         case Intention::Escape:
-            return escape(situation);
+            return escape(situation, mind);
         case Intention::Eat:
             return situation.nature.role == Role::Predator ? hunt(situation, mind, deeds)
                                                            : eat(situation, mind, deeds);

@@ -2,8 +2,8 @@
 #include "master/behaviour/act/eat.h"
 
 #include "common/place/angle.h"
-#include "master/behaviour/act/mouth.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/fish/mouth.h"
 
 namespace aquarama {
 

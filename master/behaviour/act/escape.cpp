@@ -7,6 +7,7 @@
 #include "master/behaviour/act/company.h"
 #include "master/behaviour/act/flight.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/school.h"
 
 namespace aquarama {
 
@@ -15,13 +16,25 @@ namespace {
 constexpr float kFlee = 2.5F;        // against the unit vector of one's own course
 constexpr float kSharpStart = 1.0F;  // urgency from which the motor turns sharply
 
+// 0 where it only just leaves its school, 1 where the predator is so near that nothing else counts.
+float dread(const Nature& nature, const Feelings& feelings) {
+    const float more = feelings.greatestFear - nature.fearAlone;
+    return std::clamp(more / std::max(1 - nature.fearAlone, 0.01F), 0.0F, 1.0F);
+}
+
 }  // namespace
 
-Course escape(const Situation& situation) {
+Course escape(const Situation& situation, const Mind& mind) {
     const Senses& senses = situation.senses;
     const glm::vec3 wish = senses.heading + flightFrom(situation) * kFlee +
                            roomFrom(*situation.environment.view, senses, situation.fish);
     Course course = heading(situation, wish, situation.nature.fast);
+    if ((mind.likes & kLikesSchooling) != 0) {
+        const float alone = dread(situation.nature, situation.feelings);
+        const glm::vec3 together = school(situation).direction;
+        course.direction = levelled(
+            directionOf(together + (course.direction - together) * alone, course.direction));
+    }
     course.urgency = std::max(course.urgency, kSharpStart);
     return course;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "common/place/angle.h"
-#include "master/behaviour/act/mouth.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/fish/mouth.h"
 
 namespace aquarama {
 

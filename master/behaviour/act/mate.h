@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Courts the mate of its intention: looping, circling, spawning ascent, nuzzling (Tu 1996,
-// section 5.6).
+// Mating (Tu 1996, section 5.6.6): a fish follows one that courts nobody, shows itself to one that
+// courts another, and with one that courts it goes through a courtship. Each has its time; then the
+// fish gives up.
 #pragma once
 
 #include "master/behaviour/act/routine.h"

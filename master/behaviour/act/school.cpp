@@ -16,14 +16,16 @@ namespace {
 constexpr float kKeepCourse = 0.8F;  // weights against the unit vector of one's own course
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
-constexpr float kFlee = 2.4F;
+constexpr float kGiveWayToHunter = 0.8F;
 
 constexpr float kSlowest = 0.85F;  // body lengths a second
 constexpr float kFastest = 2.9F;
 constexpr float kMillPace = 1.9F;
+constexpr float kBaitBallPace = 2.1F;
 constexpr float kAlarmedPace = 0.5F;  // more than at ease
 
-constexpr float kFlightMetres = 2.2F;  // of a predator that is nearer the way is cleared
+constexpr std::uint32_t kLevels = 341;  // stream of the seed
+constexpr float kKeepLevel = 1.0F;      // against the way round the ball
 
 // How far from the goal, in the shape of the school: a ball, flatter where the water is shallow.
 glm::vec3 fromGoal(const Goal& goal, glm::vec3 position) {
@@ -44,11 +46,27 @@ glm::vec3 circled(const Goal& goal, glm::vec3 towards, float pull) {
     return directionOf(around, {1, 0, 0}) * 1.6F + directionOf(towards, {}) * (pull + 0.3F);
 }
 
-glm::vec3 commonWay(const Goal& goal, glm::vec3 position, float schoolRadiusMetres) {
+// Of a bait ball every fish keeps a level of its own, more of them near the middle; else all would
+// mill in one flat ring.
+float levelOf(const Environment& environment, std::uint32_t fish) {
+    const std::uint32_t own = hashOf(hashOf(environment.seed, kLevels), fish);
+    return unitOf(own) + unitOf(hashOf(own)) - 1;
+}
+
+glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 towards) {
+    const float high = environment.schoolRadiusMetres;
+    const float climb = towards.y + levelOf(environment, fish) * high;
+    return {0, std::clamp(climb / (0.3F * high), -1.0F, 1.0F) * kKeepLevel, 0};
+}
+
+glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec3 position) {
+    const Goal& goal = environment.goal;
     const glm::vec3 towards = fromGoal(goal, position);
-    const float outside = lengthOf(towards) - schoolRadiusMetres;
-    const float pull = std::clamp(outside / schoolRadiusMetres, 0.0F, 1.5F);
+    const float outside = lengthOf(towards) - environment.schoolRadiusMetres;
+    const float pull = std::clamp(outside / environment.schoolRadiusMetres, 0.0F, 1.5F);
     const glm::vec3 follow = followed(goal, towards, pull);
+    if (environment.gathering == Gathering::Mill)
+        return circled(goal, towards, pull) + toLevel(environment, fish, towards);
     if (goal.mill == 0) return follow;
     return follow + (circled(goal, towards, pull) - follow) * std::abs(goal.mill);
 }
@@ -72,19 +90,22 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
         const float perLength = 1 / senses.length;
         const float behind = dot(goal.position - senses.position, senses.heading) * perLength;
         const float goalPace = lengthOf(goal.velocityMetresPerSecond) * perLength + 0.12F * behind;
-        own = goalPace + (kMillPace - goalPace) * std::abs(goal.mill);
+        const bool ball = situation.environment.gathering == Gathering::Mill;
+        const float round = ball ? kBaitBallPace : kMillPace;
+        own = goalPace + (round - goalPace) * std::abs(goal.mill);
     }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
     return std::clamp(
         pace + company.hurry - company.brake + kAlarmedPace * alarm, kSlowest, kFastest);
 }
 
-// Schoolmates keep out of a predator's way without leaving one another: a hollow opens about it.
+// Schoolmates give way to a predator before it comes so near that each flees for itself.
 glm::vec3 clearing(const Situation& situation) {
-    const Senses& senses = situation.senses;
-    if (senses.predatorCount == 0) return {};
-    const float near = 1 - senses.predators[0].distance / kFlightMetres;
-    return near > 0 ? flightFrom(situation) * (kFlee * near) : glm::vec3{};
+    const Nature& nature = situation.nature;
+    const float fear = situation.feelings.greatestFear - nature.fearFrom;
+    if (fear <= 0) return {};
+    const float share = std::min(1.0F, fear / std::max(nature.fearAlone - nature.fearFrom, 0.01F));
+    return flightFrom(situation) * (kGiveWayToHunter * share);
 }
 
 }  // namespace
@@ -107,7 +128,7 @@ Course school(const Situation& situation) {
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     glm::vec3 way{};
     if (environment.gathering != Gathering::None)
-        way = commonWay(environment.goal, senses.position, environment.schoolRadiusMetres);
+        way = commonWay(environment, situation.fish, senses.position);
     const glm::vec3 wish = senses.heading * kKeepCourse + pullOf(company) + way * follow +
                            whim(environment.seed, situation.fish, environment.tick) * kWander +
                            clearing(situation) + wayRound(situation);

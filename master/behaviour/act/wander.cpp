@@ -5,61 +5,78 @@
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
+#include "master/behaviour/act/companion.h"
+#include "master/behaviour/act/company.h"
+#include "master/behaviour/act/home.h"
 #include "master/behaviour/act/pursue.h"
 
 namespace aquarama {
 
 namespace {
 
-constexpr std::uint64_t kTicksToAPlace = 15 * 60;
-constexpr std::uint32_t kPlaces = 301;  // stream of the seed
+enum Draw : std::uint32_t { Pace = 311, Turn, Sharpness };
+
+constexpr std::uint64_t kTicksOfPace = 5 * 60;
+constexpr std::uint64_t kTicksOfTurn = 60;
+constexpr float kTurns = 0.35F;      // the share of paces that begin with a turn for no reason
+constexpr float kHoverPace = 0.15F;  // of slow
 
 constexpr float kKeepCourse = 1.0F;  // weights against the unit vector of one's own course
 constexpr float kGo = 0.7F;
-constexpr float kGiveWay = 1.5F;
-constexpr float kRoomBodyLengths = 1.2F;   // of the longer of two fish
-constexpr float kHurryBodyLengths = 8.0F;  // from so far away a fish goes a fifth faster
+constexpr float kGoHome = 2.0F;  // more, at the leash
+constexpr float kTurn = 1.5F;
 
-void giveWay(glm::vec3& away, const FishView& view, const Neighbours& those, std::uint32_t fish) {
-    for (std::size_t i = 0; i < those.count; ++i) {
-        const std::uint32_t other = those.fish[i];
-        const float room = kRoomBodyLengths * std::max(view.length[fish], view.length[other]);
-        const glm::vec3 offset = view.position(other) - view.position(fish);
-        const float tooNear = std::max(0.0F, 1 - lengthOf(offset) / room);
-        away -= directionOf(offset, {0, 1, 0}) * tooNear;
-    }
+// What a fish drew for the pace that it is in.
+struct Spell {
+    std::uint32_t hash;
+    std::uint64_t ticks;  // since it began
+};
+Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
+    const std::uint32_t own = hashOf(hashOf(seed, Pace), fish);
+    const std::uint64_t now = tick.value + own % kTicksOfPace;
+    return {hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
 }
 
-glm::vec3 awayFromOthers(const FishView& view, const Senses& senses, std::uint32_t fish) {
-    glm::vec3 away{};
-    giveWay(away, view, senses.schoolmates, fish);
-    giveWay(away, view, senses.others, fish);
-    return away;
+// A turn for no reason: 40 degrees if gradual, 100 if sharp, to either side.
+glm::vec3 turnOf(const Nature& nature, const Spell& spell, glm::vec3 course) {
+    const std::uint32_t hash = hashOf(spell.hash, Turn);
+    if (spell.ticks >= kTicksOfTurn || unitOf(hash) >= kTurns) return {};
+    const bool gradual =
+        unitOf(hashOf(spell.hash, Sharpness)) < static_cast<float>(nature.habits.gradualShare);
+    const float cosine = gradual ? 0.766F : -0.174F;
+    const float sine = (gradual ? 0.643F : 0.985F) * ((hash & 1U) != 0 ? 1.0F : -1.0F);
+    return {course.x * cosine - course.z * sine, 0, course.x * sine + course.z * cosine};
 }
 
 }  // namespace
 
-glm::vec3 wanderingGoal(std::uint32_t seed, const Region& water, std::size_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(seed, kPlaces), static_cast<std::uint32_t>(fish));
-    const std::uint64_t place = (tick.value + own % kTicksToAPlace) / kTicksToAPlace;
-    const std::uint32_t hash = hashOf(own, static_cast<std::uint32_t>(place));
-    const glm::vec3 share{
-        signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
-    return water.centre + water.halfExtent * share * 0.75F;
+float paceOf(const Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick tick) {
+    const Paces& paces = nature.habits.paces;
+    const float drawn = unitOf(hashOf(spellOf(seed, fish, tick).hash));
+    const auto hover = static_cast<float>(paces.hover);
+    const float slow = hover + static_cast<float>(paces.slow);
+    const float medium = slow + static_cast<float>(paces.medium);
+    if (drawn < hover) return kHoverPace * nature.slow;
+    if (drawn < slow) return nature.slow;
+    return drawn < medium ? nature.medium : nature.fast;
 }
 
 Course wander(const Situation& situation) {
     const Environment& environment = situation.environment;
+    const Nature& nature = situation.nature;
     const Senses& senses = situation.senses;
-    const Region& water = environment.surroundings->obstacles.water;
-    const glm::vec3 towards =
-        wanderingGoal(environment.seed, water, situation.fish, environment.tick) - senses.position;
+    if (const auto course = keptCompany(situation)) return *course;
+    const Bound bound = boundFor(environment, nature, situation.fish, senses.position);
+    const Spell spell = spellOf(environment.seed, situation.fish, environment.tick);
+    const float calm = std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 wish =
         senses.heading * kKeepCourse +
-        directionOf(towards, senses.heading) * (kGo * std::max(0.0F, 1 - senses.urgency)) +
-        awayFromOthers(*environment.view, senses, situation.fish) * kGiveWay;
-    const float far = lengthOf(towards) / senses.length / kHurryBodyLengths;
-    return heading(situation, wish, situation.nature.slow * (0.9F + 0.3F * std::min(1.0F, far)));
+        directionOf(bound.towards, senses.heading) * ((kGo + kGoHome * bound.strayed) * calm) +
+        turnOf(nature, spell, senses.heading) * (kTurn * calm * (1 - bound.strayed)) +
+        roomFrom(*environment.view, senses, situation.fish);
+    const float pace = paceOf(nature, environment.seed, situation.fish, environment.tick);
+    // Far from home nobody hovers.
+    return heading(situation, wish, std::max(pace, nature.slow * bound.strayed));
 }
 
 }  // namespace aquarama

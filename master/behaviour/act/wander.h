@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goes from place to place of the fish's own, in no hurry, round what is in its way.
+// Goes about as its species does at ease (Habits): its paces, its home, its partner, its turns for
+// no reason.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
-#include <glm/vec3.hpp>
-
-#include "common/place/place.h"
 #include "common/units/ids.h"
 #include "master/behaviour/act/routine.h"
 
 namespace aquarama {
 
-// Where a fish is bound for, in its water. Another place every quarter of a minute.
-[[nodiscard]] glm::vec3 wanderingGoal(std::uint32_t seed,
-                                      const Region& water,
-                                      std::size_t fish,
-                                      Tick tick);
+// Body lengths a second, by the shares of Habits::paces; another every five seconds.
+[[nodiscard]] float paceOf(const Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick tick);
 
 [[nodiscard]] Course wander(const Situation& situation);
 

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 
+#include "master/behaviour/perceive/stimulus.h"
 #include "master/fish/drives.h"
 
 namespace aquarama {
 
 namespace {
 
-// Where libido is by itself it stays 0 for those who never mate.
+// No stimulus tempts those who never mate.
 float libidoOf(const Nature& nature, const Mind& mind, const Senses& senses, float hunger) {
     if (!mates(nature)) return 0;
     const float stimulus = stimulusOf(kMateStimulus, senses.mate.distance / senses.length);
@@ -26,15 +27,6 @@ float hungerOf(const Nature& nature, const Mind& mind, const Senses& senses) {
 }
 
 }  // namespace
-
-float stimulusOf(const StimulusRange& range, float bodyLengths) {
-    const float least = 1 / range.farBodyLengths;
-    const float most = 1 / range.nearBodyLengths;
-    const float stimulus = 1 / bodyLengths;
-    if (stimulus < least) return 0;
-    if (stimulus > most) return 1;
-    return (stimulus - least) / (2 * most - least - stimulus);
-}
 
 Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses) {
     Feelings feelings;

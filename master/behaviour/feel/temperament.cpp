@@ -20,6 +20,8 @@ enum Draw : std::uint32_t {
     Spawning
 };
 
+constexpr float kTicks = static_cast<float>(kTicksPerSecond);
+
 float share(std::uint32_t seed, std::uint32_t fish, Draw draw) {
     return unitOf(hashOf(hashOf(hashOf(seed, draw), fish)));
 }
@@ -46,10 +48,14 @@ std::uint8_t likesOf(const Nature& nature, std::uint32_t seed, std::uint32_t fis
 Mind freshMind(const Nature& nature, std::uint32_t seed, std::uint32_t fish) {
     Mind mind;
     mind.likes = likesOf(nature, seed, fish);
-    mind.eaten = static_cast<std::uint16_t>(nature.appetite);
-    const float digested = 1 / nature.digestion * static_cast<float>(kTicksPerSecond);
-    mind.sinceMeal = static_cast<std::uint32_t>(share(seed, fish, Meal) * 0.5F * digested);
-    mind.sinceSpawning = static_cast<std::uint32_t>(share(seed, fish, Spawning) * 60 * 120);
+    // Who finds enough eats until it is gorged, then digests; who hunts is seldom so lucky.
+    const bool grazes = nature.role != Role::Predator;
+    mind.eaten = static_cast<std::uint16_t>(grazes ? 2 * nature.appetite + 1 : nature.appetite);
+    const float digested = kTicks / nature.digestion;
+    mind.sinceMeal = static_cast<std::uint32_t>(share(seed, fish, Meal) * digested);
+    if (nature.libido > 0)
+        mind.sinceSpawning =
+            static_cast<std::uint32_t>(share(seed, fish, Spawning) * kTicks / nature.libido);
     return mind;
 }
 

@@ -2,8 +2,16 @@
 #include "master/behaviour/perceive/perceive.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/place/angle.h"
+#include "master/behaviour/perceive/climate_sense.h"
+#include "master/behaviour/perceive/collision.h"
+#include "master/behaviour/perceive/mate_choice.h"
+#include "master/behaviour/perceive/stimulus.h"
+#include "master/behaviour/perceive/vision.h"
+#include "master/fish/drives.h"
+#include "master/fish/mouth.h"
 #include "master/surroundings/obstacles.h"
 
 namespace aquarama {
@@ -13,8 +21,274 @@ namespace {
 constexpr float kReachSeconds = 2.2F;  // how far ahead the surroundings are felt
 constexpr float kReachMetres = 0.4F;
 
-Sighting sightingOf(std::uint32_t object, glm::vec3 offset) {
-    return {object, offset, lengthOf(offset)};
+// b1, b2 of a predator's cost of a prey: schooling and turning make it dearer (Tu &
+// Terzopoulos 1994).
+constexpr float kSchoolingCost = 0.5F;
+constexpr float kTurningCost = 0.2F;
+
+// Who looks, and what it is about.
+struct Onlooker {
+    const Environment& environment;
+    const Nature& nature;
+    std::uint32_t fish;
+    const Mind& mind;
+    Senses& senses;
+    Aim aim = aimOf(mind);
+
+    [[nodiscard]] const FishView& view() const { return *environment.view; }
+    [[nodiscard]] float clarity() const { return environment.surroundings->clarityMetres; }
+    [[nodiscard]] float sight(float conspicuous) const {
+        return sightMetres(nature, senses.length, conspicuous, clarity());
+    }
+    [[nodiscard]] bool isHidden(const Sighting& sighting) const {
+        return aquarama::isHidden(
+            environment, fish, sighting.object, senses.position, sighting.offset);
+    }
+    // Of a fish that is there; not whether anything is in between.
+    [[nodiscard]] Sighting sightingOf(std::uint32_t other) const {
+        const glm::vec3 offset = view().position(other) - senses.position;
+        return {other, offset, lengthOf(offset)};
+    }
+};
+
+// Searches a grid for what costs least. costOf(index, offset, distance) must be `distance` or more,
+// and infinite for what is not sought; what costs `best` or more is passed over. Of equal costs the
+// lower index has it.
+template <class CostOf>
+Sighting cheapestIn(const SpatialGrid& grid, glm::vec3 position, float best, const CostOf& costOf) {
+    Sighting cheapest;
+    float reachSquared = best * best;
+    grid.visitAround(position, reachSquared, [&](const SpatialGrid::Candidates& row) {
+        for (std::size_t i = 0; i < row.index.size(); ++i) {
+            const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;
+            const float squared = dot(offset, offset);
+            if (squared > reachSquared) continue;
+            const float distance = std::sqrt(squared);
+            const float cost = costOf(row.index[i], offset, distance);
+            if (cost > best || (cost == best && row.index[i] >= cheapest.object)) continue;
+            cheapest = {row.index[i], offset, distance};
+            best = cost;
+            reachSquared = cost * cost;
+        }
+    });
+    return cheapest;
+}
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+void feelItself(const FishView& view, std::uint32_t fish, Senses& senses) {
+    senses.position = view.position(fish);
+    senses.heading = view.heading(fish);
+    senses.speed = view.speed[fish];
+    senses.length = view.length[fish];
+}
+
+void seeNeighbours(const Onlooker& onlooker) {
+    const NearestFish nearest = nearestVisible(
+        onlooker.view(), *onlooker.environment.grids, onlooker.nature, onlooker.fish);
+    onlooker.senses.schoolmates = nearest.schoolmates;
+    onlooker.senses.others = nearest.others;
+}
+
+// Keeps the nearest, sorted; of equally near ones the lower index first.
+void insert(Senses& senses, const Sighting& predator) {
+    const auto isNearer = [&](std::size_t place) {
+        const Sighting& other = senses.predators[place];
+        return predator.distance < other.distance ||
+               (predator.distance == other.distance && predator.object < other.object);
+    };
+    if (senses.predatorCount == kMostPredators && !isNearer(kMostPredators - 1)) return;
+    if (senses.predatorCount < kMostPredators) ++senses.predatorCount;
+    std::size_t place = senses.predatorCount - 1;
+    for (; place > 0 && isNearer(place - 1); --place)
+        senses.predators[place] = senses.predators[place - 1];
+    senses.predators[place] = predator;
+}
+
+void forgetHiddenPredators(const Onlooker& onlooker) {
+    Senses& senses = onlooker.senses;
+    const std::size_t looked = senses.predatorCount;
+    senses.predatorCount = 0;
+    for (std::size_t i = 0; i < looked; ++i)
+        if (!onlooker.isHidden(senses.predators[i]))
+            senses.predators[senses.predatorCount++] = senses.predators[i];
+    for (std::size_t i = senses.predatorCount; i < looked; ++i) senses.predators[i] = {};
+}
+
+// An alarmed fish looks about: it does not lose what it flees from in its blind angle.
+void seePredators(const Onlooker& onlooker) {
+    const Nature& nature = onlooker.nature;
+    if (nature.huntedBy == 0) return;
+    Senses& senses = onlooker.senses;
+    const FishView& view = onlooker.view();
+    const bool alarmed = onlooker.mind.alarm != Alarm::Calm;
+    const float reach = onlooker.sight(kMostConspicuous);
+    float reachSquared = reach * reach;
+    onlooker.environment.grids->predators.visitAround(
+        senses.position, reachSquared, [&](const auto& row) {
+            for (std::size_t i = 0; i < row.index.size(); ++i) {
+                const std::uint32_t other = row.index[i];
+                const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - senses.position;
+                const float squared = dot(offset, offset);
+                if (squared > reachSquared || (nature.huntedBy >> view.kind[other] & 1U) == 0)
+                    continue;
+                const float seen = onlooker.sight(conspicuousness(view.length[other]));
+                if (squared > seen * seen) continue;
+                if (!alarmed && !inFieldOfView(senses.heading, offset)) continue;
+                insert(senses, {other, offset, std::sqrt(squared)});
+                const float farthest = senses.predators[kMostPredators - 1].distance;
+                if (senses.predatorCount == kMostPredators)
+                    reachSquared = std::min(reachSquared, farthest * farthest);
+            }
+        });
+    forgetHiddenPredators(onlooker);
+}
+
+bool mayHunt(const Onlooker& onlooker) {
+    if (onlooker.nature.role != Role::Predator || onlooker.nature.hunts == 0) return false;
+    return innerHunger(onlooker.nature, onlooker.mind) > kDesire * kHysteresis;
+}
+
+// C_k = d_k (1 + b1 S_k + b2 E_k / pi).
+float costOfPrey(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
+    const FishView& view = onlooker.view();
+    if ((onlooker.nature.hunts >> view.kind[other] & 1U) == 0 || view.shows(other, kAway))
+        return kNever;
+    const glm::vec3 heading = onlooker.senses.heading;
+    if (!inFieldOfView(heading, offset)) return kNever;
+    const float ahead = dot(heading, offset);
+    const float aside = std::sqrt(std::max(0.0F, distance * distance - ahead * ahead));
+    const float schooling = view.shows(other, kSchooling) ? kSchoolingCost : 0.0F;
+    return distance * (1 + schooling + kTurningCost * angleOf(aside, ahead) / kPi);
+}
+
+// The target that a fish pursues is kept while it is in sight and no other is better by the fish's
+// persistence. Of the two only these are looked at for what hides them.
+template <class CostOf>
+Sighting attend(const Onlooker& onlooker,
+                const SpatialGrid& grid,
+                Intention intention,
+                float sight,
+                const CostOf& costOf) {
+    Sighting kept;
+    float best = sight;
+    if (onlooker.aim.intention == intention && onlooker.aim.target < onlooker.view().size()) {
+        const Sighting present = onlooker.sightingOf(onlooker.aim.target);
+        const float cost = costOf(present.object, present.offset, present.distance);
+        if (present.distance <= sight && cost < kNever && !onlooker.isHidden(present)) {
+            kept = present;
+            best = std::min(best, cost * (1 - onlooker.nature.persistence));
+        }
+    }
+    const Sighting other = cheapestIn(grid, onlooker.senses.position, best, costOf);
+    const bool better = other.seen() && other.object != kept.object && !onlooker.isHidden(other);
+    return better ? other : kept;
+}
+
+// What is so far off that a chase would be given up is not hunted at all.
+void seePrey(const Onlooker& onlooker) {
+    if (!mayHunt(onlooker)) return;
+    const float giveUp = static_cast<float>(onlooker.nature.habits.hunt.giveUpMetres);
+    onlooker.senses.prey = attend(onlooker,
+                                  onlooker.environment.grids->fish,
+                                  Intention::Eat,
+                                  std::min(onlooker.sight(1), giveUp),
+                                  [&](std::uint32_t other, glm::vec3 offset, float distance) {
+                                      return costOfPrey(onlooker, other, offset, distance);
+                                  });
+}
+
+// How far it is worth looking for what would raise a drive above its threshold.
+float worthLooking(
+    const Onlooker& onlooker, float inner, float weight, const StimulusRange& range, float sense) {
+    const float lacking = (kDesire * kHysteresis - inner) / weight;
+    if (lacking <= 0) return sense;
+    return std::min(sense, onlooker.senses.length * bodyLengthsOf(range, lacking));
+}
+
+bool isInASchool(const Onlooker& onlooker) {
+    return onlooker.nature.role == Role::Prey && (onlooker.mind.likes & kLikesSchooling) != 0 &&
+           onlooker.senses.schoolmates.count > 0;
+}
+
+// A school that feeds stays one: its members dart at the plankton beside them, and leave it for
+// pellets alone.
+constexpr float kDartBodyLengths = 2.5F;
+
+bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float distance) {
+    const Food& food = onlooker.environment.surroundings->food;
+    return food.kind[particle] == FoodKind::Pellet || !isInASchool(onlooker) ||
+           distance < kDartBodyLengths * onlooker.senses.length;
+}
+
+// What is before the mouth costs its distance alone; for what is behind, a fish has to come about.
+constexpr float kComeAboutBodyLengths = 2;
+
+float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
+    const glm::vec3 fromMouth = offset - senses.heading * (kMouthBodyLengths * senses.length);
+    const float cosine = dot(directionOf(fromMouth, senses.heading), senses.heading);
+    return distance + 0.5F * kComeAboutBodyLengths * senses.length * (1 - cosine);
+}
+
+// Food is sensed in all directions, and never hidden: it smells.
+void senseFood(const Onlooker& onlooker) {
+    const Nature& nature = onlooker.nature;
+    if (!nature.habits.eatsPlankton || nature.role == Role::Predator ||
+        isGorged(nature, onlooker.mind))
+        return;
+    Senses& senses = onlooker.senses;
+    const Food& food = onlooker.environment.surroundings->food;
+    float smell = std::min(nature.smellBodyLengths * senses.length, onlooker.clarity());
+    if (isInASchool(onlooker) && food.pellets == 0)
+        smell = std::min(smell, kDartBodyLengths * senses.length);
+    const float reach = worthLooking(
+        onlooker, innerHunger(nature, onlooker.mind), kHungerStimulus, kFoodStimulus, smell);
+    float best = reach + kComeAboutBodyLengths * senses.length;
+    const std::uint32_t pursued = onlooker.aim.target;
+    if (onlooker.aim.intention == Intention::Eat && pursued < food.size() && food.isFree(pursued)) {
+        const glm::vec3 offset = food.position(pursued) - senses.position;
+        const float distance = lengthOf(offset);
+        if (distance <= reach) {
+            senses.food = {pursued, offset, distance};
+            best = costOfFood(senses, offset, distance) * (1 - nature.persistence);
+        }
+    }
+    const Sighting better =
+        cheapestIn(onlooker.environment.grids->food,
+                   senses.position,
+                   best,
+                   [&](std::uint32_t particle, glm::vec3 offset, float distance) {
+                       return distance <= reach && isWorthLeaving(onlooker, particle, distance)
+                                  ? costOfFood(senses, offset, distance)
+                                  : kNever;
+                   });
+    if (better.seen()) senses.food = better;
+}
+
+// A male courts the nearest; a female prefers the larger among the near, and him who courts her.
+float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
+    const FishView& view = onlooker.view();
+    if (!suitsAsMate(view, onlooker.mind.likes, onlooker.fish, other)) return kNever;
+    // Whom it courts already it feels behind it too.
+    if (other != onlooker.aim.target && !inFieldOfView(onlooker.senses.heading, offset))
+        return kNever;
+    return distance * dearnessOfMate(view, onlooker.mind.likes, onlooker.fish, other);
+}
+
+void seeMate(const Onlooker& onlooker) {
+    if (!mates(onlooker.nature)) return;
+    const float hunger = innerHunger(onlooker.nature, onlooker.mind);
+    const float libido = innerLibido(onlooker.nature, onlooker.mind, hunger);
+    if (libido < kTemptedFrom) return;
+    const float sight =
+        worthLooking(onlooker, libido, kLibidoStimulus, kMateStimulus, onlooker.sight(1));
+    onlooker.senses.mate = attend(onlooker,
+                                  onlooker.environment.grids->mates,
+                                  Intention::Mate,
+                                  sight,
+                                  [&](std::uint32_t other, glm::vec3 offset, float distance) {
+                                      return costOfMate(onlooker, other, offset, distance);
+                                  });
 }
 
 void feelSurroundings(const Environment& environment, Senses& senses) {
@@ -27,40 +301,6 @@ void feelSurroundings(const Environment& environment, Senses& senses) {
             submarine.position, submarine.radiusMetres, senses.position, senses.heading, reach);
     senses.urgency = lengthOf(senses.push);
     senses.submarineMetres = lengthOf(submarine.position - senses.position);
-    senses.light = lightAt(around.climate, around.daylight, senses.position.y);
-    senses.celsius = celsiusAt(around.climate, senses.position.y);
-}
-
-// The nearest point of a grid within reach for which isOne holds.
-template <class IsOne>
-Sighting nearestIn(const SpatialGrid& grid, glm::vec3 position, float reach, const IsOne& isOne) {
-    Sighting nearest;
-    float reachSquared = reach * reach;
-    grid.visitAround(position, reachSquared, [&](const SpatialGrid::Candidates& row) {
-        for (std::size_t i = 0; i < row.index.size(); ++i) {
-            const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;
-            const float squared = dot(offset, offset);
-            const bool nearer = squared < reachSquared ||
-                                (squared == reachSquared && row.index[i] < nearest.object);
-            if (!nearer || !isOne(row.index[i], offset)) continue;
-            nearest = sightingOf(row.index[i], offset);
-            reachSquared = squared;
-        }
-    });
-    return nearest;
-}
-
-void seePredators(const Environment& environment, const Nature& nature, Senses& senses) {
-    if (nature.huntedBy == 0) return;
-    const Sighting nearest =
-        nearestIn(environment.grids->predators,
-                  senses.position,
-                  environment.surroundings->clarityMetres,
-                  [&](std::uint32_t other, glm::vec3 offset) {
-                      return (nature.huntedBy >> environment.view->kind[other] & 1U) != 0 &&
-                             inFieldOfView(senses.heading, offset);
-                  });
-    if (nearest.seen()) senses.predators[senses.predatorCount++] = nearest;
 }
 
 }  // namespace
@@ -68,28 +308,18 @@ void seePredators(const Environment& environment, const Nature& nature, Senses& 
 Senses perceive(const Environment& environment,
                 const Nature& nature,
                 std::uint32_t fish,
-                const Mind& /*mind*/) {
-    const FishView& view = *environment.view;
+                const Mind& mind) {
     Senses senses;
-    senses.position = view.position(fish);
-    senses.heading = view.heading(fish);
-    senses.speed = view.speed[fish];
-    senses.length = view.length[fish];
-    const Neighbours near = nearestVisible(view, environment.grids->fish, fish);
-    for (std::size_t i = 0; i < near.count; ++i) {
-        const bool mate = near.fish[i] >= nature.first && near.fish[i] < nature.last;
-        Neighbours& those = mate ? senses.schoolmates : senses.others;
-        those.fish[those.count] = near.fish[i];
-        those.distanceSquared[those.count++] = near.distanceSquared[i];
-    }
-    seePredators(environment, nature, senses);
-    const float smell =
-        std::min(nature.smellBodyLengths * senses.length, environment.surroundings->clarityMetres);
-    senses.food =
-        nearestIn(environment.grids->food, senses.position, smell, [](std::uint32_t, glm::vec3) {
-            return true;
-        });
+    feelItself(*environment.view, fish, senses);
+    const Onlooker onlooker{environment, nature, fish, mind, senses};
+    seeNeighbours(onlooker);
+    feelCollision(environment, nature, fish, mind, senses);
+    seePredators(onlooker);
+    seePrey(onlooker);
+    senseFood(onlooker);
+    seeMate(onlooker);
     feelSurroundings(environment, senses);
+    feelClimate(*environment.surroundings, nature, mind.likes, senses);
     return senses;
 }
 

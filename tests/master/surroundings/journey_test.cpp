@@ -60,5 +60,35 @@ TEST(Journey, everyRoundPassesNearAndFarAndThroughBothWings) {
     }
 }
 
+TEST(Mill, theBallRisesAndSinksByAMetreInTwentySecondsAndNeverJumps) {
+    const Region water{{0, -7, -7}, {6, 4, 6}};
+    float lowest = 0;
+    float highest = -99;
+    for (std::uint64_t tick = 0; tick < 1200; ++tick) {
+        const Goal before = millGoal(1, water, 1, {tick});
+        const Goal after = millGoal(1, water, 1, {tick + 1});
+        const float rise = (after.position.y - before.position.y) * 60;
+        ASSERT_NEAR(rise, before.velocityMetresPerSecond.y, 3e-3F) << tick;
+        ASSERT_EQ(before.position.x, water.centre.x);
+        ASSERT_EQ(std::abs(before.mill), 1);
+        lowest = std::min(lowest, before.position.y);
+        highest = std::max(highest, before.position.y);
+    }
+    EXPECT_NEAR(highest - lowest, 1, 0.01F);
+    EXPECT_EQ(millGoal(1, water, 1, {0}).position, millGoal(1, water, 1, {1200}).position);
+}
+
+TEST(Mill, theBallGrowsWithTheCubeRootOfItsFishAndFlattensInShallowWater) {
+    const Region deep{{0, -50, 0}, {50, 50, 50}};
+    EXPECT_NEAR(millRadiusMetres(deep, 300, 0.24F), 0.925F, 0.005F);
+    EXPECT_NEAR(millRadiusMetres(deep, 8 * 300, 0.24F), 2 * 0.925F, 0.01F);
+    const Region shallow{{0, -5, 0}, {50, 4, 50}};
+    const float broad = millRadiusMetres(shallow, 250'000, 0.24F);
+    const float ball = millRadiusMetres(deep, 250'000, 0.24F);
+    const float high = broad * millGoal(1, shallow, broad, {}).flatness;
+    EXPECT_NEAR(high, 3, 0.01F);
+    EXPECT_NEAR(broad * broad * high / (ball * ball * ball), 1, 0.01F) << "as much room";
+}
+
 }  // namespace
 }  // namespace aquarama

@@ -11,7 +11,7 @@ namespace {
 const glm::vec3 kForward{1, 0, 0};
 
 Obstacles openWater() {
-    return {3, {{0, -4, -5}, {6, 3, 4}}, {}};
+    return {{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
 }
 
 TEST(Avoidance, openWaterDoesNotPush) {
@@ -43,6 +43,15 @@ TEST(Avoidance, aRockOnThePathPushesToTheSideOnWhichThePathPassesIt) {
     EXPECT_GT(avoidance(water, {0, -4, -4.7F}, kForward, 1.5F).z, 0.1F);
     EXPECT_LT(avoidance(water, {0, -4, -5.3F}, kForward, 1.5F).z, -0.1F);
     EXPECT_EQ(avoidance(water, {0, -4, -4.7F}, -kForward, 1.5F), glm::vec3(0));
+}
+
+TEST(Avoidance, aKelpPlantPushesAsideBelowItsTopAndNotAbove) {
+    Obstacles water = openWater();
+    water.stems = {{{1.0F, -5.0F}, -3.0F}};
+    EXPECT_GT(avoidance(water, {0, -4, -4.8F}, kForward, 1.5F).z, 0.05F);
+    EXPECT_LT(avoidance(water, {0, -4, -5.2F}, kForward, 1.5F).z, -0.05F);
+    EXPECT_EQ(avoidance(water, {0, -4, -4.8F}, kForward, 1.5F).y, 0) << "it goes up to the top";
+    EXPECT_EQ(avoidance(water, {0, -2.8F, -4.8F}, kForward, 1.5F), glm::vec3(0));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ class LoneFish {
     Tick tick_;
 };
 
-const Obstacles kOpenWater{3, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
+const Obstacles kOpenWater{{3}, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
 
 TEST(LoneFish, turnsInTimeBeforeEveryWall) {
     for (const glm::vec3 lure : {glm::vec3{20, -5, -5},

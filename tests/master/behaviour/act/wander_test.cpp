@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/wander.h"
-
 #include <gtest/gtest.h>
 
+#include "master/behaviour/act/home.h"
 #include "tests/master/behaviour/aquarium.h"
 
 namespace aquarama {
 namespace {
 
-const Obstacles kOpenWater{3, {{0, -4, -5}, {6, 3, 4}}, {}};
+const Obstacles kOpenWater{{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
 
 TEST(Wandering, everyPlaceIsInTheWaterAndAnotherFollowsIt) {
     for (std::size_t fish = 0; fish < 20; ++fish) {
         int changes = 0;
-        glm::vec3 before = wanderingGoal(1, kOpenWater.water, fish, {0});
+        glm::vec3 before = wanderingGoal(1, kOpenWater.water, 4, fish, {0});
         for (std::uint64_t tick = 0; tick < 60 * 60; ++tick) {
-            const glm::vec3 goal = wanderingGoal(1, kOpenWater.water, fish, {tick});
+            const glm::vec3 goal = wanderingGoal(1, kOpenWater.water, 4, fish, {tick});
             const glm::vec3 from = goal - kOpenWater.water.centre;
             ASSERT_LE(std::abs(from.x), kOpenWater.water.halfExtent.x);
             ASSERT_LE(std::abs(from.y), kOpenWater.water.halfExtent.y);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/act/companion.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "common/place/angle.h"
+#include "common/place/noise.h"
+#include "master/behaviour/act/pursue.h"
+
+namespace aquarama {
+
+namespace {
+
+enum Draw : std::uint32_t { Bouts = 321, Hosts };
+
+constexpr std::uint64_t kTicksOfBout = 50 * 60;
+constexpr std::uint32_t kShortestShadowing = 10 * 60;  // ticks
+constexpr std::uint32_t kShadowingSpread = 30 * 60;
+constexpr std::uint32_t kHostsTried = 4;
+
+constexpr float kOverBackMetres = 0.15F;
+constexpr float kHalfHeight = 0.2F;   // of a host's length, from its middle to its back
+constexpr float kCatchUp = 1.2F;      // body lengths a second for a body length behind
+constexpr float kSameCourse = 1.2F;   // against the way to the place: metres
+constexpr float kPairIsApart = 2.0F;  // times the distance that it keeps
+
+// At a place beside another that swims: there, and then along with it.
+Course alongside(const Situation& situation, std::uint32_t other, glm::vec3 place) {
+    const FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const glm::vec3 towards = place - senses.position;
+    const glm::vec3 course = view.heading(other);
+    const float behind = dot(towards, course) / senses.length;
+    const float theirs = view.speed[other] / senses.length;
+    const float speed = std::clamp(theirs + kCatchUp * behind, 0.0F, situation.nature.fast);
+    return heading(situation, towards + course * (kSameCourse * senses.length), speed);
+}
+
+bool isAbout(const Situation& situation, std::uint32_t other) {
+    const FishView& view = *situation.environment.view;
+    const float sight = std::min(situation.nature.visionBodyLengths * situation.senses.length,
+                                 situation.environment.surroundings->clarityMetres);
+    return other != kNobody && other < view.size() && !view.shows(other, kAway) &&
+           lengthOf(view.position(other) - situation.senses.position) < sight;
+}
+
+// A fish of one of the kinds it likes to shadow.
+std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
+    const std::uint64_t kinds = situation.nature.shadows;
+    auto skip = hash % static_cast<std::uint32_t>(std::popcount(kinds));
+    std::uint64_t left = kinds;
+    while (skip-- > 0) left &= left - 1;
+    const Nature& host = situation.environment.natures[std::size_t(std::countr_zero(left))];
+    if (host.last == host.first) return kNobody;
+    return host.first + hashOf(hash, 1) % (host.last - host.first);
+}
+
+}  // namespace
+
+std::uint32_t partnerOf(const Nature& nature, std::uint32_t fish) {
+    const std::uint32_t partner = nature.first + ((fish - nature.first) ^ 1U);
+    return partner < nature.last ? partner : kNobody;
+}
+
+std::uint32_t shadowedBy(const Situation& situation) {
+    if (situation.nature.shadows == 0) return kNobody;
+    const Environment& environment = situation.environment;
+    const std::uint32_t own = hashOf(hashOf(environment.seed, Bouts), situation.fish);
+    const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
+    const std::uint32_t bout = hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
+    if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return kNobody;
+    for (std::uint32_t i = 0; i < kHostsTried; ++i) {
+        const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Hosts), i));
+        if (isAbout(situation, host)) return host;
+    }
+    return kNobody;
+}
+
+std::optional<Course> keptCompany(const Situation& situation) {
+    const FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const std::uint32_t host = shadowedBy(situation);
+    if (host != kNobody) {
+        const float over = kOverBackMetres + kHalfHeight * view.length[host];
+        return alongside(situation, host, view.position(host) + glm::vec3{0, over, 0});
+    }
+    const auto apart = static_cast<float>(situation.nature.habits.pairBodyLengths) * senses.length;
+    if (apart <= 0) return {};
+    const std::uint32_t partner = partnerOf(situation.nature, situation.fish);
+    if (!isAbout(situation, partner)) return {};
+    const glm::vec3 from = senses.position - view.position(partner);
+    const bool leads = situation.fish < partner;
+    // The one that leads goes where it likes, but waits.
+    if (leads && lengthOf(from) < kPairIsApart * apart) return {};
+    const glm::vec3 level = directionOf({from.x, 0.3F * from.y, from.z}, {0, 0, 1});
+    return alongside(situation, partner, view.position(partner) + level * apart);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whom a fish at ease keeps near: its partner, or the back of a larger fish.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "master/behaviour/act/routine.h"
+
+namespace aquarama {
+
+// Fish of one species that live in pairs: every two of them, in order; the odd one out is alone.
+[[nodiscard]] std::uint32_t partnerOf(const Nature& nature, std::uint32_t fish);
+
+// The fish over whose back this one hangs now: for 10 to 40 of every 50 s, one of those it likes to
+// shadow that is near enough to be seen.
+[[nodiscard]] std::uint32_t shadowedBy(const Situation& situation);
+
+// The course to keep with whom the fish keeps now; nothing for one that goes alone.
+[[nodiscard]] std::optional<Course> keptCompany(const Situation& situation);
+
+}  // namespace aquarama

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/act/courtship.h"
+
+#include <array>
+
+#include "common/place/angle.h"
+#include "master/behaviour/act/pursue.h"
+#include "master/fish/mouth.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr auto kSecond = static_cast<std::uint32_t>(kTicksPerSecond);
+constexpr glm::vec3 kUp{0, 1, 0};
+
+// By CourtshipStage.
+constexpr std::array<std::uint32_t, 6> kLongestSeconds{20, 12, 25, 30, 15, 20};
+constexpr std::uint32_t kLoopSeconds = 6;  // about one loop; at least
+constexpr std::uint32_t kCircleSeconds = 8;
+constexpr std::uint32_t kAscentSeconds = 4;
+constexpr std::uint32_t kNuzzleSeconds = 3;
+
+// Distances in body lengths.
+constexpr float kTogether = 4.0F;  // no farther than this they court
+constexpr float kLoopAhead = 1.8F;
+constexpr float kLoopRadius = 1.3F;
+constexpr float kCircleRadius = 1.4F;
+constexpr float kCloser = 0.8F;  // weight of the way back to the circle, for a radius off it
+constexpr float kBehind = 1.0F;  // a follower keeps so far
+constexpr float kBelow = 0.7F;   // he rises so far below her
+constexpr float kBelly = 0.3F;   // he comes so near below her: their bodies touch
+constexpr float kTouches = 0.6F;
+
+constexpr float kRise = 0.42F;  // sine of the steepest way up
+constexpr float kBob = 0.2F;    // sine of the pitch of a loop or a bob
+constexpr std::uint32_t kBobTicks = 2 * kSecond;
+
+// Up and down by turns.
+float bob(std::uint32_t ticks) {
+    return ticks % kBobTicks < kBobTicks / 2 ? kBob : -kBob;
+}
+
+glm::vec3 level(glm::vec3 direction) {
+    return directionOf({direction.x, 0, direction.z}, {1, 0, 0});
+}
+
+// Along a level circle round a point.
+glm::vec3 aroundOn(glm::vec3 toCentre, float radius, bool left) {
+    const glm::vec3 inwards = level(toCentre);
+    const glm::vec3 along =
+        left ? glm::vec3{inwards.z, 0, -inwards.x} : glm::vec3{-inwards.z, 0, inwards.x};
+    const float far = std::sqrt(toCentre.x * toCentre.x + toCentre.z * toCentre.z);
+    const glm::vec3 closer = inwards * (kCloser * (far - radius) / radius);
+    return along + closer + kUp * (0.5F * toCentre.y / radius);
+}
+
+// What is done in the stage by him where he and she differ, and by her.
+Course follow(const Situation& situation, const Couple& couple) {
+    const glm::vec3 behind = couple.offset - couple.matesHeading * (kBehind * couple.length);
+    return pursue(
+        situation, behind, situation.nature.medium, couple.matesHeading * couple.matesSpeed);
+}
+
+Course loopBefore(const Situation& situation, const Mind& mind, const Couple& couple) {
+    const glm::vec3 centre =
+        couple.offset + level(couple.matesHeading) * (kLoopAhead * couple.length);
+    const glm::vec3 way = aroundOn(centre, kLoopRadius * couple.length, couple.turnsLeft);
+    return heading(situation, way + kUp * bob(mind.sinceStage), situation.nature.slow);
+}
+
+Course hoverAndBob(const Situation& situation, const Mind& mind) {
+    return heading(situation, level(situation.senses.heading) + kUp * bob(mind.sinceStage), 0);
+}
+
+Course circle(const Situation& situation, const Couple& couple) {
+    const glm::vec3 way =
+        aroundOn(couple.offset * 0.5F, kCircleRadius * couple.length, couple.turnsLeft);
+    return heading(situation, way, situation.nature.slow);
+}
+
+Course rise(const Situation& situation) {
+    return heading(situation, level(situation.senses.heading) + kUp * kRise, situation.nature.slow);
+}
+
+Course riseBelow(const Situation& situation, const Couple& couple, float below) {
+    const glm::vec3 place = couple.offset - kUp * (below * couple.length);
+    return pursue(
+        situation, place, situation.nature.medium, couple.matesHeading * couple.matesSpeed);
+}
+
+}  // namespace
+
+bool isComplete(CourtshipStage stage,
+                const Couple& couple,
+                glm::vec3 heading,
+                std::uint32_t ticks) {
+    const float distance = lengthOf(couple.offset);
+    const bool together = distance < kTogether * couple.length;
+    const glm::vec3 fromHerToHim = couple.isFemale ? couple.offset : -couple.offset;
+    const glm::vec3 herHeading = couple.isFemale ? heading : couple.matesHeading;
+    switch (stage) {
+        case CourtshipStage::Follow:
+        case CourtshipStage::Impress:
+            return false;
+        case CourtshipStage::Loop:
+            return together && ticks > kLoopSeconds * kSecond && dot(fromHerToHim, herHeading) > 0;
+        case CourtshipStage::Circle:
+            return together && ticks > kCircleSeconds * kSecond;
+        case CourtshipStage::Ascend:
+            return together && ticks > kAscentSeconds * kSecond && fromHerToHim.y < 0;
+        case CourtshipStage::Nuzzle:
+            break;
+    }
+    return distance < kTouches * couple.length && ticks > kNuzzleSeconds * kSecond &&
+           fromHerToHim.y < 0;
+}
+
+std::uint32_t longestTicks(CourtshipStage stage) {
+    return kLongestSeconds[static_cast<std::size_t>(stage)] * kSecond;
+}
+
+Course court(const Situation& situation,
+             const Mind& mind,
+             const Couple& couple,
+             CourtshipStage stage) {
+    switch (stage) {
+        case CourtshipStage::Follow:
+            break;
+        case CourtshipStage::Impress:
+            return couple.isFemale ? hoverAndBob(situation, mind)
+                                   : loopBefore(situation, mind, couple);
+        case CourtshipStage::Loop:
+            return couple.isFemale ? hoverAndBob(situation, mind)
+                                   : loopBefore(situation, mind, couple);
+        case CourtshipStage::Circle:
+            return circle(situation, couple);
+        case CourtshipStage::Ascend:
+            return couple.isFemale ? rise(situation) : riseBelow(situation, couple, kBelow);
+        case CourtshipStage::Nuzzle:
+            return couple.isFemale ? hoverAndBob(situation, mind)
+                                   : riseBelow(situation, couple, kBelly);
+    }
+    return follow(situation, couple);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/act/home.h"
+
+#include <algorithm>
+
+#include "common/place/angle.h"
+#include "common/place/noise.h"
+
+namespace aquarama {
+
+namespace {
+
+enum Draw : std::uint32_t { Places = 301, Homes, Beats };
+
+constexpr std::uint64_t kTicksToAPlace = 15 * 60;
+constexpr float kInside = 0.75F;      // of the water's half extent: where places are
+constexpr float kDepthSpread = 0.4F;  // of it, about the best depth
+constexpr float kAboveRockMetres = 0.45F;
+constexpr float kHomeInside = 0.6F;  // of the water's half height
+
+// A beat is swum towards a point 40 degrees ahead on its oval.
+constexpr float kBeatCosine = 0.766F;
+constexpr float kBeatSine = 0.643F;
+constexpr std::uint64_t kTicksOfPass = 16 * 60;  // one of some predators goes through the bait ball
+
+glm::vec3 shareOf(std::uint32_t hash) {
+    return {signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+}
+
+float heightIn(const Region& water, float bestDepthMetres, float share) {
+    const float half = kInside * water.halfExtent.y;
+    const float height = -bestDepthMetres + share * kDepthSpread * water.halfExtent.y;
+    return std::clamp(height, water.centre.y - half, water.centre.y + half);
+}
+
+bool standsIn(const Region& water, const Rock& rock) {
+    return std::abs(rock.centre.x - water.centre.x) < kInside * water.halfExtent.x &&
+           std::abs(rock.centre.z - water.centre.z) < kInside * water.halfExtent.z;
+}
+
+// The rock of a household among those that stand in the water; none where there are none.
+const Rock* rockFor(const Obstacles& obstacles, std::uint32_t hash) {
+    const auto isIn = [&](const Rock& rock) { return standsIn(obstacles.water, rock); };
+    const auto count = std::ranges::count_if(obstacles.rocks, isIn);
+    if (count == 0) return nullptr;
+    auto left = static_cast<std::ptrdiff_t>(hash % static_cast<std::uint32_t>(count));
+    for (const Rock& rock : obstacles.rocks)
+        if (isIn(rock) && left-- == 0) return &rock;
+    return nullptr;
+}
+
+// Of every three spells one goes through the school, each predator in its turn.
+bool passes(const Environment& environment, std::uint32_t fish) {
+    return (environment.tick.value / kTicksOfPass + fish) % 3 == 0;
+}
+
+// Through the middle of the ball and out on its other side.
+glm::vec3 passGoal(const Environment& environment, glm::vec3 position, glm::vec3 course) {
+    const glm::vec3 ball = environment.goal.position;
+    const glm::vec3 towards = ball - position;
+    const bool through =
+        lengthOf(towards) < 2 * environment.schoolRadiusMetres && dot(towards, course) < 0;
+    return through ? position + course * (2 * environment.schoolRadiusMetres) : ball;
+}
+
+}  // namespace
+
+glm::vec3 wanderingGoal(
+    std::uint32_t seed, const Region& water, float bestDepthMetres, std::size_t fish, Tick tick) {
+    const std::uint32_t own = hashOf(hashOf(seed, Places), static_cast<std::uint32_t>(fish));
+    const std::uint64_t place = (tick.value + own % kTicksToAPlace) / kTicksToAPlace;
+    const glm::vec3 share = shareOf(hashOf(own, static_cast<std::uint32_t>(place)));
+    const glm::vec3 goal = water.centre + water.halfExtent * share * kInside;
+    return {goal.x, heightIn(water, bestDepthMetres, share.y), goal.z};
+}
+
+std::uint32_t householdOf(std::uint32_t firstOfKind, std::uint32_t fish) {
+    return firstOfKind + (fish - firstOfKind) / 2;
+}
+
+glm::vec3 homeOf(std::uint32_t seed,
+                 const Home& home,
+                 const Obstacles& obstacles,
+                 float bestDepthMetres,
+                 std::uint32_t household) {
+    const Region& water = obstacles.water;
+    const std::uint32_t hash = hashOf(hashOf(seed, Homes), household);
+    const Rock* rock = home.onTheReef ? rockFor(obstacles, hash) : nullptr;
+    if (rock == nullptr) return wanderingGoal(hash, water, bestDepthMetres, household, {});
+    const float lowest = water.centre.y - kHomeInside * water.halfExtent.y;
+    const float above = rock->centre.y + rock->radiusMetres + kAboveRockMetres;
+    const float highest = water.centre.y + kHomeInside * water.halfExtent.y;
+    return {rock->centre.x, std::clamp(above, lowest, highest), rock->centre.z};
+}
+
+glm::vec3 beatGoal(const Environment& environment,
+                   const Nature& nature,
+                   std::uint32_t fish,
+                   glm::vec3 position) {
+    if (environment.gathering == Gathering::Mill && passes(environment, fish))
+        return passGoal(environment, position, environment.view->heading(fish));
+    const Region& water = environment.surroundings->obstacles.water;
+    const std::uint32_t own = hashOf(hashOf(environment.seed, Beats), fish);
+    const float sine = (own & 1U) != 0 ? kBeatSine : -kBeatSine;
+    const glm::vec3 from = (position - water.centre) / water.halfExtent;
+    const glm::vec3 at = directionOf({from.x, 0, from.z}, {1, 0, 0});
+    const glm::vec3 ahead{at.x * kBeatCosine - at.z * sine, 0, at.x * sine + at.z * kBeatCosine};
+    const glm::vec3 wandered = wanderingGoal(environment.seed,
+                                             water,
+                                             static_cast<float>(nature.habits.bestDepthMetres),
+                                             fish,
+                                             environment.tick);
+    const glm::vec3 goal = water.centre + ahead * (kInside * water.halfExtent);
+    return {goal.x, wandered.y, goal.z};
+}
+
+Bound boundFor(const Environment& environment,
+               const Nature& nature,
+               std::uint32_t fish,
+               glm::vec3 position) {
+    const Home& home = nature.habits.home;
+    const Obstacles& obstacles = environment.surroundings->obstacles;
+    const auto depth = static_cast<float>(nature.habits.bestDepthMetres);
+    if (nature.role == Role::Predator && home.kind == HomeKind::None)
+        return {beatGoal(environment, nature, fish, position) - position, 0};
+    const glm::vec3 goal =
+        wanderingGoal(environment.seed, obstacles.water, depth, fish, environment.tick);
+    if (home.kind == HomeKind::None) return {goal - position, 0};
+    const bool own = home.kind == HomeKind::Place;
+    const glm::vec3 middle =
+        own ? homeOf(environment.seed, home, obstacles, depth, householdOf(nature.first, fish))
+            : environment.goal.position;
+    const float radius =
+        own ? static_cast<float>(home.radiusMetres) : environment.schoolRadiusMetres;
+    const float leash = own ? static_cast<float>(home.leashMetres) : 2 * radius;
+    // The same walk about the home as another would take through all the water.
+    const glm::vec3 share =
+        (goal - obstacles.water.centre) / (obstacles.water.halfExtent * kInside);
+    const float away = lengthOf(position - middle);
+    const float strayed = std::clamp((away - radius) / std::max(leash - radius, 0.01F), 0.0F, 1.0F);
+    return {middle + share * (0.6F * radius) - position, strayed};
+}
+
+}  // namespace aquarama

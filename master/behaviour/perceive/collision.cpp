@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/perceive/collision.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/place/angle.h"
+
+namespace aquarama {
+
+namespace {
+
+// The body frame's origin is at this share of the length behind the nose.
+constexpr float kNoseAhead = 0.385F;
+constexpr float kTailBehind = 1 - kNoseAhead;
+
+constexpr float kBoxBehind = 0.5F;       // body lengths; the file says the other sides
+constexpr float kEnlarged = 1.5F;        // for a replica that is less agile (paper, section 5.2)
+constexpr float kHoldOn = 1.25F;         // for the fish that is being avoided already
+constexpr float kPartingLengths = 0.1F;  // a second: who goes away so fast is no threat
+// In formation the box shrinks to the body (Tu 1996, section 5.6), in body lengths, and is felt
+// where a schoolmate will be after these seconds if neither turns.
+constexpr Box kBody{0.45F, 0.5F, 0.17F, 0.12F};
+constexpr float kSoon[] = {0.2F, 0.4F};
+
+// Body axes without roll.
+struct Axes {
+    glm::vec3 ahead, up, right;
+    [[nodiscard]] glm::vec3 of(glm::vec3 v) const {
+        return {dot(v, ahead), dot(v, up), dot(v, right)};
+    }
+};
+
+Axes axesOf(glm::vec3 heading) {
+    const glm::vec3 right = directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
+    const glm::vec3 up{right.y * heading.z - right.z * heading.y,
+                       right.z * heading.x - right.x * heading.z,
+                       right.x * heading.y - right.y * heading.x};
+    return {heading, up, right};
+}
+
+Box scaled(const Box& box, float scale) {
+    return {box.ahead * scale, box.behind * scale, box.up * scale, box.aside * scale};
+}
+
+struct Watch {
+    const Environment& environment;
+    const Nature& nature;
+    const Mind& mind;
+    Senses& senses;
+    const FishView& view = *environment.view;
+    Aim aim = aimOf(mind);
+    Axes axes = axesOf(senses.heading);
+    glm::vec3 velocity = senses.heading * senses.speed;
+    Box box = boxOf();
+
+    [[nodiscard]] Box boxOf() const {
+        const float scale =
+            senses.length * (environment.adaptation.enlargedRegions ? kEnlarged : 1.0F);
+        return {nature.boxAhead * scale,
+                kBoxBehind * senses.length,
+                nature.boxUp * scale,
+                nature.boxAside * scale};
+    }
+
+    // Whom it courts, hunts or follows it wants near; from its hunter prey flees instead.
+    [[nodiscard]] bool isHeeded(std::uint32_t other) const {
+        if (other == aim.target && aim.intention == Intention::Mate) return false;
+        std::uint64_t unheeded = nature.hunts | nature.shadows;
+        if (nature.role == Role::Prey) unheeded |= nature.huntedBy;
+        return (unheeded >> view.kind[other] & 1U) == 0;
+    }
+
+    void heed(std::uint32_t other) {
+        if (!isHeeded(other)) return;
+        const glm::vec3 offset = view.position(other) - senses.position;
+        const float squared = dot(offset, offset);
+        const float length = view.length[other];
+        const float hold =
+            other == mind.target && mind.intention == Intention::AvoidFish ? kHoldOn : 1.0F;
+        // No part of the other is nearer to the box than this.
+        const float reach = hold * std::max(box.ahead, box.behind) + kTailBehind * length +
+                            std::max(box.aside, box.up);
+        if (squared > reach * reach) return;
+        const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
+        const float parting = dot(offset, drift);
+        if (parting > kPartingLengths * senses.length * std::sqrt(squared)) return;
+        note(other, offset, shareOf(other, scaled(box, hold), offset));
+    }
+
+    void heedSchoolmate(std::uint32_t other) {
+        const glm::vec3 offset = view.position(other) - senses.position;
+        const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
+        if (dot(offset, drift) > 0) return;
+        const Box body = scaled(kBody, senses.length);
+        const glm::vec3 local = axes.of(offset);
+        const glm::vec3 localDrift = axes.of(drift);
+        const glm::vec3 along = axes.of(view.heading(other)) * view.length[other];
+        float share = 0;
+        for (const float soon : kSoon) {
+            const glm::vec3 at = local + localDrift * soon;
+            share = std::max(share,
+                             shareInside(body, at + along * kNoseAhead, at - along * kTailBehind));
+        }
+        note(other, offset, share);
+    }
+
+    [[nodiscard]] float shareOf(std::uint32_t other, const Box& within, glm::vec3 offset) const {
+        const glm::vec3 at = axes.of(offset);
+        const glm::vec3 along = axes.of(view.heading(other)) * view.length[other];
+        return shareInside(within, at + along * kNoseAhead, at - along * kTailBehind);
+    }
+
+    // Keeps the most dangerous; of equal ones the lower index.
+    void note(std::uint32_t other, glm::vec3 offset, float share) {
+        const bool worse = share > senses.collisionShare ||
+                           (share == senses.collisionShare && other < senses.collision.object);
+        if (share <= 0 || !worse) return;
+        senses.collision = {other, offset, lengthOf(offset)};
+        senses.collisionShare = share;
+    }
+};
+
+void heedLargeBodies(Watch& watch, std::uint32_t fish) {
+    // The longest fish of the sea is shorter than twice this.
+    constexpr float kLongestHalf = 1.0F;
+    const float reach = std::max(watch.box.ahead, watch.box.behind) + kLongestHalf;
+    const float reachSquared = reach * reach;
+    watch.environment.grids->large.visitAround(
+        watch.senses.position, reachSquared, [&](const auto& row) {
+            for (const std::uint32_t other : row.index)
+                if (other != fish) watch.heed(other);
+        });
+}
+
+}  // namespace
+
+float shareInside(const Box& box, glm::vec3 nose, glm::vec3 tail) {
+    const glm::vec3 along = tail - nose;
+    float enters = 0;
+    float leaves = 1;
+    const auto clip = [&](float from, float step, float least, float most) {
+        if (std::abs(step) < 1.0e-6F) {
+            if (from < least || from > most) leaves = -1;
+            return;
+        }
+        float first = (least - from) / step;
+        float last = (most - from) / step;
+        if (first > last) std::swap(first, last);
+        enters = std::max(enters, first);
+        leaves = std::min(leaves, last);
+    };
+    clip(nose.x, along.x, -box.behind, box.ahead);
+    clip(nose.y, along.y, -box.up, box.up);
+    clip(nose.z, along.z, -box.aside, box.aside);
+    return std::max(0.0F, leaves - enters);
+}
+
+void feelCollision(const Environment& environment,
+                   const Nature& nature,
+                   std::uint32_t fish,
+                   const Mind& mind,
+                   Senses& senses) {
+    Watch watch{environment, nature, mind, senses};
+    // Those who like to school bear one another near: also while they feed among the others.
+    const bool bearsMates = nature.role == Role::Prey && (mind.likes & kLikesSchooling) != 0;
+    for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
+        const std::uint32_t other = senses.schoolmates.fish[i];
+        if (bearsMates)
+            watch.heedSchoolmate(other);
+        else
+            watch.heed(other);
+    }
+    for (std::size_t i = 0; i < senses.others.count; ++i) watch.heed(senses.others.fish[i]);
+    heedLargeBodies(watch, fish);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whom a fish takes for a mate (Tu 1996, section 5.6.6): one of its species and the other sex that
+// is willing and about as long; of those a male prefers the nearer, a female the larger.
+#pragma once
+
+#include <cstdint>
+
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
+
+namespace aquarama {
+
+// The shorter of a pair is at least this share of the longer.
+inline constexpr float kLeastSizeRatio = 0.7F;
+// Libido below this, as after spawning, no mate in sight can raise.
+inline constexpr float kTemptedFrom = 0.1F;
+
+// `likes` are those of the fish that looks.
+[[nodiscard]] bool suitsAsMate(const FishView& view,
+                               std::uint8_t likes,
+                               std::uint32_t fish,
+                               std::uint32_t other);
+
+// What its distance counts for, 1 or more for a male: who courts another already counts as farther.
+// For a female a larger one counts as nearer, and so does he who courts her.
+[[nodiscard]] float dearnessOfMate(const FishView& view,
+                                   std::uint8_t likes,
+                                   std::uint32_t fish,
+                                   std::uint32_t other);
+
+}  // namespace aquarama

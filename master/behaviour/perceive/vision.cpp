@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/perceive/vision.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/place/angle.h"
+#include "common/place/place.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr float kSolidRock = 0.75F;          // of the radius that holds all that grows on it
+constexpr float kHighestSandMetres = -8.0F;  // no dune is higher
+constexpr int kSandSamples = 6;
+
+// A large body hides what is behind these balls along its middle line, in its lengths.
+constexpr std::array kTrunk{0.2F, -0.05F, -0.3F};
+constexpr float kTrunkRadius = 0.1F;
+
+struct Ray {
+    glm::vec3 from, offset;
+    float squaredLength = dot(offset, offset);
+
+    [[nodiscard]] bool passes(glm::vec3 centre, float radius) const {
+        const glm::vec3 to = centre - from;
+        const float along =
+            std::clamp(dot(to, offset) / std::max(squaredLength, 1.0e-6F), 0.0F, 1.0F);
+        const glm::vec3 miss = to - offset * along;
+        return dot(miss, miss) < radius * radius;
+    }
+};
+
+bool rocksHide(const Obstacles& obstacles, const Ray& ray) {
+    for (const Rock& rock : obstacles.rocks)
+        if (ray.passes(rock.centre, rock.radiusMetres * kSolidRock)) return true;
+    return false;
+}
+
+bool sandHides(const Obstacles& obstacles, const Ray& ray) {
+    if (std::min(ray.from.y, ray.from.y + ray.offset.y) > kHighestSandMetres) return false;
+    for (int i = 1; i <= kSandSamples; ++i) {
+        const float along = static_cast<float>(i) / static_cast<float>(kSandSamples + 1);
+        const glm::vec3 at = ray.from + ray.offset * along;
+        if (at.y < kHighestSandMetres && at.y < floorHeight(obstacles.place, {at.x, at.z}))
+            return true;
+    }
+    return false;
+}
+
+bool trunkHides(const FishView& view, std::uint32_t body, const Ray& ray) {
+    for (const float place : kTrunk)
+        if (ray.passes(view.position(body) + view.heading(body) * (place * view.length[body]),
+                       kTrunkRadius * view.length[body]))
+            return true;
+    return false;
+}
+
+bool bodiesHide(const Environment& environment,
+                std::uint32_t fish,
+                std::uint32_t object,
+                const Ray& ray) {
+    const FishView& view = *environment.view;
+    // Every body that the ray meets has its middle near the ray's.
+    const float reach = 0.5F * std::sqrt(ray.squaredLength) + kLargeBodyMetres;
+    const float reachSquared = reach * reach;
+    bool hidden = false;
+    environment.grids->large.visitAround(
+        ray.from + ray.offset * 0.5F, reachSquared, [&](const auto& row) {
+            for (const std::uint32_t body : row.index)
+                hidden = hidden || (body != fish && body != object && trunkHides(view, body, ray));
+        });
+    return hidden;
+}
+
+}  // namespace
+
+float conspicuousness(float lengthMetres) {
+    return std::clamp(lengthMetres / kLargeBodyMetres, 1.0F, kMostConspicuous);
+}
+
+float sightMetres(const Nature& nature,
+                  float lengthMetres,
+                  float conspicuous,
+                  float clarityMetres) {
+    return std::min(nature.visionBodyLengths * lengthMetres * conspicuous, clarityMetres);
+}
+
+bool isHidden(const Environment& environment,
+              std::uint32_t fish,
+              std::uint32_t object,
+              glm::vec3 from,
+              glm::vec3 offset) {
+    const Obstacles& obstacles = environment.surroundings->obstacles;
+    const Ray ray{from, offset};
+    return rocksHide(obstacles, ray) || sandHides(obstacles, ray) ||
+           bodiesHide(environment, fish, object, ray);
+}
+
+}  // namespace aquarama

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far and past what a fish sees (Tu 1996, section 4.2): one eye in the middle of the head, a
+// field of 300 degrees, a radius that the water's clarity bounds.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "master/behaviour/perceive/environment.h"
+#include "master/fish/nature.h"
+
+namespace aquarama {
+
+// What is large is seen from farther off: 1 for the small, its length per kLargeBodyMetres for
+// others, at most kMostConspicuous.
+inline constexpr float kMostConspicuous = 2.5F;
+[[nodiscard]] float conspicuousness(float lengthMetres);
+
+// From how far a fish of this length sees what is so conspicuous, metres.
+[[nodiscard]] float sightMetres(const Nature& nature,
+                                float lengthMetres,
+                                float conspicuous,
+                                float clarityMetres);
+
+// Whether rock, sand or a large body stands between a fish and what it looks at. Costly: asked only
+// of predators and of the focus of attention.
+[[nodiscard]] bool isHidden(const Environment& environment,
+                            std::uint32_t fish,
+                            std::uint32_t object,
+                            glm::vec3 from,
+                            glm::vec3 offset);
+
+}  // namespace aquarama

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// aquarama study: with and without each adaptation of the mind to its motor.
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <mutex>
+#include <span>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "master/capture/compile/config_folder.h"
+#include "master/capture/compile/progress_bar.h"
+#include "master/capture/compile/repertoire_cache.h"
+#include "master/study/scenarios.h"
+#include "master/study/study_report.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+    std::string out;
+    std::string config;
+    double minutes = 10;
+    std::uint32_t seeds = 5;
+};
+
+void writeText(const fs::path& path, const std::string& text) {
+    writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
+    std::cerr << path.string() << '\n';
+}
+
+std::vector<Sample> watched(const StudyPlan& plan) {
+    ProgressBar bar("studying");
+    std::mutex mutex;
+    return runStudy(plan, [&](double share) {
+        const std::scoped_lock lock(mutex);
+        bar.show(share);
+    });
+}
+
+void study(const StudyOptions& options) {
+    const Stock stock(options.config.empty() ? findConfigFolder() : fs::path(options.config));
+    const StudyPlan plan{.scenarios = scenariosOf(stock),
+                         .minutes = options.minutes,
+                         .seeds = options.seeds,
+                         .threads = std::max(std::thread::hardware_concurrency(), 1U)};
+    const std::vector<Sample> samples = watched(plan);
+    std::cout << studyMarkdown(plan, samples);
+    if (options.out.empty()) return;
+    makeFolder(options.out);
+    writeText(fs::path(options.out) / "adaptation.csv", studyCsv(plan, samples));
+    writeText(fs::path(options.out) / "adaptation.svg", drawStudy(plan, samples));
+}
+
+int dispatch(int count, char** arguments) {
+    CLI::App app{"With and without each adaptation of the mind to its motor, as tables in Markdown",
+                 "aquarama-study"};
+    StudyOptions options;
+    app.add_option("--out", options.out, "folder for a table of all runs and a figure");
+    app.add_option("--minutes", options.minutes, "of each run; 10 when not given")
+        ->check(CLI::Range(0.1, 1440.0));
+    app.add_option("--seeds", options.seeds, "runs of each kind; 5 when not given")
+        ->check(CLI::Range(1U, 100U));
+    app.add_option("--config", options.config, "folder that holds species/*.txtpb");
+    try {
+        app.parse(count, arguments);
+    } catch (const CLI::ParseError& wrong) {
+        return app.exit(wrong) == 0 ? 0 : 2;
+    }
+    study(options);
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace aquarama
+
+int main(int count, char** arguments) {
+    try {
+        return aquarama::dispatch(count, arguments);
+    } catch (const std::exception& error) {
+        std::cerr << "aquarama-study: " << error.what() << '\n';
+        return 1;
+    }
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mind for tests of decisions: what it senses and feels is put into it, nothing is perceived.
+#pragma once
+
+#include <limits>
+
+#include "master/behaviour/decide/intention_generator.h"
+#include "master/fish/drives.h"
+
+namespace aquarama {
+
+struct FishInMind {
+    explicit FishInMind(Role role = Role::Prey) {
+        nature.role = role;
+        nature.fearFrom = 0.25F;
+        nature.fearAlone = 0.6F;
+        if (role == Role::Pacifist) nature.libido = 0.003F;
+        if (role == Role::Predator) nature.hunts = 1;
+        if (role == Role::Prey) {
+            mind.likes = kLikesSchooling;
+            senses.schoolmates.count = 3;
+        }
+    }
+
+    void frighten(float fear, float greatest) {
+        feelings.fear = fear;
+        feelings.greatestFear = greatest;
+        senses.predators[0] = {40, {1, 0, 0}, 1};
+        senses.predatorCount = 1;
+    }
+    void calm() {
+        feelings.fear = feelings.greatestFear = 0;
+        senses.predatorCount = 0;
+    }
+    void showFood(std::uint32_t particle) { senses.food = {particle, {1, 0, 0}, 1}; }
+    void showPrey(std::uint32_t fish) { senses.prey = {fish, {1, 0, 0}, 1}; }
+    void showMate(std::uint32_t fish) { senses.mate = {fish, {1, 0, 0}, 1}; }
+    void threaten(std::uint32_t fish, float share = 0.3F) {
+        senses.collision = {fish, {0.2F, 0, 0}, 0.2F};
+        senses.collisionShare = share;
+    }
+    void clearTheWay() {
+        senses.collision = {};
+        senses.collisionShare = 0;
+        senses.urgency = 0;
+    }
+
+    // One thought without perception, feeling and routine.
+    Intention think() {
+        passTime(nature, mind);
+        const Decision decision = decide(nature, mind, senses, feelings);
+        remember(mind, decision);
+        return mind.intention;
+    }
+    Intention thinkFor(float seconds) {
+        for (int thought = 0; thought < static_cast<int>(seconds * 7.5F); ++thought) think();
+        return mind.intention;
+    }
+    [[nodiscard]] Weighed rung(Rung which) const {
+        return reason(nature, mind, senses, feelings).rungs[static_cast<std::size_t>(which)];
+    }
+
+    Nature nature;
+    Mind mind;
+    Senses senses;
+    Feelings feelings;
+};
+
+}  // namespace aquarama

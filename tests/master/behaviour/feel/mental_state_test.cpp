@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hunger, libido and fear over time, against their closed forms.
+#include "master/behaviour/feel/mental_state.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "master/behaviour/perceive/stimulus.h"
+#include "master/fish/courses.h"
+#include "master/fish/drives.h"
+
+namespace aquarama {
+namespace {
+
+constexpr float kThoughtSeconds = static_cast<float>(kTicksBetweenThoughts) / 60;
+
+Nature tang() {
+    Nature nature;
+    nature.role = Role::Pacifist;
+    nature.appetite = 3;
+    nature.digestion = 0.0045F;
+    nature.libido = 0.003F;
+    nature.fearMetres = 0.9F;
+    return nature;
+}
+
+Mind fed(std::uint16_t particles) {
+    Mind mind;
+    mind.eaten = particles;
+    mind.sinceMeal = 0;
+    mind.sinceSpawning = 0;
+    return mind;
+}
+
+Senses lonely() {
+    Senses senses;
+    senses.length = 0.2F;
+    return senses;
+}
+
+void see(Senses& senses, float predatorMetres) {
+    senses.predators[senses.predatorCount++] = {7, {predatorMetres, 0, 0}, predatorMetres};
+}
+
+TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
+    const Nature nature = tang();
+    Mind mind = fed(3);
+    for (int thought = 1; thought < 2500; ++thought) {
+        passTime(nature, mind);
+        const float seconds = static_cast<float>(thought) * kThoughtSeconds;
+        const float expected = std::min(1.0F, nature.digestion * seconds);
+        ASSERT_NEAR(feel(nature, mind, lonely()).hunger, expected, 2e-5F) << seconds << " s";
+    }
+    EXPECT_EQ(mind.eaten, 0) << "a digested meal does not count again with the next";
+}
+
+TEST(Hunger, dropsByOneShareOfTheAppetiteWithEachParticle) {
+    const Nature nature = tang();
+    Mind mind = fed(0);
+    for (const float expected : {1.0F, 2.0F / 3, 1.0F / 3, 0.0F}) {
+        EXPECT_NEAR(feel(nature, mind, lonely()).hunger, expected, 1e-6F);
+        ++mind.eaten;
+    }
+}
+
+TEST(Hunger, isTemptedByFoodNearbyUntilGorged) {
+    const Nature nature = tang();
+    Senses senses = lonely();
+    senses.food = {5, {0.2F, 0, 0}, 2 * senses.length};
+    EXPECT_NEAR(feel(nature, fed(6), senses).hunger, 0.8F, 1e-6F) << "a_h S_h alone";
+    EXPECT_EQ(feel(nature, fed(7), senses).hunger, 0) << "more than twice the appetite";
+    senses.food.distance = 9 * senses.length;
+    EXPECT_EQ(feel(nature, fed(6), senses).hunger, 0) << "too far off to tempt";
+}
+
+TEST(Hunger, aPredatorIsNotTempted) {
+    Nature nature = tang();
+    nature.role = Role::Predator;
+    Senses senses = lonely();
+    senses.food = {5, {0.2F, 0, 0}, senses.length};
+    EXPECT_EQ(feel(nature, fed(3), senses).hunger, 0);
+}
+
+TEST(Stimulus, followsThePublishedRampAndItsInverse) {
+    EXPECT_EQ(stimulusOf(kFoodStimulus, 8.1F), 0);
+    EXPECT_EQ(stimulusOf(kFoodStimulus, 1.9F), 1);
+    EXPECT_NEAR(stimulusOf(kFoodStimulus, 8), 0, 1e-6F);
+    EXPECT_NEAR(stimulusOf(kFoodStimulus, 2), 1, 1e-6F);
+    // q1 = 1/8, q2 = 1/2, s = 1/4: (1/8) / (1 - 1/8 - 1/4) = 1/5.
+    EXPECT_NEAR(stimulusOf(kFoodStimulus, 4), 0.2F, 1e-6F);
+    EXPECT_NEAR(stimulusOf(kMateStimulus, 8), 0.2F, 1e-6F);
+    for (const float stimulus : {0.1F, 0.3125F, 0.7F, 1.0F})
+        EXPECT_NEAR(
+            stimulusOf(kMateStimulus, bodyLengthsOf(kMateStimulus, stimulus)), stimulus, 1e-5F);
+    EXPECT_EQ(bodyLengthsOf(kFoodStimulus, 1.01F), 0) << "no distance gives so much";
+}
+
+TEST(Libido, growsToOneWithTimeAndIsSuppressedByHunger) {
+    const Nature nature = tang();
+    Mind mind = fed(3);
+    for (int thought = 1; thought <= 3000; ++thought) {
+        passTime(nature, mind);
+        const float seconds = static_cast<float>(thought) * kThoughtSeconds;
+        const Feelings feelings = feel(nature, mind, lonely());
+        const float grown = std::min(1.0F, nature.libido * seconds);
+        ASSERT_NEAR(feelings.libido, grown * (1 - feelings.hunger), 2e-5F) << seconds << " s";
+    }
+    mind.eaten = 0;
+    EXPECT_EQ(feel(nature, mind, lonely()).libido, 0) << "the hungry think of food alone";
+}
+
+TEST(Libido, isRaisedByAMateInSight) {
+    const Nature nature = tang();
+    Senses senses = lonely();
+    senses.mate = {5, {0.8F, 0, 0}, 4 * senses.length};
+    EXPECT_NEAR(feel(nature, fed(3), senses).libido, 0.5F, 1e-6F) << "a_l S_l alone";
+}
+
+TEST(Libido, isAPacifistsAlone) {
+    for (const Role role : {Role::Prey, Role::Predator}) {
+        Nature nature = tang();
+        nature.role = role;
+        Mind mind = fed(3);
+        mind.sinceSpawning = kLongAgo;
+        EXPECT_EQ(feel(nature, mind, lonely()).libido, 0);
+    }
+}
+
+TEST(Fear, addsUpOverThePredatorsInSightAndIsCutAtOne) {
+    const Nature nature = tang();
+    Senses senses = lonely();
+    EXPECT_EQ(feel(nature, fed(3), senses).fear, 0);
+    see(senses, 3.0F);
+    EXPECT_NEAR(feel(nature, fed(3), senses).fear, 0.3F, 1e-6F);
+    see(senses, 4.5F);
+    const Feelings two = feel(nature, fed(3), senses);
+    EXPECT_NEAR(two.fear, 0.5F, 1e-6F);
+    EXPECT_NEAR(two.greatestFear, 0.3F, 1e-6F);
+    see(senses, 0.5F);
+    const Feelings three = feel(nature, fed(3), senses);
+    EXPECT_EQ(three.fear, 1);
+    EXPECT_EQ(three.greatestFear, 1) << "nearer than D0 frightens wholly and no more";
+}
+
+}  // namespace
+}  // namespace aquarama
