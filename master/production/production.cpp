@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "common/config/cast.h"
+#include "common/config/scene.h"
+#include "common/config/species.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
 #include "common/net/blob.h"
@@ -45,32 +47,32 @@ WorldSpecies worldSpeciesOf(const ProducedSpecies& produced, const std::optional
             .start = start};
 }
 
-std::size_t fishIn(const Scene& scene) {
-    std::size_t fish = 0;
+std::uint32_t fishIn(const Scene& scene) {
+    std::uint32_t fish = 0;
     for (const CastMember& member : scene.cast) fish += member.fish;
     return fish;
 }
 
-// The scene with the number of its first species chosen.
-Scene chosen(const std::string& scenePath, const ProductionChoice& choice) {
-    Scene scene = readScene(scenePath);
-    std::uint32_t& fish = scene.cast.front().fish;
-    fish = choice.fish.value_or(fish);
-    if (fish == 0 && scene.place != PlaceKind::OpenSea)
-        throw Error(placed(scenePath,
-                           scene.cast.front().place,
-                           "0 fish: only an open sea may be without; take another --scene"));
+// The scene with the number of fish that is asked for.
+Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
+    Scene scene = readScene(path);
+    CastMember& school = scene.cast.front();
+    school.fish = choice.fish.value_or(school.fish);
+    if (school.fish == 0 && scene.place != PlaceKind::OpenSea)
+        throw Error(placed(
+            path, school.place, "0 fish: only an open sea may be without; take another --scene"));
     return scene;
 }
 
 }  // namespace
 
 Production readProduction(const std::string& scenePath, const ProductionChoice& choice) {
-    const Scene scene = chosen(scenePath, choice);
+    const Scene scene = chosenScene(scenePath, choice);
     const std::vector<CastSpecies> cast = readCastSpecies(scene, scenePath);
     checkRoom(
         scene, scenePath, fishIn(scene), static_cast<float>(cast.front().species.size.meanMetres));
-    Production production{choice.seed, scenePath, writeScene(scene), {}};
+    Production production{
+        .seed = choice.seed, .sceneFile = scenePath, .scene = writeScene(scene), .cast = {}};
     for (std::size_t i = 0; i < cast.size(); ++i)
         production.cast.push_back(
             {cast[i].path, cast[i].text, capturedOnce(cast[i]), scene.cast[i].fish});
@@ -82,12 +84,12 @@ WorldOptions worldOptionsOf(const Production& production) {
     options.seed = production.seed;
     options.scene = parseScene(production.scene, production.sceneFile);
     if (options.scene.cast.size() != production.cast.size())
-        throw Error(production.sceneFile + ": its cast is not the production's; make it anew");
+        throw Error(production.sceneFile + ": its cast is not the one that came with it");
     for (std::size_t i = 0; i < production.cast.size(); ++i)
         options.cast.push_back(worldSpeciesOf(production.cast[i], options.scene.cast[i].start));
-    const auto fish = static_cast<std::uint32_t>(fishIn(options.scene));
-    options.threads =
-        std::clamp(fish / kFishOfAThread, 1U, std::max(std::thread::hardware_concurrency(), 1U));
+    options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,
+                                 1U,
+                                 std::max(std::thread::hardware_concurrency(), 1U));
     return options;
 }
 

@@ -17,7 +17,7 @@ struct ProductionChoice {
     std::optional<std::uint32_t> fish;  // of the first species, instead of the scene's number
 };
 
-// Reads a scene and the files of its cast; a species that was never shown on this machine is
+// Reads the scene and the files of its cast; a species that was never shown on this machine is
 // captured, behind a bar of progress. Throws Error with file:line:column.
 [[nodiscard]] Production readProduction(const std::string& scenePath,
                                         const ProductionChoice& choice);
