@@ -137,9 +137,9 @@ TEST(Sight, aDuneHides) {
     for (float x = -6; x < 6; x += 0.5F) {
         const glm::vec3 from{x, floorHeight(place, {x, -5}) + 0.02F, -5};
         const glm::vec3 to{x + 4, floorHeight(place, {x + 4, -5}) + 0.02F, -5};
-        hidden = hidden || isHidden(environment, 0, 1, from, to - from);
+        hidden = hidden || isHidden(environment, 0, 1, {from, to - from});
         const glm::vec3 above{0, 1.5F, 0};
-        open = open && !isHidden(environment, 0, 1, from + above, to - from);
+        open = open && !isHidden(environment, 0, 1, {from + above, to - from});
     }
     EXPECT_TRUE(hidden);
     EXPECT_TRUE(open);
