@@ -53,11 +53,11 @@ World::World(const WorldOptions& options)
                     " species: there is room for " + std::to_string(kMostKinds));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
     if (!kinds_.empty())
-        schoolRadius_ = gathering_ == Gathering::Mill
-                            ? millRadiusMetres(surroundings_.obstacles.water,
-                                               kinds_.front().last,
-                                               meanLengthMetres(options))
-                            : schoolRadiusMetres(kinds_.front().last);
+        schoolRadius_ =
+            gathering_ == Gathering::Mill
+                ? millRadiusMetres(
+                      surroundings_.obstacles.water, kinds_.front().last, meanLengthMetres(options))
+                : schoolRadiusMetres(kinds_.front().last);
     goal_ = goal();
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
@@ -190,8 +190,9 @@ void World::live(Chunk& chunk) {
     MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
 }
 
+// All that decides how the world goes on and is no function of seed, scene and tick.
 std::uint64_t World::hash() const {
-    std::uint64_t hash = hashOf(states_) ^ minds_.hash();
+    std::uint64_t hash = foldedOne(hashOf(states_) ^ minds_.hash(), tick_.value);
     hash = folded(hash, commands_.segment);
     hash = folded(hash, commands_.phaseRate);
     hash = folded(hash, commands_.pitch);
@@ -201,16 +202,19 @@ std::uint64_t World::hash() const {
                                &courses_.directionY,
                                &courses_.directionZ,
                                &courses_.speed,
-                               &courses_.urgency,
-                               &surroundings_.food.x,
-                               &surroundings_.food.y,
-                               &surroundings_.food.z})
+                               &courses_.urgency})
         hash = folded(hash, *values);
     hash = folded(hash, courses_.openToChange);
-    hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
-    return folded(hash, memory_.patience);
+    hash = folded(hash, memory_.patience);
+    hash = folded(hash, view_.signs);  // of them kAway is nowhere else
+    for (const Absence& absence : absences_)
+        hash = foldedOne(foldedOne(hash, absence.fish), absence.until.value);
+    for (const Meals::Swallow& swallow : meals_.swallows)
+        hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
+                         swallow.ticksLeft);
+    return foldedSurroundings(hash, surroundings_);
 }
 
 std::size_t World::bytes() const {
