@@ -131,7 +131,7 @@ TEST(Sight, aDuneHides) {
     Grids grids = sea.freshGrids();
     environment = sea.environment(grids);
     // Between two points just over the sand, with the sand higher in between.
-    const Place& place = sea.surroundings.obstacles.place;
+    const PlaceKey& place = sea.surroundings.obstacles.place;
     bool hidden = false;
     bool open = true;
     for (float x = -6; x < 6; x += 0.5F) {
