@@ -79,6 +79,8 @@ class SpatialGrid {
         row(centre.y, centre.z);
         const int cells = 1 + static_cast<int>(std::sqrt(reachSquared) * cellsPerMetre_);
         for (int ring = 1; ring <= cells; ++ring) {
+            const float nearest = static_cast<float>(ring - 1) * cellMetres_;
+            if (nearest * nearest > reachSquared * kSlack) return;  // enough was found
             for (int i = -ring; i < ring;
                  ++i) {  // the four sides of a square, each without its end
                 row(centre.y + i, centre.z - ring);

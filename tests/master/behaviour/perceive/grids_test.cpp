@@ -17,7 +17,7 @@ constexpr std::size_t kFish = 20000;
 
 struct Sea {
     FishView view = scatteredSchool(2, kFish, kWater);
-    Food food = makeFood(3, kWater, 700);
+    Food food = makeFood(3, obstaclesOf({3, PlaceKind::OpenSea}, kWater), 700);
     std::vector<Nature> natures = std::vector<Nature>(2);
 
     Sea() {
