@@ -38,7 +38,7 @@ glm::vec3 wayRound(const Situation& situation) {
 Course avoidObstacle(const Situation& situation, const Mind& mind) {
     if ((mind.likes & kLikesSchooling) != 0 && situation.nature.role == Role::Prey)
         return school(situation);
-    const glm::vec3 room = roomFrom(*situation.environment.view, situation.senses, situation.fish);
+    const glm::vec3 room = roomFrom(situation);
     return heading(situation, situation.senses.heading + room, situation.nature.slow);
 }
 
