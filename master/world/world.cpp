@@ -42,6 +42,7 @@ Mind beginningMind(const Nature& nature,
 World::World(const WorldOptions& options)
     : seed_(options.seed),
       gathering_(options.scene.gathering),
+      middle_(options.scene.water.centre),
       adaptation_(options.adaptation),
       traits_(traitsOf(options)),
       surroundings_(
@@ -53,11 +54,11 @@ World::World(const WorldOptions& options)
                     " species: there is room for " + std::to_string(kMostKinds));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
     if (!kinds_.empty())
-        schoolRadius_ = gathering_ == Gathering::Mill
-                            ? millRadiusMetres(surroundings_.obstacles.water,
-                                               kinds_.front().last,
-                                               meanLengthMetres(options))
-                            : schoolRadiusMetres(kinds_.front().last);
+        schoolRadius_ =
+            gathering_ == Gathering::Mill
+                ? millRadiusMetres(
+                      surroundings_.obstacles.water, kinds_.front().last, meanLengthMetres(options))
+                : schoolRadiusMetres(kinds_.front().last);
     goal_ = goal();
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
@@ -93,6 +94,7 @@ void World::begin(const WorldOptions& options) {
         }
         look(kind, kind.first, kind.last);
     }
+    grids_.expect(view_, natures_);
     for (std::size_t fish = 0; fish < traits_.size(); ++fish)
         courses_.set(fish, {view_.heading(fish), 1, 0});
 }
@@ -117,6 +119,7 @@ void World::apply(const WorldInput& input) {
 }
 
 Goal World::goal() const {
+    if (gathering_ == Gathering::None) return {.position = middle_};
     return gathering_ == Gathering::Mill
                ? millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
                : journeyGoal(seed_, tick_);
@@ -126,13 +129,24 @@ void World::advance() {
     goal_ = goal();
     advanceSurroundings(surroundings_, tick_);
     receive();
-    inChunks([this](const Chunk& chunk) { look(kinds_[chunk.kind], chunk.first, chunk.last); });
+    rebuildGrids();
     advanceMeals(meals_, view_, surroundings_.food, tick_);
-    grids_.rebuild(view_, surroundings_.food, natures_);
     inChunks([this](Chunk& chunk) { live(chunk); });
     for (const Chunk& chunk : chunks_)
         for (const Deed& deed : chunk.deeds) perform(deed);
     ++tick_.value;
+}
+
+void World::rebuildGrids() {
+    grids_.rebuild(
+        view_,
+        surroundings_.food,
+        natures_,
+        [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
+        [this](std::size_t first, std::size_t last) {
+            for (const Kind& kind : kinds_)
+                look(kind, std::max(first, kind.first), std::min(last, kind.last));
+        });
 }
 
 // What all see of fish [first, last).
@@ -178,8 +192,9 @@ void World::live(Chunk& chunk) {
     MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
 }
 
+// All that decides how the world goes on and is no function of seed, scene and tick.
 std::uint64_t World::hash() const {
-    std::uint64_t hash = hashOf(states_) ^ minds_.hash();
+    std::uint64_t hash = foldedOne(hashOf(states_) ^ minds_.hash(), tick_.value);
     hash = folded(hash, commands_.segment);
     hash = folded(hash, commands_.phaseRate);
     hash = folded(hash, commands_.pitch);
@@ -189,16 +204,19 @@ std::uint64_t World::hash() const {
                                &courses_.directionY,
                                &courses_.directionZ,
                                &courses_.speed,
-                               &courses_.urgency,
-                               &surroundings_.food.x,
-                               &surroundings_.food.y,
-                               &surroundings_.food.z})
+                               &courses_.urgency})
         hash = folded(hash, *values);
     hash = folded(hash, courses_.openToChange);
-    hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
-    return folded(hash, memory_.patience);
+    hash = folded(hash, memory_.patience);
+    hash = folded(hash, view_.signs);  // of them kAway is nowhere else
+    for (const Absence& absence : absences_)
+        hash = foldedOne(foldedOne(hash, absence.fish), absence.until.value);
+    for (const Meals::Swallow& swallow : meals_.swallows)
+        hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
+                         swallow.ticksLeft);
+    return foldedSurroundings(hash, surroundings_);
 }
 
 std::size_t World::bytes() const {

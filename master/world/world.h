@@ -96,6 +96,7 @@ class World {
     };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     void begin(const WorldOptions& options);
+    void rebuildGrids();
     void look(const Kind& kind, std::size_t first, std::size_t last);
     void live(Chunk& chunk);
     void perform(const Deed& deed);
@@ -109,6 +110,7 @@ class World {
     std::uint32_t seed_;
     Tick tick_;
     Gathering gathering_;
+    glm::vec3 middle_;  // of the scene's own water, before it grew
     Adaptation adaptation_;
     std::vector<Kind> kinds_;
     std::vector<Nature> natures_;  // one for each kind

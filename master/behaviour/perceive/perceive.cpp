@@ -84,16 +84,10 @@ void feelItself(const FishView& view, std::uint32_t fish, Senses& senses) {
 }
 
 void seeNeighbours(const Onlooker& onlooker) {
-    Senses& senses = onlooker.senses;
-    const Nature& nature = onlooker.nature;
-    const Neighbours near =
-        nearestVisible(onlooker.view(), onlooker.environment.grids->fish, onlooker.fish);
-    for (std::size_t i = 0; i < near.count; ++i) {
-        const bool mate = near.fish[i] >= nature.first && near.fish[i] < nature.last;
-        Neighbours& those = mate ? senses.schoolmates : senses.others;
-        those.fish[those.count] = near.fish[i];
-        those.distanceSquared[those.count++] = near.distanceSquared[i];
-    }
+    const NearestFish nearest = nearestVisible(
+        onlooker.view(), *onlooker.environment.grids, onlooker.nature, onlooker.fish);
+    onlooker.senses.schoolmates = nearest.schoolmates;
+    onlooker.senses.others = nearest.others;
 }
 
 // Keeps the nearest, sorted; of equally near ones the lower index first.
