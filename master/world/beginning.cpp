@@ -183,7 +183,7 @@ void placeFish(const WorldOptions& options,
         const std::size_t last = first + species.fish;
         if (species.start)
             placeAbout(options.seed, *species.start, first, last, states);
-        else if (first == 0)
+        else if (first == 0 && species.habits.shares.schooling > 0)
             placeSchool(options.seed, goal, water, last, states);
         else
             placeWanderers(
