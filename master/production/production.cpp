@@ -59,7 +59,8 @@ Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
     CastMember& school = scene.cast.front();
     school.fish = choice.fish.value_or(school.fish);
     if (school.fish == 0 && scene.place != PlaceKind::OpenSea)
-        throw Error(path + ": a reef's school needs a fish; take an OPEN_SEA for none");
+        throw Error(placed(
+            path, school.place, "0 fish: only an open sea may be without; take another --scene"));
     return scene;
 }
 

@@ -42,6 +42,7 @@ Mind beginningMind(const Nature& nature,
 World::World(const WorldOptions& options)
     : seed_(options.seed),
       gathering_(options.scene.gathering),
+      middle_(options.scene.water.centre),
       adaptation_(options.adaptation),
       traits_(traitsOf(options)),
       surroundings_(
@@ -118,6 +119,7 @@ void World::apply(const WorldInput& input) {
 }
 
 Goal World::goal() const {
+    if (gathering_ == Gathering::None) return {.position = middle_};
     return gathering_ == Gathering::Mill
                ? millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
                : journeyGoal(seed_, tick_);

@@ -110,6 +110,7 @@ class World {
     std::uint32_t seed_;
     Tick tick_;
     Gathering gathering_;
+    glm::vec3 middle_;  // of the scene's own water, before it grew
     Adaptation adaptation_;
     std::vector<Kind> kinds_;
     std::vector<Nature> natures_;  // one for each kind
