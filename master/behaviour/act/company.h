@@ -15,7 +15,7 @@ namespace aquarama {
 
 // Between the middles of neighbours, in body lengths: at ease, and when a predator is about.
 inline constexpr float kSpacing = 0.9F;
-inline constexpr float kAlarmedSpacing = 0.5F;
+inline constexpr float kAlarmedSpacing = 0.65F;
 
 struct Company {
     glm::vec3 separation{}, alignment{}, cohesion{};

@@ -129,6 +129,13 @@ glm::vec3 glimpses(const Situation& situation) {
     return sum;
 }
 
+// 0 up to the fear that is heeded, 1 from that on with which each flees for itself: a predator that
+// only goes about far off does not press a school together.
+float alarmOf(const Nature& nature, const Feelings& feelings) {
+    const float more = feelings.fear - nature.fearFrom;
+    return std::clamp(more / std::max(nature.fearAlone - nature.fearFrom, 0.01F), 0.0F, 1.0F);
+}
+
 // Schoolmates give way to a predator before it comes so near that each flees for itself.
 glm::vec3 clearing(const Situation& situation) {
     const Nature& nature = situation.nature;
@@ -150,8 +157,7 @@ float schoolRadiusMetres(std::size_t fish) {
 Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
-    const float alarm =
-        std::min(1.0F, situation.feelings.fear / std::max(situation.nature.fearFrom, 0.01F));
+    const float alarm = alarmOf(situation.nature, situation.feelings);
     const Company company = companyOf(
         *environment.view, senses, situation.fish, kSpacing + (kAlarmedSpacing - kSpacing) * alarm);
     // What must be avoided comes before where one would like to go.
