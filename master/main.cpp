@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // The master of a rig: wires the world to the conductor.
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
 #include "common/cli/signals.h"
+#include "common/config/cast.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
+#include "common/wire/recording.h"
+#include "master/commands.h"
 #include "master/conductor/conductor.h"
-#include "master/conductor/status.h"
 #include "master/production/living_world.h"
 #include "master/production/production.h"
+#include "master/record/playback.h"
+#include "master/record/recorder.h"
 
 namespace aquarama {
 
@@ -27,12 +35,15 @@ namespace {
 
 struct MasterOptions {
     std::string rigPath;
+    std::string scenePath;  // empty: the rig's
     bool lockstep = false;
     std::optional<std::uint64_t> frames;
     std::uint32_t seed = 1;
     std::optional<std::uint32_t> fish;
     std::string pattern = "world";
     std::string traceFolder;
+    std::string recordPath;  // empty: the show is not recorded
+    std::string replayPath;  // of the recording that is shown; empty: a new world
 };
 
 ConductorOptions conductorOptions(const MasterOptions& options) {
@@ -59,31 +70,75 @@ std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
     return cast;
 }
 
+// What is shown: the living world, or a recorded or replayed one about it.
+struct Shown {
+    const Production& production;
+    const LivingWorld& world;
+    Simulation& simulation;
+};
+
+// Returns when the show is over. `running` is the conductor meanwhile.
+void show(const Rig& rig,
+          const ConductorOptions& options,
+          const Shown& shown,
+          std::unique_ptr<MasterChannels> channels,
+          Conductor** running = nullptr) {
+    Blobs blobs;
+    Welcome welcome;
+    welcome.rigText = writeRig(rig);
+    welcome.sceneText = shown.production.scene;
+    welcome.cast = castOf(shown.production, blobs);
+    const auto school = shown.world.world().traits();
+    welcome.school.assign(school.begin(), school.end());
+    Conductor conductor(
+        rig, options, shown.simulation, std::move(welcome), std::move(blobs), std::move(channels));
+    if (running != nullptr) *running = &conductor;
+    const SignalWatch watch([&] { conductor.stop(); });
+    conductor.run();
+}
+
+void showNew(const Rig& rig,
+             const MasterOptions& options,
+             std::unique_ptr<MasterChannels> channels) {
+    const Production production = readProduction(
+        options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
+        {.seed = options.seed, .fish = options.fish});
+    LivingWorld world(worldOptionsOf(production));
+    const ConductorOptions conducting = conductorOptions(options);
+    if (options.recordPath.empty())
+        return show(rig, conducting, {production, world, world}, std::move(channels));
+    RecordingFile file(options.recordPath, production);
+    RecordedWorld recorded(world, file);
+    show(rig, conducting, {production, world, recorded}, std::move(channels));
+}
+
+void showAgain(const Rig& rig,
+               const MasterOptions& options,
+               std::unique_ptr<MasterChannels> channels) {
+    const Recording recording = readRecording(options.replayPath);
+    for (const std::string& doubt : doubtsAbout(recording))
+        spdlog::warn("{}: {}", options.replayPath, doubt);
+    LivingWorld world(worldOptionsOf(recording.production));
+    ConductorOptions conducting = conductorOptions(options);
+    conducting.seed = recording.production.seed;
+    // In lockstep the world runs ahead of the frames: there these are counted.
+    Conductor* running = nullptr;
+    std::function<void()> onEnd = [&running] { running->stop(); };
+    if (options.lockstep) {
+        const std::uint64_t frames = recording.lastTick().value + 1;
+        conducting.frames = std::min(conducting.frames.value_or(frames), frames);
+        onEnd = [] {};
+    }
+    ReplayedWorld replayed(recording, world, onEnd);
+    show(rig, conducting, {recording.production, world, replayed}, std::move(channels), &running);
+}
+
 void runMaster(const MasterOptions& options) {
     holdSignals();
     const Rig rig = readRig(options.rigPath);
     checkGeometry(rig, options.rigPath);
     auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
-
-    const Production production =
-        readProduction(rig, options.rigPath, {.seed = options.seed, .fish = options.fish});
-    LivingWorld simulation(worldOptionsOf(production));
-
-    Blobs blobs;
-    Welcome welcome;
-    welcome.rigText = writeRig(rig);
-    welcome.cast = castOf(production, blobs);
-    const auto school = simulation.world().traits();
-    welcome.school.assign(school.begin(), school.end());
-
-    Conductor conductor(rig,
-                        conductorOptions(options),
-                        simulation,
-                        std::move(welcome),
-                        std::move(blobs),
-                        std::move(channels));
-    const SignalWatch watch([&] { conductor.stop(); });
-    conductor.run();
+    (options.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));
 }
 
 int dispatch(int count, char** arguments) {
@@ -94,31 +149,33 @@ int dispatch(int count, char** arguments) {
     app.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
     app.add_option("--frames", options.frames, "end after so many frames");
     app.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
-    app.add_option("--fish", options.fish, "how many, instead of the rig's number")
-        ->check(CLI::Range(1U, kMostFish));
+    app.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    app.add_option(
+           "--fish", options.fish, "how many of the first species, instead of the scene's number")
+        ->check(CLI::Range(0U, kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
     app.add_option(
         "--trace", options.traceFolder, "folder for master.csv: a line of times a frame");
 
-    std::string statusRig = "config/desk.txtpb";
-    std::string statusAddress;
-    CLI::App& status = *app.add_subcommand("status", "what the running wall is doing");
-    status.add_option("RIG", statusRig, "whose master is asked")->capture_default_str();
-    status.add_option("--master", statusAddress, "its control address, instead of the rig's");
+    app.add_option("--record", options.recordPath, "write the show to this new file");
+    app.add_option("--replay", options.replayPath, "show this recording")
+        ->excludes("--record")
+        ->excludes("--seed")
+        ->excludes("--scene")
+        ->excludes("--fish");
+    Job job = [&] {
+        runMaster(options);
+        return 0;
+    };
+    for (const auto add : {addStatus, addExplain, addReplay, addInspect}) add(app, job);
     try {
         app.parse(count, arguments);
-        if (!status.parsed() && rig->empty()) throw CLI::RequiredError("RIG");
+        if (app.get_subcommands().empty() && rig->empty()) throw CLI::RequiredError("RIG");
     } catch (const CLI::ParseError& wrong) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
-    if (status.parsed()) {
-        std::cout << runStatus(statusAddress.empty() ? readRig(statusRig).controlAddress
-                                                     : statusAddress);
-    } else {
-        runMaster(options);
-    }
-    return 0;
+    return job();
 }
 
 }  // namespace

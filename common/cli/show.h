@@ -13,6 +13,7 @@ namespace aquarama {
 
 struct ShowOptions {
     std::string rigPath;
+    std::string scenePath;  // empty: the rig's
     bool headless = false;
     bool live =
         false;  // keeps the clock even where --headless, --frames or --snapshot imply lockstep
@@ -24,6 +25,8 @@ struct ShowOptions {
     bool deep = false;           // 16-bit pictures
     int filmEvery = 0;  // with a snapshot folder: also every so many frames, composed into a clip
     std::string traceFolder;
+    std::string recordPath;  // the show is written to this new file; empty: it is not
+    std::string replayPath;  // the recording that is shown; empty: a new world
 
     [[nodiscard]] bool lockstep() const {
         return !live && (headless || frames.has_value() || !snapshotFolder.empty());

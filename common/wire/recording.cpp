@@ -45,7 +45,8 @@ void append(Packet& bytes, const Packet& more) {
 }
 
 void write(const ProducedSpecies& species, v1::RecordedSpecies& message) {
-    message.set_file(species.file);
+    // The folders of one machine mean nothing on another.
+    message.set_file(std::filesystem::path(species.file).filename().string());
     message.set_text(species.text);
     message.set_repertoire(species.repertoire.data(), species.repertoire.size());
     message.set_fish(species.fish);

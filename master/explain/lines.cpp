@@ -114,7 +114,7 @@ class Screen {
     void title() {
         add("FISH", format("{} {}   tick {}", of_.fish, speciesOf(of_.fish), of_.tick.value));
         add("",
-            format("{:.3f} m long, {}, {}",
+            format("{:.3f} m long (1 L), {}, {}",
                    of_.lengthMetres,
                    wordFor(of_.nature.role),
                    likesOf(of_.mind)));
@@ -124,7 +124,9 @@ class Screen {
         std::string list = near.count == 0 ? "-" : "";
         for (std::size_t i = 0; i < near.count; ++i) {
             const double distance = std::sqrt(double{near.distanceSquared[i]});
-            list += format("{}#{} {:.1f}", i == 0 ? "" : "  ", near.fish[i], lengths(distance));
+            const std::string one = format("#{} {:.1f}  ", near.fish[i], lengths(distance));
+            if (list.size() + one.size() > kListColumns) return list + "..";
+            list += one;
         }
         return list;
     }
@@ -143,7 +145,7 @@ class Screen {
 
     void sees() {
         const Senses& senses = of_.senses;
-        add("SEES", "schoolmates " + listed(senses.schoolmates) + "   (body lengths, L)");
+        add("SEES", "schoolmates " + listed(senses.schoolmates));
         add("", "others      " + listed(senses.others));
         add("", "predator    " + predators());
         add("", "food        " + at(senses.food, format("particle {}", senses.food.object)));
@@ -212,6 +214,7 @@ class Screen {
     [[nodiscard]] std::string verdictOn(Rung rung, const Weighed& weighed) const;
     void why();
 
+    static constexpr std::size_t kListColumns = 54;
     const Insight& of_;
     const Acquaintances& others_;
     std::vector<std::string> lines_;

@@ -2,14 +2,16 @@
 #include "master/production/production.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <thread>
-#include <utility>
 
+#include "common/config/cast.h"
+#include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
 #include "common/net/blob.h"
+#include "common/place/water.h"
+#include "common/units/error.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
 
@@ -22,11 +24,10 @@ namespace {
 constexpr std::uint32_t kFishOfAThread = 2000;
 
 // The first show of a species on this machine simulates it; later ones find what it swam.
-std::vector<std::byte> capturedOnce(const SpeciesText& species) {
-    ProgressBar bar("capturing " + std::filesystem::path(species.source).stem().string());
+std::vector<std::byte> capturedOnce(const CastSpecies& member) {
+    ProgressBar bar("capturing " + member.species.name);
     const auto cache = defaultBlobDirectory().parent_path() / "repertoires";
-    return repertoireFor(
-        species.text, species.source, cache, [&](double share) { bar.show(share); });
+    return repertoireFor(member.text, member.path, cache, [&](double share) { bar.show(share); });
 }
 
 FishLengths lengthsOf(const SizeRange& size) {
@@ -36,46 +37,58 @@ FishLengths lengthsOf(const SizeRange& size) {
             .mostMetres = static_cast<float>(size.mostMetres)};
 }
 
-WorldSpecies worldSpeciesOf(const ProducedSpecies& produced) {
+WorldSpecies worldSpeciesOf(const ProducedSpecies& produced, const std::optional<Start>& start) {
     const Species species = parseSpecies(produced.text, produced.file);
     return {.tables = makeMotorTables(decodeRepertoire(produced.repertoire, produced.file)),
             .fish = produced.fish,
             .lengths = lengthsOf(species.size),
             .name = species.name,
             .habits = species.habits,
-            .start = {}};
+            .start = start};
+}
+
+std::uint32_t fishIn(const Scene& scene) {
+    std::uint32_t fish = 0;
+    for (const CastMember& member : scene.cast) fish += member.fish;
+    return fish;
+}
+
+// The scene with the number of fish that is asked for.
+Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
+    Scene scene = readScene(path);
+    CastMember& school = scene.cast.front();
+    school.fish = choice.fish.value_or(school.fish);
+    if (school.fish == 0 && scene.place != PlaceKind::OpenSea)
+        throw Error(path + ": a reef's school needs a fish; take an OPEN_SEA for none");
+    return scene;
 }
 
 }  // namespace
 
-Production readProduction(const Rig& rig,
-                          const std::string& rigPath,
-                          const ProductionChoice& choice) {
-    const auto folder = std::filesystem::path(rigPath).parent_path();
-    Production production;
-    production.seed = choice.seed;
-    for (const CastMember& member : rig.cast) {
-        const bool isSchool = production.cast.empty();
-        SpeciesText species = readSpeciesText(folder / member.species);
-        std::vector<std::byte> repertoire = capturedOnce(species);
-        production.cast.push_back({std::move(species.source),
-                                   std::move(species.text),
-                                   std::move(repertoire),
-                                   isSchool ? choice.fish.value_or(member.fish) : member.fish});
-    }
+Production readProduction(const std::string& scenePath, const ProductionChoice& choice) {
+    const Scene scene = chosenScene(scenePath, choice);
+    const std::vector<CastSpecies> cast = readCastSpecies(scene, scenePath);
+    checkRoom(
+        scene, scenePath, fishIn(scene), static_cast<float>(cast.front().species.size.meanMetres));
+    Production production{
+        .seed = choice.seed, .sceneFile = scenePath, .scene = writeScene(scene), .cast = {}};
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        production.cast.push_back(
+            {cast[i].path, cast[i].text, capturedOnce(cast[i]), scene.cast[i].fish});
     return production;
 }
 
 WorldOptions worldOptionsOf(const Production& production) {
     WorldOptions options;
     options.seed = production.seed;
-    std::uint32_t fish = 0;
-    for (const ProducedSpecies& species : production.cast) {
-        options.cast.push_back(worldSpeciesOf(species));
-        fish += species.fish;
-    }
-    options.threads =
-        std::clamp(fish / kFishOfAThread, 1U, std::max(std::thread::hardware_concurrency(), 1U));
+    options.scene = parseScene(production.scene, production.sceneFile);
+    if (options.scene.cast.size() != production.cast.size())
+        throw Error(production.sceneFile + ": its cast is not the one that came with it");
+    for (std::size_t i = 0; i < production.cast.size(); ++i)
+        options.cast.push_back(worldSpeciesOf(production.cast[i], options.scene.cast[i].start));
+    options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,
+                                 1U,
+                                 std::max(std::thread::hardware_concurrency(), 1U));
     return options;
 }
 

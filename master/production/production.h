@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "common/config/rig.h"
 #include "common/wire/recording.h"
 #include "master/world/world.h"
 
@@ -15,13 +14,12 @@ namespace aquarama {
 
 struct ProductionChoice {
     std::uint32_t seed = 1;
-    std::optional<std::uint32_t> fish;  // in the school, instead of the file's number
+    std::optional<std::uint32_t> fish;  // of the first species, instead of the scene's number
 };
 
-// Reads the files of the rig's cast, whose paths are relative to the rig's; a species that was
-// never shown on this machine is captured, behind a bar of progress. Throws Error.
-[[nodiscard]] Production readProduction(const Rig& rig,
-                                        const std::string& rigPath,
+// Reads the scene and the files of its cast; a species that was never shown on this machine is
+// captured, behind a bar of progress. Throws Error with file:line:column.
+[[nodiscard]] Production readProduction(const std::string& scenePath,
                                         const ProductionChoice& choice);
 
 // Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.

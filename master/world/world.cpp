@@ -214,8 +214,9 @@ void World::performDeeds() {
     for (const Deed& deed : deeds_) perform(deed);
 }
 
+// All that decides how the world goes on and is no function of seed, scene and tick.
 std::uint64_t World::hash() const {
-    std::uint64_t hash = hashOf(states_) ^ minds_.hash();
+    std::uint64_t hash = foldedOne(hashOf(states_) ^ minds_.hash(), tick_.value);
     hash = folded(hash, commands_.segment);
     hash = folded(hash, commands_.phaseRate);
     hash = folded(hash, commands_.pitch);
@@ -225,16 +226,19 @@ std::uint64_t World::hash() const {
                                &courses_.directionY,
                                &courses_.directionZ,
                                &courses_.speed,
-                               &courses_.urgency,
-                               &surroundings_.food.x,
-                               &surroundings_.food.y,
-                               &surroundings_.food.z})
+                               &courses_.urgency})
         hash = folded(hash, *values);
     hash = folded(hash, courses_.openToChange);
-    hash = folded(hash, surroundings_.food.kind);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
-    return folded(hash, memory_.patience);
+    hash = folded(hash, memory_.patience);
+    hash = folded(hash, view_.signs);  // of them kAway is nowhere else
+    for (const Absence& absence : absences_)
+        hash = foldedOne(foldedOne(hash, absence.fish), absence.until.value);
+    for (const Meals::Swallow& swallow : meals_.swallows)
+        hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
+                         swallow.ticksLeft);
+    return foldedSurroundings(hash, surroundings_);
 }
 
 std::size_t World::bytes() const {

@@ -50,6 +50,8 @@ bool sandHides(const Obstacles& obstacles, const Ray& ray) {
 }
 
 bool trunkHides(const FishView& view, std::uint32_t body, const Ray& ray) {
+    constexpr float kTrunkReach = 0.4F;  // about its middle, all of the trunk's balls
+    if (!ray.passes(view.position(body), kTrunkReach * view.length[body])) return false;
     for (const float place : kTrunk)
         if (ray.passes(view.position(body) + view.heading(body) * (place * view.length[body]),
                        kTrunkRadius * view.length[body]))
