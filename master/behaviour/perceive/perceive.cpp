@@ -57,12 +57,13 @@ struct Onlooker {
 };
 
 // Searches a grid for what costs least. costOf(index, offset, distance) must be `distance` or more,
-// and infinite for what is not sought; what costs `best` or more is passed over. Of equal costs the
-// lower index has it.
+// and infinite for what is not sought, as all beyond reach; what costs `best` or more is passed
+// over. Of equal costs the lower index has it.
 template <class CostOf>
-Sighting cheapestIn(const SpatialGrid& grid, glm::vec3 position, float best, const CostOf& costOf) {
+Sighting cheapestIn(
+    const SpatialGrid& grid, glm::vec3 position, float reach, float best, const CostOf& costOf) {
     Sighting cheapest;
-    float reachSquared = best * best;
+    float reachSquared = std::min(reach * reach, best * best);
     grid.visitAround(position, reachSquared, [&](const SpatialGrid::Candidates& row) {
         for (std::size_t i = 0; i < row.index.size(); ++i) {
             const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;
@@ -73,7 +74,7 @@ Sighting cheapestIn(const SpatialGrid& grid, glm::vec3 position, float best, con
             if (cost > best || (cost == best && row.index[i] >= cheapest.object)) continue;
             cheapest = {row.index[i], offset, distance};
             best = cost;
-            reachSquared = cost * cost;
+            reachSquared = std::min(reachSquared, cost * cost);
         }
     });
     return cheapest;
@@ -195,7 +196,7 @@ Sighting attend(const Onlooker& onlooker,
             best = std::min(best, cost * (1 - onlooker.nature.persistence));
         }
     }
-    const Sighting other = cheapestIn(grid, onlooker.senses.position, best, costOf);
+    const Sighting other = cheapestIn(grid, onlooker.senses.position, sight, best, costOf);
     const bool better = other.seen() && other.object != kept.object && !onlooker.isHidden(other);
     return better ? other : kept;
 }
@@ -271,6 +272,7 @@ void senseFood(const Onlooker& onlooker) {
     const Sighting better =
         cheapestIn(onlooker.environment.grids->food,
                    senses.position,
+                   reach,
                    best,
                    [&](std::uint32_t particle, glm::vec3 offset, float distance) {
                        return distance <= reach && isWorthLeaving(onlooker, particle, distance)

@@ -23,8 +23,8 @@ struct Points {  // metres
 class SpatialGrid {
   public:
     // Room for `most` points. Those outside `water` are kept in the border cells; they are found
-    // all the same. Where the cells would be many more than the points they are made larger.
-    SpatialGrid(const Region& water, float cellMetres, std::size_t most);
+    // all the same. Where there would be more than `mostCells` cells they are made larger.
+    SpatialGrid(const Region& water, float cellMetres, std::size_t most, std::size_t mostCells);
 
     // Of all points, those at these ascending indices. In each cell they stand in the order of
     // their index. Allocates nothing.
