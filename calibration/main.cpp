@@ -4,15 +4,22 @@
 
 #include <CLI/CLI.hpp>
 
+#include "calibration/inventory.h"
 #include "calibration/theatre/film.h"
 #include "calibration/theatre/snapshot.h"
 #include "calibration/theatre/survey.h"
 #include "common/config/angle.h"
+#include "common/config/cast.h"
+#include "common/config/file_kind.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
 
 namespace aquarama {
 namespace {
+
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+}
 
 Rig checkedRig(const std::string& path) {
     Rig rig = readRig(path);
@@ -20,21 +27,34 @@ Rig checkedRig(const std::string& path) {
     return rig;
 }
 
-void check(const std::string& path) {
+// With the scene that it shows.
+void checkRig(const std::string& path) {
     const Rig rig = checkedRig(path);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         std::printf("%s\n", oneLine(surveyChannel(rig, i)).c_str());
     const double worst = worstBlendSum(rig);
     if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
+    (void)inventoryOfScene(scenePathOf(rig, path));
     std::printf(
         "%s: good; the channels' shares of light sum to one within %.0e\n", path.c_str(), worst);
+}
+
+// A rig, a scene or a species, whichever the file holds.
+void check(const std::string& path) {
+    switch (fileKindAt(path)) {
+        case FileKind::Rig:
+            return checkRig(path);
+        case FileKind::Scene:
+            return say(inventoryOfScene(path));
+        case FileKind::Species:
+            return say(inventoryOfSpecies(path));
+    }
 }
 
 void inspect(const std::string& path) {
     const Rig rig = checkedRig(path);
     std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
-    for (const CastMember& member : rig.cast)
-        std::printf("cast: %u fish of %s\n", member.fish, member.species.c_str());
+    std::printf("scene: %s\n", rig.scene.c_str());
     std::printf("screen: radius %.3f m, %.1f degrees (%.3f m of arc), %.3f m high\n",
                 rig.screen.radiusMetres,
                 rig.screen.arcRadians / kRadiansPerDegree,
@@ -71,8 +91,10 @@ int run(int argc, char** argv) {
     bool deep = false;
 
     CLI::App* checkCommand =
-        app.add_subcommand("check", "Validate a rig and say what its projectors light");
-    checkCommand->add_option("RIG", path, "Rig file, such as config/desk.txtpb")->required();
+        app.add_subcommand("check",
+                           "Validate a rig and say what its projectors light; or a scene or a "
+                           "species, and say what is in it");
+    checkCommand->add_option("FILE", path, "such as config/desk.txtpb")->required();
     checkCommand->callback([&] { check(path); });
 
     CLI::App* composeCommand = app.add_subcommand(

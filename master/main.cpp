@@ -7,7 +7,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -15,7 +14,9 @@
 #include <spdlog/spdlog.h>
 
 #include "common/cli/signals.h"
+#include "common/config/cast.h"
 #include "common/config/rig.h"
+#include "common/config/scene.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
@@ -27,6 +28,7 @@
 #include "master/production/production.h"
 #include "master/record/playback.h"
 #include "master/record/recorder.h"
+#include "master/staging/staging.h"
 
 namespace aquarama {
 
@@ -34,6 +36,7 @@ namespace {
 
 struct MasterOptions {
     std::string rigPath;
+    std::string scenePath;  // empty: the rig's
     bool lockstep = false;
     std::optional<std::uint64_t> frames;
     std::uint32_t seed = 1;
@@ -57,20 +60,20 @@ ConductorOptions conductorOptions(const MasterOptions& options) {
 }
 
 // What the nodes are told of the cast, and the blobs that they may then ask for.
-std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
+std::vector<SpeciesBlobs> castOf(const Staging& staging, Blobs& blobs) {
     std::vector<SpeciesBlobs> cast;
-    for (const ProducedSpecies& species : production.cast) {
-        const auto text = std::as_bytes(std::span{species.text});
-        cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
-        blobs.emplace(cast.back().species, ByteVector{text.begin(), text.end()});
-        blobs.emplace(cast.back().repertoire, species.repertoire);
+    for (const StagedSpecies& member : staging.cast) {
+        cast.push_back(
+            {digestOf(member.speciesBlob), digestOf(member.repertoireBlob), member.species.fish});
+        blobs.emplace(cast.back().species, member.speciesBlob);
+        blobs.emplace(cast.back().repertoire, member.repertoireBlob);
     }
     return cast;
 }
 
 // What is shown: the living world, or a recorded or replayed one about it.
 struct Shown {
-    const Production& production;
+    const Staging& staging;
     const LivingWorld& world;
     Simulation& simulation;
 };
@@ -84,7 +87,8 @@ void show(const Rig& rig,
     Blobs blobs;
     Welcome welcome;
     welcome.rigText = writeRig(rig);
-    welcome.cast = castOf(shown.production, blobs);
+    welcome.sceneText = writeScene(shown.staging.scene);
+    welcome.cast = castOf(shown.staging, blobs);
     const auto school = shown.world.world().traits();
     welcome.school.assign(school.begin(), school.end());
     Conductor conductor(
@@ -97,15 +101,16 @@ void show(const Rig& rig,
 void showNew(const Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<MasterChannels> channels) {
-    const Production production =
-        readProduction(rig, options.rigPath, {.seed = options.seed, .fish = options.fish});
-    LivingWorld world(worldOptionsOf(production));
+    const Staging staging = stageScene(
+        options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
+        options.fish);
+    LivingWorld world(worldOptionsOf(staging, options.seed));
     const ConductorOptions conducting = conductorOptions(options);
     if (options.recordPath.empty())
-        return show(rig, conducting, {production, world, world}, std::move(channels));
-    RecordingFile file(options.recordPath, production);
+        return show(rig, conducting, {staging, world, world}, std::move(channels));
+    RecordingFile file(options.recordPath, productionOf(staging, options.seed));
     RecordedWorld recorded(world, file);
-    show(rig, conducting, {production, world, recorded}, std::move(channels));
+    show(rig, conducting, {staging, world, recorded}, std::move(channels));
 }
 
 void showAgain(const Rig& rig,
@@ -114,7 +119,8 @@ void showAgain(const Rig& rig,
     const Recording recording = readRecording(options.replayPath);
     for (const std::string& doubt : doubtsAbout(recording))
         spdlog::warn("{}: {}", options.replayPath, doubt);
-    LivingWorld world(worldOptionsOf(recording.production));
+    const Staging staging = stagingOf(recording.production);
+    LivingWorld world(worldOptionsOf(staging, recording.production.seed));
     ConductorOptions conducting = conductorOptions(options);
     conducting.seed = recording.production.seed;
     // In lockstep the world runs ahead of the frames: there these are counted.
@@ -126,7 +132,7 @@ void showAgain(const Rig& rig,
         onEnd = [] {};
     }
     ReplayedWorld replayed(recording, world, onEnd);
-    show(rig, conducting, {recording.production, world, replayed}, std::move(channels), &running);
+    show(rig, conducting, {staging, world, replayed}, std::move(channels), &running);
 }
 
 void runMaster(const MasterOptions& options) {
@@ -145,8 +151,10 @@ int dispatch(int count, char** arguments) {
     app.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
     app.add_option("--frames", options.frames, "end after so many frames");
     app.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
-    app.add_option("--fish", options.fish, "how many, instead of the rig's number")
-        ->check(CLI::Range(1U, kMostFish));
+    app.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    app.add_option(
+           "--fish", options.fish, "how many of the first species, instead of the scene's number")
+        ->check(CLI::Range(0U, kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
     app.add_option(
@@ -156,6 +164,7 @@ int dispatch(int count, char** arguments) {
     app.add_option("--replay", options.replayPath, "show this recording")
         ->excludes("--record")
         ->excludes("--seed")
+        ->excludes("--scene")
         ->excludes("--fish");
     Job job = [&] {
         runMaster(options);

@@ -15,6 +15,7 @@
 #include "common/cli/show.h"
 #include "common/cli/siblings.h"
 #include "common/config/rig.h"
+#include "common/config/scene.h"
 #include "common/units/error.h"
 
 namespace aquarama {
@@ -53,7 +54,8 @@ constexpr std::array kDelegations{
                "controllers",
                "what each motor controller makes the biomechanical fish do"},
     Delegation{"study", "study", "", "with and without each adaptation of the mind to its motor"},
-    Delegation{"check", "calibrate", "check", "validate a rig: aquarama check RIG"},
+    Delegation{
+        "check", "calibrate", "check", "validate a rig, a scene or a species: aquarama check FILE"},
     Delegation{"status", "master", "status", "what the running wall is doing"},
     Delegation{"explain",
                "master",
@@ -114,8 +116,10 @@ void describeShow(CLI::App& run, ShowOptions& options) {
 void describeRun(CLI::App& run, ShowOptions& options) {
     run.add_option("RIG", options.rigPath, "the rig's file")->default_val(kDesk);
     run.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
-    run.add_option("--fish", options.fish, "how many, instead of the rig's number")
-        ->check(CLI::Range(1U, kMostFish));
+    run.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    run.add_option(
+           "--fish", options.fish, "how many of the first species, instead of the scene's number")
+        ->check(CLI::Range(0U, kMostFish));
     run.add_option("--record", options.recordPath, "write the show to this new file");
     describeShow(run, options);
 }

@@ -59,6 +59,7 @@ Process masterProcess(const ShowOptions& options) {
     if (options.lockstep()) arguments.emplace_back("--lockstep");
     if (options.frames) append(arguments, "--frames", std::to_string(*options.frames));
     if (options.seed) append(arguments, "--seed", std::to_string(*options.seed));
+    append(arguments, "--scene", options.scenePath);
     if (options.fish) append(arguments, "--fish", std::to_string(*options.fish));
     append(arguments, "--pattern", options.pattern);
     append(arguments, "--trace", options.traceFolder);

@@ -13,6 +13,7 @@ namespace aquarama {
 
 struct ShowOptions {
     std::string rigPath;
+    std::string scenePath;  // empty: the rig's
     bool headless = false;
     bool live =
         false;  // keeps the clock even where --headless, --frames or --snapshot imply lockstep

@@ -11,15 +11,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/config/scene.h"
+#include "common/config/source_place.h"
 
 namespace aquarama {
-
-// Where something stands in the rig's file, counted from 1, for messages; 0 when built in code.
-struct SourcePlace {
-    int line = 0;
-    int column = 0;
-};
 
 // A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin at
 // the sweet spot, which is on the cylinder's axis at the screen's mid-height; the screen's middle
@@ -74,7 +68,8 @@ struct Rig {
     std::string stateAddress;     // "tcp://127.0.0.1:7401": PUB
     std::vector<Channel> channels;
     Timing timing;
-    std::vector<CastMember> cast;  // at least one; the school first
+    std::string scene;  // path of the file of what is shown, relative to the rig's folder
+    SourcePlace scenePlace;
 };
 
 // Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind

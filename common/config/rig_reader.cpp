@@ -73,7 +73,7 @@ Screen readScreen(const TextPlace& at) {
     screen.radiusMetres = at.number("radius_m", {0.1, 1000});
     screen.arcRadians = radiansOf(at.number("arc_deg", {1, 180}));
     screen.heightMetres = at.number("height_m", {0.1, 1000});
-    screen.place = {at.line(), at.column()};
+    screen.place = at.place();
     return screen;
 }
 
@@ -146,7 +146,7 @@ Channel readChannel(const TextPlace& at) {
     channel.sizePixels = readSize(at);
     channel.projector = readProjector(at.in("projector"), channel.sizePixels);
     channel.display = readDisplay(at.in("display"));
-    channel.place = {at.line(), at.column()};
+    channel.place = at.place();
     return channel;
 }
 
@@ -188,19 +188,6 @@ std::vector<Channel> readChannels(const TextPlace& root) {
     return channels;
 }
 
-std::vector<CastMember> readCast(const TextPlace& root) {
-    const int count = root.count("cast");
-    if (count < 1)
-        root.refuse("the rig has no cast: add `cast { species: ... fish: ... }` for each species");
-    std::vector<CastMember> cast;
-    for (int i = 0; i < count; ++i) {
-        const TextPlace at = root.in("cast", i);
-        cast.push_back({.species = at.text("species"),
-                        .fish = static_cast<std::uint32_t>(at.number("fish", {1, kMostFish}))});
-    }
-    return cast;
-}
-
 }  // namespace
 
 Rig parseRig(const std::string& text, const std::string& source) {
@@ -214,7 +201,8 @@ Rig parseRig(const std::string& text, const std::string& source) {
     readNetwork(root.in("network"), rig);
     rig.timing.presentDeadlineSeconds = 1 / rig.timing.refreshHertz;
     if (root.has("timing")) rig.timing = readTiming(root.in("timing"));
-    rig.cast = readCast(root);
+    rig.scene = root.text("scene");
+    rig.scenePlace = root.placeOf("scene");
     rig.channels = readChannels(root);
     return rig;
 }

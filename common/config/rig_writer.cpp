@@ -68,11 +68,7 @@ std::string writeRig(const Rig& rig) {
     out.mutable_network()->set_control(rig.controlAddress);
     out.mutable_network()->set_state(rig.stateAddress);
     write(rig.timing, *out.mutable_timing());
-    for (const CastMember& member : rig.cast) {
-        auto& written = *out.add_cast();
-        written.set_species(member.species);
-        written.set_fish(member.fish);
-    }
+    out.set_scene(rig.scene);
     for (const Channel& channel : rig.channels) write(channel, *out.add_channels());
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);

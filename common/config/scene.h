@@ -10,6 +10,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/config/source_place.h"
+
 namespace aquarama {
 
 inline constexpr std::uint32_t kMostFish = 1'000'000;
@@ -42,10 +44,12 @@ struct CastMember {
     std::string species;  // path of its file, relative to the scene's folder
     std::uint32_t fish = 0;
     std::optional<Start> start = {};
+    SourcePlace place = {};  // of the path
 };
 
 // The water that fish keep to: a box. Where the fish would have less room than leastLengthsCubed
-// each (in cubes of their own mean length), an open sea's box grows about its centre.
+// each, in cubes of their mean length, it grows: sideways and away from the eye, and in the open
+// sea downwards (common/place).
 struct SceneWater {
     glm::vec3 centre{0.0F, -5.8F, -5.5F};
     glm::vec3 halfExtent{5.0F, 1.8F, 3.5F};
@@ -72,12 +76,21 @@ struct Scene {
     std::string name = "reef";
     PlaceKind place = PlaceKind::Reef;
     glm::vec3 eye{0.0F, -6.0F, 0.0F};  // where the submarine stands, looking along -z
+    SourcePlace eyePlace = {};
     SceneWater water;
+    SourcePlace waterPlace = {};
     Gathering gathering = Gathering::Journey;
     std::uint32_t plankton = 300;  // particles; eaten ones drift in again
     Day day;
     std::vector<FoodDrop> drops;
-    std::vector<CastMember> cast;  // the school first; may be empty in an empty sea
+    std::vector<CastMember> cast;  // at least one; the school first, which an open sea may lack
 };
+
+// Throws Error with file:line:column for what the schema does not allow, for water out of the sea
+// and for starts out of the water. That the species are there is checked by readCastSpecies.
+[[nodiscard]] Scene readScene(const std::string& path);
+[[nodiscard]] Scene parseScene(const std::string& text, const std::string& source);
+// Text that parseScene reads back to the same scene; sent to the nodes.
+[[nodiscard]] std::string writeScene(const Scene& scene);
 
 }  // namespace aquarama

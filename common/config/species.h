@@ -122,8 +122,8 @@ struct Species {
 // Throws Error with file:line:column for whatever the schema or the animal cannot have.
 [[nodiscard]] Species readSpecies(const std::string& path);
 [[nodiscard]] Species parseSpecies(const std::string& text, const std::string& source);
-// All of the file that moves the animal, in one form: no habits, colours or comments. Two files that
-// agree in it swim alike.
+// All of the file that moves the animal, in one form: no habits, colours or comments. Two files
+// that agree in it swim alike.
 [[nodiscard]] std::string motionText(const std::string& text, const std::string& source);
 
 }  // namespace aquarama

@@ -20,8 +20,8 @@ namespace {
 constexpr std::streamoff kMostBytes = 4 << 20;  // a large rig or species takes some 10 KB
 
 // Protobuf counts lines and columns from 0, editors from 1.
-std::string placed(const std::string& source, int line, int column, const std::string& why) {
-    return source + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + why;
+SourcePlace counted(int line, int column) {
+    return {line + 1, column + 1};
 }
 
 class FirstError : public pb::io::ErrorCollector {
@@ -29,7 +29,7 @@ class FirstError : public pb::io::ErrorCollector {
     explicit FirstError(const std::string& source) : source_(source) {}
     void AddError(int line, int column, const std::string& why) override {
         if (!text_.empty()) return;
-        text_ = placed(source_, line + 1, column + 1, why);
+        text_ = placed(source_, counted(line, column), why);
         if (text_.back() == '.') text_.pop_back();
     }
     [[nodiscard]] const std::string& text() const { return text_; }
@@ -167,17 +167,23 @@ std::string TextPlace::choice(const std::string& name) const {
     return message_->GetReflection()->GetEnum(*message_, &present(name, kSingle))->name();
 }
 
+SourcePlace TextPlace::placeOf(const std::string& name) const {
+    const Field& field = fieldNamed(name);
+    const auto at = tree_->GetLocation(&field, field.is_repeated() ? 0 : kSingle);
+    return counted(at.line, at.column);
+}
+
 void TextPlace::refuse(const std::string& name, const std::string& why, int index) const {
     const Field& field = fieldNamed(name);
     if (field.is_repeated()) index = std::max(index, 0);
     const bool there = field.is_repeated() ? index < count(name) : has(name);
     if (!there) refuse(why);
     const auto at = tree_->GetLocation(&field, index);
-    throw Error(placed(*source_, at.line + 1, at.column + 1, why));
+    throw Error(placed(*source_, counted(at.line, at.column), why));
 }
 
 void TextPlace::refuse(const std::string& why) const {
-    throw Error(placed(*source_, line_, column_, why));
+    throw Error(placed(*source_, place(), why));
 }
 
 }  // namespace aquarama

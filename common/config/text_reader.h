@@ -9,6 +9,8 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/text_format.h>
 
+#include "common/config/source_place.h"
+
 namespace aquarama {
 
 // The whole file; throws Error when it cannot be read or is larger than any configuration is.
@@ -39,8 +41,9 @@ class TextPlace {
     // The name of the enumeration's value.
     [[nodiscard]] std::string choice(const std::string& field) const;
 
-    [[nodiscard]] int line() const { return line_; }  // from 1
-    [[nodiscard]] int column() const { return column_; }
+    [[nodiscard]] SourcePlace place() const { return {line_, column_}; }
+    // Of a field that is there; of a repeated one, its first.
+    [[nodiscard]] SourcePlace placeOf(const std::string& field) const;
 
     // Throws Error "file:line:column: why", placed at the field if it is there (a repeated one
     // without an index: at its first), else at the message.

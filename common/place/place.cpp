@@ -72,7 +72,7 @@ glm::vec2 inDisc(std::uint32_t seed, std::uint32_t index) {
     return glm::vec2{0.0F};  // once in 10^11
 }
 
-Rock rockAt(const Place& place, glm::vec2 xz, float radiusMetres, std::uint32_t rockSeed) {
+Rock rockAt(const PlaceKey& place, glm::vec2 xz, float radiusMetres, std::uint32_t rockSeed) {
     constexpr float kSunk = 0.12F;  // of the radius: a boulder lies in the sand, not on it
     return {{xz.x, floorHeight(place, xz) + kSunk * radiusMetres, xz.y}, radiusMetres, rockSeed};
 }
@@ -95,7 +95,7 @@ struct Sowing {
 
 void sow(std::vector<Plant>& plants,
          const std::vector<Rock>& rocks,
-         const Place& place,
+         const PlaceKey& place,
          const Stand& stand,
          const Sowing& sowing) {
     for (int i = 0; i < stand.plants; ++i) {
@@ -114,7 +114,7 @@ void sow(std::vector<Plant>& plants,
 
 }  // namespace
 
-float floorHeight(const Place& place, glm::vec2 xz) {
+float floorHeight(const PlaceKey& place, glm::vec2 xz) {
     if (place.kind == PlaceKind::OpenSea) return -kOpenSeaFloorDepthMetres;
     // Two scales: long dunes of 14 m and hummocks of 3 m.
     const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
@@ -123,7 +123,7 @@ float floorHeight(const Place& place, glm::vec2 xz) {
            0.07F * fractalNoise(hashOf(place.seed, Hummocks), hummocks, 2);
 }
 
-std::vector<Rock> rocksOf(const Place& place) {
+std::vector<Rock> rocksOf(const PlaceKey& place) {
     std::vector<Rock> rocks;
     if (place.kind == PlaceKind::OpenSea) return rocks;
     std::uint32_t next = hashOf(place.seed, Rocks);
@@ -144,7 +144,7 @@ std::vector<Rock> rocksOf(const Place& place) {
     return rocks;
 }
 
-std::vector<Plant> plantsOf(const Place& place) {
+std::vector<Plant> plantsOf(const PlaceKey& place) {
     std::vector<Plant> plants;
     if (place.kind == PlaceKind::OpenSea) return plants;
     const std::vector<Rock> rocks = rocksOf(place);

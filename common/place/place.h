@@ -19,13 +19,14 @@ inline constexpr glm::vec3 kEyePosition{0.0F, -6.0F, 0.0F};
 inline constexpr float kMeanFloorDepthMetres = 8.6F;  // of the reef
 inline constexpr float kOpenSeaFloorDepthMetres = 60.0F;
 
-struct Place {
+// All that a place follows from.
+struct PlaceKey {
     std::uint32_t seed = 0;
     PlaceKind kind = PlaceKind::Reef;
 };
 
 // Height (y, negative) of the sand. Exact arithmetic only: the master's world depends on it.
-[[nodiscard]] float floorHeight(const Place& place, glm::vec2 xz);
+[[nodiscard]] float floorHeight(const PlaceKey& place, glm::vec2 xz);
 
 // A boulder, half sunk in the sand; everything that grows on it is within the radius.
 struct Rock {
@@ -33,7 +34,7 @@ struct Rock {
     float radiusMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-[[nodiscard]] std::vector<Rock> rocksOf(const Place& place);  // none in the open sea
+[[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);  // none in the open sea
 
 enum class PlantKind : std::uint8_t { Kelp, Seagrass };
 
@@ -43,7 +44,7 @@ struct Plant {
     float heightMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-[[nodiscard]] std::vector<Plant> plantsOf(const Place& place);  // none in the open sea
+[[nodiscard]] std::vector<Plant> plantsOf(const PlaceKey& place);  // none in the open sea
 
 // The water in which the school lives: fish keep inside it. Chosen so that the wall always has them
 // in view.

@@ -17,8 +17,7 @@ constexpr int kRows = 121;
 constexpr double kWidestDegrees = 150;  // past it a flat picture would need endless pixels
 
 [[noreturn]] void refuse(const std::string& source, SourcePlace place, const std::string& why) {
-    throw Error(source + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
-                ": " + why);
+    throw Error(placed(source, place, why));
 }
 
 std::string oneDecimal(double value) {

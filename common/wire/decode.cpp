@@ -110,11 +110,13 @@ std::optional<Message> read(const v1::Welcome& message) {
     if (!pace || !pattern || !school) return std::nullopt;
     auto cast = castIn(message, school->size());
     if (!cast) return std::nullopt;
-    if (message.rig_text().size() > kMaxRigTextBytes || !message.has_seed() ||
+    if (message.rig_text().size() > kMaxRigTextBytes ||
+        message.scene_text().size() > kMaxSceneTextBytes || !message.has_seed() ||
         !isText(message.state_address(), kMaxReasonBytes)) {
         return std::nullopt;
     }
     return Welcome{message.rig_text(),
+                   message.scene_text(),
                    message.state_address(),
                    message.seed(),
                    *pace,

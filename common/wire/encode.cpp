@@ -69,6 +69,7 @@ void write(const Refusal& refusal, v1::Envelope& envelope) {
 void write(const Welcome& welcome, v1::Envelope& envelope) {
     auto& message = *envelope.mutable_welcome();
     message.set_rig_text(welcome.rigText);
+    message.set_scene_text(welcome.sceneText);
     message.set_state_address(welcome.stateAddress);
     message.set_seed(welcome.seed);
     message.set_pace(paceOf(welcome.pace));

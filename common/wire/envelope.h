@@ -22,6 +22,7 @@ inline constexpr std::uint32_t kProtocolMajor = 1;  // peers refuse any other
 inline constexpr std::size_t kMaxNameBytes = 64;
 inline constexpr std::size_t kMaxReasonBytes = 1024;
 inline constexpr std::size_t kMaxRigTextBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMaxSceneTextBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMaxFish = 1'000'000;
 inline constexpr std::size_t kMaxBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;

@@ -55,6 +55,7 @@ struct SpeciesBlobs {
 // What a node needs to take part, sent in answer to its hello.
 struct Welcome {
     std::string rigText;       // writeRig / parseRig
+    std::string sceneText;     // writeScene / parseScene
     std::string stateAddress;  // where the states are published
     std::uint32_t seed = 0;
     Pace pace = Pace::Live;

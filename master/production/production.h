@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// From files to a world: what a show is made of is read once, as bytes, and the same bytes make the
-// world of the show, of its replay and of a study.
+// What a show is made of, as bytes that a recording keeps, and back: the same production is the
+// same world on any machine.
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
-#include "common/config/rig.h"
 #include "common/wire/recording.h"
-#include "master/world/world.h"
+#include "master/staging/staging.h"
 
 namespace aquarama {
 
-struct ProductionChoice {
-    std::uint32_t seed = 1;
-    std::optional<std::uint32_t> fish;  // in the school, instead of the file's number
-};
+[[nodiscard]] Production productionOf(const Staging& staging, std::uint32_t seed);
 
-// Reads the files of the rig's cast, whose paths are relative to the rig's; a species that was
-// never shown on this machine is captured, behind a bar of progress. Throws Error.
-[[nodiscard]] Production readProduction(const Rig& rig,
-                                        const std::string& rigPath,
-                                        const ProductionChoice& choice);
-
-// Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.
+// Captures nothing: it has its repertoires. Throws Error where the scene, a species or a repertoire
+// is wrong.
+[[nodiscard]] Staging stagingOf(const Production& production);
 [[nodiscard]] WorldOptions worldOptionsOf(const Production& production);
 
 }  // namespace aquarama

@@ -22,7 +22,7 @@ float squaredDistanceToCell(glm::vec2 point, glm::vec2 least) {
 
 }  // namespace
 
-Chart::Chart(const Place& place, const Region& water, std::span<const Footprint> footprints)
+Chart::Chart(const PlaceKey& place, const Region& water, std::span<const Footprint> footprints)
     : origin_{water.centre.x - water.halfExtent.x - kAboutMetres,
               water.centre.z - water.halfExtent.z - kAboutMetres},
       extent_{2 * (water.halfExtent.x + kAboutMetres), 2 * (water.halfExtent.z + kAboutMetres)} {
@@ -30,7 +30,7 @@ Chart::Chart(const Place& place, const Region& water, std::span<const Footprint>
     list(footprints);
 }
 
-void Chart::measure(const Place& place) {
+void Chart::measure(const PlaceKey& place) {
     if (place.kind == PlaceKind::OpenSea) {
         highest_ = -kOpenSeaFloorDepthMetres;
         return;

@@ -34,7 +34,7 @@ class Chart {
     };
     Chart() = default;
     // Covers the water and a metre and a half about it.
-    Chart(const Place& place, const Region& water, std::span<const Footprint> footprints);
+    Chart(const PlaceKey& place, const Region& water, std::span<const Footprint> footprints);
 
     // Whether a place is on the chart; only there may it be asked.
     [[nodiscard]] bool covers(glm::vec2 xz) const {
@@ -47,7 +47,7 @@ class Chart {
     [[nodiscard]] std::span<const std::uint32_t> near(glm::vec2 xz) const;
 
   private:
-    void measure(const Place& place);
+    void measure(const PlaceKey& place);
     void list(std::span<const Footprint> footprints);
 
     glm::vec2 origin_{};

@@ -89,7 +89,7 @@ float distanceToWater(const Region& water, glm::vec3 point) {
     return lengthOf(from - nearest);
 }
 
-std::vector<Stem> stemsIn(const Place& place, const Region& water) {
+std::vector<Stem> stemsIn(const PlaceKey& place, const Region& water) {
     std::vector<Stem> stems;
     for (const Plant& plant : plantsOf(place)) {
         const float top = plant.root.y + plant.heightMetres;
@@ -121,7 +121,7 @@ glm::vec3 ballPush(
     return pushAway(away, lengthOf(away) - radius, kRockMarginMetres, along / reachMetres);
 }
 
-Obstacles obstaclesOf(const Place& place, const Region& water) {
+Obstacles obstaclesOf(const PlaceKey& place, const Region& water) {
     Obstacles obstacles{place, water, {}};
     for (const Rock& rock : rocksOf(place)) {
         const float reach = rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres;

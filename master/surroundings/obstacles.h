@@ -12,13 +12,13 @@
 namespace aquarama {
 
 struct Obstacles {
-    Place place;
+    PlaceKey place;
     Region water;
     std::vector<Rock> rocks;       // only those that reach into the water
     std::vector<Stem> stems = {};  // likewise
     Chart chart = {};              // of all that; without one all is looked at each time
 };
-[[nodiscard]] Obstacles obstaclesOf(const Place& place, const Region& water);
+[[nodiscard]] Obstacles obstaclesOf(const PlaceKey& place, const Region& water);
 
 // Where the obstacles push a fish that swims from `position` along `heading`. Its length is 0 in
 // the open and grows past 1 where only turning away matters; the path is felt `reachMetres` ahead,

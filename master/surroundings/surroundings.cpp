@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/surroundings/surroundings.h"
 
-#include <cmath>
+#include "common/place/water.h"
 
 #include "common/units/folded_hash.h"
 
 namespace aquarama {
 
-Region waterFor(const Scene& scene, std::size_t fish, float meanLengthMetres) {
-    Region water{scene.water.centre, scene.water.halfExtent};
-    if (scene.place != PlaceKind::OpenSea) return water;
-    const double metres = meanLengthMetres;
-    const double wanted =
-        static_cast<double>(fish) * scene.water.leastLengthsCubed * metres * metres * metres;
-    const glm::dvec3 half = water.halfExtent;
-    const double has = 8 * half.x * half.y * half.z;
-    if (wanted <= has) return water;
-    // Depth grows only as the fourth root of what length and breadth grow by: the sea is shallow.
-    const double more = wanted / has;
-    const double higher = std::sqrt(std::sqrt(std::sqrt(more)));
-    const double wider = std::sqrt(more / higher);
-    water.halfExtent.x = static_cast<float>(half.x * wider);
-    water.halfExtent.y = static_cast<float>(half.y * higher);
-    water.halfExtent.z = static_cast<float>(half.z * wider);
-    return water;
+namespace {
+
+void dropWhatIsDue(Surroundings& surroundings, Tick tick) {
+    const double now = static_cast<double>(tick.value) / static_cast<double>(kTicksPerSecond);
+    for (; surroundings.nextDrop < surroundings.drops.size(); ++surroundings.nextDrop) {
+        const FoodDrop& drop = surroundings.drops[surroundings.nextDrop];
+        if (drop.atSeconds > now) return;
+        dropPellets(surroundings.food,
+                    surroundings.seed,
+                    surroundings.obstacles,
+                    drop.position,
+                    drop.pellets,
+                    tick);
+    }
 }
+
+}  // namespace
 
 Surroundings makeSurroundings(const Scene& scene,
                               std::uint32_t seed,
@@ -38,11 +37,13 @@ Surroundings makeSurroundings(const Scene& scene,
             .food = makeFood(seed, obstacles, scene.plankton),
             .submarine = {.position = scene.eye},
             .clarityMetres = static_cast<float>(scene.water.clarityMetres),
-            .daylight = daylight(scene.day, {})};
+            .daylight = daylight(scene.day, {}),
+            .drops = scene.drops};
 }
 
 void advanceSurroundings(Surroundings& surroundings, Tick tick) {
     surroundings.daylight = daylight(surroundings.climate.day, tick);
+    dropWhatIsDue(surroundings, tick);
     driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
 }
 

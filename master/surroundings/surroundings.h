@@ -3,7 +3,9 @@
 // submarine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -27,12 +29,12 @@ struct Surroundings {
     Climate climate;
     Food food;
     Submarine submarine;
-    float clarityMetres = 12;  // no fish sees farther
-    float daylight = 1;        // of this tick
+    float clarityMetres = 12;     // no fish sees farther
+    float daylight = 1;           // of this tick
+    std::vector<FoodDrop> drops;  // of the scene, in their order
+    std::size_t nextDrop = 0;
 };
 
-// The water of a scene for so many fish of a mean length: an open sea's box grows with them.
-[[nodiscard]] Region waterFor(const Scene& scene, std::size_t fish, float meanLengthMetres);
 [[nodiscard]] Surroundings makeSurroundings(const Scene& scene,
                                             std::uint32_t seed,
                                             std::size_t fish,

@@ -52,6 +52,7 @@ class LinkSession final : public Session {
         if (admitted == nullptr) return std::nullopt;
         return Admission{admitted->welcome,
                          parseRig(admitted->welcome.rigText, "the master's rig"),
+                         parseScene(admitted->welcome.sceneText, "the master's scene"),
                          castOf(*admitted)};
     }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/config/rig.h"
+#include "common/config/scene.h"
 #include "common/motion/repertoire.h"
 #include "common/wire/envelope.h"
 
@@ -36,6 +37,7 @@ struct AdmittedSpecies {
 struct Admission {
     Welcome welcome;
     Rig rig;
+    Scene scene;
     std::vector<AdmittedSpecies> cast;
 };
 

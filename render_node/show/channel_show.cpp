@@ -23,7 +23,7 @@ std::chrono::nanoseconds now() {
 // Whether what was built for one serves the other.
 bool sameShow(const Welcome& a, const Welcome& b) {
     const auto parts = [](const Welcome& w) {
-        return std::tie(w.rigText, w.seed, w.pattern, w.cast);
+        return std::tie(w.rigText, w.sceneText, w.seed, w.pattern, w.cast);
     };
     const auto sameFish = [](const FishTraits& one, const FishTraits& other) {
         return one.id == other.id && one.lengthMillimetres == other.lengthMillimetres;

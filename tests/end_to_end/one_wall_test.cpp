@@ -50,7 +50,7 @@ class Installation {
         rig_ = readRig(config + name + ".txtpb");
         rig_.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig_.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
-        for (CastMember& member : rig_.cast) member.species = config + member.species;
+        rig_.scene = config + rig_.scene;
         std::ofstream(folder_ / "rig.txtpb") << writeRig(rig_);
     }
     ~Installation() { fs::remove_all(folder_); }

@@ -75,6 +75,11 @@ TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
     feed(fuzzRecording, seeds, 20000);
 }
 
+TEST(Fuzz, damagedScenesAreRefusedOrReadWhole) {
+    feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes"), 3000);
+    feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes/routines"), 3000);
+}
+
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {
     std::vector<FuzzInput> seeds;
     for (const Envelope& envelope : sampleEnvelopes()) seeds.push_back(inputOf(encode(envelope)));

@@ -293,6 +293,7 @@ class StageMaster {
     static Welcome welcomeTo(const Rig& rig) {
         Welcome welcome;
         welcome.rigText = writeRig(rig);
+        welcome.sceneText = writeScene(readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb"));
         welcome.school = {{1, 200}, {2, 210}, {3, 220}};
         welcome.cast = {{digestOf(species()), digestOf(repertoire()), 3}};
         return welcome;

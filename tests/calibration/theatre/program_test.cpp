@@ -75,6 +75,33 @@ TEST_F(Program, checkRefusesABadRigInOneLine) {
     }
 }
 
+TEST_F(Program, checkSaysWhatIsInASceneAndInASpecies) {
+    const Outcome scene = calibrate("check " AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
+    EXPECT_EQ(scene.status, 0);
+    EXPECT_THAT(scene.said, testing::HasSubstr("51 bigeye_scad, prey"));
+    EXPECT_THAT(scene.said, testing::HasSubstr("reef.txtpb: good"));
+    const Outcome species =
+        calibrate("check " AQUARAMA_SOURCE_DIR "/config/species/blacktip_reef_shark.txtpb");
+    EXPECT_EQ(species.status, 0);
+    EXPECT_THAT(species.said, testing::HasSubstr("hunts bigeye_scad"));
+}
+
+TEST_F(Program, checkRefusesARigWhoseSceneIsNotThere) {
+    const Outcome outcome = calibrate("check " + written("bad.txtpb", deskWith("id: 2", "id: 2")));
+    EXPECT_EQ(outcome.status, 1) << "the folder has no scenes/";
+    EXPECT_THAT(outcome.said, testing::HasSubstr("scenes/reef.txtpb"));
+}
+
+TEST_F(Program, checkRefusesABadSceneAndABadSpeciesInOneLine) {
+    for (const std::string text : {"name: \"sea\" place: OPEN_SEA\nplankton: 3 whales: 1",
+                                   "name: \"fish\" skeleton {}\nhabits { role: PREY wings: 2 }"}) {
+        const Outcome outcome = calibrate("check " + written("bad.txtpb", text));
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_THAT(outcome.said, testing::MatchesRegex(".*bad.txtpb:2:[0-9]+: .*\n"));
+        EXPECT_EQ(std::ranges::count(outcome.said, '\n'), 1) << outcome.said;
+    }
+}
+
 TEST_F(Program, composeMakesBothPicturesInTheDepthAskedFor) {
     const std::string rigPath = AQUARAMA_SOURCE_DIR "/config/desk.txtpb";
     const Rig rig = readRig(rigPath);

@@ -24,7 +24,7 @@ network {
   state: "tcp://127.0.0.1:7401"
 }
 timing { refresh_hz: 50 membership_s: 0.5 }
-cast { species: "fish.txtpb" fish: 12 }
+scene: "sea.txtpb"
 channels {
   id: 4
   name: "left"
@@ -54,9 +54,7 @@ TEST(Rig, everyValueArrivesInItsPlace) {
     EXPECT_EQ(rig.stateAddress, "tcp://127.0.0.1:7401");
     EXPECT_EQ(rig.timing.refreshHertz, 50);
     EXPECT_EQ(rig.timing.membershipSeconds, 0.5);
-    ASSERT_EQ(rig.cast.size(), 1U);
-    EXPECT_EQ(rig.cast[0].species, "fish.txtpb");
-    EXPECT_EQ(rig.cast[0].fish, 12U);
+    EXPECT_EQ(rig.scene, "sea.txtpb");
     ASSERT_EQ(rig.channels.size(), 2U);
 
     const Channel& left = rig.channels[0];
@@ -172,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "{ refresh_hz: 50 m",
                 "no field named \"timing\""},
         Mistake{"wrongType", "radius_m: 2", "radius_m: \"2\"", "\"2\"", "Expected"},
-        Mistake{"fieldTwice", "fish: 12", "fish: 12 fish: 13", ": 13", "multiple times"},
+        Mistake{"fieldTwice", "radius_m: 2", "radius_m: 2 radius_m: 3", ": 3", "multiple times"},
         Mistake{"missingName", "name: \"small\"", "", "", "lacks name"},
         Mistake{"missingScreen",
                 "screen { radius_m: 2 arc_deg: 90 height_m: 1 }",
@@ -195,9 +193,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"windowOfNoHeight", "height_px: 241", "height_px: 0", "height_px", "must be from"},
         Mistake{"panoramaTooLarge", "width_px: 640", "width_px: 99999", "width_px", "must be from"},
         Mistake{"focalZero", "focal_y_px: 310", "focal_y_px: 0", "focal_y_px", "must be from"},
-        Mistake{"noCast", "cast { species: \"fish.txtpb\" fish: 12 }", "", "", "no cast"},
-        Mistake{"noFish", "fish: 12", "fish: 0", "fish: 0", "must be from"},
-        Mistake{"tooManyFish", "fish: 12", "fish: 100001", "fish: 100001", "must be from"},
+        Mistake{"noScene", "scene: \"sea.txtpb\"", "", "", "lacks scene"},
+        Mistake{"sceneOfNoName", "\"sea.txtpb\"", "\"\"", "scene", "is empty"},
+        Mistake{"theCastOfOlderRigs",
+                "scene: \"sea.txtpb\"",
+                "cast { fish: 1 }",
+                "{ fish: 1 }",
+                "cast"},
         Mistake{"idTaken", "id: 5", "id: 4", "id: 4", "taken"},
         Mistake{"nameTaken", "name: \"right\"", "name: \"left\"", "name", "taken"},
         Mistake{"nameWithSlash", "name: \"right\"", "name: \"../x\"", "name", "also names files"},

@@ -111,7 +111,7 @@ TEST(Place, schoolHasWaterAllRoundIt) {
 }
 
 TEST(OpenSea, holdsNothingButWaterOverADeepFloor) {
-    const Place sea{.seed = 3, .kind = PlaceKind::OpenSea};
+    const PlaceKey sea{.seed = 3, .kind = PlaceKind::OpenSea};
     EXPECT_TRUE(rocksOf(sea).empty());
     EXPECT_TRUE(plantsOf(sea).empty());
     for (const float x : {-500.0F, 0.0F, 7.5F})

@@ -41,6 +41,7 @@ TEST(Envelope, aWelcomeKeepsItsFields) {
     ASSERT_TRUE(decoded);
     const auto& welcome = std::get<Welcome>(decoded->message);
     EXPECT_EQ(welcome.rigText, sent.rigText);
+    EXPECT_EQ(welcome.sceneText, sent.sceneText);
     EXPECT_EQ(welcome.stateAddress, sent.stateAddress);
     EXPECT_EQ(welcome.seed, sent.seed);
     EXPECT_EQ(welcome.pace, Pace::Lockstep);

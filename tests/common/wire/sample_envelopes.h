@@ -53,6 +53,7 @@ inline StateFrame sampleState(std::uint32_t fish) {
 inline Welcome sampleWelcome() {
     Welcome welcome;
     welcome.rigText = "name: \"desk\"\n# a comment\n";
+    welcome.sceneText = "name: \"reef\"\n";
     welcome.stateAddress = "tcp://127.0.0.1:7401";
     welcome.seed = 4000000000U;
     welcome.pace = Pace::Lockstep;

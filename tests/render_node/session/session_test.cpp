@@ -187,6 +187,16 @@ TEST_F(SessionTest, aRigThatCannotBeReadIsAnError) {
     EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("colour"));
 }
 
+TEST_F(SessionTest, aSceneThatCannotBeReadIsAnError) {
+    auto join = joining();
+    ASSERT_TRUE(master_.hear<Hello>());
+    Welcome welcome = StageMaster::welcomeTo(StageMaster::deskRig());
+    welcome.sceneText = "name: \"reef\" mermaids: 3";
+    master_.say(welcome);
+    master_.giveBlobs(StageMaster::blobs(), 2);
+    EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("mermaids"));
+}
+
 TEST_F(SessionTest, goesOnSayingHelloUntilItIsHeard) {
     auto join = joining();
     for (int times = 0; times < 3; ++times) ASSERT_TRUE(master_.hear<Hello>());

@@ -98,6 +98,8 @@ inline Admission admissionTo(Pattern pattern) {
     Admission admission;
     admission.rig = shippedRig("desk");
     admission.welcome.rigText = writeRig(admission.rig);
+    admission.scene = readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
+    admission.welcome.sceneText = writeScene(admission.scene);
     admission.welcome.seed = 1;
     admission.welcome.pattern = pattern;
     return admission;

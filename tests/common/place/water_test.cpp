@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/place/water.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/units/error.h"
+
+namespace aquarama {
+namespace {
+
+constexpr float kLength = 0.24F;
+
+Scene sceneAt(PlaceKind place) {
+    Scene scene;
+    scene.place = place;
+    scene.cast = {{.species = "scad.txtpb", .fish = 51, .place = {17, 8}}};
+    scene.eyePlace = {5, 1};
+    scene.waterPlace = {7, 1};
+    return scene;
+}
+
+double roomOfEach(const Region& water, std::size_t fish) {
+    const glm::dvec3 half = water.halfExtent;
+    return 8 * half.x * half.y * half.z / static_cast<double>(fish) / (0.24 * 0.24 * 0.24);
+}
+
+TEST(Water, ofAFewFishIsTheScenesOwn) {
+    for (const PlaceKind place : {PlaceKind::Reef, PlaceKind::OpenSea}) {
+        const Scene scene = sceneAt(place);
+        for (const std::size_t fish : {0U, 60U, 4000U}) {
+            EXPECT_EQ(waterFor(scene, fish, kLength).centre, scene.water.centre);
+            EXPECT_EQ(waterFor(scene, fish, kLength).halfExtent, scene.water.halfExtent);
+        }
+    }
+}
+
+TEST(Water, ofManyFishGivesEachItsRoomAndKeepsTheFaceTowardsTheEyeAndTheTop) {
+    for (const PlaceKind place : {PlaceKind::Reef, PlaceKind::OpenSea})
+        for (const std::size_t fish : {10'000U, 100'000U, 160'000U}) {
+            const Scene scene = sceneAt(place);
+            const SceneWater& box = scene.water;
+            const Region water = waterFor(scene, fish, kLength);
+            EXPECT_NEAR(roomOfEach(water, fish), box.leastLengthsCubed, 1e-3);
+            EXPECT_NEAR(
+                water.centre.z + water.halfExtent.z, box.centre.z + box.halfExtent.z, 1e-3F);
+            EXPECT_NEAR(
+                water.centre.y + water.halfExtent.y, box.centre.y + box.halfExtent.y, 1e-3F);
+            EXPECT_EQ(water.centre.x, box.centre.x);
+        }
+}
+
+TEST(Water, ofAReefDoesNotGrowIntoTheSand) {
+    const Scene scene = sceneAt(PlaceKind::Reef);
+    EXPECT_EQ(waterFor(scene, 100'000, kLength).halfExtent.y, scene.water.halfExtent.y);
+}
+
+TEST(Water, ofAMillionFishStaysAboveTheFloorOfTheOpenSea) {
+    const Region water = waterFor(sceneAt(PlaceKind::OpenSea), kMostFish, kLength);
+    EXPECT_GT(water.centre.y - water.halfExtent.y, -kOpenSeaFloorDepthMetres);
+    EXPECT_NEAR(roomOfEach(water, kMostFish), 4, 1e-3);
+}
+
+std::string refusalOf(const Scene& scene, std::size_t fish) {
+    try {
+        checkRoom(scene, "sea.txtpb", fish, kLength);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Room, ofAReefEndsSomewhereAndThatOfTheOpenSeaDoesNot) {
+    const std::uint32_t most = mostFishIn(sceneAt(PlaceKind::Reef), kLength);
+    EXPECT_GT(most, 100'000U);
+    EXPECT_EQ(refusalOf(sceneAt(PlaceKind::Reef), most), "accepted");
+    const std::string refusal = refusalOf(sceneAt(PlaceKind::Reef), most + 1);
+    EXPECT_THAT(refusal, testing::StartsWith("sea.txtpb:17:8: "));
+    EXPECT_THAT(refusal, testing::HasSubstr("room for " + std::to_string(most)));
+    EXPECT_EQ(refusalOf(sceneAt(PlaceKind::OpenSea), kMostFish), "accepted");
+    EXPECT_THAT(refusalOf(sceneAt(PlaceKind::OpenSea), kMostFish + 1),
+                testing::HasSubstr("take fewer"));
+}
+
+TEST(Room, isNotInTheSand) {
+    Scene scene = sceneAt(PlaceKind::Reef);
+    scene.eye.y = -8.5F;
+    EXPECT_THAT(refusalOf(scene, 60), testing::StartsWith("sea.txtpb:5:1: the eye"));
+    scene.place = PlaceKind::OpenSea;
+    EXPECT_EQ(refusalOf(scene, 60), "accepted");
+    scene = sceneAt(PlaceKind::Reef);
+    scene.water.centre.y = -9;
+    EXPECT_THAT(refusalOf(scene, 60), testing::StartsWith("sea.txtpb:7:1: the water"));
+}
+
+}  // namespace
+}  // namespace aquarama

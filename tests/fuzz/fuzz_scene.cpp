@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "common/config/scene.h"
+#include "common/units/error.h"
+#include "tests/fuzz/promise.h"
+#include "tests/fuzz/targets.h"
+
+namespace aquarama {
+
+namespace {
+
+void writeAndReadAgain(const Scene& scene) {
+    const std::string text = writeScene(scene);
+    try {
+        promise(writeScene(parseScene(text, "written")) == text,
+                "a scene is read as it was written");
+    } catch (const Error& error) {
+        promise(false, error.what());
+    }
+}
+
+}  // namespace
+
+int fuzzScene(const std::uint8_t* bytes, std::size_t size) {
+    const std::string text(reinterpret_cast<const char*>(bytes), size);
+    try {
+        writeAndReadAgain(parseScene(text, "fuzzed"));
+    } catch (const Error& error) {
+        promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
+    }
+    return 0;
+}
+
+}  // namespace aquarama
