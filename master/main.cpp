@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // The master of a rig: wires the world to the conductor.
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
 #include "common/cli/signals.h"
 #include "common/config/cast.h"
 #include "common/config/rig.h"
-#include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
+#include "common/wire/recording.h"
+#include "master/commands.h"
 #include "master/conductor/conductor.h"
-#include "master/conductor/status.h"
-#include "master/staging/staging.h"
-#include "master/world/world.h"
+#include "master/production/living_world.h"
+#include "master/production/production.h"
+#include "master/record/playback.h"
+#include "master/record/recorder.h"
 
 namespace aquarama {
 
@@ -34,24 +42,8 @@ struct MasterOptions {
     std::optional<std::uint32_t> fish;
     std::string pattern = "world";
     std::string traceFolder;
-};
-
-class LivingWorld final : public Simulation {
-  public:
-    explicit LivingWorld(World& world) : world_(world) {}
-    void advance() override { world_.advance(); }
-    [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    [[nodiscard]] Eye eye() const override {
-        return {.positionMetres = world_.surroundings().submarine.position};
-    }
-    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
-        return {fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    }
-
-  private:
-    World& world_;
+    std::string recordPath;  // empty: the show is not recorded
+    std::string replayPath;  // of the recording that is shown; empty: a new world
 };
 
 ConductorOptions conductorOptions(const MasterOptions& options) {
@@ -66,38 +58,87 @@ ConductorOptions conductorOptions(const MasterOptions& options) {
     return conductor;
 }
 
+// What the nodes are told of the cast, and the blobs that they may then ask for.
+std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
+    std::vector<SpeciesBlobs> cast;
+    for (const ProducedSpecies& species : production.cast) {
+        const auto text = std::as_bytes(std::span{species.text});
+        cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
+        blobs.emplace(cast.back().species, ByteVector{text.begin(), text.end()});
+        blobs.emplace(cast.back().repertoire, species.repertoire);
+    }
+    return cast;
+}
+
+// What is shown: the living world, or a recorded or replayed one about it.
+struct Shown {
+    const Production& production;
+    const LivingWorld& world;
+    Simulation& simulation;
+};
+
+// Returns when the show is over. `running` is the conductor meanwhile.
+void show(const Rig& rig,
+          const ConductorOptions& options,
+          const Shown& shown,
+          std::unique_ptr<MasterChannels> channels,
+          Conductor** running = nullptr) {
+    Blobs blobs;
+    Welcome welcome;
+    welcome.rigText = writeRig(rig);
+    welcome.sceneText = shown.production.scene;
+    welcome.cast = castOf(shown.production, blobs);
+    const auto school = shown.world.world().traits();
+    welcome.school.assign(school.begin(), school.end());
+    Conductor conductor(
+        rig, options, shown.simulation, std::move(welcome), std::move(blobs), std::move(channels));
+    if (running != nullptr) *running = &conductor;
+    const SignalWatch watch([&] { conductor.stop(); });
+    conductor.run();
+}
+
+void showNew(const Rig& rig,
+             const MasterOptions& options,
+             std::unique_ptr<MasterChannels> channels) {
+    const Production production = readProduction(
+        options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
+        {.seed = options.seed, .fish = options.fish});
+    LivingWorld world(worldOptionsOf(production));
+    const ConductorOptions conducting = conductorOptions(options);
+    if (options.recordPath.empty())
+        return show(rig, conducting, {production, world, world}, std::move(channels));
+    RecordingFile file(options.recordPath, production);
+    RecordedWorld recorded(world, file);
+    show(rig, conducting, {production, world, recorded}, std::move(channels));
+}
+
+void showAgain(const Rig& rig,
+               const MasterOptions& options,
+               std::unique_ptr<MasterChannels> channels) {
+    const Recording recording = readRecording(options.replayPath);
+    for (const std::string& doubt : doubtsAbout(recording))
+        spdlog::warn("{}: {}", options.replayPath, doubt);
+    LivingWorld world(worldOptionsOf(recording.production));
+    ConductorOptions conducting = conductorOptions(options);
+    conducting.seed = recording.production.seed;
+    // In lockstep the world runs ahead of the frames: there these are counted.
+    Conductor* running = nullptr;
+    std::function<void()> onEnd = [&running] { running->stop(); };
+    if (options.lockstep) {
+        const std::uint64_t frames = recording.lastTick().value + 1;
+        conducting.frames = std::min(conducting.frames.value_or(frames), frames);
+        onEnd = [] {};
+    }
+    ReplayedWorld replayed(recording, world, onEnd);
+    show(rig, conducting, {recording.production, world, replayed}, std::move(channels), &running);
+}
+
 void runMaster(const MasterOptions& options) {
     holdSignals();
     const Rig rig = readRig(options.rigPath);
     checkGeometry(rig, options.rigPath);
     auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
-
-    const Staging staging = stageScene(
-        options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
-        options.fish);
-    World world(worldOptionsOf(staging, options.seed));
-    LivingWorld simulation(world);
-
-    Welcome welcome;
-    welcome.rigText = writeRig(rig);
-    welcome.sceneText = writeScene(staging.scene);
-    welcome.school.assign(world.traits().begin(), world.traits().end());
-    Blobs blobs;
-    for (const StagedSpecies& member : staging.cast) {
-        welcome.cast.push_back(
-            {digestOf(member.speciesBlob), digestOf(member.repertoireBlob), member.species.fish});
-        blobs.emplace(welcome.cast.back().species, member.speciesBlob);
-        blobs.emplace(welcome.cast.back().repertoire, member.repertoireBlob);
-    }
-
-    Conductor conductor(rig,
-                        conductorOptions(options),
-                        simulation,
-                        std::move(welcome),
-                        std::move(blobs),
-                        std::move(channels));
-    const SignalWatch watch([&] { conductor.stop(); });
-    conductor.run();
+    (options.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));
 }
 
 int dispatch(int count, char** arguments) {
@@ -117,24 +158,24 @@ int dispatch(int count, char** arguments) {
     app.add_option(
         "--trace", options.traceFolder, "folder for master.csv: a line of times a frame");
 
-    std::string statusRig = "config/desk.txtpb";
-    std::string statusAddress;
-    CLI::App& status = *app.add_subcommand("status", "what the running wall is doing");
-    status.add_option("RIG", statusRig, "whose master is asked")->capture_default_str();
-    status.add_option("--master", statusAddress, "its control address, instead of the rig's");
+    app.add_option("--record", options.recordPath, "write the show to this new file");
+    app.add_option("--replay", options.replayPath, "show this recording")
+        ->excludes("--record")
+        ->excludes("--seed")
+        ->excludes("--scene")
+        ->excludes("--fish");
+    Job job = [&] {
+        runMaster(options);
+        return 0;
+    };
+    for (const auto add : {addStatus, addExplain, addReplay, addInspect}) add(app, job);
     try {
         app.parse(count, arguments);
-        if (!status.parsed() && rig->empty()) throw CLI::RequiredError("RIG");
+        if (app.get_subcommands().empty() && rig->empty()) throw CLI::RequiredError("RIG");
     } catch (const CLI::ParseError& wrong) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
-    if (status.parsed()) {
-        std::cout << runStatus(statusAddress.empty() ? readRig(statusRig).controlAddress
-                                                     : statusAddress);
-    } else {
-        runMaster(options);
-    }
-    return 0;
+    return job();
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ namespace aquarama {
 
 namespace {
 
+constexpr const char* kDesk = "config/desk.txtpb";
+
 // A subcommand that another program does: `aquarama check RIG` is `aquarama-calibrate check RIG`.
 struct Delegation {
     std::string_view command;
@@ -55,18 +57,32 @@ constexpr std::array kDelegations{
     Delegation{
         "check", "calibrate", "check", "validate a rig, a scene or a species: aquarama check FILE"},
     Delegation{"status", "master", "status", "what the running wall is doing"},
+    Delegation{"explain",
+               "master",
+               "explain",
+               "what a fish sees, feels, intends and does, and why: --fish ID"},
 };
+
+std::string firstBytesOf(const std::string& path) {
+    std::array<char, 21> bytes{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(bytes.data(), bytes.size());
+    return {bytes.data(), static_cast<std::size_t>(file.gcount())};
+}
 
 // By its name or, whatever that is, by its first bytes.
 bool isRepertoire(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, 5> magic{};
-    file.read(magic.data(), magic.size());
-    return path.ends_with(".aqrep") || std::string_view(magic.data(), magic.size()) == "AQREP";
+    return path.ends_with(".aqrep") || firstBytesOf(path).starts_with("AQREP");
+}
+
+// Before the letters by which it is known a recording has some lengths.
+bool isRecording(const std::string& path) {
+    return path.ends_with(".aqrec") || firstBytesOf(path).find("AQREC") != std::string::npos;
 }
 
 // Every other file that we know is about walls.
 std::string_view inspectorOf(std::span<char*> arguments) {
+    if (std::ranges::any_of(arguments, isRecording)) return "master";
     return std::ranges::any_of(arguments, isRepertoire) ? "capture" : "calibrate";
 }
 
@@ -79,15 +95,10 @@ std::string_view inspectorOf(std::span<char*> arguments) {
     become(command);
 }
 
-void describeRun(CLI::App& run, ShowOptions& options) {
-    run.add_option("RIG", options.rigPath, "the rig's file")->default_val("config/desk.txtpb");
+// What a new show and a replayed one have in common.
+void describeShow(CLI::App& run, ShowOptions& options) {
     run.add_flag("--headless", options.headless, "without a display; implies lockstep");
     run.add_option("--frames", options.frames, "end after so many frames; implies lockstep");
-    run.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
-    run.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
-    run.add_option(
-           "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(CLI::Range(0U, kMostFish));
     run.add_option("--snapshot",
                    options.snapshotFolder,
                    "folder for pictures of the last frame; implies lockstep");
@@ -102,6 +113,24 @@ void describeRun(CLI::App& run, ShowOptions& options) {
     run.add_flag("--live", options.live, "keep to the clock where lockstep would be implied");
 }
 
+void describeRun(CLI::App& run, ShowOptions& options) {
+    run.add_option("RIG", options.rigPath, "the rig's file")->default_val(kDesk);
+    run.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
+    run.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
+    run.add_option(
+           "--fish", options.fish, "how many of the first species, instead of the scene's number")
+        ->check(CLI::Range(0U, kMostFish));
+    run.add_option("--record", options.recordPath, "write the show to this new file");
+    describeShow(run, options);
+}
+
+void describeReplay(CLI::App& replay, ShowOptions& options, bool& check) {
+    replay.add_option("FILE", options.replayPath, "the recording")->required();
+    replay.add_option("--rig", options.rigPath, "the wall that shows it")->default_val(kDesk);
+    replay.add_flag("--check", check, "no wall: only whether it is the same world again");
+    describeShow(replay, options);
+}
+
 int dispatch(int count, char** arguments) {
     const std::span all{arguments, static_cast<std::size_t>(count)};
     const std::string first = count > 1 ? all[1] : "";
@@ -111,7 +140,7 @@ int dispatch(int count, char** arguments) {
     }
     if (first == "inspect") delegate(inspectorOf(all.subspan(2)), "inspect", all.subspan(2));
 
-    if (!first.empty() && first != "run" && !first.starts_with('-')) {
+    if (!first.empty() && first != "run" && first != "replay" && !first.starts_with('-')) {
         throw Error("there is no command \"" + first + "\"; aquarama --help lists them");
     }
 
@@ -120,18 +149,24 @@ int dispatch(int count, char** arguments) {
     ShowOptions options;
     CLI::App& run = *app.add_subcommand("run", "the master and all nodes of a rig on this machine");
     describeRun(run, options);
+    ShowOptions replayOptions;
+    bool check = false;
+    CLI::App& replay = *app.add_subcommand("replay", "a recorded show once more");
+    describeReplay(replay, replayOptions, check);
     for (const Delegation& delegation : kDelegations) {
         app.add_subcommand(std::string(delegation.command), std::string(delegation.what));
     }
     app.add_subcommand("inspect",
-                       "what a repertoire or a wall's file holds: aquarama inspect FILE; of a "
-                       "repertoire also as a page, --report DIR");
+                       "what a repertoire, a recording or a wall's file holds: aquarama inspect "
+                       "FILE; of a repertoire also as a page, --report DIR");
     try {
         app.parse(count, arguments);
     } catch (const CLI::ParseError& wrong) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
-    return runShow(options, readRig(options.rigPath));
+    if (check) become({siblingProgram("master"), {"replay", replayOptions.replayPath}});
+    const ShowOptions& shown = replay.parsed() ? replayOptions : options;
+    return runShow(shown, readRig(shown.rigPath));
 }
 
 }  // namespace

@@ -31,12 +31,16 @@ constexpr auto kBreath = 1s;       // before another start of one that keeps dyi
 struct Process {
     std::string name;
     Command command;
+    std::vector<std::string> firstTimeOnly{};  // arguments of its first start
     pid_t child = 0;
     Clock::time_point started;
     bool proven = false;  // has lived long enough once
 
     void launch() {
-        child = start(command);
+        Command now = command;
+        for (std::string& argument : std::exchange(firstTimeOnly, {}))
+            now.arguments.push_back(std::move(argument));
+        child = start(now);
         started = Clock::now();
     }
     [[nodiscard]] bool running() const { return child != 0; }
@@ -59,7 +63,12 @@ Process masterProcess(const ShowOptions& options) {
     if (options.fish) append(arguments, "--fish", std::to_string(*options.fish));
     append(arguments, "--pattern", options.pattern);
     append(arguments, "--trace", options.traceFolder);
-    return {.name = "master", .command = {siblingProgram("master"), arguments}, .started = {}};
+    append(arguments, "--replay", options.replayPath);
+    Process master{
+        .name = "master", .command = {siblingProgram("master"), arguments}, .started = {}};
+    // A master that is started again begins another world: it does not belong into this file.
+    append(master.firstTimeOnly, "--record", options.recordPath);
+    return master;
 }
 
 Process nodeProcess(const ShowOptions& options, const Rig& rig, const Channel& channel) {
@@ -136,7 +145,10 @@ Verdict judge(const ShowOptions& options, Process& process, const Ending& ending
         std::cerr << "; the show ends\n";
         return Verdict::Failed;
     }
-    std::cerr << "; starting it again\n";
+    std::cerr << "; starting it again"
+              << (process.name == "master" && !options.recordPath.empty()
+                      ? "; what follows is not recorded\n"
+                      : "\n");
     if (early) std::this_thread::sleep_for(kBreath);
     process.launch();
     return Verdict::GoesOn;

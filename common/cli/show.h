@@ -25,6 +25,8 @@ struct ShowOptions {
     bool deep = false;           // 16-bit pictures
     int filmEvery = 0;  // with a snapshot folder: also every so many frames, composed into a clip
     std::string traceFolder;
+    std::string recordPath;  // the show is written to this new file; empty: it is not
+    std::string replayPath;  // the recording that is shown; empty: a new world
 
     [[nodiscard]] bool lockstep() const {
         return !live && (headless || frames.has_value() || !snapshotFolder.empty());

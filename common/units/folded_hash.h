@@ -2,7 +2,9 @@
 // Folds arrays into one number: equal states have equal hashes.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -19,12 +21,25 @@ template <class Value>
 
 // The multiply-and-shift of splitmix64.
 template <class Value>
+[[nodiscard]] std::uint64_t foldedOne(std::uint64_t hash, Value value) {
+    hash = (hash ^ bitsOf(value)) * 0xbf58476d1ce4e5b9U;
+    return hash ^ hash >> 29U;
+}
+
+// Eight chains side by side: one alone would wait for each of its multiplications, and a quarter of
+// a million fish are folded at every tick.
+template <class Value>
 [[nodiscard]] std::uint64_t folded(std::uint64_t hash, const std::vector<Value>& values) {
-    for (const Value value : values) {
-        hash = (hash ^ bitsOf(value)) * 0xbf58476d1ce4e5b9U;
-        hash ^= hash >> 29U;
-    }
-    return hash;
+    constexpr std::size_t kChains = 8;
+    std::array<std::uint64_t, kChains> chains;
+    for (std::size_t c = 0; c < kChains; ++c) chains[c] = foldedOne(hash, c);
+    std::size_t i = 0;
+    for (; i + kChains <= values.size(); i += kChains)
+        for (std::size_t c = 0; c < kChains; ++c) chains[c] = foldedOne(chains[c], values[i + c]);
+    for (std::size_t c = 0; i + c < values.size(); ++c)
+        chains[c] = foldedOne(chains[c], values[i + c]);
+    for (const std::uint64_t chain : chains) hash = foldedOne(hash, chain);
+    return foldedOne(hash, values.size());
 }
 
 template <class... Vectors>

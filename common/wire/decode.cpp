@@ -184,8 +184,15 @@ std::optional<Message> read(const v1::Pong& message) {
 }
 
 std::optional<Message> read(const v1::Input& message) {
-    if (message.kind() == v1::INPUT_QUIT) return Input{InputKind::Quit};
-    if (message.kind() == v1::INPUT_TOGGLE_PAUSE) return Input{InputKind::TogglePause};
+    const auto& at = message.position();
+    const auto isNear = [](float number) { return std::abs(number) <= kMaxInputMetres; };
+    if (message.kind() == v1::INPUT_DROP_FOOD) {  // a number that is none is not near
+        if (at.size() != 3 || !std::ranges::all_of(at, isNear)) return std::nullopt;
+        return Input{InputKind::DropFood, {at[0], at[1], at[2]}};
+    }
+    if (!at.empty()) return std::nullopt;
+    if (message.kind() == v1::INPUT_QUIT) return Input{InputKind::Quit, {}};
+    if (message.kind() == v1::INPUT_TOGGLE_PAUSE) return Input{InputKind::TogglePause, {}};
     return std::nullopt;
 }
 

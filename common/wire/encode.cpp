@@ -28,6 +28,18 @@ v1::Pattern patternOf(Pattern pattern) {
     return v1::PATTERN_GREY;
 }
 
+v1::InputKind inputKindOf(InputKind kind) {
+    switch (kind) {
+        case InputKind::Quit:
+            return v1::INPUT_QUIT;
+        case InputKind::TogglePause:
+            return v1::INPUT_TOGGLE_PAUSE;
+        case InputKind::DropFood:
+            break;
+    }
+    return v1::INPUT_DROP_FOOD;
+}
+
 v1::NodeCondition conditionOf(NodeCondition condition) {
     switch (condition) {
         case NodeCondition::Absent:
@@ -137,8 +149,11 @@ void write(const Pong& pong, v1::Envelope& envelope) {
 }
 
 void write(const Input& input, v1::Envelope& envelope) {
-    envelope.mutable_input()->set_kind(input.kind == InputKind::Quit ? v1::INPUT_QUIT
-                                                                     : v1::INPUT_TOGGLE_PAUSE);
+    auto& message = *envelope.mutable_input();
+    message.set_kind(inputKindOf(input.kind));
+    if (input.kind != InputKind::DropFood) return;
+    const glm::vec3& at = input.positionMetres;
+    for (const float number : {at.x, at.y, at.z}) message.add_position(number);
 }
 
 void write(const StatusRequest&, v1::Envelope& envelope) {

@@ -28,6 +28,7 @@ inline constexpr std::size_t kMaxBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
 inline constexpr std::size_t kMaxNodes = 256;
 inline constexpr std::size_t kMaxSpecies = 64;
+inline constexpr float kMaxInputMetres = 10'000;  // of a position, on each axis
 inline constexpr std::size_t kMaxExplanationLines = 48;
 inline constexpr std::size_t kMaxExplanationLineBytes = 120;
 inline constexpr std::size_t kMaxSmallPacketBytes = std::size_t{64} << 10U;  // all but
@@ -100,9 +101,10 @@ struct Pong {
     std::int64_t masterNs = 0;  // in the master's
 };
 
-enum class InputKind : std::uint8_t { Quit, TogglePause };
+enum class InputKind : std::uint8_t { Quit, TogglePause, DropFood };
 struct Input {
     InputKind kind = InputKind::Quit;
+    glm::vec3 positionMetres{};  // of the food, world frame
 };
 
 struct StatusRequest {};

@@ -13,6 +13,7 @@
 #include "common/motion/motion_state.h"
 #include "common/units/digest.h"
 #include "common/units/ids.h"
+#include "common/wire/food_record.h"
 
 namespace aquarama {
 
@@ -22,9 +23,9 @@ struct Eye {
     glm::quat worldFromWall{1, 0, 0, 0};
 };
 
-// All that a frame shows; nothing before it is needed to draw it. `before` is empty where fraction
-// is 1: the frame shows the tick itself. Else the frame shows the moment between tick - 1 (before)
-// and tick (after).
+// All that a frame shows; nothing before it is needed to draw it. `before` and `foodBefore` are
+// empty where fraction is 1: the frame shows the tick itself. Else the frame shows the moment
+// between tick - 1 (before) and tick (after).
 struct StateFrame {
     Frame frame;
     Tick tick;
@@ -33,6 +34,10 @@ struct StateFrame {
     std::uint64_t worldHash = 0;
     std::vector<FishRecord> before;
     std::vector<FishRecord> after;
+    glm::vec3 foodOriginMetres{};  // of FoodRecord::offsetMetres
+    std::vector<FoodRecord> foodBefore;
+    std::vector<FoodRecord> foodAfter;
+    float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
 };
 
 enum class Pace : std::uint8_t { Live, Lockstep };

@@ -17,35 +17,64 @@ namespace {
 // The records are copied as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::uint32_t kLayoutVersion = 2;
+constexpr std::uint32_t kLayoutVersion = 3;
 constexpr std::size_t kStride = sizeof(FishRecord);
 constexpr int kEyeNumbers = 7;
+constexpr int kPlaceNumbers = 3;
 
-void writeRecords(const std::vector<FishRecord>& records, std::string& bytes) {
-    bytes.resize(records.size() * kStride);
+template <class Record>
+void writeRecords(const std::vector<Record>& records, std::string& bytes) {
+    bytes.resize(records.size() * sizeof(Record));
     if (!records.empty()) std::memcpy(bytes.data(), records.data(), bytes.size());
 }
 
-std::optional<std::vector<FishRecord>> readRecords(const std::string& bytes) {
-    if (bytes.size() % kStride != 0 || bytes.size() / kStride > kMaxFish) return std::nullopt;
-    std::vector<FishRecord> records(bytes.size() / kStride);
+template <class Record, class Check>
+std::optional<std::vector<Record>> readRecords(const std::string& bytes,
+                                               std::size_t most,
+                                               Check isGood) {
+    const std::size_t count = bytes.size() / sizeof(Record);
+    if (bytes.size() % sizeof(Record) != 0 || count > most) return std::nullopt;
+    std::vector<Record> records(count);
     if (!records.empty()) std::memcpy(records.data(), bytes.data(), bytes.size());
-    if (!std::ranges::all_of(records, isPlayable)) return std::nullopt;
+    if (!std::ranges::all_of(records, isGood)) return std::nullopt;
     return records;
 }
 
+auto readFish(const std::string& bytes) {
+    return readRecords<FishRecord>(bytes, kMaxFish, isPlayable);
+}
+
+auto readFood(const std::string& bytes) {
+    return readRecords<FoodRecord>(
+        bytes, kMostFood, [](const FoodRecord& record) { return record.isPossible(); });
+}
+
+// Between two ticks both are needed; where there is nothing, both are empty.
+template <class Record>
+bool arePaired(const std::vector<Record>& before,
+               const std::vector<Record>& after,
+               float fraction) {
+    return before.size() == after.size() || (before.empty() && fraction == 1.0F);
+}
+
+bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {
+    return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
+}
+
 std::optional<Eye> readEye(const v1::State& message) {
-    if (message.eye_size() != kEyeNumbers) return std::nullopt;
     const auto& e = message.eye();
-    if (!std::ranges::all_of(e, [](float number) { return std::isfinite(number); })) {
-        return std::nullopt;
-    }
+    if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
     return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
+}
+
+bool isShare(float number) {
+    return number >= 0.0F && number <= 1.0F;
 }
 
 bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_before() && message.has_after() &&
+           message.has_food_before() && message.has_food_after() && message.has_daylight() &&
            message.layout_version() == kLayoutVersion && message.stride() == kStride;
 }
 
@@ -66,25 +95,39 @@ void writeState(const StateFrame& state, v1::State& message) {
     message.set_stride(kStride);
     writeRecords(state.before, *message.mutable_before());
     writeRecords(state.after, *message.mutable_after());
+    const auto& origin = state.foodOriginMetres;
+    for (const float number : {origin.x, origin.y, origin.z}) message.add_food_origin(number);
+    writeRecords(state.foodBefore, *message.mutable_food_before());
+    writeRecords(state.foodAfter, *message.mutable_food_after());
+    message.set_daylight(state.daylight);
 }
 
 std::optional<StateFrame> readState(const v1::State& message) {
     if (!hasAllScalars(message)) return std::nullopt;
     const auto eye = readEye(message);
-    auto before = readRecords(message.before());
-    auto after = readRecords(message.after());
-    if (!eye || !before || !after) return std::nullopt;
+    auto before = readFish(message.before());
+    auto after = readFish(message.after());
+    auto foodBefore = readFood(message.food_before());
+    auto foodAfter = readFood(message.food_after());
+    if (!eye || !before || !after || !foodBefore || !foodAfter) return std::nullopt;
     const float fraction = message.fraction();
-    const bool showsTheTick = before->empty();
-    if (!(fraction >= 0.0F && fraction <= 1.0F)) return std::nullopt;
-    if (showsTheTick ? fraction != 1.0F : before->size() != after->size()) return std::nullopt;
+    const float daylight = message.daylight();
+    const auto& origin = message.food_origin();
+    if (!isShare(fraction) || !isShare(daylight)) return std::nullopt;
+    if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
+    if (!arePaired(*before, *after, fraction) || !arePaired(*foodBefore, *foodAfter, fraction))
+        return std::nullopt;
     return StateFrame{{message.frame()},
                       {message.tick()},
                       fraction,
                       *eye,
                       message.world_hash(),
                       std::move(*before),
-                      std::move(*after)};
+                      std::move(*after),
+                      {origin[0], origin[1], origin[2]},
+                      std::move(*foodBefore),
+                      std::move(*foodAfter),
+                      daylight};
 }
 
 }  // namespace aquarama

@@ -206,6 +206,7 @@ bool Conductor::publish(Frame frame, Instant now) {
     if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
+    eye_ = state->eye;
     report_.tick = state->tick;
     report_.worldHash = state->worldHash;
     return true;

@@ -68,6 +68,7 @@ class Conductor {
         bool prepared = false;
         Instant lastHeard{};
         std::uint64_t dropped = 0;
+        Instant lastFed{};  // when a visitor last dropped food in its window
     };
 
     void hear(Instant now);
@@ -77,7 +78,8 @@ class Conductor {
     void admit(std::size_t node);
     void giveChunk(const PeerId& peer, const BlobRequest& request);
     void vacate(std::size_t node, const std::string& why);
-    void obey(const Input& input);
+    void obey(std::size_t node, const Input& input, Instant now);
+    void feed(std::size_t node, glm::vec3 positionMetres, Instant now);
     void ask(const PeerId& peer, const ExplainRequest& question);
     void answer();
     [[nodiscard]] StatusReply status() const;
@@ -122,6 +124,7 @@ class Conductor {
     std::map<Frame, Packet> published_;  // the last two: sent again to whoever may lack them
     Instant lastPublished_{};            // of anything, also of a beacon
     Instant lastRepeat_{};
+    Eye eye_;  // of the last state that was published
     std::optional<Present> lastPresent_;
     Instant lastRelease_{};
     ShowReport report_;

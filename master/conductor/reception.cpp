@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <spdlog/spdlog.h>
 
 #include "common/net/blob.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr int kMostPackets = 256;
 // A node whose name comes up again is taken for dead after so much silence.
 constexpr Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
+// Of food from one window.
+constexpr Instant kBetweenPinches = std::chrono::milliseconds(200);
+constexpr float kReachMetres = 8.0F;  // from the eye
 
 std::string listed(const std::vector<std::string>& names) {
     std::string list;
@@ -109,7 +113,7 @@ void Conductor::heed(std::size_t node, const Message& message, Instant now) {
     } else if (std::holds_alternative<Prepared>(message)) {
         admit(node);
     } else if (const auto* input = std::get_if<Input>(&message)) {
-        obey(*input);
+        obey(node, *input, now);
     } else if (std::holds_alternative<Farewell>(message)) {
         barrier_.leave(node);
         seats_[node].peer.clear();
@@ -174,12 +178,29 @@ void Conductor::answer() {
         say(explanation->first, explanation->second);
 }
 
-void Conductor::obey(const Input& input) {
+void Conductor::obey(std::size_t node, const Input& input, Instant now) {
     if (input.kind == InputKind::Quit) {
         over_ = true;
+    } else if (input.kind == InputKind::DropFood) {
+        feed(node, input.positionMetres, now);
     } else if (!isLockstep() && ticker_) {  // there is none any more while farewells are said
         ticker_->togglePause();
     }
+}
+
+// The world says how many pellets there may be; here a key that is stuck is slowed down, and nobody
+// feeds what he cannot reach.
+void Conductor::feed(std::size_t node, glm::vec3 positionMetres, Instant now) {
+    Instant& lastFed = seats_[node].lastFed;
+    if (now - lastFed < kBetweenPinches || !ticker_) return;
+    const bool isInReach = glm::distance(positionMetres, eye_.positionMetres) < kReachMetres;
+    const auto drop = [positionMetres](Simulation& simulation) {
+        simulation.apply(DropFood{.position = positionMetres});
+    };
+    if (isInReach && ticker_->betweenTicks(drop))
+        lastFed = now;
+    else
+        ++report_.refusedPackets;
 }
 
 StatusReply Conductor::status() const {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/conductor/status.h"
 
-#include <chrono>
-
 #include <spdlog/fmt/fmt.h>
 
-#include "common/net/channels.h"
-#include "common/units/error.h"
+#include "master/conductor/ask.h"
 
 namespace aquarama {
 namespace {
-
-constexpr Instant kPatience = std::chrono::seconds(2);
-constexpr Instant kRepeat = std::chrono::milliseconds(50);
 
 const char* wordFor(NodeCondition condition) {
     switch (condition) {
@@ -55,21 +49,7 @@ std::string statusText(const StatusReply& status) {
 }
 
 std::string runStatus(const std::string& controlAddress) {
-    const auto channels = connectNode(controlAddress);
-    const Instant giveUp = monotonicNow() + kPatience;
-    while (monotonicNow() < giveUp) {
-        channels->sendControl(encode({0, StatusRequest{}}));  // the connection may not stand yet
-        while (const auto bytes = channels->receiveControl()) {
-            const auto envelope = decode(*bytes);
-            if (!envelope) continue;
-            if (const auto* reply = std::get_if<StatusReply>(&envelope->message)) {
-                return statusText(*reply);
-            }
-        }
-        channels->wait(kRepeat);
-    }
-    throw Error("no master answers at " + controlAddress +
-                "; start one, or name its control address with --master");
+    return statusText(MasterLine(controlAddress).ask<StatusReply>(StatusRequest{}));
 }
 
 }  // namespace aquarama

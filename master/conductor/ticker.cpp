@@ -95,8 +95,15 @@ void Ticker::serveUntilStopped() {
 }
 
 bool Ticker::put(Instant due) {
-    Snapshot snapshot{simulation_.tick(), due, simulation_.hash(), simulation_.eye(), {}};
+    Snapshot snapshot{simulation_.tick(),
+                      due,
+                      simulation_.hash(),
+                      simulation_.eye(),
+                      simulation_.daylight(),
+                      {},
+                      {}};
     simulation_.records(snapshot.fish);
+    simulation_.food(snapshot.food);
     const bool taken = snapshots_.put(std::move(snapshot));
     onTick_();
     return taken;

@@ -10,7 +10,17 @@ namespace aquarama {
 namespace {
 
 StateFrame showingOne(Frame frame, const Snapshot& snapshot) {
-    return {frame, snapshot.tick, 1.0F, snapshot.eye, snapshot.hash, {}, snapshot.fish};
+    return {frame,
+            snapshot.tick,
+            1.0F,
+            snapshot.eye,
+            snapshot.hash,
+            {},
+            snapshot.fish,
+            snapshot.food.originMetres,
+            {},
+            snapshot.food.particles,
+            snapshot.daylight};
 }
 
 Eye between(const Eye& before, const Eye& after, float fraction) {
@@ -53,7 +63,11 @@ std::optional<StateFrame> Timeline::showing(Frame frame, Instant moment) const {
                       between(before.eye, after->eye, fraction),
                       after->hash,
                       before.fish,
-                      after->fish};
+                      after->fish,
+                      after->food.originMetres,
+                      before.food.particles,
+                      after->food.particles,
+                      glm::mix(before.daylight, after->daylight, fraction)};
 }
 
 }  // namespace aquarama

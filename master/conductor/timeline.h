@@ -20,7 +20,9 @@ struct Snapshot {
     Instant due{};  // live: when the world was like this
     std::uint64_t hash = 0;
     Eye eye;
+    float daylight = 1.0F;
     std::vector<FishRecord> fish;
+    FoodCloud food;
 };
 
 class Timeline {

@@ -3,6 +3,8 @@
 
 #include "common/place/water.h"
 
+#include "common/units/folded_hash.h"
+
 namespace aquarama {
 
 namespace {
@@ -43,6 +45,20 @@ void advanceSurroundings(Surroundings& surroundings, Tick tick) {
     surroundings.daylight = daylight(surroundings.climate.day, tick);
     dropWhatIsDue(surroundings, tick);
     driftFood(surroundings.food, surroundings.seed, surroundings.obstacles, tick);
+}
+
+std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroundings) {
+    const Food& food = surroundings.food;
+    for (const auto* values : {&food.x, &food.y, &food.z, &food.lowest})
+        hash = folded(hash, *values);
+    hash = folded(hash, food.kind);
+    hash = folded(hash, food.taken);
+    hash = folded(hash, food.generation);
+    hash = folded(hash, food.absentUntil);
+    const Submarine& submarine = surroundings.submarine;
+    for (const glm::vec3 vector : {submarine.position, submarine.velocityMetresPerSecond})
+        for (const float number : {vector.x, vector.y, vector.z}) hash = foldedOne(hash, number);
+    return hash;
 }
 
 }  // namespace aquarama

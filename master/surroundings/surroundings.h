@@ -41,5 +41,8 @@ struct Surroundings {
                                             float meanLengthMetres);
 // One tick of what goes on without the fish.
 void advanceSurroundings(Surroundings& surroundings, Tick tick);
+// The hash with all folded in that fish and visitors have changed.
+[[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,
+                                               const Surroundings& surroundings);
 
 }  // namespace aquarama

@@ -32,6 +32,11 @@ class Context {
     // Keys that were pressed, oldest first: a lower-case letter, ' ' or kEscapeKey. Closing the
     // window is kEscapeKey.
     [[nodiscard]] virtual std::optional<char> nextKey() = 0;
+    // Where the left mouse button was pressed, oldest first, in the framebuffer's pixels from the
+    // window's top left corner.
+    [[nodiscard]] virtual std::optional<glm::vec2> nextClick() = 0;
+    // Where the mouse points, as above; nothing while it is outside the window.
+    [[nodiscard]] virtual std::optional<glm::vec2> pointer() const = 0;
 };
 
 inline constexpr char kEscapeKey = '\x1b';

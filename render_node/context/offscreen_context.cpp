@@ -147,6 +147,8 @@ class OffscreenContext final : public Context {
         std::this_thread::sleep_for(atMost);
     }
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
+    [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
+    [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
 
   private:
     glm::ivec2 sizePixels_;

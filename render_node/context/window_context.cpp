@@ -9,6 +9,7 @@
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <glm/common.hpp>
 
 #include "common/units/error.h"
 #include "render_node/context/context.h"
@@ -112,6 +113,9 @@ class WindowContext : public Context {
         });
         glfwSetWindowCloseCallback(window,
                                    [](GLFWwindow* source) { of(source).onKey(GLFW_KEY_ESCAPE); });
+        glfwSetMouseButtonCallback(window, [](GLFWwindow* source, int button, int action, int) {
+            if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) of(source).onClick();
+        });
         glfwSetFramebufferSizeCallback(window, [](GLFWwindow* source, int width, int height) {
             of(source).framebuffer_ = glm::ivec2(width, height);
         });
@@ -139,6 +143,17 @@ class WindowContext : public Context {
         return key;
     }
 
+    [[nodiscard]] std::optional<glm::vec2> nextClick() override {
+        if (clicks_.empty()) return std::nullopt;
+        const glm::vec2 place = clicks_.front();
+        clicks_.pop_front();
+        return place;
+    }
+    [[nodiscard]] std::optional<glm::vec2> pointer() const override {
+        if (glfwGetWindowAttrib(window_.get(), GLFW_HOVERED) == GLFW_FALSE) return std::nullopt;
+        return cursor();
+    }
+
   private:
     static WindowContext& of(GLFWwindow* source) {
         return *static_cast<WindowContext*>(glfwGetWindowUserPointer(source));
@@ -146,6 +161,8 @@ class WindowContext : public Context {
     void open(const std::string& title);
     void check();
     void onKey(int key);
+    void onClick();
+    [[nodiscard]] glm::vec2 cursor() const;
     void toggleFullscreen();
 
     GlfwLibrary library_;
@@ -154,6 +171,7 @@ class WindowContext : public Context {
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
     std::deque<char> keys_;
+    std::deque<glm::vec2> clicks_;
 };
 
 void WindowContext::open(const std::string& title) {
@@ -215,6 +233,21 @@ void WindowContext::onKey(int key) {
         keys_.push_back(' ');
     else if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
         keys_.push_back(static_cast<char>('a' + (key - GLFW_KEY_A)));
+}
+
+// A click that nobody asks for is forgotten: a window that draws nothing yet has no place for it.
+void WindowContext::onClick() {
+    constexpr std::size_t kMostClicks = 16;
+    if (clicks_.size() < kMostClicks) clicks_.push_back(cursor());
+}
+
+// GLFW tells it in the units of the desktop, of which a scaled one has fewer than pixels.
+glm::vec2 WindowContext::cursor() const {
+    glm::dvec2 place{};
+    glm::ivec2 size{};
+    glfwGetCursorPos(window_.get(), &place.x, &place.y);
+    glfwGetWindowSize(window_.get(), &size.x, &size.y);
+    return {place * glm::dvec2(framebuffer_.load()) / glm::dvec2(glm::max(size, 1))};
 }
 
 void WindowContext::toggleFullscreen() {

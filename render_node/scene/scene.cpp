@@ -34,6 +34,15 @@ float detailOf(glm::ivec2 sizePixels) {
     return sizePixels.y < kSmallWindow ? 0.5F : 1.0F;
 }
 
+// The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
+// sun is mirrored away; what is left then comes from above, and is bluer. Never nothing: a wall
+// that is dark is broken. Exactly 1 at noon.
+glm::vec4 daylightOf(float daylight) {
+    const glm::vec4 night{0.02F, 0.16F, 0.24F, 0.36F};
+    const float sun = daylight * daylight;
+    return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
+}
+
 FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
     FrameUniforms uniforms;
     uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
@@ -42,6 +51,7 @@ FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
     uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
     const glm::vec2 size(view.sizePixels);
     uniforms.viewport = glm::vec4(size, 1.0F / size);
+    uniforms.daylight = daylightOf(frame.daylight);
     return uniforms;
 }
 
@@ -90,6 +100,7 @@ struct SceneRenderer::Parts {
     ScenePicture picture;
     std::vector<SchoolSurface> schools;  // one of each species
     std::vector<std::size_t> fishOfSchool;
+    FoodSpecks food;
     gl::ProgramHandle surface, water, snow;
 };
 
@@ -120,6 +131,7 @@ void SceneRenderer::Parts::drawWater() const {
 }
 
 void SceneRenderer::Parts::drawSnow() const {
+    glBindVertexArray(empty.name());
     glUseProgram(snow.name());
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
@@ -153,6 +165,8 @@ unsigned SceneRenderer::draw(const SceneFrame& frame, const View& view) {
     parts.drawSolids(viewpoint);
     parts.drawWater();
     for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water
+    parts.food.update(frame.food, viewpoint);
+    parts.food.draw();
     parts.drawSnow();
     return parts.picture.finish();
 }

@@ -16,6 +16,7 @@
 #include "common/config/scene.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
+#include "render_node/scene/food_specks.h"
 
 namespace aquarama {
 
@@ -33,6 +34,8 @@ struct SceneFrame {
     glm::vec3 eyePositionMetres{};
     glm::quat worldFromWall{1, 0, 0, 0};
     std::span<const PresentedFish> fish;  // of each species in turn, as many as it has
+    std::span<const FoodParticle> food = {};
+    float daylight = 1.0F;  // of the sky: 1 at noon, towards 0 at night
 };
 
 // One species of the cast.

@@ -101,6 +101,10 @@ void MasterLink::obey(const Input& input) {
     say(input);
 }
 
+void MasterLink::obey(const ExplainRequest& request) {
+    if (session_ != 0) say(request);
+}
+
 void MasterLink::sayReady() {
     Ready ready{finished_->frame, finished_->released};
     if (ready.released) ready.released->atNs += clock_.offset().value_or(Instant{}).count();
@@ -222,6 +226,10 @@ void MasterLink::take(const Farewell&) {
     phase_ = Phase::Outside;
     session_ = 0;
     meeting_.interrupt(Release::Quit);
+}
+
+void MasterLink::take(const Explanation& explanation) {
+    meeting_.tellMind(explanation);
 }
 
 // A render thread that is still in join() is not told: it goes on waiting while we say hello again.

@@ -28,7 +28,7 @@ class MasterLink {
         Frame frame;
         std::optional<ReleaseReport> released;  // in this machine's clock
     };
-    using Wish = std::variant<Join, Prepared, Finished, Input>;
+    using Wish = std::variant<Join, Prepared, Finished, Input, ExplainRequest>;
     void wish(const Wish& wish);
     void stop();  // from any thread
 
@@ -44,6 +44,7 @@ class MasterLink {
     void obey(const Prepared& prepared);
     void obey(const Finished& finished);
     void obey(const Input& input);
+    void obey(const ExplainRequest& request);
 
     void readControl(const ByteVector& bytes);
     void readState(const ByteVector& bytes);
@@ -54,6 +55,7 @@ class MasterLink {
     void take(const Present& present);
     void take(const Dismissed& dismissed);
     void take(const Farewell& farewell);
+    void take(const Explanation& explanation);
     template <class Other>
     void take(const Other&) {}
 

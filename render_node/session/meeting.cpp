@@ -40,6 +40,11 @@ void Meeting::release(const ReleaseOrder& order) {
     changed_.notify_all();
 }
 
+void Meeting::tellMind(Explanation explanation) {
+    const std::lock_guard lock(mutex_);
+    mind_ = std::move(explanation);
+}
+
 void Meeting::interrupt(Release why) {
     const std::lock_guard lock(mutex_);
     if (interruption_ != Release::Quit) interruption_ = why;
@@ -54,6 +59,7 @@ void Meeting::expectJoin() {
     pace_.reset();
     states_.clear();
     release_.reset();
+    mind_.reset();
 }
 
 JoinOutcome Meeting::awaitJoin() {
@@ -90,6 +96,11 @@ std::optional<ReleaseOrder> Meeting::awaitRelease(Frame frame) {
     const auto isReleased = [&] { return release_ && release_->frame >= frame; };
     changed_.wait(lock, [&] { return isReleased() || interruption_; });
     return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
+}
+
+std::optional<Explanation> Meeting::latestMind() const {
+    const std::lock_guard lock(mutex_);
+    return mind_;
 }
 
 Release Meeting::interruption() const {

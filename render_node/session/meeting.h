@@ -46,6 +46,7 @@ class Meeting {
     void start(Pace pace, Frame first);  // frames are taken from this one on
     void put(ArrivedState arrived);
     void release(const ReleaseOrder& order);
+    void tellMind(Explanation explanation);
     void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
 
     // The render thread's side. Each blocks until there is an answer.
@@ -55,6 +56,8 @@ class Meeting {
     // The newest release, of this frame or a later one; empty: interrupted.
     [[nodiscard]] std::optional<ReleaseOrder> awaitRelease(Frame frame);
     [[nodiscard]] Release interruption() const;
+    // The last that was told in this run of the master; does not block.
+    [[nodiscard]] std::optional<Explanation> latestMind() const;
 
   private:
     [[nodiscard]] std::optional<ArrivedState> takeNext();
@@ -68,6 +71,7 @@ class Meeting {
     Frame next_;
     std::deque<ArrivedState> states_;
     std::optional<ReleaseOrder> release_;
+    std::optional<Explanation> mind_;
 };
 
 }  // namespace aquarama

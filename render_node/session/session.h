@@ -13,7 +13,7 @@
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/motion/repertoire.h"
-#include "common/wire/messages.h"
+#include "common/wire/envelope.h"
 
 namespace aquarama {
 
@@ -64,6 +64,10 @@ class Session {
     // or overtaken.
     virtual Release readyThenWait(Frame frame) = 0;
     virtual void send(NodeInput input) = 0;
+    virtual void dropFood(glm::vec3 positionMetres) = 0;  // world frame
+    // Asks what goes on in the mind of a fish; the answer comes when it comes.
+    virtual void askMind(std::uint32_t fish) = 0;
+    [[nodiscard]] virtual std::optional<Explanation> latestMind() const = 0;
     virtual void stop() = 0;
 };
 

@@ -19,6 +19,8 @@ layout(std140, binding = 0) uniform FrameUniforms {
     vec4 sunAndFilterDepth;  // unit vector towards the refracted sun; w: depth of the diver's
                              // filter, metres
     vec4 viewport;           // width, height in pixels, 1/width, 1/height
+    vec4 daylight;           // what there is of noon's light: of the sun's (x), and of the sky's
+                             // red, green and blue (yzw)
 #ifdef __cplusplus
 };
 }  // namespace aquarama

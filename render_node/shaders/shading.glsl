@@ -32,13 +32,14 @@ vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float
     float depth = max(-place.y, 0.1);
     float share = unscatteredShare(depth);
     float towardsSun = dot(normal, sunAndFilterDepth.xyz);
-    float sun = share * open.sun * caustic(place, lod);
-    float sky = (1.0 - share) * open.sky;
+    float sun = share * open.sun * caustic(place, lod) * daylight.x;
+    vec3 sky = (1.0 - share) * open.sky * daylight.yzw;
+    vec3 sand = 0.6 * open.sky * (0.5 * (daylight.x + daylight.yzw));
     float up = 0.5 + 0.5 * normal.y;
-    float front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
-    float bounce = 0.34 * (1.0 - up) * (sky + 0.6 * open.sky);
-    float back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
-    return albedo * (vec3(front + bounce + back) + lampLight(place, normal)) / kPi;
+    vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
+    vec3 bounce = 0.34 * (1.0 - up) * (sky + sand);
+    vec3 back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
+    return albedo * (front + bounce + back + lampLight(place, normal)) / kPi;
 }
 
 // Many corals turn the blue that is left into their own colour.
@@ -50,11 +51,11 @@ vec3 mirrored(vec3 direction, vec3 worldPosition) {
     float depth = max(-worldPosition.y, 0.1);
     float towardsSun = dot(direction, sunAndFilterDepth.xyz) - 1.0;
     vec3 water = openWater(direction, depth);
-    float window = 0.11 * smoothstep(0.55, 0.85, direction.y);
-    float sun = 6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun);
-    float fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
+    vec3 window = 0.11 * smoothstep(0.55, 0.85, direction.y) * daylight.yzw;
+    float sun = (6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun)) * daylight.x;
+    vec3 fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
     vec3 undone = exp(kDownwellingKd * (depth - sunAndFilterDepth.w));
-    return water * undone + vec3(fromSurface);
+    return water * undone + fromSurface;
 }
 
 // What reaches the shared eye: absorbed on the way, and joined by light scattered into it.

@@ -74,13 +74,15 @@ float shaft(vec3 direction, float range) {
 vec3 inscatter(vec3 direction, float range) {
     vec2 uv = atTexelCentres(vec2(rangeAxis(range), 0.5 + 0.5 * direction.y), kInscatterTexels);
     return texture(inscatterTable, uv).rgb *
-           (sunLobe(direction) * shaft(direction, range) + skyLobe(direction));
+           (sunLobe(direction) * shaft(direction, range) * daylight.x +
+            skyLobe(direction) * daylight.yzw);
 }
 
 // The water itself, seen from a place at this depth with nothing in the way.
 vec3 openWater(vec3 direction, float depth) {
     vec2 uv = atTexelCentres(vec2(depthAxis(depth), 0.5 + 0.5 * direction.y), kOpenWaterTexels);
-    return texture(openWaterTable, uv).rgb * (sunLobe(direction) + skyLobe(direction));
+    return texture(openWaterTable, uv).rgb *
+           (sunLobe(direction) * daylight.x + skyLobe(direction) * daylight.yzw);
 }
 
 // How the waves gather the sunlight at a place, mean 1. The tile is indexed by where the straight

@@ -12,7 +12,8 @@ vec3 sky(vec3 direction) {
     float away = dot(direction, sun) - 1.0;
     vec3 blue = mix(vec3(0.060, 0.076, 0.095), vec3(0.030, 0.050, 0.090),
                     smoothstep(0.0, 0.9, direction.y));
-    return blue + vec3(1.0, 0.93, 0.82) * (2.2 * exp(260.0 * away) + 0.16 * exp(14.0 * away));
+    return blue * daylight.yzw +
+           daylight.x * vec3(1.0, 0.93, 0.82) * (2.2 * exp(260.0 * away) + 0.16 * exp(14.0 * away));
 }
 
 void main() {
@@ -43,5 +44,6 @@ void main() {
     // Water has coloured the mirrored light already: what `direct` will add is taken out.
     vec3 undone = exp(vec3(0.19, 0.062, 0.036) * -sunAndFilterDepth.w);
     vec3 below = openWater(down, 0.4) * (0.9 * mirror) * undone;
-    radiance = vec4(direct(up + below, range, 0.0) + inscatter(w, range), 1.0);
+    // As far as the open water behind it is seen (water.frag), or a line would show where it ends.
+    radiance = vec4(direct(up + below, range, 0.0) + inscatter(w, min(range, 80.0)), 1.0);
 }

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
@@ -21,6 +25,11 @@ constexpr float kNearMetres = 0.05F;
 // Dots large enough to be read from the sweet spot.
 float dotPixels(glm::ivec2 pictureSize) {
     return std::max(1.0F, std::round(static_cast<float>(pictureSize.y) / 400.0F));
+}
+
+// For whole sentences, which an operator reads from near.
+float smallDotPixels(glm::ivec2 pictureSize) {
+    return std::max(1.0F, std::round(static_cast<float>(pictureSize.y) / 600.0F));
 }
 
 std::vector<Label> helpLabels(float dot) {
@@ -72,7 +81,9 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
     }
 }
 
-void ChannelPicture::drawScene(const StateFrame& frame, const Overlays& overlays) {
+void ChannelPicture::drawScene(const StateFrame& frame,
+                               const Overlays& overlays,
+                               const std::optional<WatchedMind>& mind) {
     frame_ = frame.frame;
     if (scene_)
         drawWorld(frame);
@@ -80,16 +91,22 @@ void ChannelPicture::drawScene(const StateFrame& frame, const Overlays& overlays
         drawPattern();
     glNamedFramebufferTexture(onScene_.name(), GL_COLOR_ATTACHMENT0, sceneTexture_, 0);
     if (overlays.warpGrid) patternPass_.addGrid(onScene_.name(), sceneSize_);
-    if (overlays.fishIds) drawFishIds(frame);
+    if (overlays.fishIds) drawFishIds();
+    if (mind) drawMind(*mind);
 }
 
 void ChannelPicture::drawWorld(const StateFrame& frame) {
     fish_ = presentedFish(frame, school_);
+    food_ = presentedFood(frame);
+    const View view = viewOf(frame.eye);
+    clipFromWorld_ = view.clipFromCamera * view.cameraFromWorld;
     const SceneFrame scene{.timeSeconds = presentedSeconds(frame),
                            .eyePositionMetres = frame.eye.positionMetres,
                            .worldFromWall = frame.eye.worldFromWall,
-                           .fish = fish_};
-    sceneTexture_ = scene_->draw(scene, viewOf(frame.eye));
+                           .fish = fish_,
+                           .food = food_,
+                           .daylight = frame.daylight};
+    sceneTexture_ = scene_->draw(scene, view);
 }
 
 void ChannelPicture::drawPattern() {
@@ -100,21 +117,54 @@ void ChannelPicture::drawPattern() {
         patternPass_.drawGrey(patternPicture_->framebuffer(), sceneSize_);
 }
 
+std::optional<FishPlace> ChannelPicture::placeOf(const PresentedFish& fish) const {
+    const glm::vec4 clip = clipFromWorld_ * glm::vec4(fish.positionMetres, 1);
+    if (clip.w <= 0) return std::nullopt;
+    const glm::vec2 size(sceneSize_);
+    const glm::vec2 place = (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * size;
+    if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) return std::nullopt;
+    const glm::vec3 across(clipFromWorld_[0].x, clipFromWorld_[1].x, clipFromWorld_[2].x);
+    const float pixelsAMetre = glm::length(across) / clip.w * 0.5F * size.x;
+    return FishPlace{place, 0.5F * fish.lengthMetres * pixelsAMetre};
+}
+
 // Each number stands on its fish's body frame.
-void ChannelPicture::drawFishIds(const StateFrame& frame) {
-    const View view = viewOf(frame.eye);
-    const glm::mat4 clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+void ChannelPicture::drawFishIds() {
     const float dot = dotPixels(sceneSize_);
     std::vector<Label> labels;
     for (const PresentedFish& fish : fish_) {
-        const glm::vec4 clip = clipFromWorld * glm::vec4(fish.positionMetres, 1);
-        if (clip.w <= 0) continue;
-        const glm::vec2 place =
-            (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * glm::vec2(sceneSize_);
+        const auto place = placeOf(fish);
+        if (!place) continue;
         const std::string text = std::to_string(fish.id);
-        labels.push_back({place - extentInDots(text) * dot / 2.0F, text});
+        labels.push_back({place->middle - extentInDots(text) * dot / 2.0F, text});
     }
     text_.draw(labels, onScene_.name(), sceneSize_, dot);
+}
+
+void ChannelPicture::drawMind(const WatchedMind& mind) {
+    if (mind.fish >= fish_.size()) return;
+    const auto place = placeOf(fish_[mind.fish]);
+    if (!place) return;
+    const float dot = smallDotPixels(sceneSize_);
+    text_.draw(mindLabels(*place, mind, sceneSize_, dot), onScene_.name(), sceneSize_, dot);
+}
+
+std::optional<std::uint32_t> ChannelPicture::fishNearest(glm::vec2 pixel) const {
+    const glm::ivec2 texel = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), map_.sizePixels - 1);
+    const glm::vec4 lit =
+        map_.placeAndWeight[static_cast<std::size_t>(texel.y * map_.sizePixels.x + texel.x)];
+    const glm::vec2 wanted = glm::vec2(lit.x, 1.0F - lit.y) * glm::vec2(sceneSize_);
+    std::optional<std::uint32_t> nearest;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::uint32_t i = 0; i < fish_.size(); ++i) {
+        const auto place = placeOf(fish_[i]);
+        if (!place) continue;
+        const float distance = glm::distance(place->middle, wanted);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = i;
+    }
+    return nearest;
 }
 
 void ChannelPicture::project(unsigned framebuffer, Encoding encoding, const Overlays& overlays) {

@@ -3,6 +3,7 @@
 // wall.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "render_node/scene/scene.h"
 #include "render_node/session/session.h"
 #include "render_node/show/controls.h"
+#include "render_node/show/mind_labels.h"
 #include "render_node/show/text_overlay.h"
 
 namespace aquarama {
@@ -27,7 +29,12 @@ class ChannelPicture {
     ChannelPicture(const Admission& admission, std::size_t channel);
 
     // The picture of the channel's frustum, in linear light, with what belongs to the world.
-    void drawScene(const StateFrame& frame, const Overlays& overlays);
+    void drawScene(const StateFrame& frame,
+                   const Overlays& overlays,
+                   const std::optional<WatchedMind>& mind = std::nullopt);
+    // Of the fish that the last scene shows, the one that a pixel (from the top left corner) is
+    // nearest to; its place in the school.
+    [[nodiscard]] std::optional<std::uint32_t> fishNearest(glm::vec2 pixel) const;
     // The projector's pixels of the scene that was drawn last, into the framebuffer's lower left
     // corner.
     void project(unsigned framebuffer, Encoding encoding, const Overlays& overlays);
@@ -36,8 +43,11 @@ class ChannelPicture {
   private:
     void drawWorld(const StateFrame& frame);
     void drawPattern();
-    void drawFishIds(const StateFrame& frame);
+    void drawFishIds();
+    void drawMind(const WatchedMind& mind);
     [[nodiscard]] View viewOf(const Eye& eye) const;
+    // In the scene's pixels, from its top left corner; nothing for what it does not show.
+    [[nodiscard]] std::optional<FishPlace> placeOf(const PresentedFish& fish) const;
 
     Pattern pattern_;
     std::vector<FishTraits> school_;
@@ -51,6 +61,8 @@ class ChannelPicture {
     TextOverlay text_;
     gl::Framebuffer onScene_;  // to draw over the scene's texture
     std::vector<PresentedFish> fish_;
+    std::vector<FoodParticle> food_;
+    glm::mat4 clipFromWorld_{1.0F};
     unsigned sceneTexture_ = 0;
     Frame frame_;
 };

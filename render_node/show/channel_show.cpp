@@ -10,6 +10,7 @@
 
 #include "common/units/error.h"
 #include "render_node/show/snapshot.h"
+#include "render_node/show/window_fit.h"
 
 namespace aquarama {
 
@@ -39,12 +40,8 @@ void waitForGpu() {
     glDeleteSync(fence);
 }
 
-// The whole picture, in the middle of a window of another size.
-void fitIntoWindow(const gl::Target& picture, glm::ivec2 window) {
-    const glm::vec2 size(picture.sizePixels());
-    const glm::vec2 room = glm::vec2(window) / size;
-    const glm::ivec2 fitted(size * std::min(room.x, room.y));
-    const glm::ivec2 corner = (window - fitted) / 2;
+void show(const gl::Target& picture, glm::ivec2 window) {
+    const auto [corner, size] = fitInto(window, picture.sizePixels());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -56,8 +53,8 @@ void fitIntoWindow(const gl::Target& picture, glm::ivec2 window) {
                            picture.sizePixels().y,
                            corner.x,
                            corner.y,
-                           corner.x + fitted.x,
-                           corner.y + fitted.y,
+                           corner.x + size.x,
+                           corner.y + size.y,
                            GL_COLOR_BUFFER_BIT,
                            GL_LINEAR);
 }
@@ -66,7 +63,7 @@ void fitIntoWindow(const gl::Target& picture, glm::ivec2 window) {
 
 ChannelShow::ChannelShow(Session& session,
                          Context& context,
-                         const Controls& controls,
+                         Controls& controls,
                          const NodeOptions& options)
     : session_{session},
       context_{context},
@@ -102,6 +99,8 @@ void ChannelShow::build(const Admission& admission) {
     spdlog::info("building {} x {} pixels on {}", size.x, size.y, context_.description());
     picture_.reset();
     picture_.emplace(admission, channel);
+    aim_.emplace(admission.rig, channel);
+    watched_.reset();
     offscreen_.emplace(GL_RGBA8, size);
     built_ = admission.welcome;
     shown_ = false;
@@ -110,6 +109,7 @@ void ChannelShow::build(const Admission& admission) {
 Release ChannelShow::play() {
     while (const std::optional<StateFrame> state = session_.nextFrame()) {
         FrameTimes times{.state = session_.stateArrival()};
+        feed(state->eye);
         draw(*state);
         waitForGpu();
         times.ready = now();
@@ -127,11 +127,41 @@ Release ChannelShow::play() {
 
 void ChannelShow::draw(const StateFrame& frame) {
     const Overlays overlays = controls_.overlays();
-    picture_->drawScene(frame, overlays);
+    picture_->drawScene(frame, overlays, overlays.mind ? watchMind() : std::nullopt);
     const glm::ivec2 window = context_.framebufferPixels();
     const bool fits = context_.hasWindow() && window == picture_->sizePixels();
     picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays);
-    if (context_.hasWindow() && !fits) fitIntoWindow(*offscreen_, window);
+    if (context_.hasWindow() && !fits) show(*offscreen_, window);
+}
+
+void ChannelShow::feed(const Eye& eye) {
+    while (const auto pinch = controls_.nextPinch()) {
+        const auto pixel = pixelAt(pinch->place);
+        const auto place = pixel ? aim_->pinchAt(*pixel, eye) : std::nullopt;
+        if (place) session_.dropFood(*place);
+    }
+}
+
+std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
+    if (!place) return aim_->middle();
+    return picturePlace(context_.framebufferPixels(), picture_->sizePixels(), *place);
+}
+
+// Another fish may come nearest at any time: it is chosen as often as is asked, so that the answer
+// can be read.
+std::optional<WatchedMind> ChannelShow::watchMind() {
+    constexpr std::chrono::milliseconds kBetweenQuestions{250};
+    if (now() - askedAt_ >= kBetweenQuestions) {
+        askedAt_ = now();
+        const auto pixel = pixelAt(controls_.pointer()).value_or(aim_->middle());
+        watched_ = picture_->fishNearest(pixel);
+        if (watched_) session_.askMind(*watched_);
+    }
+    if (!watched_) return std::nullopt;
+    WatchedMind mind{*watched_, {}};
+    auto latest = session_.latestMind();
+    if (latest && latest->fish == mind.fish) mind.lines = std::move(latest->lines);
+    return mind;
 }
 
 void ChannelShow::film(Frame frame) {

@@ -2,11 +2,14 @@
 // The frames of one channel, from the master's state to light: the drawing thread of a node.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <optional>
 
 #include "render_node/context/context.h"
 #include "render_node/gl/target.h"
 #include "render_node/session/session.h"
+#include "render_node/show/aim.h"
 #include "render_node/show/channel_picture.h"
 #include "render_node/show/controls.h"
 #include "render_node/show/node_options.h"
@@ -17,10 +20,7 @@ namespace aquarama {
 // Owns GL objects; construct, use and destroy with the context current.
 class ChannelShow {
   public:
-    ChannelShow(Session& session,
-                Context& context,
-                const Controls& controls,
-                const NodeOptions& options);
+    ChannelShow(Session& session, Context& context, Controls& controls, const NodeOptions& options);
 
     // From the first admission to the end of the show, through every time the master is lost and
     // found again; then the snapshot.
@@ -30,16 +30,23 @@ class ChannelShow {
     void build(const Admission& admission);
     [[nodiscard]] Release play();
     void draw(const StateFrame& frame);
+    void feed(const Eye& eye);
+    // Where in the picture a place of the window lies; where there is none, its middle.
+    [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
+    [[nodiscard]] std::optional<WatchedMind> watchMind();
     void film(Frame frame);
 
     Session& session_;
     Context& context_;
-    const Controls& controls_;
+    Controls& controls_;
     NodeOptions options_;
     Trace trace_;
     std::optional<Welcome> built_;  // what picture_ was built for
+    std::optional<Aim> aim_;
     std::optional<ChannelPicture> picture_;
-    std::optional<gl::Target> offscreen_;  // where there is no window of the channel's size
+    std::optional<gl::Target> offscreen_;   // where there is no window of the channel's size
+    std::optional<std::uint32_t> watched_;  // the fish whose mind is shown
+    std::chrono::nanoseconds askedAt_{};
     bool shown_ = false;
 };
 

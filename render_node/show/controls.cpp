@@ -7,34 +7,77 @@
 
 namespace aquarama {
 
+namespace {
+
+constexpr std::size_t kMostPinches = 8;  // that wait for a frame
+
+bool* overlayOf(char key, Overlays& overlays) {
+    switch (key) {
+        case 'w':
+            return &overlays.warpGrid;
+        case 'b':
+            return &overlays.blendMask;
+        case 'i':
+            return &overlays.fishIds;
+        case 'e':
+            return &overlays.mind;
+        case 'h':
+            return &overlays.help;
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace
+
 void Controls::press(char key) {
-    Overlays overlays = overlays_;
     switch (key) {
         case kEscapeKey:
         case 'q':
             if (std::exchange(quitAsked_, true)) session_.stop();
-            session_.send(NodeInput::Quit);
-            break;
+            return session_.send(NodeInput::Quit);
         case ' ':
         case 'p':
-            session_.send(NodeInput::TogglePause);
-            break;
-        case 'w':
-            overlays.warpGrid = !overlays.warpGrid;
-            break;
-        case 'b':
-            overlays.blendMask = !overlays.blendMask;
-            break;
-        case 'i':
-            overlays.fishIds = !overlays.fishIds;
-            break;
-        case 'h':
-            overlays.help = !overlays.help;
-            break;
+            return session_.send(NodeInput::TogglePause);
+        case 'd':
+            return drop({});
         default:
             break;
     }
-    overlays_ = overlays;
+    const std::lock_guard lock(mutex_);
+    if (bool* overlay = overlayOf(key, overlays_)) *overlay = !*overlay;
+}
+
+void Controls::click(glm::vec2 place) {
+    drop({place});
+}
+
+void Controls::point(WindowPlace place) {
+    const std::lock_guard lock(mutex_);
+    pointer_ = place;
+}
+
+void Controls::drop(const Pinch& pinch) {
+    const std::lock_guard lock(mutex_);
+    if (pinches_.size() < kMostPinches) pinches_.push_back(pinch);
+}
+
+Overlays Controls::overlays() const {
+    const std::lock_guard lock(mutex_);
+    return overlays_;
+}
+
+WindowPlace Controls::pointer() const {
+    const std::lock_guard lock(mutex_);
+    return pointer_;
+}
+
+std::optional<Pinch> Controls::nextPinch() {
+    const std::lock_guard lock(mutex_);
+    if (pinches_.empty()) return std::nullopt;
+    const Pinch first = pinches_.front();
+    pinches_.pop_front();
+    return first;
 }
 
 }  // namespace aquarama

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the keys of a window do: to the whole show through the master, and to what this window
+// What keys and mouse of a window do: to the whole show through the master, and to what this window
 // shows beside the world.
 #pragma once
 
 #include <array>
-#include <atomic>
+#include <deque>
+#include <mutex>
+#include <optional>
 #include <string_view>
+
+#include <glm/vec2.hpp>
 
 #include "render_node/session/session.h"
 
@@ -15,18 +19,29 @@ struct Overlays {
     bool warpGrid = false;   // lines of equal azimuth and elevation, on the wall
     bool blendMask = false;  // this channel's share of white
     bool fishIds = false;
+    bool mind = false;  // of the fish nearest to the pointer, or to the picture's middle
     bool help = false;
 };
 
-// One line a key; capitals and digits only, as the overlay's font has them.
-inline constexpr std::array<std::string_view, 7> kKeyHelp{
+// One line a key, in capitals, as the overlay's font has them.
+inline constexpr std::array<std::string_view, 9> kKeyHelp{
     "Q  ESC    END THE SHOW",
     "P  SPACE  PAUSE",
     "F         FULLSCREEN",
+    "D  CLICK  DROP FOOD",
     "W         GRID ON THE WALL",
     "B         BLEND MASK",
     "I         FISH IDS",
+    "E         THE MIND OF A FISH",
     "H         THIS LIST",
+};
+
+// A place of a window, in pixels from its top left corner.
+using WindowPlace = std::optional<glm::vec2>;
+
+// Food that a visitor drops: where in the window, or before the middle of the picture.
+struct Pinch {
+    WindowPlace place;
 };
 
 class Controls {
@@ -34,12 +49,24 @@ class Controls {
     explicit Controls(Session& session) : session_{session} {}
     // On the main thread. A second q ends this node alone, for when there is no master to listen.
     void press(char key);
-    [[nodiscard]] Overlays overlays() const { return overlays_; }  // from any thread
+    void click(glm::vec2 place);
+    void point(WindowPlace place);
+
+    // From any thread.
+    [[nodiscard]] Overlays overlays() const;
+    [[nodiscard]] WindowPlace pointer() const;
+    // Each once, oldest first: only who draws knows what the window shows there.
+    [[nodiscard]] std::optional<Pinch> nextPinch();
 
   private:
+    void drop(const Pinch& pinch);
+
     Session& session_;
-    std::atomic<Overlays> overlays_{Overlays{}};
     bool quitAsked_ = false;
+    mutable std::mutex mutex_;  // over all below
+    Overlays overlays_;
+    WindowPlace pointer_;
+    std::deque<Pinch> pinches_;
 };
 
 }  // namespace aquarama

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Digits and capitals of 5 x 7 dots, for what an operator reads on the wall.
+// Digits, capitals and a few signs of 5 x 7 dots, for what an operator reads on the wall.
 #pragma once
 
 #include <cstddef>

@@ -22,6 +22,25 @@ std::vector<PresentedFish> presentedFish(const StateFrame& frame,
     return fish;
 }
 
+std::vector<FoodParticle> presentedFood(const StateFrame& frame) {
+    const bool between = frame.foodBefore.size() == frame.foodAfter.size();
+    std::vector<FoodParticle> food;
+    food.reserve(frame.foodAfter.size());
+    for (std::size_t i = 0; i < frame.foodAfter.size(); ++i) {
+        const FoodRecord after = frame.foodAfter[i];
+        if (after.kind() == FoodRecord::Kind::None) continue;
+        const FoodRecord before = between ? frame.foodBefore[i] : after;
+        const bool isSame =
+            before.kind() == after.kind() && before.generation() == after.generation();
+        const glm::vec3 to = after.offsetMetres();
+        const glm::vec3 from = isSame ? before.offsetMetres() : to;
+        food.push_back({frame.foodOriginMetres + glm::mix(from, to, frame.fraction),
+                        static_cast<std::uint32_t>(4 * i + after.generation()),
+                        after.kind() == FoodRecord::Kind::Pellet});
+    }
+    return food;
+}
+
 double presentedSeconds(const StateFrame& frame) {
     const double ticks =
         static_cast<double>(frame.tick.value) - 1 + static_cast<double>(frame.fraction);

@@ -45,7 +45,7 @@ class CurrentContext {
 // The drawing thread.
 void show(Session& session,
           Context& context,
-          const Controls& controls,
+          Controls& controls,
           const NodeOptions& options,
           Admission admission) {
     const CurrentContext current(context);
@@ -72,6 +72,8 @@ void runNode(const NodeOptions& options) {
     while (drawing.wait_for(0s) != std::future_status::ready) {
         context->pumpEvents(kPatience);
         while (const std::optional<char> key = context->nextKey()) controls.press(*key);
+        while (const auto place = context->nextClick()) controls.click(*place);
+        controls.point(context->pointer());
     }
     drawing.get();
 }

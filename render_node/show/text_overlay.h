@@ -13,7 +13,7 @@ namespace aquarama {
 
 struct Label {
     glm::vec2 topLeft{};  // pixels from the picture's top left corner
-    std::string text;     // digits, capitals and spaces
+    std::string text;     // what the font has; the rest is blank
 };
 
 // The size of a text in dots, with the box around it.

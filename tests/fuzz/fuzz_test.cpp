@@ -13,6 +13,7 @@
 #include "common/motion/repertoire.h"
 #include "common/wire/envelope.h"
 #include "tests/common/wire/sample_envelopes.h"
+#include "tests/common/wire/sample_recording.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/synthetic_repertoire.h"
@@ -71,6 +72,12 @@ TEST(Fuzz, damagedRigsAreRefusedOrReadWhole) {
 TEST(Fuzz, damagedScenesAreRefusedOrReadWhole) {
     feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes"), 3000);
     feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes/routines"), 3000);
+}
+
+TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
+    std::vector<FuzzInput> seeds{inputOf(joined(sampleEntries()))};
+    for (const Packet& entry : sampleEntries()) seeds.push_back(inputOf(entry));
+    feed(fuzzRecording, seeds, 20000);
 }
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {

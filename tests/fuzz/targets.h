@@ -14,5 +14,6 @@ int fuzzSpecies(const std::uint8_t* bytes, std::size_t size);
 int fuzzRig(const std::uint8_t* bytes, std::size_t size);
 int fuzzScene(const std::uint8_t* bytes, std::size_t size);
 int fuzzWire(const std::uint8_t* bytes, std::size_t size);
+int fuzzRecording(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace aquarama

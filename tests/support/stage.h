@@ -35,15 +35,27 @@ class CountingWorld final : public Simulation {
     void records(std::vector<FishRecord>& fish) const override {
         fish.assign(3, FishRecord{.x = static_cast<std::int32_t>(tick_.value)});
     }
+    // One pellet where each was dropped, while there is room.
+    void apply(const WorldInput& input) override {
+        const auto& drop = std::get<DropFood>(input);
+        const auto room = std::ranges::find(food_, FoodRecord{});
+        if (room != food_.end())
+            *room = foodRecord(FoodRecord::Kind::Pellet, drop.position - kFoodOrigin, 0);
+    }
+    void food(FoodCloud& cloud) const override { cloud = {kFoodOrigin, food_}; }
     Eye eye() const override { return {}; }
+    float daylight() const override { return daylightAt(tick_); }
     std::uint64_t hash() const override { return hashAt(tick_); }
     Explanation explain(std::uint32_t fish) const override {
         return {fish, 3, tick_, {"at tick " + std::to_string(tick_.value)}};
     }
+    static float daylightAt(Tick tick) { return 1.0F / static_cast<float>(1 + tick.value); }
+    static constexpr glm::vec3 kFoodOrigin{1, 2, 3};
     static std::uint64_t hashAt(Tick tick) { return tick.value * 0x9E3779B97F4A7C15U + 1; }
 
   private:
     Tick tick_;
+    std::vector<FoodRecord> food_{8};
 };
 
 struct Event {

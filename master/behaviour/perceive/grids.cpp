@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/perceive/grids.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include "master/behaviour/perceive/neighbours.h"
 
 namespace aquarama {
@@ -8,44 +11,111 @@ namespace aquarama {
 namespace {
 
 constexpr float kSparseCellMetres = 2.0F;
+constexpr float kFoodCellMetres = 0.8F;
+
+// In a wide sea cells grow, so that those without anybody neither cost time nor memory.
+std::size_t mostCellsFor(std::size_t points) {
+    constexpr std::size_t kFew = 4096;
+    constexpr std::size_t kToPoint = 4;
+    return std::max(kFew, points * kToPoint);
+}
+
+// Predators and large bodies are seen from so far that a search would pass many empty cells.
+SpatialGrid farSeen(const Region& water, std::size_t points) {
+    return {water, kSparseCellMetres, points, points / 2};
+}
+
+bool isPredator(const FishView& view, std::span<const Nature> natures, std::size_t fish) {
+    return natures[view.kind[fish]].role == Role::Predator;
+}
 
 }  // namespace
 
 Grids::Grids(const Region& water, std::size_t fishCount, std::size_t foodCount)
-    : fish(water, kCellMetres, fishCount),
-      predators(water, kSparseCellMetres, fishCount),
-      large(water, kSparseCellMetres, fishCount),
-      mates(water, kSparseCellMetres, fishCount),
-      food(water, kCellMetres, foodCount) {
-    chosen_.reserve(std::max(fishCount, foodCount));
+    : fish(water, kCellMetres, fishCount, mostCellsFor(fishCount)),
+      kinds(fish),
+      predators(farSeen(water, 0)),
+      large(farSeen(water, 0)),
+      mates(water, kSparseCellMetres, fishCount, mostCellsFor(fishCount)),
+      food(water, kFoodCellMetres, foodCount, mostCellsFor(foodCount)),
+      water_(water),
+      marks_(fishCount) {
+    fish.makeRoomForSteps();
+    chosen_[kMates].reserve(fishCount);
+    chosen_[kFood].reserve(foodCount);
 }
 
-void Grids::rebuild(const FishView& view, const Food& particles, std::span<const Nature> natures) {
-    const Points fishPoints{view.x, view.y, view.z};
-    const auto choose = [&](std::size_t count, const auto& isOne) {
-        chosen_.clear();
-        for (std::uint32_t i = 0; i < count; ++i)
-            if (isOne(i)) chosen_.push_back(i);
-        return std::span<const std::uint32_t>(chosen_);
+void Grids::expect(SpatialGrid& grid, Sparse which, std::size_t count) {
+    if (count <= chosen_[which].capacity()) return;
+    chosen_[which].reserve(count);
+    grid = farSeen(water_, chosen_[which].capacity());
+}
+
+void Grids::expect(const FishView& view, std::span<const Nature> natures) {
+    std::size_t hunting = 0;
+    std::size_t big = 0;
+    for (std::size_t i = 0; i < view.size(); ++i) {
+        hunting += isPredator(view, natures, i) ? 1 : 0;
+        big += view.length[i] >= kLargeBodyMetres ? 1 : 0;
+    }
+    expect(predators, kPredators, hunting);
+    expect(large, kLarges, big);
+}
+
+void Grids::mark(const FishView& view,
+                 std::span<const Nature> natures,
+                 std::size_t first,
+                 std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        const std::uint8_t signs = view.signs[i];
+        int marks = kPresent;
+        if (isPredator(view, natures, i)) marks |= kPredator;
+        if (view.length[i] >= kLargeBodyMetres) marks |= kLarge;
+        if ((signs & kWilling) != 0) marks |= kMate;
+        marks_[i] = static_cast<std::uint8_t>((signs & kAway) != 0 ? 0 : marks);
+    }
+}
+
+// Few fish bear these marks, so eight are asked at a time.
+std::span<const std::uint32_t> Grids::marked(Sparse which, Mark mark) {
+    std::vector<std::uint32_t>& chosen = chosen_[which];
+    chosen.clear();
+    std::uint64_t eightMarks = 0;
+    std::memset(&eightMarks, mark, sizeof(eightMarks));
+    for (std::size_t first = 0; first < marks_.size(); first += sizeof(eightMarks)) {
+        const std::size_t last = std::min(marks_.size(), first + sizeof(eightMarks));
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, &marks_[first], last - first);
+        if ((eight & eightMarks) == 0) continue;
+        for (std::size_t i = first; i < last; ++i)
+            if ((marks_[i] & mark) != 0) chosen.push_back(static_cast<std::uint32_t>(i));
+    }
+    return chosen;
+}
+
+void Grids::rebuildSparse(std::size_t which, const Points& fishPoints, const Food& particles) {
+    const auto of = [&](SpatialGrid& grid, Sparse sparse, Mark mark) {
+        const std::size_t room = chosen_[sparse].capacity();
+        const std::span<const std::uint32_t> chosen = marked(sparse, mark);
+        if (chosen.size() > room) grid = farSeen(water_, chosen_[sparse].capacity());
+        grid.rebuild(fishPoints, chosen);
     };
-    const auto there = [&](std::uint32_t i) { return !view.shows(i, kAway); };
-    fish.rebuild(fishPoints, choose(view.size(), there));
-    predators.rebuild(fishPoints, choose(view.size(), [&](std::uint32_t i) {
-                          return there(i) && natures[view.kind[i]].role == Role::Predator;
-                      }));
-    large.rebuild(fishPoints, choose(view.size(), [&](std::uint32_t i) {
-                      return there(i) && view.length[i] >= kLargeBodyMetres;
-                  }));
-    mates.rebuild(fishPoints, choose(view.size(), [&](std::uint32_t i) {
-                      return there(i) && view.shows(i, kWilling);
-                  }));
-    food.rebuild({particles.x, particles.y, particles.z},
-                 choose(particles.size(), [&](std::uint32_t i) { return particles.isFree(i); }));
+    if (which == kPredators) of(predators, kPredators, kPredator);
+    if (which == kLarges) of(large, kLarges, kLarge);
+    if (which == kMates) of(mates, kMates, kMate);
+    if (which != kFood) return;
+    std::vector<std::uint32_t>& there = chosen_[kFood];
+    there.clear();
+    for (std::uint32_t i = 0; i < particles.size(); ++i)
+        if (particles.isFree(i)) there.push_back(i);
+    food.rebuild({particles.x, particles.y, particles.z}, there);
 }
 
 std::size_t Grids::bytes() const {
-    return fish.bytes() + predators.bytes() + large.bytes() + mates.bytes() + food.bytes() +
-           chosen_.capacity() * sizeof(chosen_[0]);
+    std::size_t lists = marks_.size();
+    for (const auto& chosen : chosen_) lists += chosen.capacity() * sizeof(std::uint32_t);
+    return lists + fish.bytes() + kinds.bytes() + predators.bytes() + large.bytes() +
+           mates.bytes() + food.bytes();
 }
 
 }  // namespace aquarama

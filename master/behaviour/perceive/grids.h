@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/place/place.h"
+#include "master/behaviour/perceive/kinds_about.h"
 #include "master/behaviour/perceive/spatial_grid.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/nature.h"
@@ -20,18 +21,73 @@ inline constexpr float kLargeBodyMetres = 0.6F;  // from this length a fish is a
 class Grids {
   public:
     Grids(const Region& water, std::size_t fish, std::size_t food);
-    // Of those that are there. Allocates nothing.
-    void rebuild(const FishView& view, const Food& food, std::span<const Nature> natures);
+
+    // Makes the grids of predators and of large bodies as large as they need be for these fish,
+    // of whom some may be away. rebuild() does so too where they are too small.
+    void expect(const FishView& view, std::span<const Nature> natures);
+
+    // Of those that are there. Allocates nothing once expect() was told of these fish.
+    void rebuild(const FishView& view, const Food& particles, std::span<const Nature> natures) {
+        rebuild(
+            view,
+            particles,
+            natures,
+            [](std::size_t jobs, const auto& job) {
+                for (std::size_t i = 0; i < jobs; ++i) job(i);
+            },
+            [](std::size_t, std::size_t) {});
+    }
+    // The same by share(jobs, job), which calls job(i) once for each of [0, jobs) in any order and
+    // on any thread. Before fish [first, last) are looked at, it calls look(first, last).
+    template <class Share, class Look>
+    void rebuild(const FishView& view,
+                 const Food& particles,
+                 std::span<const Nature> natures,
+                 const Share& share,
+                 const Look& look) {
+        const Points points{view.x, view.y, view.z};
+        share(fish.parts(), [&](std::size_t part) {
+            const std::size_t first = SpatialGrid::firstOfPart(part);
+            const std::size_t last = std::min(view.size(), SpatialGrid::firstOfPart(part + 1));
+            look(first, last);
+            mark(view, natures, first, last);
+            fish.count(part, points, [&](std::size_t i) { return (marks_[i] & kPresent) != 0; });
+        });
+        fish.arrange();
+        kinds.clear();
+        share(fish.parts(), [&](std::size_t part) { fish.spread(part, points); });
+        share(kSparseGrids + fish.buckets(), [&](std::size_t job) {
+            if (job < kSparseGrids) return rebuildSparse(job, points, particles);
+            const std::size_t bucket = job - kSparseGrids;
+            fish.sort(bucket);
+            kinds.note(fish, bucket, view.kind);
+        });
+    }
+
     [[nodiscard]] std::size_t bytes() const;
 
     SpatialGrid fish;
+    KindsAbout kinds;  // of the cells of `fish`
     SpatialGrid predators;
     SpatialGrid large;
     SpatialGrid mates;
     SpatialGrid food;
 
   private:
-    std::vector<std::uint32_t> chosen_;
+    enum Mark : std::uint8_t { kPresent = 1, kPredator = 2, kLarge = 4, kMate = 8 };
+    enum Sparse : std::size_t { kMates, kFood, kPredators, kLarges, kSparseGrids };
+
+    void mark(const FishView& view,
+              std::span<const Nature> natures,
+              std::size_t first,
+              std::size_t last);
+    void rebuildSparse(std::size_t which, const Points& fishPoints, const Food& particles);
+    [[nodiscard]] std::span<const std::uint32_t> marked(Sparse which, Mark mark);
+    void expect(SpatialGrid& grid, Sparse which, std::size_t count);
+
+    Region water_;
+    std::vector<std::uint8_t> marks_;  // of each fish
+    std::vector<std::uint32_t> chosen_[kSparseGrids];
 };
 
 }  // namespace aquarama

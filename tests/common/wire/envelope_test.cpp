@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/common/wire/sample_envelopes.h"
@@ -66,13 +67,44 @@ TEST(Envelope, aStateKeepsEveryBitOfEveryFish) {
     EXPECT_EQ(state.worldHash, sent.worldHash);
     EXPECT_EQ(state.eye.positionMetres, sent.eye.positionMetres);
     EXPECT_EQ(state.eye.worldFromWall, sent.eye.worldFromWall);
+    EXPECT_EQ(state.foodOriginMetres, sent.foodOriginMetres);
+    EXPECT_EQ(state.foodBefore, sent.foodBefore);
+    EXPECT_EQ(state.foodAfter, sent.foodAfter);
+    EXPECT_EQ(state.daylight, sent.daylight);
+}
+
+// An empty sea between two ticks, and a school before any food has come.
+TEST(Envelope, aStateWithoutFishOrFoodIsAState) {
+    StateFrame state = sampleState(0);
+    EXPECT_TRUE(decode(encodeState(1, state)));
+    state.foodBefore.clear();
+    state.foodAfter.clear();
+    EXPECT_TRUE(decode(encodeState(1, state)));
+}
+
+TEST(FoodRecord, keepsAParticleToATenthOfAMillimetre) {
+    for (const glm::vec3 place : {glm::vec3(0), glm::vec3(63.99F, -63.99F, 0.001F)}) {
+        const FoodRecord record = foodRecord(FoodRecord::Kind::Pellet, place, 7);
+        EXPECT_LT(glm::distance(record.offsetMetres(), place), 1e-4F);
+        EXPECT_EQ(record.kind(), FoodRecord::Kind::Pellet);
+        EXPECT_EQ(record.generation(), 3U);
+        EXPECT_TRUE(record.isPossible());
+    }
+}
+
+TEST(FoodRecord, whatIsOutOfReachIsNotThere) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const glm::vec3 place :
+         {glm::vec3(65, 0, 0), glm::vec3(0, -1e30F, 0), glm::vec3(0, 0, nan)})
+        EXPECT_EQ(foodRecord(FoodRecord::Kind::Plankton, place, 1), FoodRecord{});
+    EXPECT_EQ(foodRecord(FoodRecord::Kind::None, {1, 2, 3}, 1), FoodRecord{});
 }
 
 TEST(Envelope, aFishCostsItsRecordAndLittleMore) {
     StateFrame state = sampleState(1000);
     state.before.clear();
     state.fraction = 1.0F;
-    EXPECT_LT(encodeState(9, state).size(), 1000 * sizeof(FishRecord) + 100);
+    EXPECT_LT(encodeState(9, state).size(), 1000 * sizeof(FishRecord) + 200);
 }
 
 TEST(Envelope, noPrefixOfAnEnvelopeIsAnEnvelope) {
@@ -144,6 +176,28 @@ TEST(Envelope, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = kActions; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.before[0].fromSegment = 255; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.pop_back(); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.clear(); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[0].bits |= 3ULL << 60U; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[1].bits = 5; }));  // nothing, somewhere
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.foodOriginMetres.z = nan; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.daylight = nan; }));
+    EXPECT_TRUE(refused([](StateFrame& s) {
+        s.foodBefore.resize(kMostFood + 1);
+        s.foodAfter.resize(kMostFood + 1);
+    }));
+}
+
+// What a node sends may come from a broken one.
+TEST(Envelope, foodIsDroppedAtAPlaceOrNotAtAll) {
+    const auto accepted = [](glm::vec3 place) {
+        return decode(encode({1, Input{InputKind::DropFood, place}})).has_value();
+    };
+    EXPECT_TRUE(accepted({0, -6, -kMaxInputMetres}));
+    EXPECT_FALSE(accepted({0, -6, -2 * kMaxInputMetres}));
+    EXPECT_FALSE(accepted({std::numeric_limits<float>::quiet_NaN(), -6, 0}));
+    EXPECT_FALSE(accepted({0, std::numeric_limits<float>::infinity(), 0}));
 }
 
 // A node splits the school by the cast: both must have the same fish.

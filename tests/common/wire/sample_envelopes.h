@@ -28,6 +28,12 @@ inline std::vector<FishRecord> sampleRecords(std::uint32_t fish) {
     return records;
 }
 
+inline std::vector<FoodRecord> sampleFood() {
+    return {foodRecord(FoodRecord::Kind::Plankton, {1.5F, -2.25F, 60.0F}, 3),
+            {},
+            foodRecord(FoodRecord::Kind::Pellet, {-63.0F, 0.125F, -1.0F}, 1)};
+}
+
 inline StateFrame sampleState(std::uint32_t fish) {
     StateFrame state;
     state.frame = {1U << 20U};
@@ -37,6 +43,10 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.worldHash = 0xFEDCBA9876543210U;
     state.before = sampleRecords(fish);
     state.after = sampleRecords(fish);
+    state.foodOriginMetres = {-3.5F, -6.0F, 0.25F};
+    state.foodBefore = sampleFood();
+    state.foodAfter = sampleFood();
+    state.daylight = 0.75F;
     return state;
 }
 
@@ -81,7 +91,8 @@ inline std::vector<Envelope> sampleEnvelopes() {
                                      Farewell{},
                                      Ping{-1},
                                      Pong{-1, 77},
-                                     Input{InputKind::TogglePause},
+                                     Input{InputKind::TogglePause, {}},
+                                     Input{InputKind::DropFood, {0.5F, -6.25F, -2.5F}},
                                      StatusRequest{},
                                      reply,
                                      ExplainRequest{59},

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The master's answers, word by word, to a peer that says whatever a test wants it to say.
+#include <algorithm>
 #include <fstream>
 #include <random>
 #include <sstream>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -147,6 +149,42 @@ TEST_F(Reception, tellsAnybodyOfAMindAlsoWhileTheShowWaits) {
     EXPECT_EQ(explanation->school, 3U);
     EXPECT_EQ(explanation->lines,
               std::vector{"at tick " + std::to_string(explanation->tick.value)});
+}
+
+// What is dropped is in the world from one of the next ticks on; lockstep runs a few ahead.
+TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
+    const StageMaster master(lockstepOf({"left"}), net_.master());
+    Peer left(net_);
+    ASSERT_TRUE(left.join("left"));
+    const auto pellets = [](const StateFrame& state) {
+        return state.foodAfter.size() -
+               static_cast<std::size_t>(std::ranges::count(state.foodAfter, FoodRecord{}));
+    };
+    const auto feed = [&](glm::vec3 place) { left.say(Input{InputKind::DropFood, place}); };
+    feed({0.5F, 0, -2.5F});
+    for (int stuck = 0; stuck < 100; ++stuck) feed({0, 0, -2});
+    std::optional<StateFrame> state;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) {
+        state = left.seeState();
+        ASSERT_TRUE(state);
+        left.say(Ready{{frame}, {}});
+        ASSERT_TRUE(left.hear<Present>());
+    }
+    EXPECT_EQ(pellets(*state), 1U);
+    EXPECT_LT(glm::distance(state->foodAfter.front().offsetMetres() + state->foodOriginMetres,
+                            {0.5F, 0, -2.5F}),
+              1e-3F);
+    const std::uint64_t refused = status().refusedPackets;
+    std::this_thread::sleep_for(milliseconds(250));
+    feed({0, 100, 0});
+    for (std::uint64_t frame = 20; frame < 40; ++frame) {
+        state = left.seeState();
+        ASSERT_TRUE(state);
+        left.say(Ready{{frame}, {}});
+        ASSERT_TRUE(left.hear<Present>());
+    }
+    EXPECT_EQ(pellets(*state), 1U);
+    EXPECT_EQ(status().refusedPackets, refused + 2);  // and the farewell of who asked before
 }
 
 TEST_F(Reception, aSecondNodeOfANameWaitsUntilTheFirstIsSilent) {

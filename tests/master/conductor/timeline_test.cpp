@@ -15,7 +15,9 @@ Snapshot at(std::uint64_t tick, Instant due) {
             due,
             tick * 10,
             {glm::vec3(static_cast<float>(tick), 0, 0), {1, 0, 0, 0}},
-            {FishRecord{.x = static_cast<std::int32_t>(tick)}}};
+            1.0F / static_cast<float>(1 + tick),
+            {FishRecord{.x = static_cast<std::int32_t>(tick)}},
+            {{7, 8, 9}, {{tick}}}};
 }
 
 Timeline ticks(std::uint64_t first, std::uint64_t last) {
@@ -40,6 +42,10 @@ TEST(Timeline, lockstepShowsTheTickItself) {
     EXPECT_EQ(state->fraction, 1.0F);
     EXPECT_TRUE(state->before.empty());
     EXPECT_EQ(state->after.at(0).x, 3);
+    EXPECT_EQ(state->foodOriginMetres, glm::vec3(7, 8, 9));
+    EXPECT_TRUE(state->foodBefore.empty());
+    EXPECT_EQ(state->foodAfter.at(0).bits, 3U);
+    EXPECT_EQ(state->daylight, 0.25F);
     EXPECT_EQ(state->worldHash, 30U);
     EXPECT_FALSE(ticks(0, 5).showing({9}, Tick{6}));
 }
@@ -52,6 +58,9 @@ TEST(Timeline, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
     EXPECT_EQ(state->before.at(0).x, 2);
     EXPECT_EQ(state->after.at(0).x, 3);
     EXPECT_NEAR(state->eye.positionMetres.x, 2.25F, 1e-5F);
+    EXPECT_EQ(state->foodBefore.at(0).bits, 2U);
+    EXPECT_EQ(state->foodAfter.at(0).bits, 3U);
+    EXPECT_NEAR(state->daylight, 0.75F / 3 + 0.25F / 4, 1e-6F);
 }
 
 TEST(Timeline, aTicksOwnMomentShowsItAlone) {

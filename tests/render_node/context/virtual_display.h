@@ -45,6 +45,14 @@ class VirtualDisplay {
         if (std::system(command.c_str()) != 0) std::fputs("xdotool failed\n", stderr);
     }
 
+    // Moves the mouse to a place of the display, and presses a button there where one is given.
+    static void point(glm::ivec2 place, const std::string& button = "") {
+        const std::string command = "xdotool mousemove --sync " + std::to_string(place.x) + " " +
+                                    std::to_string(place.y) +
+                                    (button.empty() ? "" : " click " + button);
+        if (std::system(command.c_str()) != 0) std::fputs("xdotool failed\n", stderr);
+    }
+
     // Red, green and blue of every pixel of the display, top row first.
     static std::vector<std::uint8_t> screenshot() {
         const std::vector<std::uint8_t> dump = outputOf("xwd -root -silent");

@@ -92,6 +92,28 @@ TEST_F(WindowTest, deliversKeysInOrder) {
     EXPECT_EQ(pressed, wanted);
 }
 
+TEST_F(WindowTest, saysWhereTheMouseClicksAndPoints) {
+    const glm::ivec2 place(120, 60);
+    const auto context = makeWindowContext(windowAt(place), "Aquarama mouse", {320, 200});
+    std::thread hand([&] {
+        VirtualDisplay::point(place + glm::ivec2(30, 40), "1");
+        VirtualDisplay::point(place + glm::ivec2(50, 60), "3");  // the other button is not ours
+        VirtualDisplay::point(place - glm::ivec2(10, 10), "1");  // beside the window
+        VirtualDisplay::point(place + glm::ivec2(319, 199), "1");
+    });
+    std::vector<glm::vec2> clicks;
+    for (int wait = 0; wait < 1000 && clicks.size() < 2; ++wait) {
+        context->pumpEvents(10ms);
+        while (const auto click = context->nextClick()) clicks.push_back(*click);
+    }
+    hand.join();
+    EXPECT_EQ(clicks, (std::vector<glm::vec2>{{30, 40}, {319, 199}}));
+    EXPECT_EQ(context->pointer(), glm::vec2(319, 199));
+    VirtualDisplay::point(place - glm::ivec2(10, 10));
+    for (int wait = 0; wait < 500 && context->pointer(); ++wait) context->pumpEvents(10ms);
+    EXPECT_FALSE(context->pointer());
+}
+
 TEST_F(WindowTest, goesFullscreenAndBack) {
     const auto context = makeWindowContext(windowAt({50, 50}), "Aquarama full", {200, 100});
     const auto pressUntil = [&](glm::ivec2 size) {

@@ -49,10 +49,20 @@ View viewTowards(float azimuthDegrees) {
     return view;
 }
 
-Shot shoot(SceneRenderer& scene, double timeSeconds, float azimuthDegrees) {
+struct Water {
+    std::vector<FoodParticle> food;
+    float daylight = 1.0F;
+};
+
+Shot shoot(SceneRenderer& scene,
+           double timeSeconds,
+           float azimuthDegrees,
+           const Water& water = {}) {
     SceneFrame frame;
     frame.timeSeconds = timeSeconds;
     frame.eyePositionMetres = kEyePosition;
+    frame.food = water.food;
+    frame.daylight = water.daylight;
     const unsigned texture = scene.draw(frame, viewTowards(azimuthDegrees));
     Shot shot;
     shot.pixels.resize(static_cast<std::size_t>(kSize.x) * static_cast<std::size_t>(kSize.y));
@@ -130,6 +140,73 @@ TEST_F(Place, cullingHidesNothingThatIsSeen) {
     options.culling = false;
     const auto all = fresh(options);
     EXPECT_EQ(shoot(*all, 5.0, 40.0F).pixels, shoot(*scene(), 5.0, 40.0F).pixels);
+}
+
+double meanOf(const Shot& shot, int channel) {
+    double sum = 0;
+    for (const glm::vec3& pixel : shot.pixels) sum += static_cast<double>(pixel[channel]);
+    return sum / static_cast<double>(shot.pixels.size());
+}
+
+// The day goes down to a blue dusk, never to a dark wall.
+TEST_F(Place, getsDarkerAndBluerTowardsTheNight) {
+    const Shot noon = shoot(*scene(), 5.0, 0.0F);
+    double light = meanOf(noon, 1);
+    double blueness = meanOf(noon, 2) / meanOf(noon, 1);
+    for (const float daylight : {0.8F, 0.5F, 0.2F}) {
+        const Shot later = shoot(*scene(), 5.0, 0.0F, {{}, daylight});
+        EXPECT_LT(meanOf(later, 1), light) << daylight;
+        EXPECT_GT(meanOf(later, 2) / meanOf(later, 1), blueness) << daylight;
+        light = meanOf(later, 1);
+        blueness = meanOf(later, 2) / meanOf(later, 1);
+    }
+    EXPECT_GT(light, 0.005);
+    EXPECT_EQ(shoot(*scene(), 5.0, 0.0F).pixels, noon.pixels);
+}
+
+std::vector<FoodParticle> foodAt(glm::vec3 fromEye, bool isPellet) {
+    return {{kEyePosition + fromEye, 77, isPellet}};
+}
+
+// How much redder than without, summed over a square about a pixel.
+double addedRed(const Shot& with, const Shot& without, glm::ivec2 pixel) {
+    double sum = 0;
+    for (int y = pixel.y - 6; y <= pixel.y + 6; ++y)
+        for (int x = pixel.x - 6; x <= pixel.x + 6; ++x)
+            sum += static_cast<double>(with.at(x, y).r) - static_cast<double>(without.at(x, y).r);
+    return sum;
+}
+
+TEST_F(Place, aPelletIsAWarmCrumbInItsPlaceAndNowhereElse) {
+    const Shot without = shoot(*scene(), 5.0, 0.0F);
+    const Shot with = shoot(*scene(), 5.0, 0.0F, {foodAt({0, 0, -3}, true), 1});
+    EXPECT_GT(addedRed(with, without, kSize / 2), 0.3);
+    int elsewhere = 0;
+    for (int y = 0; y < kSize.y; ++y)
+        for (int x = 0; x < kSize.x; ++x) {
+            const bool isThere = std::abs(x - kSize.x / 2) <= 6 && std::abs(y - kSize.y / 2) <= 6;
+            elsewhere += !isThere && with.at(x, y) != without.at(x, y) ? 1 : 0;
+        }
+    EXPECT_EQ(elsewhere, 0);
+}
+
+TEST_F(Place, planktonIsFainterThanAPellet) {
+    const Shot without = shoot(*scene(), 5.0, 0.0F);
+    const auto red = [&](bool isPellet) {
+        const Shot with = shoot(*scene(), 5.0, 0.0F, {foodAt({0, 0, -3}, isPellet), 1});
+        return addedRed(with, without, kSize / 2);
+    };
+    EXPECT_GT(red(false), 0.002);
+    EXPECT_LT(red(false), 0.5 * red(true));
+}
+
+// What is behind the eye, too far away or hidden by the sand is not seen.
+TEST_F(Place, foodThatCannotBeSeenChangesNothing) {
+    const Shot without = shoot(*scene(), 5.0, 0.0F);
+    for (const glm::vec3 place : {glm::vec3(0, 0, 3), glm::vec3(0, 0, -30), glm::vec3(0, -5, -6)})
+        for (const bool isPellet : {true, false})
+            EXPECT_EQ(shoot(*scene(), 5.0, 0.0F, {foodAt(place, isPellet), 1}).pixels,
+                      without.pixels);
 }
 
 // The pixel in which a view shows a direction; empty outside the picture.

@@ -360,6 +360,30 @@ TEST_F(SessionTest, passesOnWhatItsKeysSay) {
     EXPECT_EQ(master_.hear<Input>()->kind, InputKind::Quit);
 }
 
+TEST_F(SessionTest, passesOnWhereFoodIsDropped) {
+    becomeMember(Pace::Live, {0});
+    session_->dropFood({1, -6, -2.5F});
+    const auto input = master_.hear<Input>();
+    ASSERT_TRUE(input);
+    EXPECT_EQ(input->kind, InputKind::DropFood);
+    EXPECT_EQ(input->positionMetres, glm::vec3(1, -6, -2.5F));
+}
+
+TEST_F(SessionTest, asksForAMindAndKeepsTheLatestAnswer) {
+    becomeMember(Pace::Live, {0});
+    EXPECT_FALSE(session_->latestMind());
+    session_->askMind(7);
+    EXPECT_EQ(master_.hear<ExplainRequest>()->fish, 7U);
+    master_.say(Explanation{7, 60, {12}, {"hungry"}});
+    master_.say(Explanation{7, 60, {27}, {"sated"}});
+    const auto isLatest = [&] {
+        const auto mind = session_->latestMind();
+        return mind && mind->tick == Tick{27};
+    };
+    while (!isLatest()) std::this_thread::yield();  // the suite's budget would stop it
+    EXPECT_EQ(session_->latestMind()->lines, std::vector<std::string>{"sated"});
+}
+
 TEST_F(SessionTest, noiseOnBothChannelsChangesNothing) {
     becomeMember(Pace::Lockstep, {0});
     std::mt19937 random(9);

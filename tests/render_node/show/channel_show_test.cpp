@@ -38,7 +38,7 @@ class ChannelShowTest : public testing::Test {
         return chosen;
     }
     void show(FakeSession& session, const NodeOptions& chosen, Pattern pattern = Pattern::Grey) {
-        const Controls controls(session);
+        Controls controls(session);
         ChannelShow(session, context_, controls, chosen).run(admissionTo(pattern));
     }
     [[nodiscard]] std::vector<std::string> traceLines() const {

@@ -42,19 +42,44 @@ TEST_F(ControlsTest, eachOverlayIsSwitchedByItsKeyAndBack) {
     const auto shown = [&] {
         const Overlays o = controls_.overlays();
         return std::string() + (o.warpGrid ? 'w' : '-') + (o.blendMask ? 'b' : '-') +
-               (o.fishIds ? 'i' : '-') + (o.help ? 'h' : '-');
+               (o.fishIds ? 'i' : '-') + (o.mind ? 'e' : '-') + (o.help ? 'h' : '-');
     };
-    EXPECT_EQ(shown(), "----");
-    std::string expected = "----";
-    for (std::size_t i = 0; i < 4; ++i) {
-        const char key = "wbih"[i];
+    EXPECT_EQ(shown(), "-----");
+    std::string expected = "-----";
+    for (std::size_t i = 0; i < 5; ++i) {
+        const char key = "wbieh"[i];
         controls_.press(key);
         expected[i] = key;
         EXPECT_EQ(shown(), expected);
     }
-    for (const char key : {'w', 'b', 'i', 'h'}) controls_.press(key);
-    EXPECT_EQ(shown(), "----");
+    for (const char key : {'w', 'b', 'i', 'e', 'h'}) controls_.press(key);
+    EXPECT_EQ(shown(), "-----");
     EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(ControlsTest, foodIsDroppedBeforeTheMiddleOrWhereTheMouseIsClicked) {
+    EXPECT_FALSE(controls_.nextPinch());
+    controls_.press('d');
+    controls_.click({12, 34});
+    ASSERT_EQ(controls_.nextPinch()->place, std::nullopt);
+    EXPECT_EQ(controls_.nextPinch()->place, glm::vec2(12, 34));
+    EXPECT_FALSE(controls_.nextPinch());
+}
+
+TEST_F(ControlsTest, pinchesThatNoFrameTakesAreFew) {
+    for (int i = 0; i < 1000; ++i) controls_.press('d');
+    int waiting = 0;
+    while (controls_.nextPinch()) ++waiting;
+    EXPECT_LE(waiting, 16);
+    EXPECT_GE(waiting, 1);
+}
+
+TEST_F(ControlsTest, knowsWhereTheMousePoints) {
+    EXPECT_EQ(controls_.pointer(), std::nullopt);
+    controls_.point(glm::vec2(5, 6));
+    EXPECT_EQ(controls_.pointer(), glm::vec2(5, 6));
+    controls_.point(std::nullopt);
+    EXPECT_EQ(controls_.pointer(), std::nullopt);
 }
 
 TEST(KeyHelp, isWrittenInLettersThatTheFontHas) {
@@ -63,8 +88,8 @@ TEST(KeyHelp, isWrittenInLettersThatTheFontHas) {
             EXPECT_TRUE(character == ' ' || glyphOf(character) != 0) << character;
 }
 
-TEST(Font, everyDigitAndCapitalHasAShapeOfItsOwn) {
-    const std::string all = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+TEST(Font, everyCharacterHasAShapeOfItsOwn) {
+    const std::string all = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ.,:;-+/%()<>=[]_*'";
     for (const char a : all) {
         EXPECT_NE(glyphOf(a), 0U) << a;
         EXPECT_LT(glyphOf(a), GlyphBits{1} << (kGlyphColumns * kGlyphRows)) << a;

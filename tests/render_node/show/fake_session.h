@@ -51,9 +51,14 @@ class FakeSession : public Session {
     void send(NodeInput input) override {
         events_.emplace_back(input == NodeInput::Quit ? "send quit" : "send pause");
     }
+    void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
+    void askMind(std::uint32_t fish) override { events_.push_back("ask " + std::to_string(fish)); }
+    [[nodiscard]] std::optional<Explanation> latestMind() const override { return mind_; }
     void stop() override { events_.emplace_back("stop"); }
 
     std::optional<Admission> rejoin_;
+    std::vector<glm::vec3> drops_;
+    std::optional<Explanation> mind_;
 
   private:
     Events& events_;
@@ -75,6 +80,8 @@ class CountingContext : public Context {
     [[nodiscard]] std::string description() const override { return context_->description(); }
     void pumpEvents(std::chrono::milliseconds) override {}
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
+    [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
+    [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
 
   private:
     Events& events_;

@@ -47,6 +47,38 @@ TEST(Presented, recordsBeyondTheSchoolAreLeftOut) {
     EXPECT_EQ(presentedFish(halfWay(), std::span(kTwo).first(1)).size(), 1U);
 }
 
+FoodRecord pelletAt(glm::vec3 place, unsigned generation) {
+    return foodRecord(FoodRecord::Kind::Pellet, place, generation);
+}
+
+TEST(Presented, foodIsBetweenTheTicks) {
+    StateFrame frame = halfWay();
+    frame.foodOriginMetres = {0, -6, 0};
+    frame.foodBefore = {{}, pelletAt({0, 1, 0}, 2)};
+    frame.foodAfter = {{}, pelletAt({0, 2, 0}, 2)};
+    const auto food = presentedFood(frame);
+    ASSERT_EQ(food.size(), 1U);
+    EXPECT_NEAR(glm::distance(food[0].positionMetres, {0, -4.5F, 0}), 0, 1e-4);
+    EXPECT_TRUE(food[0].isPellet);
+    frame.foodBefore.clear();
+    frame.fraction = 1.0F;
+    EXPECT_NEAR(glm::distance(presentedFood(frame)[0].positionMetres, {0, -4, 0}), 0, 1e-4);
+}
+
+// One is eaten here, another comes there in its place: nothing flies through the water.
+TEST(Presented, aParticleNeverGlidesToTheOneThatTakesItsPlace) {
+    StateFrame frame = halfWay();
+    frame.foodBefore = {pelletAt({0, 1, 0}, 1), pelletAt({5, 0, 0}, 1), {}};
+    frame.foodAfter = {
+        pelletAt({9, 9, 9}, 2), {}, foodRecord(FoodRecord::Kind::Plankton, {3, 0, 0}, 0)};
+    const auto food = presentedFood(frame);
+    ASSERT_EQ(food.size(), 2U);
+    EXPECT_EQ(food[0].positionMetres, glm::vec3(9, 9, 9));
+    EXPECT_EQ(food[1].positionMetres, glm::vec3(3, 0, 0));
+    EXPECT_FALSE(food[1].isPellet);
+    EXPECT_NE(food[0].seed, food[1].seed);
+}
+
 TEST(Presented, theClockRunsWithTheTicks) {
     EXPECT_DOUBLE_EQ(presentedSeconds(halfWay()), 60.5 / 60);
     StateFrame first;

@@ -2,80 +2,188 @@
 #include "master/behaviour/perceive/neighbours.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/place/angle.h"
-#include "master/behaviour/perceive/spatial_grid.h"
+#include "master/behaviour/perceive/grids.h"
 #include "tests/master/behaviour/scattered_school.h"
+#include "tests/master/world/instruction_sets.h"
 
 namespace aquarama {
 namespace {
 
 using Seen = std::pair<float, std::uint32_t>;  // squared distance, fish
 
-void rebuild(SpatialGrid& grid, const FishView& view) {
-    std::vector<std::uint32_t> all(view.size());
-    std::iota(all.begin(), all.end(), 0U);
-    grid.rebuild({view.x, view.y, view.z}, all);
+// A school of three kinds: most of the first, the rest by halves.
+struct School {
+    FishView view;
+    std::vector<Nature> natures;
+    Region water;
+
+    School(FishView fish, const Region& region) : view(std::move(fish)), water(region) {
+        const auto size = static_cast<std::uint32_t>(view.size());
+        const std::array<std::uint32_t, 4> borders{0, size - size / 4, size - size / 8, size};
+        for (std::uint8_t kind = 0; kind < 3; ++kind) {
+            Nature nature;
+            nature.kind = kind;
+            nature.first = borders[kind];
+            nature.last = borders[kind + 1U];
+            natures.push_back(nature);
+            std::fill(&view.kind[0] + nature.first, &view.kind[0] + nature.last, kind);
+        }
+    }
+    School(std::uint32_t seed, std::size_t fish, const Region& region)
+        : School(scatteredSchool(seed, fish, region), region) {}
+
+    [[nodiscard]] const Nature& natureOf(std::size_t fish) const {
+        return natures[view.kind[fish]];
+    }
+    [[nodiscard]] Grids grids() const {
+        Grids grids(water, view.size(), 0);
+        grids.rebuild(view, {}, natures);
+        return grids;
+    }
+};
+
+std::vector<Seen> seenOf(const Neighbours& found) {
+    std::vector<Seen> seen;
+    for (std::size_t i = 0; i < found.count; ++i)
+        seen.emplace_back(found.distanceSquared[i], found.fish[i]);
+    return seen;
 }
 
-std::vector<Seen> nearestByBruteForce(const FishView& view, std::uint32_t fish) {
+std::vector<Seen> nearestByBruteForce(const School& school, std::uint32_t fish, bool ownKind) {
+    const FishView& view = school.view;
     std::vector<Seen> seen;
     for (std::uint32_t other = 0; other < view.size(); ++other) {
         const glm::vec3 offset = view.position(other) - view.position(fish);
         const float distanceSquared = dot(offset, offset);
-        if (other != fish && distanceSquared <= kSightMetres * kSightMetres &&
+        if (other != fish && (view.kind[other] == view.kind[fish]) == ownKind &&
+            !view.shows(other, kAway) && distanceSquared <= kSightMetres * kSightMetres &&
             inFieldOfView(view.heading(fish), offset))
             seen.emplace_back(distanceSquared, other);
     }
-    std::sort(seen.begin(), seen.end());
-    if (seen.size() > kMostNeighbours) seen.resize(kMostNeighbours);
+    const std::size_t kept = std::min(seen.size(), kMostNeighbours);
+    std::partial_sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(kept), seen.end());
+    seen.resize(kept);
     return seen;
 }
 
-void expectSearchEqualsBruteForce(const FishView& view, const Region& water) {
-    SpatialGrid grid(water, kCellMetres, view.size());
-    rebuild(grid, view);
-    for (std::uint32_t fish = 0; fish < view.size(); ++fish) {
-        const Neighbours found = nearestVisible(view, grid, fish);
-        std::vector<Seen> seen;
-        for (std::size_t i = 0; i < found.count; ++i)
-            seen.emplace_back(found.distanceSquared[i], found.fish[i]);
-        ASSERT_EQ(seen, nearestByBruteForce(view, fish)) << "fish " << fish;
+// Of every step-th fish, by the vectors of the chosen instruction set.
+void expectVectorsEqualBruteForce(const School& school, std::uint32_t step = 1) {
+    const Grids grids = school.grids();
+    for (std::uint32_t fish = 0; fish < school.view.size(); fish += step) {
+        const NearestFish found = nearestVisible(school.view, grids, school.natureOf(fish), fish);
+        ASSERT_EQ(seenOf(found.schoolmates), nearestByBruteForce(school, fish, true))
+            << "fish " << fish;
+        ASSERT_EQ(seenOf(found.others), nearestByBruteForce(school, fish, false))
+            << "fish " << fish;
     }
 }
 
-TEST(Neighbours, theGridFindsWhatBruteForceFinds) {
-    const Region water{{1, -6, -5}, {3, 1.5F, 2}};
-    for (const std::size_t fish : {1U, 2U, 51U, 700U, 3000U}) {
+void expectVectorsEqualPlainCode(const School& school) {
+    const Grids grids = school.grids();
+    for (std::uint32_t fish = 0; fish < school.view.size(); ++fish) {
+        const Nature& nature = school.natureOf(fish);
+        const NearestFish vectors = nearestVisible(school.view, grids, nature, fish);
+        const NearestFish plain = nearestVisibleReference(school.view, grids.fish, nature, fish);
+        ASSERT_EQ(seenOf(vectors.schoolmates), seenOf(plain.schoolmates)) << "fish " << fish;
+        ASSERT_EQ(seenOf(vectors.others), seenOf(plain.others)) << "fish " << fish;
+    }
+}
+
+const Region kWater{{1, -6, -5}, {3, 1.5F, 2}};
+
+TEST(Neighbours, theSearchFindsWhatBruteForceFinds) {
+    for (const std::size_t fish : {1U, 2U, 9U, 51U, 700U, 3000U}) {
         SCOPED_TRACE(fish);
-        expectSearchEqualsBruteForce(scatteredSchool(7, fish, water), water);
+        expectVectorsEqualBruteForce(School(7, fish, kWater));
     }
 }
 
-TEST(Neighbours, theGridFindsFishThatStrayedOutOfTheWater) {
-    const Region water{{1, -6, -5}, {3, 1.5F, 2}};
-    const Region wider{water.centre, water.halfExtent * 1.6F};
-    expectSearchEqualsBruteForce(scatteredSchool(8, 900, wider), water);
+TEST(Neighbours, theSearchFindsThemInABaitBall) {
+    const Region ball{kWater.centre, glm::vec3{0.35F}};  // some 14 000 fish a cubic metre
+    expectVectorsEqualBruteForce(School(scatteredSchool(3, 4800, ball), kWater), 7);
+}
+
+TEST(Neighbours, theSearchFindsFishThatStrayedOutOfTheWater) {
+    const Region wider{kWater.centre, kWater.halfExtent * 1.6F};
+    expectVectorsEqualBruteForce(School(scatteredSchool(8, 900, wider), kWater));
+    const Region far{kWater.centre, kWater.halfExtent * 20.0F};
+    expectVectorsEqualBruteForce(School(scatteredSchool(8, 900, far), kWater));
+}
+
+TEST(Neighbours, theSearchPassesOverFishThatAreAway) {
+    School school(11, 800, kWater);
+    for (std::size_t fish = 0; fish < 800; fish += 3) school.view.signs[fish] = kAway;
+    expectVectorsEqualBruteForce(school);
+}
+
+TEST(Neighbours, withoutFishTheGridIsMadeAllTheSame) {
+    EXPECT_EQ(School(1, 0, kWater).grids().fish.size(), 0U);
+}
+
+TEST(Neighbours, everyInstructionSetFindsWhatPlainCodeFinds) {
+    const Region ball{kWater.centre, glm::vec3{0.5F}};
+    const std::array schools{School(5, 1500, kWater),
+                             School(scatteredSchool(6, 1500, ball), kWater)};
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        SCOPED_TRACE(hwy::TargetName(target));
+        useOnly(target);
+        for (const School& school : schools) expectVectorsEqualPlainCode(school);
+    }
+    useOnly(0);
+}
+
+// How many fish are looked at together is said by the code that looks, as it was compiled.
+TEST(Neighbours, theSearchUsesTheProcessorsVectors) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        SCOPED_TRACE(hwy::TargetName(target));
+        useOnly(target);
+        const bool isPlain = target == HWY_SCALAR || target == HWY_EMU128;
+        const bool isWide = target <= HWY_AVX3 && target >= HWY_AVX3_DL;
+        const std::size_t lanes = isPlain ? 1 : isWide ? 16 : target == HWY_AVX2 ? 8 : 4;
+        EXPECT_EQ(nearestVisibleLanes(), lanes);
+    }
+    useOnly(0);
+    EXPECT_GE(nearestVisibleLanes(), 4U) << "what is used where nothing is forbidden";
 }
 
 TEST(Neighbours, ofEquallyNearFishTheLowerIndexComesFirst) {
-    const Region water{{0, 0, 0}, {2, 2, 2}};
-    FishView view = scatteredSchool(9, 12, water);
+    FishView view = scatteredSchool(9, 12, kWater);
     for (std::size_t i = 0; i < 12; ++i) {
         view.x[i] = i == 5 ? 0.0F : 0.5F;  // eleven at one point, ahead of fish 5
-        view.y[i] = view.z[i] = 0;
+        view.y[i] = -6;
+        view.z[i] = -5;
         view.headingX[i] = 1;
         view.headingY[i] = view.headingZ[i] = 0;
     }
-    SpatialGrid grid(water, kCellMetres, view.size());
-    rebuild(grid, view);
-    const Neighbours found = nearestVisible(view, grid, 5);
-    EXPECT_EQ(found.fish, (std::array<std::uint32_t, kMostNeighbours>{0, 1, 2, 3, 4, 6, 7}));
+    School school(view, kWater);
+    school.natures[0].last = 12;
+    std::fill(school.view.kind.begin(), school.view.kind.end(), std::uint8_t{0});
+    const NearestFish found = nearestVisible(school.view, school.grids(), school.natures[0], 5);
+    EXPECT_EQ(found.schoolmates.fish,
+              (std::array<std::uint32_t, kMostNeighbours>{0, 1, 2, 3, 4, 6, 7}));
+    expectVectorsEqualBruteForce(school);
+}
+
+TEST(Neighbours, allFishAtOnePointFindTheLowestIndices) {
+    const Region point{kWater.centre, {0, 0, 0}};
+    expectVectorsEqualBruteForce(School(scatteredSchool(4, 1000, point), kWater), 11);
+}
+
+TEST(Neighbours, equalDistancesOnALatticeAreSettledByIndex) {
+    FishView view = scatteredSchool(4, 1000, kWater);
+    for (std::size_t i = 0; i < 1000; ++i) {
+        view.x[i] = kWater.centre.x + 0.25F * static_cast<float>(i % 10);
+        view.y[i] = kWater.centre.y + 0.25F * static_cast<float>(i / 10 % 10) - 1;
+        view.z[i] = kWater.centre.z + 0.25F * static_cast<float>(i / 100) - 1;
+    }
+    expectVectorsEqualBruteForce(School(view, kWater));
 }
 
 TEST(Neighbours, aFishIsBlindThirtyDegreesAboutStraightBehind) {

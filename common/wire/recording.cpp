@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/wire/recording.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include "common/units/error.h"
+#include "common/wire/recording.pb.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::string_view kMagic = "AQREC";
+// Of a header behind its length: the tag and the length of the entry's field, then of the magic's.
+constexpr std::size_t kMostBytesBeforeMagic = 16;
+constexpr std::size_t kMaxLengthBytes = 5;
+constexpr std::size_t kMaxEntryBytes = kMaxBlobBytes + kMaxSpeciesBytes + 4096;
+constexpr std::size_t kMaxSmallEntryBytes = 256;             // of inputs and hashes
+constexpr std::uint64_t kMaxTick = std::uint64_t{1} << 32U;  // two years
+constexpr float kMaxMetres = 10'000;
+constexpr std::uint32_t kMaxPellets = 65'535;
+
+Packet delimited(const v1::RecordingEntry& entry) {
+    const std::size_t size = entry.ByteSizeLong();
+    Packet bytes;
+    for (std::size_t rest = size;; rest >>= 7U) {
+        const bool more = rest > 0x7F;
+        bytes.push_back(static_cast<std::byte>((rest & 0x7FU) | (more ? 0x80U : 0U)));
+        if (!more) break;
+    }
+    const std::size_t start = bytes.size();
+    bytes.resize(start + size);
+    entry.SerializeToArray(bytes.data() + start, static_cast<int>(size));
+    return bytes;
+}
+
+void append(Packet& bytes, const Packet& more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+void write(const ProducedSpecies& species, v1::RecordedSpecies& message) {
+    // The folders of one machine mean nothing on another.
+    message.set_file(std::filesystem::path(species.file).filename().string());
+    message.set_text(species.text);
+    message.set_repertoire(species.repertoire.data(), species.repertoire.size());
+    message.set_fish(species.fish);
+}
+
+void write(const RecordedFood& food, v1::RecordedInput& message) {
+    auto& written = *message.mutable_food();
+    written.set_x(food.position.x);
+    written.set_y(food.position.y);
+    written.set_z(food.position.z);
+    written.set_pellets(food.pellets);
+}
+
+void write(const RecordedSubmarine& submarine, v1::RecordedInput& message) {
+    auto& written = *message.mutable_submarine();
+    written.set_x(submarine.position.x);
+    written.set_y(submarine.position.y);
+    written.set_z(submarine.position.z);
+    written.set_velocity_x(submarine.velocityMetresPerSecond.x);
+    written.set_velocity_y(submarine.velocityMetresPerSecond.y);
+    written.set_velocity_z(submarine.velocityMetresPerSecond.z);
+}
+
+void write(const RecordedHash& hash, v1::RecordedHash& message) {
+    message.set_tick(hash.tick.value);
+    message.set_hash(hash.hash);
+}
+
+// Reads a recording entry by entry; every message says at which byte the file is wrong.
+class Reader {
+  public:
+    Reader(std::span<const std::byte> bytes, std::string source)
+        : bytes_(bytes), source_(std::move(source)) {}
+
+    Recording read() {
+        readHeader();
+        while (recording_.production.cast.size() < speciesCount_) readSpecies();
+        while (!recording_.end && nextEntry()) readEvent();
+        if (recording_.end && at_ != bytes_.size()) fail("goes on behind its end");
+        return std::move(recording_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw Error(source_ + ": byte " + std::to_string(start_) + ": the recording " + what +
+                    "; take another copy of it");
+    }
+
+    // The length of the next entry; false where the file ends before or within it.
+    bool nextLength(std::size_t& length) {
+        length = 0;
+        for (std::size_t i = 0; i < kMaxLengthBytes && at_ + i < bytes_.size(); ++i) {
+            const auto byte = std::to_integer<std::size_t>(bytes_[at_ + i]);
+            length |= (byte & 0x7FU) << (7 * i);
+            if (byte > 0x7F) continue;
+            at_ += i + 1;
+            return true;
+        }
+        if (bytes_.size() - at_ >= kMaxLengthBytes) fail("is damaged");
+        return false;
+    }
+
+    // False: the file ends here, perhaps in the middle of an entry.
+    bool nextEntry() {
+        start_ = at_;
+        std::size_t length = 0;
+        if (!nextLength(length) || length > bytes_.size() - at_) {
+            if (length > kMaxEntryBytes) fail("is damaged");
+            recording_.bytesLeftOver = bytes_.size() - start_;
+            return false;
+        }
+        if (length > kMaxEntryBytes ||
+            !entry_.ParseFromArray(bytes_.data() + at_, static_cast<int>(length)))
+            fail("is damaged");
+        at_ += length;
+        entryBytes_ = length;
+        return true;
+    }
+
+    void readHeader() {
+        if (!isRecording(bytes_)) throw Error(source_ + ": is not a recording of a show");
+        if (!nextEntry() || !entry_.has_header()) fail("ends within its first entry");
+        const v1::RecordingHeader& header = entry_.header();
+        if (header.version() != kRecordingVersion)
+            throw Error(source_ + ": is a recording of version " +
+                        std::to_string(header.version()) + ", written by " +
+                        printed(header.build()) + "; this program reads version " +
+                        std::to_string(kRecordingVersion) + ": use the program that wrote it");
+        if (!header.has_protocol() || !header.has_seed() || !header.has_scene() ||
+            header.scene().size() > kMaxSceneBytes || header.species_count() > kMaxSpecies)
+            fail("has a damaged header");
+        recording_.protocol = header.protocol();
+        recording_.build = printed(header.build());
+        recording_.production.seed = header.seed();
+        recording_.production.sceneFile = source_ + ": its scene";
+        recording_.production.scene = header.scene();
+        speciesCount_ = header.species_count();
+    }
+
+    void readSpecies() {
+        if (!nextEntry()) fail("ends before it has all its species");
+        const v1::RecordedSpecies& species = entry_.species();
+        if (!entry_.has_species() || !species.has_fish() || species.fish() > kMaxFish - fish_ ||
+            species.text().size() > kMaxSpeciesBytes || species.repertoire().size() > kMaxBlobBytes)
+            fail("has a damaged species");
+        fish_ += species.fish();
+        const auto* first = reinterpret_cast<const std::byte*>(species.repertoire().data());
+        recording_.production.cast.push_back({source_ + ": its " + printed(species.file()),
+                                              species.text(),
+                                              {first, first + species.repertoire().size()},
+                                              species.fish()});
+    }
+
+    void readEvent() {
+        if (entryBytes_ > kMaxSmallEntryBytes) fail("is damaged");
+        switch (entry_.entry_case()) {
+            case v1::RecordingEntry::kInput:
+                recording_.inputs.push_back(inputIn(entry_.input()));
+                return;
+            case v1::RecordingEntry::kCheckpoint:
+                recording_.checkpoints.push_back(hashIn(entry_.checkpoint()));
+                return;
+            case v1::RecordingEntry::kEnd:
+                recording_.end = hashIn(entry_.end());
+                return;
+            default:
+                fail("has an entry that cannot be there");
+        }
+    }
+
+    // Time never goes back.
+    Tick tickIn(bool has, std::uint64_t tick) {
+        if (!has || tick < lastTick_ || tick > kMaxTick) fail("has a tick that cannot be");
+        lastTick_ = tick;
+        return {tick};
+    }
+
+    RecordedHash hashIn(const v1::RecordedHash& message) {
+        if (!message.has_hash()) fail("has a damaged checkpoint");
+        return {tickIn(message.has_tick(), message.tick()), message.hash()};
+    }
+
+    glm::vec3 vectorIn(const std::array<float, 3>& numbers) const {
+        // A number that is none is not below the bound.
+        if (!std::ranges::all_of(numbers, [](float n) { return std::abs(n) <= kMaxMetres; }))
+            fail("has an input from nowhere");
+        return {numbers[0], numbers[1], numbers[2]};
+    }
+
+    RecordedInput inputIn(const v1::RecordedInput& message) {
+        RecordedInput input{tickIn(message.has_tick(), message.tick()), {}};
+        if (message.has_food()) {
+            const v1::RecordedFood& food = message.food();
+            if (food.pellets() > kMaxPellets) fail("has an input that cannot be");
+            input.input = RecordedFood{vectorIn({food.x(), food.y(), food.z()}), food.pellets()};
+        } else if (message.has_submarine()) {
+            const v1::RecordedSubmarine& moved = message.submarine();
+            input.input = RecordedSubmarine{
+                vectorIn({moved.x(), moved.y(), moved.z()}),
+                vectorIn({moved.velocity_x(), moved.velocity_y(), moved.velocity_z()})};
+        } else {
+            fail("has an input that this program does not know");
+        }
+        return input;
+    }
+
+    // Names of files and builds are shown in terminals.
+    static std::string printed(std::string text) {
+        text.resize(std::min(text.size(), kMaxNameBytes));
+        std::ranges::replace_if(
+            text, [](char c) { return c < ' ' || c > '~'; }, '?');
+        return text;
+    }
+
+    std::span<const std::byte> bytes_;
+    std::string source_;
+    std::size_t at_ = 0, start_ = 0, entryBytes_ = 0;
+    v1::RecordingEntry entry_;
+    std::size_t speciesCount_ = 0;
+    std::size_t fish_ = 0;
+    std::uint64_t lastTick_ = 0;
+    Recording recording_;
+};
+
+}  // namespace
+
+Tick Recording::lastTick() const {
+    if (end) return end->tick;
+    Tick last = checkpoints.empty() ? Tick{} : checkpoints.back().tick;
+    if (!inputs.empty()) last = std::max(last, inputs.back().tick);
+    return last;
+}
+
+Packet beginningOf(const Production& production) {
+    v1::RecordingEntry entry;
+    v1::RecordingHeader& header = *entry.mutable_header();
+    header.set_magic(std::string(kMagic));
+    header.set_version(kRecordingVersion);
+    header.set_protocol(kProtocolMajor);
+    header.set_build(AQUARAMA_VERSION);
+    header.set_seed(production.seed);
+    header.set_scene(production.scene);
+    header.set_species_count(static_cast<std::uint32_t>(production.cast.size()));
+    Packet bytes = delimited(entry);
+    for (const ProducedSpecies& species : production.cast) {
+        write(species, *entry.mutable_species());
+        append(bytes, delimited(entry));
+    }
+    return bytes;
+}
+
+Packet entryOf(const RecordedInput& input) {
+    v1::RecordingEntry entry;
+    entry.mutable_input()->set_tick(input.tick.value);
+    std::visit([&](const auto& what) { write(what, *entry.mutable_input()); }, input.input);
+    return delimited(entry);
+}
+
+Packet entryOf(const RecordedHash& checkpoint) {
+    v1::RecordingEntry entry;
+    write(checkpoint, *entry.mutable_checkpoint());
+    return delimited(entry);
+}
+
+Packet endOf(const RecordedHash& end) {
+    v1::RecordingEntry entry;
+    write(end, *entry.mutable_end());
+    return delimited(entry);
+}
+
+bool isRecording(std::span<const std::byte> firstBytes) {
+    const auto head =
+        firstBytes.first(std::min(firstBytes.size(), kMostBytesBeforeMagic + kMagic.size()));
+    return std::string_view(reinterpret_cast<const char*>(head.data()), head.size()).find(kMagic) !=
+           std::string_view::npos;
+}
+
+Recording decodeRecording(std::span<const std::byte> bytes, const std::string& source) {
+    return Reader(bytes, source).read();
+}
+
+Recording readRecording(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::error_code problem;
+    const std::uintmax_t size = std::filesystem::file_size(path, problem);
+    if (!file || problem) throw Error(path + ": cannot be read; is there such a recording?");
+    if (size > kMaxRecordingBytes) throw Error(path + ": is too large for a recording");
+    Packet bytes(size);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return decodeRecording(bytes, path);
+}
+
+std::vector<std::string> doubtsAbout(const Recording& recording) {
+    std::vector<std::string> doubts;
+    if (recording.build != AQUARAMA_VERSION)
+        doubts.push_back("it was written by " + recording.build + " and this is " +
+                         AQUARAMA_VERSION + ": fish may decide otherwise");
+    if (recording.protocol != kProtocolMajor)
+        doubts.push_back("it was written for protocol " + std::to_string(recording.protocol) +
+                         " and this is " + std::to_string(kProtocolMajor));
+    if (!recording.end)
+        doubts.push_back(
+            "it was cut short after tick " + std::to_string(recording.lastTick().value) + ", " +
+            std::to_string(recording.bytesLeftOver) + " bytes of an unfinished entry are left out");
+    return doubts;
+}
+
+}  // namespace aquarama

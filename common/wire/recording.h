@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// A show in a file: all that it was made of, so that it plays on any machine, all that reached it
+// from outside, and hashes of its world by which a replay knows that it is the same
+// (recording.proto).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "common/units/ids.h"
+#include "common/wire/envelope.h"
+
+namespace aquarama {
+
+inline constexpr std::uint32_t kRecordingVersion = 1;
+// Nothing larger is read or written.
+inline constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMaxSpeciesBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMaxRecordingBytes = std::size_t{1} << 30U;
+
+// One species of a show: its file, the repertoire that moves it, and how many there are.
+struct ProducedSpecies {
+    std::string file;  // for messages: in which file the text is
+    std::string text;
+    std::vector<std::byte> repertoire;
+    std::uint32_t fish = 0;
+};
+
+// All that a show is made of, as bytes: the same production is the same world on any machine.
+struct Production {
+    std::uint32_t seed = 1;
+    std::string sceneFile;              // for messages
+    std::string scene;                  // the text
+    std::vector<ProducedSpecies> cast;  // as the scene's, the school first
+};
+
+struct RecordedFood {
+    glm::vec3 position{};  // metres, world frame
+    std::uint32_t pellets = 0;
+};
+struct RecordedSubmarine {
+    glm::vec3 position{};
+    glm::vec3 velocityMetresPerSecond{};
+};
+// Reached the world after `tick` and before the next.
+struct RecordedInput {
+    Tick tick;
+    std::variant<RecordedFood, RecordedSubmarine> input;
+};
+
+// Of the world at the tick, before any input that reaches it then.
+struct RecordedHash {
+    Tick tick;
+    std::uint64_t hash = 0;
+    friend bool operator==(const RecordedHash&, const RecordedHash&) = default;
+};
+
+struct Recording {
+    std::uint32_t protocol = kProtocolMajor;
+    std::string build;
+    Production production;
+    std::vector<RecordedInput> inputs;      // in the order in which they came
+    std::vector<RecordedHash> checkpoints;  // in the order of ticks
+    std::optional<RecordedHash> end;        // without: the recording was cut short
+    std::size_t bytesLeftOver = 0;          // of an entry that was being written then
+
+    [[nodiscard]] Tick lastTick() const;  // up to which anything is known
+};
+
+// The file, piece by piece: first beginningOf(), at last endOf().
+[[nodiscard]] Packet beginningOf(const Production& production);
+[[nodiscard]] Packet entryOf(const RecordedInput& input);
+[[nodiscard]] Packet entryOf(const RecordedHash& checkpoint);
+[[nodiscard]] Packet endOf(const RecordedHash& end);
+
+// By its first bytes.
+[[nodiscard]] bool isRecording(std::span<const std::byte> firstBytes);
+
+// Throws Error where it is no recording, of another version, or damaged. One that stops in the
+// middle of an entry is read up to there. Takes no more memory than a small multiple of its size.
+[[nodiscard]] Recording decodeRecording(std::span<const std::byte> bytes,
+                                        const std::string& source);
+[[nodiscard]] Recording readRecording(const std::string& path);
+
+// What may keep a replay from being the same, a line each; none where all agrees.
+[[nodiscard]] std::vector<std::string> doubtsAbout(const Recording& recording);
+
+}  // namespace aquarama

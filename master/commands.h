@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the master's program does beside a show, one function a subcommand: each adds its options to
+// the command line and what it does to `job`, which returns the exit status.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace aquarama {
+
+using Job = std::function<int()>;
+
+void addStatus(CLI::App& app, Job& job);
+void addExplain(CLI::App& app, Job& job);
+void addReplay(CLI::App& app, Job& job);   // compares a recording with its replay
+void addInspect(CLI::App& app, Job& job);  // what a recording holds
+
+}  // namespace aquarama

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A look into one mind: what the fish senses, feels, intends and does at this tick, and why it does
+// nothing else. Looking changes nothing: the stages of a thought run once more on the world as it
+// is, and what they give is thrown away.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/motion/repertoire.h"
+#include "common/units/ids.h"
+#include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/perceive/senses.h"
+#include "master/fish/courses.h"
+#include "master/fish/minds.h"
+#include "master/fish/nature.h"
+#include "master/world/world.h"
+
+namespace aquarama {
+
+struct Insight {
+    std::uint32_t fish = 0;
+    Tick tick;
+    Nature nature;
+    float lengthMetres = 0;
+    bool away = false;  // eaten, or not yet come: it thinks nothing
+    Mind mind;          // as its last thought left it
+    Senses senses;
+    Feelings feelings;
+    Reasoning reasoning;  // of a thought now; the mind may not have come to it yet
+    Course course;        // that it asks its motor for
+    Action segment = Action::ForwardMedium;  // that is playing
+    float phase = 0;                         // of it, 0 to 1
+    float swims = 0;                         // body lengths a second
+};
+
+// Empty where the world has no such fish.
+[[nodiscard]] std::optional<Insight> insightInto(const World& world, std::uint32_t fish);
+
+}  // namespace aquarama

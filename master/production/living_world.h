@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The world as the conductor knows it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "master/conductor/simulation.h"
+#include "master/world/world.h"
+
+namespace aquarama {
+
+class LivingWorld : public Simulation {
+  public:
+    explicit LivingWorld(const WorldOptions& options);
+    void advance() override { world_.advance(); }
+    void apply(const WorldInput& input) override { world_.apply(input); }
+    [[nodiscard]] Tick tick() const override { return world_.tick(); }
+    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
+    void food(FoodCloud& cloud) const override;
+    [[nodiscard]] Eye eye() const override;
+    [[nodiscard]] float daylight() const override { return world_.surroundings().daylight; }
+    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
+    [[nodiscard]] Explanation explain(std::uint32_t fish) const override;
+
+    [[nodiscard]] const World& world() const { return world_; }
+
+  private:
+    World world_;
+    std::vector<std::string> species_;  // their names, in the order of the cast
+};
+
+}  // namespace aquarama

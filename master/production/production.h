@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// From files to a world: what a show is made of is read once, as bytes, and the same bytes make the
+// world of the show, of its replay and of a study.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/wire/recording.h"
+#include "master/world/world.h"
+
+namespace aquarama {
+
+struct ProductionChoice {
+    std::uint32_t seed = 1;
+    std::optional<std::uint32_t> fish;  // of the first species, instead of the scene's number
+};
+
+// Reads the scene and the files of its cast; a species that was never shown on this machine is
+// captured, behind a bar of progress. Throws Error with file:line:column.
+[[nodiscard]] Production readProduction(const std::string& scenePath,
+                                        const ProductionChoice& choice);
+
+// Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.
+[[nodiscard]] WorldOptions worldOptionsOf(const Production& production);
+
+}  // namespace aquarama

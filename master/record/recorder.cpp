@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/record/recorder.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "common/units/error.h"
+#include "master/record/inputs.h"
+
+namespace aquarama {
+
+namespace {
+
+bool wrote(std::ofstream& file, const Packet& bytes) {
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    return static_cast<bool>(file.flush());
+}
+
+std::string reason() {
+    return std::system_category().message(errno);
+}
+
+}  // namespace
+
+RecordingFile::RecordingFile(std::string path, const Production& production)
+    : path_(std::move(path)) {
+    if (std::filesystem::exists(path_))
+        throw Error(path_ +
+                    ": is there already; a recording never overwrites a file: name another");
+    file_.open(path_, std::ios::binary);
+    if (!file_ || !wrote(file_, beginningOf(production)))
+        throw Error(path_ + ": cannot be written: " + reason());
+}
+
+void RecordingFile::add(const Packet& entry) {
+    if (!file_.is_open() || wrote(file_, entry)) return;
+    spdlog::error("{}: the show is recorded no further: {}", path_, reason());
+    file_.close();
+}
+
+RecordedWorld::RecordedWorld(Simulation& world, RecordingFile& file) : world_(world), file_(file) {
+    file_.add(entryOf(now()));
+}
+
+RecordedWorld::~RecordedWorld() {
+    file_.add(endOf(now()));
+}
+
+void RecordedWorld::advance() {
+    for (const WorldInput& input : std::exchange(pending_, {})) {
+        file_.add(entryOf(recorded(world_.tick(), input)));
+        world_.apply(input);
+    }
+    world_.advance();
+    if (world_.tick().value % kTicksBetweenCheckpoints == 0) file_.add(entryOf(now()));
+}
+
+}  // namespace aquarama

@@ -1,0 +1,4 @@
+layout(location = 0) in vec3 light;
+layout(location = 1) in float coverage;
+layout(location = 0) out vec4 radiance;
+void main() { radiance = vec4(light, coverage); }

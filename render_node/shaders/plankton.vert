@@ -1,0 +1,28 @@
+// Plankton: small clear bodies that catch the light as they turn.
+#include "water.glsl"
+#include "food_particle.glsl"
+layout(location = 0) uniform int first;
+layout(location = 0) out vec3 light;
+const float kFarMetres = 8.0;  // as in food_specks.cpp
+const vec3 kTint = vec3(1.0, 0.96, 0.78);
+void main() {
+    Speck speck = specks[first + gl_VertexID];
+    vec3 way = speck.place - eyeAndTime.xyz;
+    float range = length(way);
+    float diameter = mix(0.0030, 0.0065, unit(speck.seed, 3u));
+    float sharp = diameter / range * pixelsARadian();
+    float size = sqrt(sharp * sharp + 1.4);
+    // A flat side turns through the sun's direction once in a while.
+    float turn = eyeAndTime.w * mix(0.5, 1.3, unit(speck.seed, 4u)) + 6.2832 * unit(speck.seed, 5u);
+    vec3 side = axisOf(speck.seed);
+    side = vec3(side.x * cos(turn) - side.z * sin(turn), side.y, side.x * sin(turn) + side.z * cos(turn));
+    float glint = pow(abs(dot(side, normalize(sunAndFilterDepth.xyz - way / range))), 24.0);
+    float phase = 1.1 * lobe(dot(way / range, sunAndFilterDepth.xyz), 0.7) + 0.16;
+    float lit = daylight.x * unscatteredShare(-speck.place.y) * caustic(speck.place, 1.0) * (phase + 0.9 * glint);
+    float fade = smoothstep(0.25, 0.6, range) * smoothstep(kFarMetres, 0.6 * kFarMetres, range);
+    vec3 outgoing = kTint * ((lit + 0.35 * phase * daylight.z) / kPi);
+    light = direct(outgoing, range, max(-speck.place.y, 0.1)) *
+            (0.8 * fade * sharp * sharp / (size * size));
+    gl_Position = clipFromWorld * vec4(speck.place, 1.0);
+    gl_PointSize = min(2.0 * size, 0.02 * viewport.y);
+}

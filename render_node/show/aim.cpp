@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/aim.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "common/wall/wall.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr float kArmMetres = 2.5F;          // of the submarine's, so that it is well in view
+constexpr float kLeastDepthMetres = 0.25F;  // food is dropped into water, not into the air
+
+}  // namespace
+
+std::optional<glm::vec3> Aim::directionOf(glm::vec2 pixel, const Eye& eye) const {
+    const auto point = screenPoint(screen_, channel_, glm::dvec2(pixel));
+    if (!point) return std::nullopt;
+    return eye.worldFromWall * glm::vec3(glm::normalize(*point));
+}
+
+std::optional<glm::vec3> Aim::pinchAt(glm::vec2 pixel, const Eye& eye) const {
+    const auto direction = directionOf(pixel, eye);
+    if (!direction) return std::nullopt;
+    glm::vec3 place = eye.positionMetres + *direction * kArmMetres;
+    place.y = std::min(place.y, -kLeastDepthMetres);
+    return place;
+}
+
+}  // namespace aquarama

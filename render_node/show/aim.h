@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where in the world a visitor points who points at a pixel of a channel.
+#pragma once
+
+#include <optional>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/config/rig.h"
+#include "common/wire/messages.h"
+
+namespace aquarama {
+
+class Aim {
+  public:
+    Aim(const Rig& rig, std::size_t channel)
+        : screen_{rig.screen}, channel_{rig.channels.at(channel)} {}
+
+    // Unit vector in the world, from the eye through the point of the screen that the pixel
+    // (continuous, from the picture's top left corner) lights; nothing where it misses the screen.
+    [[nodiscard]] std::optional<glm::vec3> directionOf(glm::vec2 pixel, const Eye& eye) const;
+    // Where food falls that is dropped there: an arm's length before the submarine, under water.
+    // World frame, metres.
+    [[nodiscard]] std::optional<glm::vec3> pinchAt(glm::vec2 pixel, const Eye& eye) const;
+    [[nodiscard]] glm::vec2 middle() const { return glm::vec2(channel_.sizePixels) * 0.5F; }
+
+  private:
+    Screen screen_;
+    Channel channel_;
+};
+
+}  // namespace aquarama

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/show/mind_labels.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include <glm/common.hpp>
+
+namespace aquarama {
+
+namespace {
+
+constexpr float kWidestShare = 0.55F;  // of the picture
+constexpr std::string_view kIndent = "  ";
+
+std::string inCapitals(std::string_view text) {
+    std::string capitals(text);
+    std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) {
+        return static_cast<char>(std::toupper(c));
+    });
+    return capitals;
+}
+
+// As much of a line as fits, up to the end of a word where there is one.
+std::size_t fitting(std::string_view line, std::size_t columns) {
+    if (line.size() <= columns) return line.size();
+    const std::size_t space = line.rfind(' ', columns);
+    const bool breaks = space != std::string_view::npos && space > kIndent.size();
+    return breaks ? space : columns;
+}
+
+std::vector<std::string> wrapped(const std::vector<std::string>& lines, std::size_t columns) {
+    std::vector<std::string> rows;
+    for (const std::string& line : lines) {
+        std::string rest = inCapitals(line);
+        std::size_t size = fitting(rest, columns);
+        rows.push_back(rest.substr(0, size));
+        while (size < rest.size()) {
+            const std::size_t next = rest.find_first_not_of(' ', size);
+            if (next == std::string::npos) break;
+            rest = std::string(kIndent) + rest.substr(next);
+            size = fitting(rest, columns);
+            rows.push_back(rest.substr(0, size));
+        }
+    }
+    return rows;
+}
+
+void pad(std::vector<std::string>& rows) {
+    std::size_t widest = 0;
+    for (const std::string& row : rows) widest = std::max(widest, row.size());
+    for (std::string& row : rows) row.resize(widest, ' ');
+}
+
+}  // namespace
+
+std::vector<Label> mindLabels(const FishPlace& fish,
+                              const WatchedMind& mind,
+                              glm::ivec2 pictureSize,
+                              float dotPixels) {
+    const glm::vec2 size(pictureSize);
+    const glm::vec2 cell = (extentInDots("A") - extentInDots("")) * glm::vec2(1, 0) +
+                           extentInDots("") * glm::vec2(0, 1);
+    const glm::vec2 glyph = cell * dotPixels;
+    const glm::vec2 bracket = extentInDots("[") * dotPixels;
+    const glm::vec2 reach(fish.halfLengthPixels + bracket.x / 2, 0);
+    std::vector<Label> labels{{fish.middle - reach - bracket / 2.0F, "["},
+                              {fish.middle + reach - bracket / 2.0F, "]"}};
+
+    // At least a few columns and rows, however small the picture.
+    const float columns = std::max(size.x * kWidestShare / glyph.x, 8.0F);
+    const float mostRows = std::max(size.y / glyph.y, 1.0F);
+    std::vector<std::string> rows = wrapped(mind.lines, static_cast<std::size_t>(columns));
+    rows.resize(std::min(rows.size(), static_cast<std::size_t>(mostRows)));
+    if (rows.empty()) return labels;
+    pad(rows);
+
+    const glm::vec2 box(extentInDots(rows.front()).x * dotPixels,
+                        glyph.y * static_cast<float>(rows.size()));
+    const float aside = reach.x + bracket.x;
+    const bool toTheRight = fish.middle.x < size.x / 2;
+    const glm::vec2 wished(toTheRight ? fish.middle.x + aside : fish.middle.x - aside - box.x,
+                           fish.middle.y - box.y / 2);
+    glm::vec2 corner = glm::clamp(wished, glm::vec2(0), glm::max(size - box, glm::vec2(0)));
+    for (std::string& row : rows) {
+        labels.push_back({corner, std::move(row)});
+        corner.y += glyph.y;
+    }
+    return labels;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/wire/recording.h"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/units/error.h"
+#include "tests/common/wire/sample_recording.h"
+#include "tests/support/count_memory.h"
+
+namespace aquarama {
+namespace {
+
+using testing::HasSubstr;
+
+// Why it is refused; empty where it is read.
+std::string refusalOf(const Packet& file) {
+    try {
+        static_cast<void>(decodeRecording(file, "show.aqrec"));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(RecordingFormat, everyEntryComesBack) {
+    const Recording recording = decodeRecording(joined(sampleEntries()), "show.aqrec");
+    EXPECT_EQ(recording.protocol, kProtocolMajor);
+    EXPECT_EQ(recording.production.seed, 4000000000U);
+    EXPECT_EQ(recording.production.scene, sampleProduction().scene);
+    ASSERT_EQ(recording.production.cast.size(), 2U);
+    EXPECT_EQ(recording.production.cast[0].text, sampleProduction().cast[0].text);
+    EXPECT_EQ(recording.production.cast[0].repertoire, sampleProduction().cast[0].repertoire);
+    EXPECT_EQ(recording.production.cast[0].fish, 51U);
+    ASSERT_EQ(recording.inputs.size(), 2U);
+    EXPECT_EQ(recording.inputs[0].tick, Tick{17});
+    const auto& food = std::get<RecordedFood>(recording.inputs[0].input);
+    EXPECT_EQ(food.position, glm::vec3(1.5F, -2.0F, 30.25F));
+    EXPECT_EQ(food.pellets, 12U);
+    const auto& moved = std::get<RecordedSubmarine>(recording.inputs[1].input);
+    EXPECT_EQ(moved.position, glm::vec3(0, -6, 0));
+    EXPECT_EQ(moved.velocityMetresPerSecond, glm::vec3(0.5F, 0, -0.25F));
+    const std::vector<RecordedHash> checkpoints{{{0}, 0xFEDCBA9876543210U}, {{600}, 1}};
+    EXPECT_EQ(recording.checkpoints, checkpoints);
+    ASSERT_TRUE(recording.end);
+    EXPECT_EQ(recording.lastTick(), recording.end->tick);
+    EXPECT_TRUE(doubtsAbout(recording).empty());
+}
+
+TEST(RecordingFormat, errorsNameTheFileOfASpeciesButNotItsFolder) {
+    const Recording recording = decodeRecording(joined(sampleEntries()), "show.aqrec");
+    EXPECT_EQ(recording.production.cast[0].file, "show.aqrec: its scad.txtpb");
+}
+
+// Whatever ended the program that wrote it.
+TEST(RecordingFormat, aFileThatStopsAnywhereIsReadUpToItsLastWholeEntry) {
+    const std::vector<Packet> entries = sampleEntries();
+    const Packet whole = joined(entries);
+    const std::size_t beginning = entries.front().size();
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        const Packet part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+        if (size < beginning) {
+            EXPECT_NE(refusalOf(part), "") << size;
+            continue;
+        }
+        const Recording recording = decodeRecording(part, "show.aqrec");
+        EXPECT_FALSE(recording.end);
+        EXPECT_THAT(doubtsAbout(recording), testing::ElementsAre(HasSubstr("cut short")));
+        std::size_t entriesThere = 0, bytes = 0;
+        while (bytes + entries[entriesThere].size() <= size)
+            bytes += entries[entriesThere++].size();
+        EXPECT_EQ(recording.inputs.size() + recording.checkpoints.size(), entriesThere - 1);
+        EXPECT_EQ(recording.bytesLeftOver, size - bytes);
+    }
+}
+
+TEST(RecordingFormat, isKnownByItsFirstBytes) {
+    EXPECT_TRUE(isRecording(sampleEntries().front()));
+    EXPECT_FALSE(isRecording({}));
+    EXPECT_FALSE(isRecording(std::as_bytes(std::span{std::string_view("AQREP\1 a repertoire")})));
+    EXPECT_THAT(refusalOf(Packet(100)), HasSubstr("is not a recording"));
+}
+
+TEST(RecordingFormat, anotherVersionIsNamed) {
+    Packet file = joined(sampleEntries());
+    const std::byte versionTag{0x10};
+    const auto version = std::ranges::find(file, versionTag) + 1;
+    ASSERT_EQ(*version, std::byte{kRecordingVersion});
+    *version = std::byte{kRecordingVersion + 1};
+    EXPECT_THAT(refusalOf(file), HasSubstr("of version 2"));
+    EXPECT_THAT(refusalOf(file), HasSubstr("reads version 1"));
+}
+
+TEST(RecordingFormat, anotherProtocolOrBuildIsADoubt) {
+    Recording recording = decodeRecording(joined(sampleEntries()), "show.aqrec");
+    recording.protocol = kProtocolMajor + 1;
+    recording.build = "9.9.9";
+    EXPECT_THAT(doubtsAbout(recording),
+                testing::ElementsAre(HasSubstr("9.9.9"), HasSubstr("protocol 2")));
+}
+
+TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
+    const auto refusal = [](const Packet& entry) {
+        std::vector<Packet> entries = sampleEntries();
+        entries.insert(entries.end() - 1, entry);
+        return refusalOf(joined(entries));
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THAT(refusal(entryOf(RecordedHash{{599}, 0})), HasSubstr("tick"));
+    EXPECT_THAT(refusal(entryOf(RecordedHash{{std::uint64_t{1} << 40U}, 0})), HasSubstr("tick"));
+    EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedFood{{nan, 0, 0}, 1}})),
+                HasSubstr("from nowhere"));
+    EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedFood{{0, 1e9F, 0}, 1}})),
+                HasSubstr("from nowhere"));
+    EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedFood{{}, 1U << 30U}})),
+                HasSubstr("input"));
+    EXPECT_THAT(refusal(beginningOf(sampleProduction())), HasSubstr("cannot be there"));
+    EXPECT_THAT(refusal(Packet{std::byte{0}}), HasSubstr("byte"));
+    EXPECT_THAT(refusal(Packet(5, std::byte{0xFF})), HasSubstr("damaged"));
+    EXPECT_THAT(refusal(endOf({{700}, 0})), HasSubstr("behind its end"));
+}
+
+TEST(RecordingFormat, moreFishThanAWorldHoldsAreRefused) {
+    Production production = sampleProduction();
+    production.cast[1].fish = kMaxFish - 50;
+    EXPECT_THAT(refusalOf(beginningOf(production)), HasSubstr("damaged species"));
+}
+
+// A length that promises more than there is takes no memory.
+TEST(RecordingFormat, alteredBytesNeitherCrashNorCostMemory) {
+    const Packet whole = joined(sampleEntries());
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        for (const unsigned bit : {1U, 0x10U, 0x80U, 0xFFU}) {
+            Packet altered = whole;
+            altered[at] ^= static_cast<std::byte>(bit);
+            const std::size_t before = bytesTaken;
+            static_cast<void>(refusalOf(altered));
+            ASSERT_LT(bytesTaken - before, 64 * whole.size() + 4096) << at;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recording with something to lose in each entry.
+#pragma once
+
+#include <vector>
+
+#include "common/wire/recording.h"
+
+namespace aquarama {
+
+inline Production sampleProduction() {
+    const std::vector<std::byte> repertoire(300, std::byte{0x5A});
+    return {4000000000U,
+            "scene.txtpb",
+            "name: \"reef\"\n",
+            {{"config/species/scad.txtpb", "name: \"scad\"", repertoire, 51},
+             {"tang.txtpb", "", {}, 0}}};
+}
+
+// Its entries one by one, the header and the species first.
+inline std::vector<Packet> sampleEntries() {
+    return {beginningOf(sampleProduction()),
+            entryOf(RecordedHash{{0}, 0xFEDCBA9876543210U}),
+            entryOf(RecordedInput{{17}, RecordedFood{{1.5F, -2.0F, 30.25F}, 12}}),
+            entryOf(RecordedInput{{17}, RecordedSubmarine{{0, -6, 0}, {0.5F, 0, -0.25F}}}),
+            entryOf(RecordedHash{{600}, 1}),
+            endOf({{(std::uint64_t{1} << 31U) + 7}, 2})};
+}
+
+inline Packet joined(const std::vector<Packet>& entries) {
+    Packet file;
+    for (const Packet& entry : entries) file.insert(file.end(), entry.begin(), entry.end());
+    return file;
+}
+
+}  // namespace aquarama
