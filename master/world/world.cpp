@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/motion/headings.h"
 #include "common/place/angle.h"
 #include "common/units/error.h"
 #include "common/units/folded_hash.h"
@@ -153,19 +154,23 @@ void World::rebuildGrids() {
 
 // What all see of fish [first, last).
 void World::look(const Kind& kind, std::size_t first, std::size_t last) {
+    if (first >= last) return;
+    meanHeadings(*kind.tables,
+                 states_,
+                 first,
+                 last,
+                 {view_.headingX.data(), view_.headingY.data(), view_.headingZ.data()});
     for (std::size_t fish = first; fish < last; ++fish) {
-        const glm::vec3 position = bodyFrameOf(states_, fish).position;
-        const glm::vec3 heading = meanRotation(*kind.tables, states_, fish) * glm::vec3{1, 0, 0};
-        view_.x[fish] = position.x;
-        view_.y[fish] = position.y;
-        view_.z[fish] = position.z;
-        view_.headingX[fish] = heading.x;
-        view_.headingY[fish] = heading.y;
-        view_.headingZ[fish] = heading.z;
+        view_.x[fish] = static_cast<float>(states_.x[fish]) * kPositionUnitMetres;
+        view_.y[fish] = static_cast<float>(states_.y[fish]) * kPositionUnitMetres;
+        view_.z[fish] = static_cast<float>(states_.z[fish]) * kPositionUnitMetres;
         view_.length[fish] = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
-        view_.speed[fish] = speedBodyLengths(states_, fish) * view_.length[fish];
-        showMood(natures_[view_.kind[fish]], minds_, static_cast<std::uint32_t>(fish), view_);
+        view_.speed[fish] =
+            static_cast<float>(states_.speed[fish]) / kSpeedUnitsPerBodyLength * view_.length[fish];
     }
+    const Nature& nature = natures_[view_.kind[first]];
+    for (std::size_t fish = first; fish < last; ++fish)
+        showMood(nature, minds_, static_cast<std::uint32_t>(fish), view_);
 }
 
 Environment World::environment() const {
