@@ -96,7 +96,7 @@ struct Watch {
         const Box body = scaled(kBody, senses.length);
         // Most are too far off for any part of theirs to come so near so soon.
         const float reach = body.behind + body.aside + kTailBehind * view.length[other];
-        const float comes = kSoon[std::size(kSoon) - 1] * (senses.speed + view.speed[other]);
+        const float comes = kSoon[std::size(kSoon) - 1] * lengthOf(drift);
         if (dot(offset, offset) > (reach + comes) * (reach + comes)) return;
         const glm::vec3 local = axes.of(offset);
         const glm::vec3 localDrift = axes.of(drift);
