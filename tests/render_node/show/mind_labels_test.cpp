@@ -25,7 +25,7 @@ TEST(MindLabels, bracketsStandAboutTheFish) {
 
 TEST(MindLabels, theBoxIsOnTheSideWithMoreRoomAndInsideThePicture) {
     const std::vector<std::string> lines{"hunger 0.70", "eats pellet 12"};
-    for (const float x : {0.0F, 100.0F, 239.0F, 241.0F, 400.0F, 479.0F})
+    for (const float x : {0.0F, 100.0F, 200.0F, 280.0F, 400.0F, 479.0F})
         for (const float y : {0.0F, 180.0F, 359.0F}) {
             const auto labels = labelsAt({x, y}, lines);
             ASSERT_EQ(labels.size(), 4U);
