@@ -10,7 +10,7 @@
 
 namespace aquarama {
 
-class LivingWorld final : public Simulation {
+class LivingWorld : public Simulation {
   public:
     explicit LivingWorld(const WorldOptions& options);
     void advance() override { world_.advance(); }

@@ -2,6 +2,7 @@
 #include "master/production/production.h"
 
 #include <algorithm>
+#include <string>
 #include <thread>
 
 #include "common/config/cast.h"
@@ -59,7 +60,8 @@ Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
     CastMember& school = scene.cast.front();
     school.fish = choice.fish.value_or(school.fish);
     if (school.fish == 0 && scene.place != PlaceKind::OpenSea)
-        throw Error(path + ": a reef's school needs a fish; take an OPEN_SEA for none");
+        throw Error(placed(
+            path, school.place, "0 fish: only an open sea may be without; take another --scene"));
     return scene;
 }
 
@@ -83,7 +85,9 @@ WorldOptions worldOptionsOf(const Production& production) {
     options.seed = production.seed;
     options.scene = parseScene(production.scene, production.sceneFile);
     if (options.scene.cast.size() != production.cast.size())
-        throw Error(production.sceneFile + ": its cast is not the one that came with it");
+        throw Error(production.sceneFile + ": its cast has " +
+                    std::to_string(options.scene.cast.size()) + " members, and there are " +
+                    std::to_string(production.cast.size()) + " species with it");
     for (std::size_t i = 0; i < production.cast.size(); ++i)
         options.cast.push_back(worldSpeciesOf(production.cast[i], options.scene.cast[i].start));
     options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,

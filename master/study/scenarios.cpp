@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "common/config/species.h"
-#include "master/staging/staging.h"
+#include "master/production/production.h"
 
 namespace aquarama {
 
@@ -15,21 +15,19 @@ namespace {
 constexpr std::uint64_t kTicksBetweenPinches = 30 * kTicksPerSecond;
 
 // The greatest of the body.
-float halfWidthOf(const StagedSpecies& staged) {
-    const std::string text(reinterpret_cast<const char*>(staged.speciesBlob.data()),
-                           staged.speciesBlob.size());
-    return std::ranges::max(parseSpecies(text, staged.species.name).profile.halfWidth);
+float halfWidthOf(const ProducedSpecies& species) {
+    return std::ranges::max(parseSpecies(species.text, species.file).profile.halfWidth);
 }
 
 }  // namespace
 
 Scenario readScenario(const std::filesystem::path& scene) {
-    const Staging staging = stageScene(scene.string(), {});
+    const Production production = readProduction(scene.string(), {});
     Scenario scenario;
-    scenario.world = worldOptionsOf(staging, 1);
+    scenario.world = worldOptionsOf(production);
     scenario.name = scenario.world.scene.name;
-    for (const StagedSpecies& staged : staging.cast)
-        scenario.halfWidths.push_back(halfWidthOf(staged));
+    for (const ProducedSpecies& species : production.cast)
+        scenario.halfWidths.push_back(halfWidthOf(species));
     return scenario;
 }
 

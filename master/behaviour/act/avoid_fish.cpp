@@ -74,8 +74,7 @@ Course avoidFish(const Situation& situation, const Mind& mind) {
         situation.nature.role == Role::Prey && (mind.likes & kLikesSchooling) != 0;
     if (schooling && view.kind[threat.object] == situation.nature.kind)
         return leanAway(situation, aside);
-    const glm::vec3 wish =
-        senses.heading + aside * kTurnAway + roomFrom(view, senses, situation.fish);
+    const glm::vec3 wish = senses.heading + aside * kTurnAway + roomFrom(situation);
     return heading(situation, wish, speedPast(situation));
 }
 

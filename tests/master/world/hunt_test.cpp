@@ -31,7 +31,7 @@ bool isHunting(const World& world) {
 TEST(Hunt, SometimesCatchesAndNotAlways) {
     int chases = 0;
     std::uint64_t catches = 0;
-    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
         World world(seaOfTheHunt(seed));
         bool hunted = false;
         for (int i = 0; i < 5 * 3600; ++i) {
@@ -48,7 +48,7 @@ TEST(Hunt, SometimesCatchesAndNotAlways) {
     std::cout << catches << " of " << chases << " chases ended with a catch\n";
     EXPECT_GE(chases, 20);
     EXPECT_GE(share, 0.05);
-    EXPECT_LE(share, 0.5);
+    EXPECT_LE(share, 0.45);
 }
 
 TEST(Hunt, WhoIsEatenIsAwayAndAnotherComesFromAfar) {

@@ -13,7 +13,7 @@
 
 namespace aquarama {
 
-// As slow to turn, for its length, as a large fish is.
+// About as quick and as agile as the blacktip reef shark.
 inline std::shared_ptr<const MotorTables> syntheticShark() {
     static const std::shared_ptr<const MotorTables> tables = [] {
         constexpr double kDegree = std::numbers::pi / 180;
@@ -27,10 +27,10 @@ inline std::shared_ptr<const MotorTables> syntheticShark() {
         const std::array<Gait, kCapturedActions> gaits{Gait{.periodSeconds = 1.6, .stride = 0.64},
                                                        Gait{.periodSeconds = 1.1, .stride = 0.66},
                                                        Gait{.periodSeconds = 0.6, .stride = 0.65},
-                                                       bend(1.4, 22, 0.8),
-                                                       bend(1.6, 46, 0.9),
-                                                       bend(1.4, -22, 0.8),
-                                                       bend(1.6, -46, 0.9)};
+                                                       bend(1.4, 30, 0.6),
+                                                       bend(2.0, 58, 0.8),
+                                                       bend(1.4, -30, 0.6),
+                                                       bend(2.0, -58, 0.8)};
         Repertoire shark = syntheticScad();
         shark.species = "synthetic shark";
         shark.recordedLengthMetres = 1.3F;

@@ -16,7 +16,7 @@ struct SchoolShape {
     double polarisation = 0;      // |mean heading|: 1 when all swim one way (Tunstrom et al. 2013)
     double rotation = 0;          // the same of turning about the upright through the centre
     double nearestNeighbour = 0;  // mean, body lengths
-    double largestGroup = 0;      // the share of the fish in the largest group linked by kLinkMetres
+    double largestGroup = 0;  // the share of the fish in the largest group linked by kLinkMetres
 };
 
 // Fish nearer than this see one another.
@@ -41,14 +41,14 @@ inline SchoolShape shapeOf(const FishView& view, std::uint32_t first, std::uint3
         const glm::vec3 from = view.position(first + i) - shape.centre;
         const glm::vec3 course = view.heading(first + i);
         const double away = std::max(1e-3, std::hypot(double{from.x}, double{from.z}));
-        shape.rotation += (from.z * course.x - from.x * course.z) / away / count;
+        shape.rotation += double{from.z * course.x - from.x * course.z} / away / count;
         float nearest = 1e9F;
         for (std::uint32_t j = 0; j < count; ++j) {
             const float distance = lengthOf(view.position(first + j) - view.position(first + i));
             if (j != i) nearest = std::min(nearest, distance);
             if (j < i && distance < kLinkMetres) group[rootOf(i)] = rootOf(j);
         }
-        shape.nearestNeighbour += nearest / view.length[first + i] / count;
+        shape.nearestNeighbour += double{nearest / view.length[first + i]} / count;
     }
     std::vector<std::uint32_t> members(count);
     for (std::uint32_t i = 0; i < count; ++i) ++members[rootOf(i)];

@@ -12,8 +12,8 @@
 #include "common/place/place.h"
 #include "common/wall/picture.h"
 #include "common/wall/wall.h"
-#include "render_node/show/aim.h"
 #include "render_node/show/font.h"
+#include "render_node/show/pointing.h"
 #include "tests/render_node/show/fake_session.h"
 
 namespace aquarama {
@@ -136,11 +136,11 @@ TEST_F(ChannelPictureTest, theWorldIsAFunctionOfTheFrameAlone) {
 
 // From the mouse to the world and back to the light: through warp, eye and scene.
 TEST_F(ChannelPictureTest, foodThatIsDroppedUnderTheMouseIsSeenUnderTheMouse) {
-    const Aim aim(stage->admission.rig, kMiddle);
+    const Pointing pointing(stage->admission.rig, kMiddle);
     for (const glm::vec2 mouse : {glm::vec2(240, 180), glm::vec2(120, 80), glm::vec2(350, 250)}) {
         const auto plain = shownOf(emptySea());
         StateFrame fed = emptySea();
-        const auto place = aim.pinchAt(mouse, fed.eye);
+        const auto place = pointing.pinchAt(mouse, fed.eye);
         ASSERT_TRUE(place);
         fed.foodAfter = {foodRecord(FoodRecord::Kind::Pellet, *place, 1)};
         const auto shown = shownOf(fed);

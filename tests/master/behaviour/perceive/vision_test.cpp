@@ -131,15 +131,15 @@ TEST(Sight, aDuneHides) {
     Grids grids = sea.freshGrids();
     environment = sea.environment(grids);
     // Between two points just over the sand, with the sand higher in between.
-    const Place& place = sea.surroundings.obstacles.place;
+    const PlaceKey& place = sea.surroundings.obstacles.place;
     bool hidden = false;
     bool open = true;
     for (float x = -6; x < 6; x += 0.5F) {
         const glm::vec3 from{x, floorHeight(place, {x, -5}) + 0.02F, -5};
         const glm::vec3 to{x + 4, floorHeight(place, {x + 4, -5}) + 0.02F, -5};
-        hidden = hidden || isHidden(environment, 0, 1, from, to - from);
+        hidden = hidden || isHidden(environment, 0, 1, {from, to - from});
         const glm::vec3 above{0, 1.5F, 0};
-        open = open && !isHidden(environment, 0, 1, from + above, to - from);
+        open = open && !isHidden(environment, 0, 1, {from + above, to - from});
     }
     EXPECT_TRUE(hidden);
     EXPECT_TRUE(open);

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// A show of ten seconds with three drops of food, recorded, and what becomes of its replays.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "common/units/error.h"
+#include "master/production/living_world.h"
+#include "master/production/production.h"
+#include "master/record/playback.h"
+#include "master/record/recorder.h"
+#include "tests/support/synthetic_production.h"
+
+namespace aquarama {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::uint64_t kTicks = 630;
+constexpr glm::vec3 kTable{0.5F, -5.0F, -4.0F};
+
+class Record : public testing::Test {
+  protected:
+    Record() { std::filesystem::create_directories(folder_); }
+    ~Record() override { std::filesystem::remove_all(folder_); }
+    Record(const Record&) = delete;
+    Record& operator=(const Record&) = delete;
+    [[nodiscard]] std::string path() const { return (folder_ / "show.aqrec").string(); }
+
+    // Returns the hash of the world at every tick.
+    std::vector<std::uint64_t> recordAShow() {
+        const Production production = syntheticProduction();
+        LivingWorld world(worldOptionsOf(production));
+        RecordingFile file(path(), production);
+        RecordedWorld recorded(world, file);
+        std::vector<std::uint64_t> hashes{recorded.hash()};
+        while (recorded.tick().value < kTicks) {
+            const std::uint64_t tick = recorded.tick().value;
+            if (tick == 0 || tick == 100 || tick == 401)
+                recorded.apply(DropFood{.position = kTable});
+            if (tick == 200) recorded.apply(MoveSubmarine{{0, -6, -1}, {0, 0, -0.1F}});
+            recorded.advance();
+            hashes.push_back(recorded.hash());
+        }
+        return hashes;
+    }
+
+  private:
+    std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() / ("aquarama-record-" + std::to_string(getpid()));
+};
+
+std::optional<Difference> differenceOf(const Recording& recording) {
+    LivingWorld world(worldOptionsOf(recording.production));
+    Playback playback(recording, world);
+    while (!playback.over()) playback.advance();
+    return playback.difference();
+}
+
+TEST_F(Record, aReplayIsTheSameWorldTickForTickOnAnyNumberOfThreads) {
+    const std::vector<std::uint64_t> hashes = recordAShow();
+    const Recording recording = readRecording(path());
+    ASSERT_EQ(recording.inputs.size(), 4U);
+    EXPECT_EQ(recording.checkpoints.size(), 2U);
+    ASSERT_TRUE(recording.end);
+    for (const unsigned threads : {1U, 2U, 4U}) {
+        WorldOptions options = worldOptionsOf(recording.production);
+        options.threads = threads;
+        LivingWorld world(options);
+        Playback playback(recording, world);
+        while (!playback.over()) {
+            playback.advance();
+            ASSERT_EQ(world.hash(), hashes[world.tick().value]) << world.tick().value;
+        }
+        EXPECT_EQ(world.tick().value, kTicks);
+        EXPECT_EQ(playback.inputs(), 4U);
+        EXPECT_EQ(playback.compared(), 3U);
+        EXPECT_FALSE(playback.difference());
+    }
+}
+
+// Else the test above would prove little.
+TEST_F(Record, theInputsMatter) {
+    const std::vector<std::uint64_t> hashes = recordAShow();
+    Recording recording = readRecording(path());
+    for (std::size_t left = 0; left < recording.inputs.size(); ++left) {
+        Recording without = recording;
+        without.inputs.erase(without.inputs.begin() + static_cast<std::ptrdiff_t>(left));
+        EXPECT_TRUE(differenceOf(without)) << left;
+    }
+}
+
+TEST_F(Record, anotherSeedSceneSpeciesOrCheckpointGivesADifference) {
+    recordAShow();
+    const Recording recording = readRecording(path());
+    const auto firstDifference = [&](auto alter) {
+        Recording altered = recording;
+        alter(altered);
+        const auto difference = differenceOf(altered);
+        return difference ? std::optional{difference->tick.value} : std::nullopt;
+    };
+    EXPECT_EQ(firstDifference([](Recording&) {}), std::nullopt);
+    EXPECT_EQ(firstDifference([](Recording& r) { ++r.production.seed; }), 0U);
+    EXPECT_EQ(firstDifference([](Recording& r) {
+                  r.production.scene.replace(r.production.scene.find("200"), 3, "201");
+              }),
+              0U);
+    EXPECT_EQ(firstDifference([](Recording& r) { --r.production.cast[0].fish; }), 0U);
+    EXPECT_EQ(firstDifference([](Recording& r) { r.checkpoints[1].hash ^= 1U; }), 600U);
+    EXPECT_EQ(firstDifference([](Recording& r) { r.end->hash ^= 1U; }), kTicks);
+    EXPECT_EQ(firstDifference([](Recording& r) { ++r.inputs[1].tick.value; }), 600U);
+}
+
+TEST_F(Record, aDamagedRepertoireOrSpeciesIsNamed) {
+    recordAShow();
+    const auto refusalOf = [](const Recording& recording) -> std::string {
+        try {
+            static_cast<void>(worldOptionsOf(recording.production));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    Recording recording = readRecording(path());
+    recording.production.cast[0].repertoire[5000] ^= std::byte{1};
+    EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its bigeye_scad.txtpb"));
+    recording = readRecording(path());
+    recording.production.cast[1].text += "\nfins_of_gold: 3\n";
+    EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its blacktip_reef_shark.txtpb:"));
+    recording = readRecording(path());
+    recording.production.cast.pop_back();
+    EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its scene"));
+}
+
+// Killed in the middle: what had happened by then is there.
+TEST_F(Record, aFileThatWasCutShortReplaysUpToThere) {
+    recordAShow();
+    std::filesystem::resize_file(path(), std::filesystem::file_size(path()) - 20);
+    const Recording recording = readRecording(path());
+    EXPECT_FALSE(recording.end);
+    EXPECT_EQ(recording.lastTick().value, 600U);
+    EXPECT_GT(recording.bytesLeftOver, 0U);
+    EXPECT_FALSE(differenceOf(recording));
+}
+
+TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
+    std::ofstream(path()) << "dear diary";
+    EXPECT_THROW(RecordingFile(path(), syntheticProduction()), Error);
+    EXPECT_EQ(textOf(path()), "dear diary");
+    try {
+        const RecordingFile nowhere("/nowhere/show.aqrec", syntheticProduction());
+        FAIL() << "it was opened";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("/nowhere/show.aqrec: cannot be written: No such"));
+    }
+}
+
+// A limit of the file's size stands for a full disk.
+TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
+    const Production production = syntheticProduction();
+    LivingWorld world(worldOptionsOf(production));
+    RecordingFile file(path(), production);
+    RecordedWorld recorded(world, file);
+    ASSERT_TRUE(file.recording());
+
+    // NOLINTNEXTLINE(cert-err33-c): it was at its default
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit full{.rlim_cur = std::filesystem::file_size(path()), .rlim_max = before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+    recorded.apply(DropFood{.position = kTable});
+    recorded.advance();
+    setrlimit(RLIMIT_FSIZE, &before);
+
+    EXPECT_FALSE(file.recording());
+    recorded.advance();
+    EXPECT_EQ(recorded.tick(), Tick{2});
+    EXPECT_EQ(readRecording(path()).checkpoints.size(), 1U);
+}
+
+TEST_F(Record, visitorsDoNotReachAReplayAndItEndsOnce) {
+    const std::vector<std::uint64_t> hashes = recordAShow();
+    const Recording recording = readRecording(path());
+    LivingWorld world(worldOptionsOf(recording.production));
+    int ends = 0;
+    ReplayedWorld replayed(recording, world, [&] { ++ends; });
+    while (replayed.tick().value < kTicks) {
+        EXPECT_EQ(ends, 0);
+        replayed.apply(DropFood{.position = kTable});
+        replayed.advance();
+    }
+    EXPECT_EQ(replayed.hash(), hashes.back());
+    replayed.advance();
+    EXPECT_EQ(ends, 1);
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A show for tests: real files of a scene and its species, all moved by the synthetic scad's
+// segments, which need no capture.
+#pragma once
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "common/motion/repertoire.h"
+#include "common/wire/recording.h"
+#include "tests/master/world/school_of_synthetic_fish.h"
+
+namespace aquarama {
+
+inline std::string textOf(const std::string& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+// A school of 40 about a reef that hungers soon, and a shark that hunts it.
+inline Production syntheticProduction(std::uint32_t seed = 1) {
+    const std::string species = AQUARAMA_SOURCE_DIR "/config/species/";
+    const ByteVector repertoire = encodeRepertoire(syntheticScad());
+    Production production{.seed = seed,
+                          .sceneFile = "scene",
+                          .scene =
+                              "name: \"tank\" place: REEF gathering: JOURNEY plankton: 200\n"
+                              "cast { species: \"bigeye_scad.txtpb\" fish: 40 }\n"
+                              "cast { species: \"blacktip_reef_shark.txtpb\" fish: 1 }\n",
+                          .cast = {}};
+    for (const auto& [name, fish] :
+         {std::pair{"bigeye_scad.txtpb", 40U}, std::pair{"blacktip_reef_shark.txtpb", 1U}})
+        production.cast.push_back({name, textOf(species + name), repertoire, fish});
+    return production;
+}
+
+}  // namespace aquarama
