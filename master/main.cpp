@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -16,7 +17,6 @@
 #include "common/cli/signals.h"
 #include "common/config/cast.h"
 #include "common/config/rig.h"
-#include "common/config/scene.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
@@ -28,7 +28,6 @@
 #include "master/production/production.h"
 #include "master/record/playback.h"
 #include "master/record/recorder.h"
-#include "master/staging/staging.h"
 
 namespace aquarama {
 
@@ -60,20 +59,20 @@ ConductorOptions conductorOptions(const MasterOptions& options) {
 }
 
 // What the nodes are told of the cast, and the blobs that they may then ask for.
-std::vector<SpeciesBlobs> castOf(const Staging& staging, Blobs& blobs) {
+std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
     std::vector<SpeciesBlobs> cast;
-    for (const StagedSpecies& member : staging.cast) {
-        cast.push_back(
-            {digestOf(member.speciesBlob), digestOf(member.repertoireBlob), member.species.fish});
-        blobs.emplace(cast.back().species, member.speciesBlob);
-        blobs.emplace(cast.back().repertoire, member.repertoireBlob);
+    for (const ProducedSpecies& species : production.cast) {
+        const auto text = std::as_bytes(std::span{species.text});
+        cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
+        blobs.emplace(cast.back().species, ByteVector{text.begin(), text.end()});
+        blobs.emplace(cast.back().repertoire, species.repertoire);
     }
     return cast;
 }
 
 // What is shown: the living world, or a recorded or replayed one about it.
 struct Shown {
-    const Staging& staging;
+    const Production& production;
     const LivingWorld& world;
     Simulation& simulation;
 };
@@ -87,8 +86,8 @@ void show(const Rig& rig,
     Blobs blobs;
     Welcome welcome;
     welcome.rigText = writeRig(rig);
-    welcome.sceneText = writeScene(shown.staging.scene);
-    welcome.cast = castOf(shown.staging, blobs);
+    welcome.sceneText = shown.production.scene;
+    welcome.cast = castOf(shown.production, blobs);
     const auto school = shown.world.world().traits();
     welcome.school.assign(school.begin(), school.end());
     Conductor conductor(
@@ -101,16 +100,16 @@ void show(const Rig& rig,
 void showNew(const Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<MasterChannels> channels) {
-    const Staging staging = stageScene(
+    const Production production = readProduction(
         options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
-        options.fish);
-    LivingWorld world(worldOptionsOf(staging, options.seed));
+        {.seed = options.seed, .fish = options.fish});
+    LivingWorld world(worldOptionsOf(production));
     const ConductorOptions conducting = conductorOptions(options);
     if (options.recordPath.empty())
-        return show(rig, conducting, {staging, world, world}, std::move(channels));
-    RecordingFile file(options.recordPath, productionOf(staging, options.seed));
+        return show(rig, conducting, {production, world, world}, std::move(channels));
+    RecordingFile file(options.recordPath, production);
     RecordedWorld recorded(world, file);
-    show(rig, conducting, {staging, world, recorded}, std::move(channels));
+    show(rig, conducting, {production, world, recorded}, std::move(channels));
 }
 
 void showAgain(const Rig& rig,
@@ -119,8 +118,7 @@ void showAgain(const Rig& rig,
     const Recording recording = readRecording(options.replayPath);
     for (const std::string& doubt : doubtsAbout(recording))
         spdlog::warn("{}: {}", options.replayPath, doubt);
-    const Staging staging = stagingOf(recording.production);
-    LivingWorld world(worldOptionsOf(staging, recording.production.seed));
+    LivingWorld world(worldOptionsOf(recording.production));
     ConductorOptions conducting = conductorOptions(options);
     conducting.seed = recording.production.seed;
     // In lockstep the world runs ahead of the frames: there these are counted.
@@ -132,7 +130,7 @@ void showAgain(const Rig& rig,
         onEnd = [] {};
     }
     ReplayedWorld replayed(recording, world, onEnd);
-    show(rig, conducting, {staging, world, replayed}, std::move(channels), &running);
+    show(rig, conducting, {recording.production, world, replayed}, std::move(channels), &running);
 }
 
 void runMaster(const MasterOptions& options) {

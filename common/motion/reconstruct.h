@@ -39,6 +39,11 @@ static_assert(sizeof(PresentedFish) == 64);
                                     float fraction,
                                     const FishTraits& traits);
 
+// Not in the water: nobody draws it.
+[[nodiscard]] inline bool isAway(const PresentedFish& fish) {
+    return fish.positionMetres.y < 0.5F * kAwayHeightMetres;
+}
+
 // Body frame, body lengths (eq. 12 and 13 before R and o).
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes);
 // World frame, metres.

@@ -1,47 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/production/production.h"
 
+#include <algorithm>
 #include <string>
+#include <thread>
 
+#include "common/config/cast.h"
 #include "common/config/scene.h"
+#include "common/config/species.h"
+#include "common/motion/motor.h"
+#include "common/motion/repertoire.h"
+#include "common/net/blob.h"
+#include "common/place/water.h"
 #include "common/units/error.h"
+#include "master/capture/compile/progress_bar.h"
+#include "master/capture/compile/repertoire_cache.h"
 
 namespace aquarama {
 
-Production productionOf(const Staging& staging, std::uint32_t seed) {
-    Production production{.seed = seed,
-                          .sceneFile = staging.scene.name,
-                          .scene = writeScene(staging.scene),
-                          .cast = {}};
-    for (std::size_t i = 0; i < staging.cast.size(); ++i) {
-        const StagedSpecies& member = staging.cast[i];
-        const auto* text = reinterpret_cast<const char*>(member.speciesBlob.data());
-        production.cast.push_back({staging.scene.cast[i].species,
-                                   {text, member.speciesBlob.size()},
-                                   member.repertoireBlob,
-                                   member.species.fish});
-    }
+namespace {
+
+// One core moves a few thousand fish well inside a tick; more threads would only wait for each
+// other.
+constexpr std::uint32_t kFishOfAThread = 2000;
+
+// The first show of a species on this machine simulates it; later ones find what it swam.
+std::vector<std::byte> capturedOnce(const CastSpecies& member) {
+    ProgressBar bar("capturing " + member.species.name);
+    const auto cache = defaultBlobDirectory().parent_path() / "repertoires";
+    return repertoireFor(member.text, member.path, cache, [&](double share) { bar.show(share); });
+}
+
+FishLengths lengthsOf(const SizeRange& size) {
+    return {.meanMetres = static_cast<float>(size.meanMetres),
+            .deviationMetres = static_cast<float>(size.deviationMetres),
+            .leastMetres = static_cast<float>(size.leastMetres),
+            .mostMetres = static_cast<float>(size.mostMetres)};
+}
+
+WorldSpecies worldSpeciesOf(const ProducedSpecies& produced, const std::optional<Start>& start) {
+    const Species species = parseSpecies(produced.text, produced.file);
+    return {.tables = makeMotorTables(decodeRepertoire(produced.repertoire, produced.file)),
+            .fish = produced.fish,
+            .lengths = lengthsOf(species.size),
+            .name = species.name,
+            .habits = species.habits,
+            .start = start};
+}
+
+std::uint32_t fishIn(const Scene& scene) {
+    std::uint32_t fish = 0;
+    for (const CastMember& member : scene.cast) fish += member.fish;
+    return fish;
+}
+
+// The scene with the number of fish that is asked for.
+Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
+    Scene scene = readScene(path);
+    CastMember& school = scene.cast.front();
+    school.fish = choice.fish.value_or(school.fish);
+    if (school.fish == 0 && scene.place != PlaceKind::OpenSea)
+        throw Error(placed(
+            path, school.place, "0 fish: only an open sea may be without; take another --scene"));
+    return scene;
+}
+
+}  // namespace
+
+Production readProduction(const std::string& scenePath, const ProductionChoice& choice) {
+    const Scene scene = chosenScene(scenePath, choice);
+    const std::vector<CastSpecies> cast = readCastSpecies(scene, scenePath);
+    checkRoom(
+        scene, scenePath, fishIn(scene), static_cast<float>(cast.front().species.size.meanMetres));
+    Production production{
+        .seed = choice.seed, .sceneFile = scenePath, .scene = writeScene(scene), .cast = {}};
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        production.cast.push_back(
+            {cast[i].path, cast[i].text, capturedOnce(cast[i]), scene.cast[i].fish});
     return production;
 }
 
-Staging stagingOf(const Production& production) {
-    Staging staging{parseScene(production.scene, production.sceneFile), {}};
-    if (staging.scene.cast.size() != production.cast.size())
-        throw Error(production.sceneFile + ": its cast has " +
-                    std::to_string(staging.scene.cast.size()) + " members, and there are " +
-                    std::to_string(production.cast.size()) + " species with it");
-    for (std::size_t i = 0; i < production.cast.size(); ++i) {
-        const ProducedSpecies& species = production.cast[i];
-        CastMember& member = staging.scene.cast[i];
-        member.fish = species.fish;
-        staging.cast.push_back(
-            stagedSpecies(species.text, species.file, species.repertoire, member));
-    }
-    return staging;
-}
-
 WorldOptions worldOptionsOf(const Production& production) {
-    return worldOptionsOf(stagingOf(production), production.seed);
+    WorldOptions options;
+    options.seed = production.seed;
+    options.scene = parseScene(production.scene, production.sceneFile);
+    if (options.scene.cast.size() != production.cast.size())
+        throw Error(production.sceneFile + ": its cast has " +
+                    std::to_string(options.scene.cast.size()) + " members, and there are " +
+                    std::to_string(production.cast.size()) + " species with it");
+    for (std::size_t i = 0; i < production.cast.size(); ++i)
+        options.cast.push_back(worldSpeciesOf(production.cast[i], options.scene.cast[i].start));
+    options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,
+                                 1U,
+                                 std::max(std::thread::hardware_concurrency(), 1U));
+    return options;
 }
 
 }  // namespace aquarama

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a show is made of, as bytes that a recording keeps, and back: the same production is the
-// same world on any machine.
+// From files to a world: what a show is made of is read once, as bytes, and the same bytes make the
+// world of the show, of its replay and of a study.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "common/wire/recording.h"
-#include "master/staging/staging.h"
+#include "master/world/world.h"
 
 namespace aquarama {
 
-[[nodiscard]] Production productionOf(const Staging& staging, std::uint32_t seed);
+struct ProductionChoice {
+    std::uint32_t seed = 1;
+    std::optional<std::uint32_t> fish;  // of the first species, instead of the scene's number
+};
 
-// Captures nothing: it has its repertoires. Throws Error where the scene, a species or a repertoire
-// is wrong.
-[[nodiscard]] Staging stagingOf(const Production& production);
+// Reads the scene and the files of its cast; a species that was never shown on this machine is
+// captured, behind a bar of progress. Throws Error with file:line:column.
+[[nodiscard]] Production readProduction(const std::string& scenePath,
+                                        const ProductionChoice& choice);
+
+// Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.
 [[nodiscard]] WorldOptions worldOptionsOf(const Production& production);
 
 }  // namespace aquarama

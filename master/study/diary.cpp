@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/place/place.h"
+#include "master/behaviour/act/hunt.h"
 #include "master/study/school_figures.h"
 
 namespace aquarama {
@@ -32,10 +33,13 @@ Diary::Diary(const World& world, std::vector<float> halfWidths)
       bumps_(world.view().size()),
       intention_(world.minds().intention),
       target_(world.minds().target),
-      sinceMeal_(world.minds().sinceMeal) {}
+      rushes_(world.view().size()),
+      before_(world.counts()) {}
 
 void Diary::note(const World& world) {
     ++tally_.ticks;
+    tally_.particles = world.counts().meals - before_.meals;
+    tally_.catches = world.counts().catches - before_.catches;
     for (std::size_t fish = 0; fish < world.view().size(); ++fish)
         if (!world.view().shows(fish, kAway)) noteMind(world, fish);
     if (world.tick().value % kTicksBetweenGlances != 0) return;
@@ -53,20 +57,21 @@ void Diary::noteMind(const World& world, std::size_t fish) {
     ++tally_.fishTicks;
     ++tally_.intentionTicks.at(static_cast<std::size_t>(intention));
     tally_.changes += isNew ? 1 : 0;
-    if (intention == Intention::Eat) {
-        tally_.tries += !hunts && another ? 1 : 0;
-        tally_.chases += hunts && isNew ? 1 : 0;
+    if (intention == Intention::Eat && !hunts && another) {
+        ++tally_.tries;
     }
-    if (minds.sinceMeal[fish] < sinceMeal_[fish]) ++(hunts ? tally_.catches : tally_.particles);
+    const bool rushes = hunts && intention == Intention::Eat &&
+                        minds.stage[fish] == static_cast<std::uint8_t>(HuntStage::Rush);
+    tally_.rushes += rushes && rushes_[fish] == 0 ? 1 : 0;
+    rushes_[fish] = rushes ? 1 : 0;
     intention_[fish] = intention;
     target_[fish] = minds.target[fish];
-    sinceMeal_[fish] = minds.sinceMeal[fish];
 }
 
 void Diary::noteBodies(const World& world) {
     rodsOf(world.view(), halfWidths_, rods_);
     const std::uint64_t before = overlaps_.pairTicks();
-    tally_.touches += overlaps_.note(world.tick(), rods_).size();
+    tally_.touches += overlaps_.note(world.tick(), rods_, world.minds().intention).size();
     tally_.overlapTicks += 2 * static_cast<double>(overlaps_.pairTicks() - before);
     for (std::size_t fish = 0; fish < rods_.size(); ++fish) {
         const bool bumps = isInTerrain(world.surroundings().obstacles, rods_[fish]);

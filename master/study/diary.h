@@ -31,7 +31,7 @@ struct Tally {
     // By fish that eat what drifts: targets that they went for, and particles that they had.
     std::uint64_t tries = 0, particles = 0;
     // By predators.
-    std::uint64_t chases = 0, catches = 0;
+    std::uint64_t rushes = 0, catches = 0;
 };
 
 class Diary {
@@ -55,7 +55,9 @@ class Diary {
     std::vector<std::uint8_t> bumps_;  // at the last glance
     // As they were at the last tick.
     std::vector<Intention> intention_;
-    std::vector<std::uint32_t> target_, sinceMeal_;
+    std::vector<std::uint32_t> target_;
+    std::vector<std::uint8_t> rushes_;
+    WorldCounts before_;
 };
 
 // Whether the middle of its body is in rock, under the sand with its half-width, or in the air.

@@ -13,6 +13,8 @@
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
+#include "master/study/chronicle.h"
+#include "master/study/chronicle_report.h"
 #include "master/study/scenarios.h"
 #include "master/study/study_report.h"
 
@@ -44,8 +46,8 @@ std::vector<Sample> watched(const StudyPlan& plan) {
 }
 
 void study(const StudyOptions& options) {
-    const Stock stock(options.config.empty() ? findConfigFolder() : fs::path(options.config));
-    const StudyPlan plan{.scenarios = scenariosOf(stock),
+    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
+    const StudyPlan plan{.scenarios = scenariosOf(config),
                          .minutes = options.minutes,
                          .seeds = options.seeds,
                          .threads = std::max(std::thread::hardware_concurrency(), 1U)};
@@ -57,6 +59,33 @@ void study(const StudyOptions& options) {
     writeText(fs::path(options.out) / "adaptation.svg", drawStudy(plan, samples));
 }
 
+struct ChronicleOptions {
+    std::string scene;
+    double hours = 1;
+    std::uint32_t seed = 1;
+};
+
+// Prints what happened as Markdown.
+void chronicle(const ChronicleOptions& options) {
+    Scenario scenario = readScenario(options.scene);
+    scenario.world.seed = options.seed;
+    World world(scenario.world);
+    constexpr std::uint64_t kTicksOfMinute = 3600;
+    constexpr std::uint64_t kTicksOfHour = 60 * kTicksOfMinute;
+    Chronicle chronicle(world, scenario.halfWidths, kTicksOfHour);
+    ProgressBar bar("living");
+    const auto ticks = static_cast<std::uint64_t>(options.hours * kTicksOfHour);
+    for (std::uint64_t tick = 0; tick < ticks; ++tick) {
+        world.advance();
+        chronicle.note(world);
+        if (tick % kTicksOfMinute == 0)
+            bar.show(static_cast<double>(tick) / static_cast<double>(ticks));
+    }
+    std::cout << hoursMarkdown(chronicle.hours()) << '\n'
+              << overlapsMarkdown(chronicle.overlaps(), world, scenario.world.cast, options.hours)
+              << "\nhash of the world: " << std::hex << world.hash() << '\n';
+}
+
 int dispatch(int count, char** arguments) {
     CLI::App app{"With and without each adaptation of the mind to its motor, as tables in Markdown",
                  "aquarama-study"};
@@ -66,13 +95,23 @@ int dispatch(int count, char** arguments) {
         ->check(CLI::Range(0.1, 1440.0));
     app.add_option("--seeds", options.seeds, "runs of each kind; 5 when not given")
         ->check(CLI::Range(1U, 100U));
-    app.add_option("--config", options.config, "folder that holds species/*.txtpb");
+    app.add_option("--config", options.config, "folder that holds scenes and species");
+    ChronicleOptions life;
+    CLI::App& chronicled =
+        *app.add_subcommand("chronicle", "what happens in a scene, hour by hour");
+    chronicled.add_option("SCENE", life.scene, "the scene's file")->required();
+    chronicled.add_option("--hours", life.hours, "of the scene; 1 when not given")
+        ->check(CLI::Range(0.01, 1000.0));
+    chronicled.add_option("--seed", life.seed, "of the world; 1 when not given");
     try {
         app.parse(count, arguments);
     } catch (const CLI::ParseError& wrong) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
-    study(options);
+    if (chronicled.parsed())
+        chronicle(life);
+    else
+        study(options);
     return 0;
 }
 

@@ -5,11 +5,19 @@
 
 namespace aquarama {
 
-std::span<const Overlap> OverlapLog::note(Tick tick, std::span<const Rod> rods) {
+std::span<const Overlap> OverlapLog::note(Tick tick,
+                                          std::span<const Rod> rods,
+                                          std::span<const Intention> intentions) {
     fresh_.clear();
     for (std::uint32_t a = 0; a < rods.size(); ++a)
         for (std::uint32_t b = a + 1; b < rods.size(); ++b)
-            if (const float share = overlapOf(rods[a], rods[b]); share > 0) meet(tick, a, b, share);
+            if (const float share = overlapOf(rods[a], rods[b]); share > 0)
+                meet({.a = a,
+                      .b = b,
+                      .intentionOfA = intentions[a],
+                      .intentionOfB = intentions[b],
+                      .from = tick},
+                     share);
     std::erase_if(open_, [&](const auto& entry) {
         if (entry.second.last.value == tick.value) return false;
         ended_.push_back(entry.second.overlap);
@@ -18,14 +26,11 @@ std::span<const Overlap> OverlapLog::note(Tick tick, std::span<const Rod> rods) 
     return fresh_;
 }
 
-void OverlapLog::meet(Tick tick, std::uint32_t a, std::uint32_t b, float share) {
-    const auto [entry, isNew] = open_.try_emplace({a, b});
+void OverlapLog::meet(const Overlap& overlap, float share) {
+    const auto [entry, isNew] = open_.try_emplace({overlap.a, overlap.b}, Open{overlap, 0, overlap.from});
+    if (isNew) fresh_.push_back(overlap);
     Open& open = entry->second;
-    if (isNew) {
-        open.overlap = {.a = a, .b = b, .from = tick};
-        fresh_.push_back(open.overlap);
-    }
-    open.last = tick;
+    open.last = overlap.from;
     open.overlap.ticks += between_;
     open.overlap.deepest = std::max(open.overlap.deepest, share);
     open.deepRun = share > kDeepShare ? open.deepRun + between_ : 0;

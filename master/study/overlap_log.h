@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "common/units/ids.h"
+#include "master/fish/minds.h"
 #include "master/study/bodies.h"
 
 namespace aquarama {
 
 struct Overlap {
-    std::uint32_t a = 0, b = 0;  // fish, a < b
+    std::uint32_t a = 0, b = 0;                                                    // fish, a < b
+    Intention intentionOfA = Intention::Wander, intentionOfB = Intention::Wander;  // as it began
     Tick from;
     std::uint64_t ticks = 0;      // in which any of them was in the other
     std::uint64_t deepTicks = 0;  // in which more than kDeepShare was, the longest run of them
@@ -28,7 +30,9 @@ class OverlapLog {
   public:
     explicit OverlapLog(std::uint64_t ticksBetweenGlances) : between_(ticksBetweenGlances) {}
     // Answers the overlaps that are new.
-    std::span<const Overlap> note(Tick tick, std::span<const Rod> rods);
+    std::span<const Overlap> note(Tick tick,
+                                  std::span<const Rod> rods,
+                                  std::span<const Intention> intentions);
 
     [[nodiscard]] std::vector<Overlap> all() const;  // those that go on as well
     [[nodiscard]] std::uint64_t pairTicks() const { return pairTicks_; }
@@ -39,7 +43,7 @@ class OverlapLog {
         std::uint64_t deepRun = 0;
         Tick last;
     };
-    void meet(Tick tick, std::uint32_t a, std::uint32_t b, float share);
+    void meet(const Overlap& overlap, float share);
 
     std::uint64_t between_;
     std::uint64_t pairTicks_ = 0;

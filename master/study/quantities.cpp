@@ -20,7 +20,7 @@ constexpr std::array<QuantityInfo, kQuantities> kInfo{{
     {"meals_per_try", "particles eaten a target gone for", 3, ""},
     {"particles_per_fish_minute", "particles eaten a fish and minute", 3, ""},
     {"half_pinch_seconds", "until half a pinch is eaten, s", 2, ""},
-    {"catches_per_chase", "prey caught a chase", 3, ""},
+    {"catches_per_rush", "prey caught a rush", 3, ""},
     {"same_segment_percent", "pairs of the school on one segment, %", 1, ""},
     {"in_step_percent", "pairs in step (same segment, a sixteenth of a beat), %", 2, ""},
     {"phase_resultant", "mean resultant length of the phases", 3, "0.12: 51 at random"},
@@ -64,7 +64,7 @@ Figures figuresOf(const Diary& diary, double pinchSeconds) {
     set(Quantity::MealsPerTry, share(count(tally.particles), count(tally.tries)));
     set(Quantity::ParticlesPerMinute, share(count(tally.particles), fishMinutes));
     set(Quantity::PinchSeconds, pinchSeconds);
-    set(Quantity::CatchesPerChase, share(count(tally.catches), count(tally.chases)));
+    set(Quantity::CatchesPerRush, share(count(tally.catches), count(tally.rushes)));
     set(Quantity::SameSegment, 100 * share(tally.sameSegment, count(tally.glances)));
     set(Quantity::InStep, 100 * share(tally.inStep, count(tally.glances)));
     set(Quantity::Resultant, share(tally.resultant, count(tally.glances)));

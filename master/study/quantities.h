@@ -18,7 +18,7 @@ enum class Quantity : std::uint8_t {
     MealsPerTry,
     ParticlesPerMinute,
     PinchSeconds,
-    CatchesPerChase,
+    CatchesPerRush,
     SameSegment,
     InStep,
     Resultant,

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where adaptation is put to the test.
+// Where adaptation is put to the test: scenes of the show and of config/scenes/study.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
-#include "master/study/stock.h"
 #include "master/study/study.h"
 
 namespace aquarama {
 
-// The reef as on the wall; its school alone; fish in a tank where they must keep out of each
-// other's way; and hungry ones that are fed.
-[[nodiscard]] Scenario reefScenario(const Stock& stock);
-[[nodiscard]] Scenario schoolScenario(const Stock& stock);
-[[nodiscard]] Scenario crowdedTank(const Stock& stock);
-[[nodiscard]] Scenario feedingTime(const Stock& stock);
-[[nodiscard]] std::vector<Scenario> scenariosOf(const Stock& stock);
+// A scene's file, whose own name the scenario bears. Throws Error.
+[[nodiscard]] Scenario readScenario(const std::filesystem::path& scene);
+
+// The reef and the bait ball as on the wall; the reef's school alone; fish in a tank where they
+// must keep out of each other's way; and hungry ones that are fed.
+[[nodiscard]] std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder);
 
 }  // namespace aquarama

@@ -30,7 +30,6 @@ inline constexpr std::array kConditions{
 
 struct Scenario {
     std::string name;
-    std::string what;                       // in a sentence
     WorldOptions world;                     // its seed and adaptation are the run's
     std::vector<float> halfWidths;          // body lengths, by kind of the cast
     std::uint64_t ticksBetweenPinches = 0;  // of food; 0: nobody feeds

@@ -52,8 +52,7 @@ std::string studyMarkdown(const StudyPlan& plan, const std::vector<Sample>& samp
     std::string page;
     for (std::size_t i = 0; i < plan.scenarios.size(); ++i) {
         const Scenario& scenario = plan.scenarios[i];
-        page +=
-            "### " + scenario.name + "\n\n" + scenario.what + "\n\n" + tableOf(samples[i]) + "\n";
+        page += "### " + scenario.name + "\n\n" + tableOf(samples[i]) + "\n";
     }
     return page;
 }

@@ -24,6 +24,7 @@ constexpr float kSurfaceRoomMetres = 0.9F;
 
 constexpr float kSinkMetres = 0.05F / 60;      // a tick: feed of some millimetres
 constexpr std::uint32_t kLiesTicks = 20 * 60;  // on the sand
+constexpr float kDeepMetres = 3;               // under the water of the fish
 constexpr float kPelletOnSandMetres = 0.02F;   // of its middle over the sand
 constexpr float kSpreadMetres = 0.3F;          // of pellets that are dropped together
 constexpr float kCurrentMetres = 0.03F;        // a second
@@ -209,11 +210,15 @@ void dropPellets(Food& food,
             signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
         glm::vec3 place = position + aside * kSpreadMetres;
         const float sand = floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
+        const float deepest = obstacles.water.centre.y - obstacles.water.halfExtent.y;
         place.y = std::min(std::max(place.y, sand), 0.0F);
         put(food, i, FoodKind::Pellet, place, sand);
         ++food.pellets;
+        // Where the sand is far below the fish it dissolves as it leaves their water.
+        const bool lies = sand > deepest - kDeepMetres;
+        const float sinks = std::max(0.0F, place.y - (lies ? sand : deepest));
         food.absentUntil[i] =
-            now + static_cast<std::uint32_t>((place.y - sand) / kSinkMetres) + kLiesTicks;
+            now + static_cast<std::uint32_t>(sinks / kSinkMetres) + (lies ? kLiesTicks : 0);
     }
 }
 

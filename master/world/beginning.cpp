@@ -65,7 +65,7 @@ void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionS
     states.warpLength[fish] = 0;
 }
 
-// A block about the goal, loosely spaced.
+// A block about the goal, loosely spaced; a large one is moved into the water.
 void placeSchool(std::uint32_t seed,
                  const Goal& goal,
                  const Region& water,
@@ -76,20 +76,25 @@ void placeSchool(std::uint32_t seed,
     const glm::quat rotation = facing(goal.velocityMetresPerSecond);
     // A school too large for the water is packed more densely.
     const glm::vec3 room = water.halfExtent * 0.85F;
+    const auto half = static_cast<float>(block.across) * 0.5F;
+    const float fit = std::min({1.0F,
+                                room.y / (half * kSpacingMetres),
+                                room.z / (half * kSpacingMetres),
+                                room.x / (2 * half * kSpacingMetres)});
+    const glm::vec3 reach = (glm::abs(rotation * glm::vec3{2 * half, 0, 0}) +
+                             glm::abs(rotation * glm::vec3{0, half, half})) *
+                            (kSpacingMetres * fit);
+    const glm::vec3 play = glm::max(room - reach, glm::vec3{0});
+    const glm::vec3 middle = glm::clamp(goal.position, water.centre - play, water.centre + play);
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(i));
         const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
                                signedUnitOf(hashOf(own, 1)),
                                signedUnitOf(hashOf(own, 2))};
         const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(i)) + jitter * 0.25F;
-        const auto half = static_cast<float>(block.across) * 0.5F;
-        const float fit = std::min({1.0F,
-                                    room.y / (half * kSpacingMetres),
-                                    room.z / (half * kSpacingMetres),
-                                    room.x / (2 * half * kSpacingMetres)});
         const glm::vec3 spread = rotation * (cell * (kSpacingMetres * fit));
         const glm::vec3 place =
-            glm::clamp(goal.position + spread, water.centre - room, water.centre + room);
+            glm::clamp(middle + spread, water.centre - room, water.centre + room);
         begin(seed, i, {place, rotation}, states);
     }
 }
@@ -178,7 +183,7 @@ void placeFish(const WorldOptions& options,
         const std::size_t last = first + species.fish;
         if (species.start)
             placeAbout(options.seed, *species.start, first, last, states);
-        else if (first == 0)
+        else if (first == 0 && species.habits.shares.schooling > 0)
             placeSchool(options.seed, goal, water, last, states);
         else
             placeWanderers(

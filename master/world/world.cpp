@@ -20,8 +20,9 @@ namespace aquarama {
 
 namespace {
 
-// Chunks depend on the number of fish alone, never on the number of threads.
-constexpr std::size_t kFishInChunk = 256;
+// Chunks and slices depend on the number of fish alone, never on the number of threads.
+constexpr std::size_t kFishInChunk = 512;
+constexpr std::size_t kSlotsInSlice = 1024;
 
 float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
@@ -42,6 +43,7 @@ Mind beginningMind(const Nature& nature,
 World::World(const WorldOptions& options)
     : seed_(options.seed),
       gathering_(options.scene.gathering),
+      middle_(options.scene.water.centre),
       adaptation_(options.adaptation),
       traits_(traitsOf(options)),
       surroundings_(
@@ -67,6 +69,7 @@ World::World(const WorldOptions& options)
     view_.resize(traits_.size());
     meals_ = makeMeals(traits_.size());
     absences_ = makeAbsences(natures_);
+    makeRoomForDeeds();
     begin(options);
 }
 
@@ -74,8 +77,7 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
     const std::size_t first = kinds_.empty() ? 0 : kinds_.back().last;
     const std::size_t last = first + species.fish;
     for (std::size_t at = first; at < last; at += kFishInChunk) {
-        chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk), {}});
-        chunks_.back().deeds.reserve(kFishInChunk);
+        chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk)});
     }
     kinds_.push_back({species.tables, gaitsOf(*species.tables), first, last});
     natures_.push_back(natureOf(cast, kinds_.size() - 1, kinds_.back().gaits, first, last));
@@ -98,9 +100,12 @@ void World::begin(const WorldOptions& options) {
         courses_.set(fish, {view_.heading(fish), 1, 0});
 }
 
-template <class Job>
-void World::inChunks(const Job& job) {
-    pool_.run(chunks_.size(), [&](std::size_t i) { job(chunks_[i]); });
+// A tick's thoughts are about an eighth of the fish; each does one thing at most.
+void World::makeRoomForDeeds() {
+    constexpr std::size_t kSlack = 32;
+    slices_.resize((traits_.size() + kSlotsInSlice - 1) / kSlotsInSlice);
+    for (Slice& slice : slices_) slice.deeds.reserve(kSlotsInSlice / kTicksBetweenThoughts * 2);
+    deeds_.reserve(traits_.size() / kTicksBetweenThoughts + kSlack);
 }
 
 void World::apply(const WorldInput& input) {
@@ -118,6 +123,7 @@ void World::apply(const WorldInput& input) {
 }
 
 Goal World::goal() const {
+    if (gathering_ == Gathering::None) return {.position = middle_};
     return gathering_ == Gathering::Mill
                ? millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
                : journeyGoal(seed_, tick_);
@@ -129,9 +135,9 @@ void World::advance() {
     receive();
     rebuildGrids();
     advanceMeals(meals_, view_, surroundings_.food, tick_);
-    inChunks([this](Chunk& chunk) { live(chunk); });
-    for (const Chunk& chunk : chunks_)
-        for (const Deed& deed : chunk.deeds) perform(deed);
+    thinkAll();
+    pool_.run(chunks_.size(), [this](std::size_t i) { swim(chunks_[i]); });
+    performDeeds();
     ++tick_.value;
 }
 
@@ -177,17 +183,37 @@ Environment World::environment() const {
             .adaptation = adaptation_};
 }
 
-// Thoughts, motor commands and motion of a chunk.
-void World::live(Chunk& chunk) {
-    chunk.deeds.clear();
+// In the order in which the fish stand in the grid: those who think one after the other look at the
+// same neighbours. As a thought changes nothing that another sees, any order will do.
+void World::thinkAll() {
+    const SpatialGrid& grid = grids_.fish;
     const Environment around = environment();
-    for (std::size_t fish = chunk.first; fish < chunk.last; ++fish)
-        if (thinksAt(tick_, fish) && !view_.shows(fish, kAway))
-            think(around, static_cast<std::uint32_t>(fish), minds_, courses_, chunk.deeds);
+    pool_.run(slices_.size(), [&](std::size_t i) {
+        Deeds& deeds = slices_[i].deeds;
+        deeds.clear();
+        const std::size_t last = std::min(grid.size(), (i + 1) * kSlotsInSlice);
+        for (std::size_t slot = i * kSlotsInSlice; slot < last; ++slot) {
+            const std::uint32_t fish = grid.index()[slot];
+            if (thinksAt(tick_, fish)) think(around, fish, minds_, courses_, deeds);
+        }
+    });
+}
+
+// Motor commands and motion of a chunk.
+void World::swim(const Chunk& chunk) {
     const Kind& own = kinds_[chunk.kind];
     SecondaryController{&own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
         .run(chunk.first, chunk.last);
     MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
+}
+
+// In the order of the fish.
+void World::performDeeds() {
+    deeds_.clear();
+    for (const Slice& slice : slices_)
+        deeds_.insert(deeds_.end(), slice.deeds.begin(), slice.deeds.end());
+    std::ranges::sort(deeds_, {}, &Deed::fish);
+    for (const Deed& deed : deeds_) perform(deed);
 }
 
 // All that decides how the world goes on and is no function of seed, scene and tick.

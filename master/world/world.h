@@ -92,28 +92,34 @@ class World {
     struct Chunk {  // a part of a kind, small enough to share out among threads
         std::size_t kind = 0;
         std::size_t first = 0, last = 0;
+    };
+    struct Slice {  // a part of those in the grid, as they stand there
         Deeds deeds;
     };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     void begin(const WorldOptions& options);
     void rebuildGrids();
     void look(const Kind& kind, std::size_t first, std::size_t last);
-    void live(Chunk& chunk);
+    void makeRoomForDeeds();
+    void thinkAll();
+    void swim(const Chunk& chunk);
+    void performDeeds();
     void perform(const Deed& deed);
     void feed(std::uint32_t fish);
     void receive();
     void arrive(std::uint32_t fish);
     [[nodiscard]] Goal goal() const;
-    template <class Job>
-    void inChunks(const Job& job);
 
     std::uint32_t seed_;
     Tick tick_;
     Gathering gathering_;
+    glm::vec3 middle_;  // of the scene's own water, before it grew
     Adaptation adaptation_;
     std::vector<Kind> kinds_;
     std::vector<Nature> natures_;  // one for each kind
     std::vector<Chunk> chunks_;
+    std::vector<Slice> slices_;
+    Deeds deeds_;  // of all slices
     std::vector<FishTraits> traits_;
     Surroundings surroundings_;
     MotionStates states_;

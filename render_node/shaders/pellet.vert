@@ -4,7 +4,7 @@
 layout(location = 0) out vec3 light;
 layout(location = 1) out float coverage;
 const float kFarMetres = 16.0;  // as in food_specks.cpp
-const float kLeastPixels = 1.6;  // of its diameter: smaller, it would flicker
+const float kLeastPixels = 3.0;  // of its diameter: smaller, it would slip between the pixels
 const vec3 kCrumb = vec3(0.66, 0.27, 0.07);
 
 // Of corner 0 to 5: right, left, above, below, towards us, away.
@@ -20,7 +20,7 @@ void main() {
     Speck speck = specks[gl_InstanceID];
     vec3 way = speck.place - eyeAndTime.xyz;
     float range = length(way);
-    float radius = mix(0.006, 0.011, unit(speck.seed, 3u));
+    float radius = mix(0.007, 0.013, unit(speck.seed, 3u));
     float pixels = 2.0 * radius / range * pixelsARadian();
     float larger = max(kLeastPixels / max(pixels, 1.0e-3), 1.0);
     vec3 axis = axisOf(speck.seed);

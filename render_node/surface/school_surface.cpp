@@ -115,6 +115,7 @@ void SchoolSurface::Parts::cull(std::span<const PresentedFish> fish,
     visible.clear();
     for (const PresentedFish& one : fish) {
         const float margin = reachBodyLengths * one.lengthMetres;
+        if (isAway(one)) continue;
         if (options.culling && !reaches(frustum, one.positionMetres, margin)) continue;
         const int level = options.levelsOfDetail
                               ? levelOfDetail(sharedEyeMetres, one.positionMetres, one.lengthMetres)

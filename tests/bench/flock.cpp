@@ -86,7 +86,9 @@ Flock makeFlock(std::size_t boids, float radius) {
 }
 
 FlockStep::FlockStep(std::size_t boids, float radius)
-    : radius_(radius), grid_({{0, 0, 0}, glm::vec3{radius}}, kFlockReach, boids), sorted_(boids) {
+    : radius_(radius),
+      grid_({{0, 0, 0}, glm::vec3{radius}}, kFlockReach, boids, 4 * boids),
+      sorted_(boids) {
     grid_.makeRoomForSteps();
 }
 

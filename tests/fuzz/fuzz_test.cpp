@@ -69,15 +69,15 @@ TEST(Fuzz, damagedRigsAreRefusedOrReadWhole) {
     feed(fuzzRig, filesIn(AQUARAMA_SOURCE_DIR "/config"), 6000);
 }
 
+TEST(Fuzz, damagedScenesAreRefusedOrReadWhole) {
+    feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes"), 3000);
+    feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes/routines"), 3000);
+}
+
 TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
     std::vector<FuzzInput> seeds{inputOf(joined(sampleEntries()))};
     for (const Packet& entry : sampleEntries()) seeds.push_back(inputOf(entry));
     feed(fuzzRecording, seeds, 20000);
-}
-
-TEST(Fuzz, damagedScenesAreRefusedOrReadWhole) {
-    feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes"), 3000);
-    feed(fuzzScene, filesIn(AQUARAMA_SOURCE_DIR "/config/scenes/routines"), 3000);
 }
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {

@@ -6,15 +6,17 @@
 #include "common/place/angle.h"
 #include "master/behaviour/act/company.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/school.h"
 
 namespace aquarama {
 
 namespace {
 
 constexpr float kLookAheadSeconds = 2.0F;
-constexpr float kAhead = 0.7F;             // cosine of 45 degrees: the threat is before the fish
-constexpr float kSameWay = 0.5F;           // cosine of 60 degrees between two courses
-constexpr float kTurnAway = 1.6F;          // against the unit vector of the own course
+constexpr float kAhead = 0.7F;     // cosine of 45 degrees: the threat is before the fish
+constexpr float kSameWay = 0.5F;   // cosine of 60 degrees between two courses
+constexpr float kTurnAway = 1.6F;  // against the unit vector of the own course
+constexpr float kLean = 0.25F;
 constexpr float kBrake = 0.25F;            // of slow, behind a tail
 constexpr float kSureMissLengths = 0.05F;  // a smaller miss says nothing of a side
 
@@ -37,6 +39,27 @@ glm::vec3 asideFrom(glm::vec3 miss, glm::vec3 heading, float length) {
     return -directionOf(across, rightOf(heading));
 }
 
+// In its school a fish is as near to others as to none else: it only leans away, and keeps its
+// place.
+Course leanAway(const Situation& situation, glm::vec3 aside) {
+    Course course = school(situation);
+    course.direction = levelled(directionOf(course.direction + aside * kLean, course.direction));
+    return course;
+}
+
+// Behind a tail it slows; one that comes from behind or beside it does not let slow it.
+float speedPast(const Situation& situation) {
+    const FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const Sighting& threat = senses.collision;
+    const float slow = situation.nature.slow;
+    const bool ahead = dot(directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
+    const bool sameWay = dot(view.heading(threat.object), senses.heading) > kSameWay;
+    if (!ahead) return std::max(slow, senses.speed / senses.length);
+    const float theirs = view.speed[threat.object] / senses.length;
+    return sameWay ? std::min(slow, theirs * (1 - kBrake)) : slow;
+}
+
 }  // namespace
 
 Course avoidFish(const Situation& situation, const Mind& mind) {
@@ -46,23 +69,13 @@ Course avoidFish(const Situation& situation, const Mind& mind) {
     if (!threat.seen()) return heading(situation, senses.heading, situation.nature.slow);
     const glm::vec3 theirs = view.heading(threat.object) * view.speed[threat.object];
     const glm::vec3 miss = missOf(threat.offset, theirs - senses.heading * senses.speed);
-    glm::vec3 wish = senses.heading + asideFrom(miss, senses.heading, senses.length) * kTurnAway;
-    const bool ahead = dot(directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
-    const bool sameWay = dot(view.heading(threat.object), senses.heading) > kSameWay;
-    float speed = situation.nature.slow;
-    if (ahead && sameWay)
-        speed = std::min(speed, view.speed[threat.object] / senses.length) * (1 - kBrake);
-    else if (!ahead)
-        speed = std::max(speed, senses.speed / senses.length);
-    const bool schooling = (mind.likes & kLikesSchooling) != 0;
-    if (schooling && situation.nature.role == Role::Prey) {
-        const Company company = companyOf(view, senses, situation.fish, kSpacing);
-        wish += pullOf(company);
-        if (company.speed > 0) speed = std::max(speed, company.speed - company.brake);
-    } else {
-        wish += roomFrom(view, senses, situation.fish);
-    }
-    return heading(situation, wish, speed);
+    const glm::vec3 aside = asideFrom(miss, senses.heading, senses.length);
+    const bool schooling =
+        situation.nature.role == Role::Prey && (mind.likes & kLikesSchooling) != 0;
+    if (schooling && view.kind[threat.object] == situation.nature.kind)
+        return leanAway(situation, aside);
+    const glm::vec3 wish = senses.heading + aside * kTurnAway + roomFrom(situation);
+    return heading(situation, wish, speedPast(situation));
 }
 
 }  // namespace aquarama

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/act/avoid_obstacle.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/place/angle.h"
@@ -14,6 +15,9 @@ namespace {
 
 // A push within 12 degrees of straight back says nothing of a side.
 constexpr float kHeadOn = 0.2F;
+
+// Of a push straight back, from which a fish wants to stop.
+constexpr float kStopsAt = 3.0F;
 
 // Of a side that the push leaves open: towards the middle of the water.
 float openSide(const Situation& situation, glm::vec3 right) {
@@ -38,8 +42,11 @@ glm::vec3 wayRound(const Situation& situation) {
 Course avoidObstacle(const Situation& situation, const Mind& mind) {
     if ((mind.likes & kLikesSchooling) != 0 && situation.nature.role == Role::Prey)
         return school(situation);
-    const glm::vec3 room = roomFrom(*situation.environment.view, situation.senses, situation.fish);
-    return heading(situation, situation.senses.heading + room, situation.nature.slow);
+    const Senses& senses = situation.senses;
+    const float back = std::max(0.0F, -dot(senses.push, senses.heading));
+    return heading(situation,
+                   senses.heading + roomFrom(situation),
+                   situation.nature.slow * std::max(0.0F, 1 - back / kStopsAt));
 }
 
 }  // namespace aquarama

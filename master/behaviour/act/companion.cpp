@@ -20,8 +20,9 @@ constexpr std::uint32_t kShadowingSpread = 30 * 60;
 constexpr std::uint32_t kHostsTried = 4;
 
 constexpr float kOverBackMetres = 0.15F;
-constexpr float kHalfHeight = 0.2F;   // of a host's length, from its middle to its back
-constexpr float kCatchUp = 1.2F;      // body lengths a second for a body length behind
+constexpr float kHalfHeight = 0.2F;  // of a host's length, from its middle to its back
+constexpr float kCatchUp = 1.2F;     // body lengths a second for a body length behind
+constexpr float kNearLengths = 1.5F;
 constexpr float kSameCourse = 1.2F;   // against the way to the place: metres
 constexpr float kPairIsApart = 2.0F;  // times the distance that it keeps
 
@@ -31,18 +32,23 @@ Course alongside(const Situation& situation, std::uint32_t other, glm::vec3 plac
     const Senses& senses = situation.senses;
     const glm::vec3 towards = place - senses.position;
     const glm::vec3 course = view.heading(other);
-    const float behind = dot(towards, course) / senses.length;
+    // Far off it only has to come; near, it must not overtake.
+    const float distance = lengthOf(towards) / senses.length;
+    const float behind = distance > kNearLengths ? distance : dot(towards, course) / senses.length;
     const float theirs = view.speed[other] / senses.length;
     const float speed = std::clamp(theirs + kCatchUp * behind, 0.0F, situation.nature.fast);
     return heading(situation, towards + course * (kSameCourse * senses.length), speed);
 }
 
-bool isAbout(const Situation& situation, std::uint32_t other) {
+bool isWithin(const Situation& situation, std::uint32_t other, float metres) {
     const FishView& view = *situation.environment.view;
-    const float sight = std::min(situation.nature.visionBodyLengths * situation.senses.length,
-                                 situation.environment.surroundings->clarityMetres);
-    return other != kNobody && other < view.size() && !view.shows(other, kAway) &&
-           lengthOf(view.position(other) - situation.senses.position) < sight;
+    return other < view.size() && !view.shows(other, kAway) &&
+           lengthOf(view.position(other) - situation.senses.position) < metres;
+}
+
+float sightOf(const Situation& situation) {
+    return std::min(situation.nature.visionBodyLengths * situation.senses.length,
+                    situation.environment.surroundings->clarityMetres);
 }
 
 // A fish of one of the kinds it likes to shadow.
@@ -72,7 +78,7 @@ std::uint32_t shadowedBy(const Situation& situation) {
     if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return kNobody;
     for (std::uint32_t i = 0; i < kHostsTried; ++i) {
         const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Hosts), i));
-        if (isAbout(situation, host)) return host;
+        if (isWithin(situation, host, sightOf(situation))) return host;
     }
     return kNobody;
 }
@@ -88,7 +94,8 @@ std::optional<Course> keptCompany(const Situation& situation) {
     const auto apart = static_cast<float>(situation.nature.habits.pairBodyLengths) * senses.length;
     if (apart <= 0) return {};
     const std::uint32_t partner = partnerOf(situation.nature, situation.fish);
-    if (!isAbout(situation, partner)) return {};
+    // Partners know each other, and look for each other as far as the water is clear.
+    if (!isWithin(situation, partner, situation.environment.surroundings->clarityMetres)) return {};
     const glm::vec3 from = senses.position - view.position(partner);
     const bool leads = situation.fish < partner;
     // The one that leads goes where it likes, but waits.

@@ -49,14 +49,19 @@ void giveWay(Company& company, const Neighbour& neighbour, glm::vec3 heading, fl
     company.brake += repulsion * std::max(0.0F, dot(neighbour.towards, heading));
 }
 
-void giveRoom(glm::vec3& away, const FishView& view, const Neighbours& those, std::uint32_t fish) {
+glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
+    const FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    glm::vec3 away{};
     for (std::size_t i = 0; i < those.count; ++i) {
         const std::uint32_t other = those.fish[i];
-        const float room = kRoomBodyLengths * std::max(view.length[fish], view.length[other]);
-        const glm::vec3 offset = view.position(other) - view.position(fish);
+        if ((situation.nature.hunts >> view.kind[other] & 1U) != 0) continue;
+        const float room = kRoomBodyLengths * std::max(senses.length, view.length[other]);
+        const glm::vec3 offset = view.position(other) - senses.position;
         const float tooNear = std::max(0.0F, 1 - lengthOf(offset) / room);
         away -= directionOf(offset, {0, 1, 0}) * (kGiveWay * tooNear);
     }
+    return away;
 }
 
 }  // namespace
@@ -103,11 +108,9 @@ glm::vec3 pullOf(const Company& company) {
     return company.separation * kSeparate + company.alignment * kAlign + company.cohesion * kCohere;
 }
 
-glm::vec3 roomFrom(const FishView& view, const Senses& senses, std::uint32_t fish) {
-    glm::vec3 away{};
-    giveRoom(away, view, senses.schoolmates, fish);
-    giveRoom(away, view, senses.others, fish);
-    return away;
+glm::vec3 roomFrom(const Situation& situation) {
+    return roomFromThose(situation, situation.senses.schoolmates) +
+           roomFromThose(situation, situation.senses.others);
 }
 
 }  // namespace aquarama

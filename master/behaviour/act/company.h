@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "master/behaviour/act/routine.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/fish_view.h"
 
@@ -14,7 +15,7 @@ namespace aquarama {
 
 // Between the middles of neighbours, in body lengths: at ease, and when a predator is about.
 inline constexpr float kSpacing = 0.9F;
-inline constexpr float kAlarmedSpacing = 0.5F;
+inline constexpr float kAlarmedSpacing = 0.65F;
 
 struct Company {
     glm::vec3 separation{}, alignment{}, cohesion{};
@@ -32,7 +33,7 @@ struct Company {
 // The three together, against the unit vector of one's own course.
 [[nodiscard]] glm::vec3 pullOf(const Company& company);
 
-// Away from all that are too near, whoever they are, against the same.
-[[nodiscard]] glm::vec3 roomFrom(const FishView& view, const Senses& senses, std::uint32_t fish);
+// Away from all that are too near, whoever they are but for its prey, against the same.
+[[nodiscard]] glm::vec3 roomFrom(const Situation& situation);
 
 }  // namespace aquarama

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/act/courtship.h"
 
+#include <algorithm>
 #include <array>
 
 #include "common/place/angle.h"
@@ -22,15 +23,19 @@ constexpr std::uint32_t kAscentSeconds = 4;
 constexpr std::uint32_t kNuzzleSeconds = 3;
 
 // Distances in body lengths.
-constexpr float kTogether = 4.0F;  // no farther than this they court
-constexpr float kLoopAhead = 1.8F;
-constexpr float kLoopRadius = 1.3F;
+constexpr float kTogether = 5.0F;  // no farther than this they court
+constexpr float kLoopAhead = 2.6F;
+constexpr float kLoopRadius = 1.5F;
 constexpr float kCircleRadius = 1.4F;
 constexpr float kCloser = 0.8F;  // weight of the way back to the circle, for a radius off it
 constexpr float kBehind = 1.0F;  // a follower keeps so far
 constexpr float kBelow = 0.7F;   // he rises so far below her
 constexpr float kBelly = 0.3F;   // he comes so near below her: their bodies touch
 constexpr float kTouches = 0.6F;
+constexpr float kStationFrom = 1.5F;  // he keeps station within so far of his place
+constexpr float kCatchUp = 0.8F;      // body lengths a second for one that he is behind
+constexpr float kClose = 0.7F;        // weight of a body length astray against her course
+constexpr float kYielding = 0.9F;     // of slow: so she swims as he nuzzles her
 
 constexpr float kRise = 0.42F;  // sine of the steepest way up
 constexpr float kBob = 0.2F;    // sine of the pitch of a loop or a bob
@@ -83,10 +88,18 @@ Course rise(const Situation& situation) {
     return heading(situation, level(situation.senses.heading) + kUp * kRise, situation.nature.slow);
 }
 
-Course riseBelow(const Situation& situation, const Couple& couple, float below) {
+// Under her and along with her: from afar he goes for the place, at it he swims as she does.
+Course keepBelow(const Situation& situation, const Couple& couple, float below) {
+    const Nature& nature = situation.nature;
     const glm::vec3 place = couple.offset - kUp * (below * couple.length);
-    return pursue(
-        situation, place, situation.nature.medium, couple.matesHeading * couple.matesSpeed);
+    if (lengthOf(place) > kStationFrom * couple.length)
+        return pursue(situation, place, nature.medium, couple.matesHeading * couple.matesSpeed);
+    const glm::vec3 astray = place / couple.length;
+    const float behind = dot(astray, couple.matesHeading);
+    const float pace = couple.matesSpeed / situation.senses.length + kCatchUp * behind;
+    return heading(situation,
+                   couple.matesHeading + astray * kClose,
+                   std::clamp(pace, 0.5F * nature.slow, nature.medium));
 }
 
 }  // namespace
@@ -136,10 +149,12 @@ Course court(const Situation& situation,
         case CourtshipStage::Circle:
             return circle(situation, couple);
         case CourtshipStage::Ascend:
-            return couple.isFemale ? rise(situation) : riseBelow(situation, couple, kBelow);
+            return couple.isFemale ? rise(situation) : keepBelow(situation, couple, kBelow);
         case CourtshipStage::Nuzzle:
-            return couple.isFemale ? hoverAndBob(situation, mind)
-                                   : riseBelow(situation, couple, kBelly);
+            return couple.isFemale ? heading(situation,
+                                             level(situation.senses.heading),
+                                             kYielding * situation.nature.slow)
+                                   : keepBelow(situation, couple, kBelly);
     }
     return follow(situation, couple);
 }

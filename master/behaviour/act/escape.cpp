@@ -26,8 +26,7 @@ float dread(const Nature& nature, const Feelings& feelings) {
 
 Course escape(const Situation& situation, const Mind& mind) {
     const Senses& senses = situation.senses;
-    const glm::vec3 wish = senses.heading + flightFrom(situation) * kFlee +
-                           roomFrom(*situation.environment.view, senses, situation.fish);
+    const glm::vec3 wish = senses.heading + flightFrom(situation) * kFlee + roomFrom(situation);
     Course course = heading(situation, wish, situation.nature.fast);
     if ((mind.likes & kLikesSchooling) != 0) {
         const float alone = dread(situation.nature, situation.feelings);

@@ -22,10 +22,14 @@ constexpr float kSlowest = 0.85F;  // body lengths a second
 constexpr float kFastest = 2.9F;
 constexpr float kMillPace = 1.9F;
 constexpr float kBaitBallPace = 2.1F;
+constexpr float kBrakeBefore = 0.4F;  // body lengths a second, for a push of 1 straight back
 constexpr float kAlarmedPace = 0.5F;  // more than at ease
 
-constexpr std::uint32_t kLevels = 341;  // stream of the seed
-constexpr float kKeepLevel = 1.0F;      // against the way round the ball
+enum Draw : std::uint32_t { kLevels = 341, kGlances };  // streams of the seed
+constexpr std::uint32_t kGlimpses = 4;
+constexpr std::uint64_t kTicksOfGlance = 60;
+constexpr float kRejoin = 1.5F;
+constexpr float kKeepLevel = 1.0F;  // against the way round the ball
 
 // How far from the goal, in the shape of the school: a ball, flatter where the water is shallow.
 glm::vec3 fromGoal(const Goal& goal, glm::vec3 position) {
@@ -95,8 +99,41 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
         own = goalPace + (round - goalPace) * std::abs(goal.mill);
     }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
+    // What it heads for slows it too.
+    const float stop = kBrakeBefore * std::max(0.0F, -dot(senses.push, senses.heading));
     return std::clamp(
-        pace + company.hurry - company.brake + kAlarmedPace * alarm, kSlowest, kFastest);
+        pace + company.hurry - company.brake - stop + kAlarmedPace * alarm, kSlowest, kFastest);
+}
+
+// Beyond its neighbours a fish sees others of its kind, a few at a time: so parts of a school that
+// lost one another find together again.
+glm::vec3 glimpses(const Situation& situation) {
+    const FishView& view = *situation.environment.view;
+    const Nature& nature = situation.nature;
+    const std::uint32_t own = hashOf(hashOf(situation.environment.seed, kGlances), situation.fish);
+    const auto glance =
+        static_cast<std::uint32_t>(situation.environment.tick.value / kTicksOfGlance);
+    // A school is a large, flashing thing: it is seen as far as the water is clear.
+    const float sight = situation.environment.surroundings->clarityMetres;
+    glm::vec3 sum{};
+    for (std::uint32_t i = 0; i < kGlimpses; ++i) {
+        const std::uint32_t hash = hashOf(hashOf(own, glance), i);
+        const std::uint32_t other = nature.first + hash % (nature.last - nature.first);
+        const glm::vec3 offset = view.position(other) - situation.senses.position;
+        const float distance = lengthOf(offset);
+        const bool seen = distance > kSightMetres && distance < sight &&
+                          !view.shows(other, kAway) &&
+                          inFieldOfView(situation.senses.heading, offset);
+        if (seen) sum += offset / (distance * static_cast<float>(kGlimpses));
+    }
+    return sum;
+}
+
+// 0 up to the fear that is heeded, 1 from that on with which each flees for itself: a predator that
+// only goes about far off does not press a school together.
+float alarmOf(const Nature& nature, const Feelings& feelings) {
+    const float more = feelings.fear - nature.fearFrom;
+    return std::clamp(more / std::max(nature.fearAlone - nature.fearFrom, 0.01F), 0.0F, 1.0F);
 }
 
 // Schoolmates give way to a predator before it comes so near that each flees for itself.
@@ -120,15 +157,14 @@ float schoolRadiusMetres(std::size_t fish) {
 Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
-    const float alarm =
-        std::min(1.0F, situation.feelings.fear / std::max(situation.nature.fearFrom, 0.01F));
+    const float alarm = alarmOf(situation.nature, situation.feelings);
     const Company company = companyOf(
         *environment.view, senses, situation.fish, kSpacing + (kAlarmedSpacing - kSpacing) * alarm);
     // What must be avoided comes before where one would like to go.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
-    glm::vec3 way{};
-    if (environment.gathering != Gathering::None)
-        way = commonWay(environment, situation.fish, senses.position);
+    const glm::vec3 way = environment.gathering == Gathering::None
+                              ? glimpses(situation) * kRejoin
+                              : commonWay(environment, situation.fish, senses.position);
     const glm::vec3 wish = senses.heading * kKeepCourse + pullOf(company) + way * follow +
                            whim(environment.seed, situation.fish, environment.tick) * kWander +
                            clearing(situation) + wayRound(situation);

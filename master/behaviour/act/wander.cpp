@@ -73,7 +73,7 @@ Course wander(const Situation& situation) {
         senses.heading * kKeepCourse +
         directionOf(bound.towards, senses.heading) * ((kGo + kGoHome * bound.strayed) * calm) +
         turnOf(nature, spell, senses.heading) * (kTurn * calm * (1 - bound.strayed)) +
-        roomFrom(*environment.view, senses, situation.fish);
+        roomFrom(situation);
     const float pace = paceOf(nature, environment.seed, situation.fish, environment.tick);
     // Far from home nobody hovers.
     return heading(situation, wish, std::max(pace, nature.slow * bound.strayed));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/place/angle.h"
+#include "master/behaviour/perceive/sparse.h"
 
 namespace aquarama {
 
@@ -22,6 +23,8 @@ constexpr float kPartingLengths = 0.1F;  // a second: who goes away so fast is n
 // where a schoolmate will be after these seconds if neither turns.
 constexpr Box kBody{0.45F, 0.5F, 0.17F, 0.12F};
 constexpr float kSoon[] = {0.2F, 0.4F};
+
+constexpr std::size_t kFewBodies = 8;
 
 // Body axes without roll.
 struct Axes {
@@ -41,6 +44,13 @@ Axes axesOf(glm::vec3 heading) {
 
 Box scaled(const Box& box, float scale) {
     return {box.ahead * scale, box.behind * scale, box.up * scale, box.aside * scale};
+}
+
+// Whether a middle line has a part between two planes; all along one axis.
+bool reaches(float at, float extent, float least, float most) {
+    const float nose = at + extent * kNoseAhead;
+    const float tail = at - extent * kTailBehind;
+    return std::max(nose, tail) >= least && std::min(nose, tail) <= most;
 }
 
 struct Watch {
@@ -85,7 +95,7 @@ struct Watch {
         const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
         const float parting = dot(offset, drift);
         if (parting > kPartingLengths * senses.length * std::sqrt(squared)) return;
-        note(other, offset, shareOf(other, scaled(box, hold), offset));
+        note(other, offset, shareOf(view.heading(other) * length, scaled(box, hold), offset));
     }
 
     void heedSchoolmate(std::uint32_t other) {
@@ -93,22 +103,28 @@ struct Watch {
         const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
         if (dot(offset, drift) > 0) return;
         const Box body = scaled(kBody, senses.length);
-        const glm::vec3 local = axes.of(offset);
-        const glm::vec3 localDrift = axes.of(drift);
-        const glm::vec3 along = axes.of(view.heading(other)) * view.length[other];
+        const glm::vec3 along = view.heading(other) * view.length[other];
+        // Most pass beside or above: that is known before the rest is worked out.
+        const auto passes = [&](glm::vec3 axis, float least, float most) {
+            const float at = dot(offset, axis);
+            const float moves = dot(drift, axis);
+            const float extent = dot(along, axis);
+            return !reaches(at + moves * kSoon[0], extent, least, most) &&
+                   !reaches(at + moves * kSoon[1], extent, least, most);
+        };
+        if (passes(axes.right, -body.aside, body.aside) || passes(axes.up, -body.up, body.up) ||
+            passes(axes.ahead, -body.behind, body.ahead))
+            return;
         float share = 0;
-        for (const float soon : kSoon) {
-            const glm::vec3 at = local + localDrift * soon;
-            share = std::max(share,
-                             shareInside(body, at + along * kNoseAhead, at - along * kTailBehind));
-        }
+        for (const float soon : kSoon)
+            share = std::max(share, shareOf(along, body, offset + drift * soon));
         note(other, offset, share);
     }
 
-    [[nodiscard]] float shareOf(std::uint32_t other, const Box& within, glm::vec3 offset) const {
+    [[nodiscard]] float shareOf(glm::vec3 along, const Box& within, glm::vec3 offset) const {
         const glm::vec3 at = axes.of(offset);
-        const glm::vec3 along = axes.of(view.heading(other)) * view.length[other];
-        return shareInside(within, at + along * kNoseAhead, at - along * kTailBehind);
+        const glm::vec3 extent = axes.of(along);
+        return shareInside(within, at + extent * kNoseAhead, at - extent * kTailBehind);
     }
 
     // Keeps the most dangerous; of equal ones the lower index.
@@ -126,16 +142,18 @@ void heedLargeBodies(Watch& watch, std::uint32_t fish) {
     constexpr float kLongestHalf = 1.0F;
     const float reach = std::max(watch.box.ahead, watch.box.behind) + kLongestHalf;
     const float reachSquared = reach * reach;
-    watch.environment.grids->large.visitAround(
-        watch.senses.position, reachSquared, [&](const auto& row) {
-            for (const std::uint32_t other : row.index)
-                if (other != fish) watch.heed(other);
-        });
+    const auto heedAll = [&](const SpatialGrid::Candidates& row) {
+        for (const std::uint32_t other : row.index)
+            if (other != fish) watch.heed(other);
+    };
+    visitSparse(
+        watch.environment.grids->large, kFewBodies, watch.senses.position, reachSquared, heedAll);
 }
 
 }  // namespace
 
 float shareInside(const Box& box, glm::vec3 nose, glm::vec3 tail) {
+    if (std::min(nose.x, tail.x) > box.ahead || std::max(nose.x, tail.x) < -box.behind) return 0;
     const glm::vec3 along = tail - nose;
     float enters = 0;
     float leaves = 1;

@@ -13,6 +13,18 @@ namespace {
 constexpr float kSparseCellMetres = 2.0F;
 constexpr float kFoodCellMetres = 0.8F;
 
+// In a wide sea cells grow, so that those without anybody neither cost time nor memory.
+std::size_t mostCellsFor(std::size_t points) {
+    constexpr std::size_t kFew = 4096;
+    constexpr std::size_t kToPoint = 4;
+    return std::max(kFew, points * kToPoint);
+}
+
+// Predators and large bodies are seen from so far that a search would pass many empty cells.
+SpatialGrid farSeen(const Region& water, std::size_t points) {
+    return {water, kSparseCellMetres, points, points / 2};
+}
+
 bool isPredator(const FishView& view, std::span<const Nature> natures, std::size_t fish) {
     return natures[view.kind[fish]].role == Role::Predator;
 }
@@ -20,12 +32,12 @@ bool isPredator(const FishView& view, std::span<const Nature> natures, std::size
 }  // namespace
 
 Grids::Grids(const Region& water, std::size_t fishCount, std::size_t foodCount)
-    : fish(water, kCellMetres, fishCount),
+    : fish(water, kCellMetres, fishCount, mostCellsFor(fishCount)),
       kinds(fish),
-      predators(water, kSparseCellMetres, 0),
-      large(water, kSparseCellMetres, 0),
-      mates(water, kSparseCellMetres, fishCount),
-      food(water, kFoodCellMetres, foodCount),
+      predators(farSeen(water, 0)),
+      large(farSeen(water, 0)),
+      mates(water, kSparseCellMetres, fishCount, mostCellsFor(fishCount)),
+      food(water, kFoodCellMetres, foodCount, mostCellsFor(foodCount)),
       water_(water),
       marks_(fishCount) {
     fish.makeRoomForSteps();
@@ -36,7 +48,7 @@ Grids::Grids(const Region& water, std::size_t fishCount, std::size_t foodCount)
 void Grids::expect(SpatialGrid& grid, Sparse which, std::size_t count) {
     if (count <= chosen_[which].capacity()) return;
     chosen_[which].reserve(count);
-    grid = SpatialGrid(water_, kSparseCellMetres, chosen_[which].capacity());
+    grid = farSeen(water_, chosen_[which].capacity());
 }
 
 void Grids::expect(const FishView& view, std::span<const Nature> natures) {
@@ -85,8 +97,7 @@ void Grids::rebuildSparse(std::size_t which, const Points& fishPoints, const Foo
     const auto of = [&](SpatialGrid& grid, Sparse sparse, Mark mark) {
         const std::size_t room = chosen_[sparse].capacity();
         const std::span<const std::uint32_t> chosen = marked(sparse, mark);
-        if (chosen.size() > room)
-            grid = SpatialGrid(water_, kSparseCellMetres, chosen_[sparse].capacity());
+        if (chosen.size() > room) grid = farSeen(water_, chosen_[sparse].capacity());
         grid.rebuild(fishPoints, chosen);
     };
     if (which == kPredators) of(predators, kPredators, kPredator);

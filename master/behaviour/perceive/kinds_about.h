@@ -18,9 +18,7 @@ class KindsAbout {
 
     void clear();
     // Of the fish of a bucket, once it is sorted; from any thread.
-    void note(const SpatialGrid& grid,
-              std::size_t bucket,
-              std::span<const std::uint8_t> kinds);
+    void note(const SpatialGrid& grid, std::size_t bucket, std::span<const std::uint8_t> kinds);
 
     // Whether cells [from, to] may hold fish of other kinds than `own`.
     [[nodiscard]] bool mayHoldOthers(const SpatialGrid::Cell& from,

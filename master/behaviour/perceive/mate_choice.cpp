@@ -8,6 +8,7 @@ namespace aquarama {
 namespace {
 
 constexpr float kTakenDearness = 1.5F;  // of one that courts another
+constexpr float kDevotion = 3;          // of anybody else to one whose courtship is answered
 
 }  // namespace
 
@@ -26,14 +27,15 @@ float dearnessOfMate(const FishView& view,
                      std::uint8_t likes,
                      std::uint32_t fish,
                      std::uint32_t other) {
-    const std::uint32_t courted = view.partner[other];
-    const bool isTaken = courted != kNobody && courted != fish;
-    const float dearness = isTaken ? kTakenDearness : 1.0F;
+    const std::uint32_t own = view.partner[fish];
+    const bool isCourted = own != kNobody && view.partner[own] == fish;
+    const std::uint32_t theirs = view.partner[other];
+    float dearness = theirs != kNobody && theirs != fish ? kTakenDearness : 1.0F;
+    if (isCourted && own != other) dearness = kDevotion;
     if ((likes & kIsFemale) == 0) return dearness;
-    // What is dearer than its distance is fine for the search; nothing may be cheaper. So she
-    // counts all as farther, the largest and him who courts her least.
+    // Nothing may cost less than its distance: so the smaller are dearer.
     const float smaller = view.length[fish] / (kLeastSizeRatio * view.length[other]);
-    return std::max(1.0F, smaller * smaller) * (courted == fish ? 1.0F : kTakenDearness);
+    return dearness * std::max(1.0F, smaller * smaller);
 }
 
 }  // namespace aquarama

@@ -21,8 +21,8 @@ inline constexpr float kTemptedFrom = 0.1F;
                                std::uint32_t fish,
                                std::uint32_t other);
 
-// What its distance counts for, 1 or more for a male: who courts another already counts as farther.
-// For a female a larger one counts as nearer, and so does he who courts her.
+// So many times its distance it counts as far, 1 or more: one that courts another as farther, and
+// so does everybody to one whose courtship is answered; to a female a smaller one as farther.
 [[nodiscard]] float dearnessOfMate(const FishView& view,
                                    std::uint8_t likes,
                                    std::uint32_t fish,

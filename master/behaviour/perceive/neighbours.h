@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostNeighbours = 7;
 // Attraction ends at 5 body lengths (Huth & Wissel 1992): of the scad's 0.24 m.
 inline constexpr float kSightMetres = 1.2F;
 // About as wide as the seven nearest of a school are far; the search was quickest so.
-inline constexpr float kCellMetres = 0.4F;
+inline constexpr float kCellMetres = 0.48F;
 
 struct Neighbours {
     std::array<std::uint32_t, kMostNeighbours> fish{};

@@ -3,7 +3,6 @@
 // processor has lanes.
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "master/behaviour/perceive/grids.h"
 #include "master/behaviour/perceive/neighbours.h"
@@ -26,7 +25,6 @@ constexpr std::size_t kRoom = 256;
 constexpr float kHopedFor = 14;
 constexpr float kViewShare = 0.933F;  // of a ball that the field of view has
 constexpr float kCertain = 0.999F;    // rounding takes less off a distance to a border
-constexpr float kSightSquared = kSightMetres * kSightMetres;
 
 // Those that a search has kept.
 struct Kept {
@@ -114,6 +112,15 @@ Neighbours nearestOf(Kept& kept) {
     return nearest;
 }
 
+// Vectors of slots to look at: whose they are and how many lanes of each are meant. Listed first,
+// so that the loop over them has nothing to ask.
+struct Steps {
+    static constexpr std::size_t kRoom = 64;
+    std::uint32_t slot[kRoom + 1];
+    std::uint32_t lanes[kRoom + 1];
+    std::size_t count = 0;
+};
+
 struct Search {
     const SpatialGrid* grid;
     glm::vec3 place;
@@ -123,17 +130,21 @@ struct Search {
     // Adds to those kept who stand in these slots, are in view and within the limit, and of its own
     // kind or not.
     template <bool kOwnKind>
-    HWY_INLINE void look(const SpatialGrid::Slots& slots, float& limit, Kept& kept) const {
+    HWY_INLINE void look(Steps& steps, float& limit, Kept& kept) const {
         const float* const x = grid->x();
         const float* const y = grid->y();
         const float* const z = grid->z();
         const std::uint32_t* const index = grid->index();
-        sweep(slots.first, slots.last, [&](std::size_t slot, LaneMask there) HWY_ATTR {
+        const Lanes farthest = hn::Set(kFloats, limit);
+        std::size_t count = kept.count;
+        for (std::size_t i = 0; i < steps.count; ++i) {
+            const std::size_t slot = steps.slot[i];
             const OffsetLanes offset = offsetsFrom(position, x, y, z, slot);
             const Lanes squared = dotLanes(offset, offset);
             const Lanes ahead = dotLanes(heading, offset);
             const IndexLanes fish = hn::LoadU(kIndices, index + slot);
-            const LaneMask near = hn::And(there, hn::Le(squared, hn::Set(kFloats, limit)));
+            const LaneMask near =
+                hn::And(hn::FirstN(kFloats, steps.lanes[i]), hn::Le(squared, farthest));
             const LaneMask seen =
                 hn::Or(hn::Ge(ahead, hn::Zero(kFloats)),
                        hn::Le(hn::Mul(ahead, ahead),
@@ -141,11 +152,17 @@ struct Search {
             const auto own = hn::Lt(hn::Sub(fish, firstOfKind), countOfKind);
             const auto meant = kOwnKind ? hn::And(own, hn::Ne(fish, self)) : hn::Not(own);
             const LaneMask mask = hn::And(hn::And(near, seen), hn::RebindMask(kFloats, meant));
-            append(kFloats, squared, mask, kept.distanceSquared + kept.count);
-            append(kIndices, fish, hn::RebindMask(kIndices, mask), kept.fish + kept.count);
-            kept.count += hn::CountTrue(kFloats, mask);
-            if (HWY_UNLIKELY(kept.count > kRoom)) keepNearest(kept, limit);
-        });
+            append(kFloats, squared, mask, kept.distanceSquared + count);
+            append(kIndices, fish, hn::RebindMask(kIndices, mask), kept.fish + count);
+            count += hn::CountTrue(kFloats, mask);
+            if (HWY_UNLIKELY(count > kRoom)) {
+                kept.count = count;
+                keepNearest(kept, limit);
+                count = kept.count;
+            }
+        }
+        kept.count = count;
+        steps.count = 0;
     }
 
     static void keepNearest(Kept& kept, float& limit) {
@@ -153,87 +170,133 @@ struct Search {
         kept.count = nearest.count;
         std::copy_n(nearest.fish.begin(), nearest.count, kept.fish);
         std::copy_n(nearest.distanceSquared.begin(), nearest.count, kept.distanceSquared);
-        limit = nearest.distanceSquared[nearest.count - 1];
+        limit = std::min(limit, nearest.distanceSquared[nearest.count - 1]);
     }
 };
 
-// A cube of cells about a fish, cut off where the grid ends.
-struct Block {
-    SpatialGrid::Cell from, to;
-    float reach;  // metres: as far it holds all
-};
-
-// Cells at the border of the grid reach outwards without end.
-HWY_INLINE float cellsToBorder(float at, int from, int to, int cells) {
-    constexpr float kEndless = std::numeric_limits<float>::infinity();
-    const float below = from > 0 ? at - static_cast<float>(from) : kEndless;
-    const float above = to < cells - 1 ? static_cast<float>(to + 1) - at : kEndless;
-    return std::min(below, above);
+// Adds a row of slots to the steps; where there is no more room for one, those listed are taken.
+template <bool kOwnKind>
+HWY_INLINE void list(
+    const Search& search, SpatialGrid::Slots slots, Steps& steps, float& limit, Kept& kept) {
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kFloats));
+    // Without a branch for the common row, which one vector holds.
+    steps.slot[steps.count] = slots.first;
+    steps.lanes[steps.count] = slots.last - slots.first;
+    steps.count += slots.last > slots.first ? 1 : 0;
+    while (HWY_UNLIKELY(slots.last - slots.first > lanes)) {
+        slots.first += lanes;
+        if (steps.count == Steps::kRoom) search.look<kOwnKind>(steps, limit, kept);
+        steps.slot[steps.count] = slots.first;
+        steps.lanes[steps.count++] = slots.last - slots.first;
+    }
+    if (steps.count == Steps::kRoom) search.look<kOwnKind>(steps, limit, kept);
 }
 
-HWY_INLINE Block blockAround(const SpatialGrid& grid, glm::vec3 place, int shells) {
-    const SpatialGrid::Cell cells = grid.cells();
-    const SpatialGrid::Cell at = grid.cellOf(place);
-    const auto upTo = [shells](int cell, int last) { return std::min(cell + shells, last - 1); };
-    const auto downTo = [shells](int cell) { return std::max(cell - shells, 0); };
-    Block block{{downTo(at.x), downTo(at.y), downTo(at.z)},
-                {upTo(at.x, cells.x), upTo(at.y, cells.y), upTo(at.z, cells.z)},
-                0};
-    const glm::vec3 inCells = (place - grid.origin()) / grid.cellMetres();
-    const float border = std::min({cellsToBorder(inCells.x, block.from.x, block.to.x, cells.x),
-                                   cellsToBorder(inCells.y, block.from.y, block.to.y, cells.y),
-                                   cellsToBorder(inCells.z, block.from.z, block.to.z, cells.z)});
-    block.reach = std::min(border * grid.cellMetres() * kCertain, kSightMetres);
-    return block;
+// How far a point is from a cell beside its own, in cells; cells at the border of the grid reach
+// outwards without end.
+HWY_INLINE float outside(float at, int own, int other) {
+    const float beyond =
+        other > own ? static_cast<float>(other) - at : at - static_cast<float>(other + 1);
+    return other == own ? 0.0F : beyond;
 }
 
-// x to the power of 2/3, near enough for a guess: a third is taken of the logarithm that the bits
-// of a float nearly are.
-HWY_INLINE float roughlyTwoThirdsPower(float x) {
+// All within reach of a fish, for which isMeant(from, to, y, z) holds of their row of cells.
+template <bool kOwnKind, class IsMeant>
+HWY_INLINE void lookWithin(const Search& search, float reach, const IsMeant& isMeant, Kept& kept) {
+    const SpatialGrid& grid = *search.grid;
+    const glm::vec3 wide{reach / kCertain};
+    const SpatialGrid::Cell own = grid.cellOf(search.place);
+    const SpatialGrid::Cell from = grid.cellOf(search.place - wide);
+    const SpatialGrid::Cell to = grid.cellOf(search.place + wide);
+    const glm::vec3 at = (search.place - grid.origin()) / grid.cellMetres();
+    const float cells = wide.x / grid.cellMetres();
+    float limit = reach * reach;
+    Steps steps;
+    kept.count = 0;
+    for (int z = from.z; z <= to.z; ++z)
+        for (int y = from.y; y <= to.y; ++y) {
+            const float dy = outside(at.y, own.y, y);
+            const float dz = outside(at.z, own.z, z);
+            const bool meant = dy * dy + dz * dz <= cells * cells && isMeant(from.x, to.x, y, z);
+            if (meant) list<kOwnKind>(search, grid.slotsOf(from.x, to.x, y, z), steps, limit, kept);
+        }
+    search.look<kOwnKind>(steps, limit, kept);
+}
+
+// The third root, near enough for a guess: a third is taken of the logarithm that the bits of a
+// float nearly are.
+HWY_INLINE float roughThirdRoot(float x) {
     constexpr std::uint64_t kBitsOfOne = 0x3f800000;
     const std::uint64_t bits = std::bit_cast<std::uint32_t>(x);
-    return std::bit_cast<float>(static_cast<std::uint32_t>((2 * bits + kBitsOfOne) / 3));
+    return std::bit_cast<float>(static_cast<std::uint32_t>((bits + 2 * kBitsOfOne) / 3));
 }
 
-std::size_t fishIn(const SpatialGrid& grid, const Block& block) {
-    std::size_t fish = 0;
-    forRows(grid, block.from, block.to, [&](const SpatialGrid::Slots& slots, int, int) {
-        fish += slots.last - slots.first;
-    });
-    return fish;
-}
+// The rows of the 27 cells about a fish, fewer at the border of the grid.
+struct Block {
+    SpatialGrid::Slots rows[9];
+    int rowCount = 0;
+    int cells;
+    std::uint32_t fish = 0;
+    float reach;  // metres: as far it holds all
 
-// The square of about how far the hoped for are, where so many fish share a block.
-HWY_INLINE float guess(const SpatialGrid& grid, const Block& block, std::size_t fish) {
-    const auto cells =
-        static_cast<float>((block.to.x - block.from.x + 1) * (block.to.y - block.from.y + 1) *
-                           (block.to.z - block.from.z + 1));
+    HWY_INLINE Block(const SpatialGrid& grid, glm::vec3 place) {
+        const SpatialGrid::Cell most = grid.cells();
+        const SpatialGrid::Cell at = grid.cellOf(place);
+        const SpatialGrid::Cell from{
+            std::max(at.x - 1, 0), std::max(at.y - 1, 0), std::max(at.z - 1, 0)};
+        const SpatialGrid::Cell to{std::min(at.x + 1, most.x - 1),
+                                   std::min(at.y + 1, most.y - 1),
+                                   std::min(at.z + 1, most.z - 1)};
+        cells = (to.x - from.x + 1) * (to.y - from.y + 1) * (to.z - from.z + 1);
+        for (int z = from.z; z <= to.z; ++z)
+            for (int y = from.y; y <= to.y; ++y) {
+                const SpatialGrid::Slots slots = grid.slotsOf(from.x, to.x, y, z);
+                fish += slots.last - slots.first;
+                rows[rowCount++] = slots;
+            }
+        // Of one that strayed out of the grid it is negative, and then less than nothing is held.
+        const glm::vec3 inCells = (place - grid.origin()) / grid.cellMetres();
+        const auto margin = [](float in, int cell) {
+            const float share = in - static_cast<float>(cell);
+            return std::min(share, 1 - share);
+        };
+        const float least =
+            std::min({margin(inCells.x, at.x), margin(inCells.y, at.y), margin(inCells.z, at.z)});
+        reach = std::max(0.0F, (1 + least) * grid.cellMetres() * kCertain);
+    }
+};
+
+// About how far the hoped for are, were all the water as the block is.
+HWY_INLINE float guess(const SpatialGrid& grid, const Block& block) {
     constexpr float kBall = 4.18879F;  // of radius 1
-    const float cubed = kHopedFor * cells / (kBall * kViewShare * static_cast<float>(fish));
-    return roughlyTwoThirdsPower(cubed) * grid.cellMetres() * grid.cellMetres();
+    const float cubed = kHopedFor * static_cast<float>(block.cells) /
+                        (kBall * kViewShare * static_cast<float>(std::max(block.fish, 1U)));
+    return roughThirdRoot(cubed) * grid.cellMetres();
 }
 
-HWY_INLINE void lookAt(const Search& search, const Block& block, float limit, Kept& kept) {
-    kept.count = 0;
-    forRows(*search.grid, block.from, block.to, [&](const SpatialGrid::Slots& slots, int, int) {
-        search.look<true>(slots, limit, kept);
-    });
+HWY_INLINE void lookInBlock(const Search& search, const Block& block, float reach, Kept& kept) {
+    float limit = reach * reach;
+    Steps steps;
+    for (int row = 0; row < block.rowCount; ++row)
+        list<true>(search, block.rows[row], steps, limit, kept);
+    search.look<true>(steps, limit, kept);
 }
 
-// In growing shells of cells, until seven are found that nobody beyond can be nearer than.
+// All within a guessed reach; where they are fewer than seven, within a longer one.
 HWY_INLINE Neighbours nearestOfKind(const Search& search) {
+    constexpr float kEnough = 0.8F;  // of the hoped for reach: then half of them are in it
+    constexpr float kFarther = 1.5F;
+    const auto everyRow = [](int, int, int, int) { return true; };
     Kept kept;
-    for (int shells = 1;; ++shells) {
-        const Block block = blockAround(*search.grid, search.place, shells);
-        const std::size_t fish = fishIn(*search.grid, block);
-        const bool all = block.reach >= kSightMetres;
-        if (fish <= kMostNeighbours && !all) continue;
-        const float guessed = guess(*search.grid, block, fish);
-        const float reachSquared = all ? kSightSquared : block.reach * block.reach;
-        lookAt(search, block, std::min(guessed, reachSquared), kept);
-        if (kept.count < kMostNeighbours && guessed < reachSquared)
-            lookAt(search, block, reachSquared, kept);
-        if (kept.count >= kMostNeighbours || all) return nearestOf(kept);
+    const Block block(*search.grid, search.place);
+    const float hoped = std::min(guess(*search.grid, block), kSightMetres);
+    if (block.reach >= kEnough * hoped) {
+        lookInBlock(search, block, std::min(block.reach, hoped), kept);
+        if (kept.count >= kMostNeighbours) return nearestOf(kept);
+    }
+    for (float reach = hoped;; reach = std::min(kFarther * reach, kSightMetres)) {
+        lookWithin<true>(search, reach, everyRow, kept);
+        if (kept.count >= kMostNeighbours || reach == kSightMetres) return nearestOf(kept);
     }
 }
 
@@ -246,11 +309,15 @@ HWY_INLINE Neighbours nearestOthers(const Search& search,
     const SpatialGrid::Cell to = grid.cellOf(search.place + reach);
     if (!kinds.mayHoldOthers(from, to, own)) return {};
     Kept kept;
-    float limit = kSightSquared;
-    forRows(grid, from, to, [&](const SpatialGrid::Slots& slots, int y, int z) {
-        const auto at = [&](int x) { return grid.rowOf(y, z) + static_cast<std::size_t>(x); };
-        if (kinds.rowHoldsOthers(at(from.x), at(to.x), own)) search.look<false>(slots, limit, kept);
-    });
+    lookWithin<false>(
+        search,
+        kSightMetres,
+        [&](int firstX, int lastX, int y, int z) {
+            const std::size_t row = grid.rowOf(y, z);
+            return kinds.rowHoldsOthers(
+                row + static_cast<std::size_t>(firstX), row + static_cast<std::size_t>(lastX), own);
+        },
+        kept);
     return nearestOf(kept);
 }
 

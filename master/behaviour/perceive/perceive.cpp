@@ -2,12 +2,14 @@
 #include "master/behaviour/perceive/perceive.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "common/place/angle.h"
 #include "master/behaviour/perceive/climate_sense.h"
 #include "master/behaviour/perceive/collision.h"
 #include "master/behaviour/perceive/mate_choice.h"
+#include "master/behaviour/perceive/sparse.h"
 #include "master/behaviour/perceive/stimulus.h"
 #include "master/behaviour/perceive/vision.h"
 #include "master/fish/drives.h"
@@ -20,6 +22,9 @@ namespace {
 
 constexpr float kReachSeconds = 2.2F;  // how far ahead the surroundings are felt
 constexpr float kReachMetres = 0.4F;
+
+// So many are looked at one by one.
+constexpr std::size_t kFewPredators = 96;
 
 // b1, b2 of a predator's cost of a prey: schooling and turning make it dearer (Tu &
 // Terzopoulos 1994).
@@ -42,7 +47,7 @@ struct Onlooker {
     }
     [[nodiscard]] bool isHidden(const Sighting& sighting) const {
         return aquarama::isHidden(
-            environment, fish, sighting.object, senses.position, sighting.offset);
+            environment, fish, sighting.object, {senses.position, sighting.offset});
     }
     // Of a fish that is there; not whether anything is in between.
     [[nodiscard]] Sighting sightingOf(std::uint32_t other) const {
@@ -52,12 +57,13 @@ struct Onlooker {
 };
 
 // Searches a grid for what costs least. costOf(index, offset, distance) must be `distance` or more,
-// and infinite for what is not sought; what costs `best` or more is passed over. Of equal costs the
-// lower index has it.
+// and infinite for what is not sought, as all beyond reach; what costs `best` or more is passed
+// over. Of equal costs the lower index has it.
 template <class CostOf>
-Sighting cheapestIn(const SpatialGrid& grid, glm::vec3 position, float best, const CostOf& costOf) {
+Sighting cheapestIn(
+    const SpatialGrid& grid, glm::vec3 position, float reach, float best, const CostOf& costOf) {
     Sighting cheapest;
-    float reachSquared = best * best;
+    float reachSquared = std::min(reach * reach, best * best);
     grid.visitAround(position, reachSquared, [&](const SpatialGrid::Candidates& row) {
         for (std::size_t i = 0; i < row.index.size(); ++i) {
             const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;
@@ -68,7 +74,7 @@ Sighting cheapestIn(const SpatialGrid& grid, glm::vec3 position, float best, con
             if (cost > best || (cost == best && row.index[i] >= cheapest.object)) continue;
             cheapest = {row.index[i], offset, distance};
             best = cost;
-            reachSquared = cost * cost;
+            reachSquared = std::min(reachSquared, cost * cost);
         }
     });
     return cheapest;
@@ -105,14 +111,21 @@ void insert(Senses& senses, const Sighting& predator) {
     senses.predators[place] = predator;
 }
 
+// Behind rock, sand or a nearer one of them.
 void forgetHiddenPredators(const Onlooker& onlooker) {
     Senses& senses = onlooker.senses;
-    const std::size_t looked = senses.predatorCount;
+    const std::array<Sighting, kMostPredators> looked = senses.predators;
+    const std::size_t count = senses.predatorCount;
+    const Obstacles& obstacles = onlooker.environment.surroundings->obstacles;
     senses.predatorCount = 0;
-    for (std::size_t i = 0; i < looked; ++i)
-        if (!onlooker.isHidden(senses.predators[i]))
-            senses.predators[senses.predatorCount++] = senses.predators[i];
-    for (std::size_t i = senses.predatorCount; i < looked; ++i) senses.predators[i] = {};
+    senses.predators = {};
+    for (std::size_t i = 0; i < count; ++i) {
+        const Ray ray{senses.position, looked[i].offset};
+        bool hidden = terrainHides(obstacles, ray);
+        for (std::size_t nearer = 0; nearer < i; ++nearer)
+            hidden = hidden || bodyHides(onlooker.view(), looked[nearer].object, ray);
+        if (!hidden) senses.predators[senses.predatorCount++] = looked[i];
+    }
 }
 
 // An alarmed fish looks about: it does not lose what it flees from in its blind angle.
@@ -124,23 +137,26 @@ void seePredators(const Onlooker& onlooker) {
     const bool alarmed = onlooker.mind.alarm != Alarm::Calm;
     const float reach = onlooker.sight(kMostConspicuous);
     float reachSquared = reach * reach;
-    onlooker.environment.grids->predators.visitAround(
-        senses.position, reachSquared, [&](const auto& row) {
-            for (std::size_t i = 0; i < row.index.size(); ++i) {
-                const std::uint32_t other = row.index[i];
-                const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - senses.position;
-                const float squared = dot(offset, offset);
-                if (squared > reachSquared || (nature.huntedBy >> view.kind[other] & 1U) == 0)
-                    continue;
-                const float seen = onlooker.sight(conspicuousness(view.length[other]));
-                if (squared > seen * seen) continue;
-                if (!alarmed && !inFieldOfView(senses.heading, offset)) continue;
-                insert(senses, {other, offset, std::sqrt(squared)});
-                const float farthest = senses.predators[kMostPredators - 1].distance;
-                if (senses.predatorCount == kMostPredators)
-                    reachSquared = std::min(reachSquared, farthest * farthest);
-            }
-        });
+    const auto lookAlong = [&](const SpatialGrid::Candidates& row) {
+        for (std::size_t i = 0; i < row.index.size(); ++i) {
+            const std::uint32_t other = row.index[i];
+            const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - senses.position;
+            const float squared = dot(offset, offset);
+            if (squared > reachSquared || (nature.huntedBy >> view.kind[other] & 1U) == 0) continue;
+            const float seen = onlooker.sight(conspicuousness(view.length[other]));
+            if (squared > seen * seen) continue;
+            if (!alarmed && !inFieldOfView(senses.heading, offset)) continue;
+            insert(senses, {other, offset, std::sqrt(squared)});
+            const float farthest = senses.predators[kMostPredators - 1].distance;
+            if (senses.predatorCount == kMostPredators)
+                reachSquared = std::min(reachSquared, farthest * farthest);
+        }
+    };
+    visitSparse(onlooker.environment.grids->predators,
+                kFewPredators,
+                senses.position,
+                reachSquared,
+                lookAlong);
     forgetHiddenPredators(onlooker);
 }
 
@@ -180,7 +196,7 @@ Sighting attend(const Onlooker& onlooker,
             best = std::min(best, cost * (1 - onlooker.nature.persistence));
         }
     }
-    const Sighting other = cheapestIn(grid, onlooker.senses.position, best, costOf);
+    const Sighting other = cheapestIn(grid, onlooker.senses.position, sight, best, costOf);
     const bool better = other.seen() && other.object != kept.object && !onlooker.isHidden(other);
     return better ? other : kept;
 }
@@ -256,6 +272,7 @@ void senseFood(const Onlooker& onlooker) {
     const Sighting better =
         cheapestIn(onlooker.environment.grids->food,
                    senses.position,
+                   reach,
                    best,
                    [&](std::uint32_t particle, glm::vec3 offset, float distance) {
                        return distance <= reach && isWorthLeaving(onlooker, particle, distance)

@@ -7,8 +7,6 @@ namespace aquarama {
 
 namespace {
 
-constexpr std::size_t kFewCells = 4096;
-constexpr std::size_t kMostCellsToPoint = 4;
 constexpr std::size_t kPointsInBucket = 1024;  // about so many, were they evenly spread
 constexpr std::size_t kMostBuckets = 1024;
 
@@ -31,7 +29,10 @@ std::size_t SpatialGrid::Columns::bytes() const {
     return sizeof(float) * (x.size() + y.size() + z.size()) + sizeof(std::uint32_t) * index.size();
 }
 
-SpatialGrid::SpatialGrid(const Region& water, float cellMetres, std::size_t most)
+SpatialGrid::SpatialGrid(const Region& water,
+                         float cellMetres,
+                         std::size_t most,
+                         std::size_t mostCells)
     : origin_(water.centre - water.halfExtent),
       cellMetres_(cellMetres),
       cellOfPoint_(most),
@@ -42,7 +43,7 @@ SpatialGrid::SpatialGrid(const Region& water, float cellMetres, std::size_t most
                   cellsAcross(water.halfExtent.z, cellMetres_)};
         return cellsIn(cells_);
     };
-    while (cover() > std::max(kFewCells, most * kMostCellsToPoint)) cellMetres_ *= 1.25F;
+    while (cover() > std::max<std::size_t>(mostCells, 1)) cellMetres_ *= 1.25F;
     cellsPerMetre_ = 1 / cellMetres_;
     starts_.resize(cellsIn(cells_) + 1);
     sorted_.resize(most);

@@ -23,8 +23,8 @@ struct Points {  // metres
 class SpatialGrid {
   public:
     // Room for `most` points. Those outside `water` are kept in the border cells; they are found
-    // all the same. Where the cells would be many more than the points they are made larger.
-    SpatialGrid(const Region& water, float cellMetres, std::size_t most);
+    // all the same. Where there would be more than `mostCells` cells they are made larger.
+    SpatialGrid(const Region& water, float cellMetres, std::size_t most, std::size_t mostCells);
 
     // Of all points, those at these ascending indices. In each cell they stand in the order of
     // their index. Allocates nothing.
@@ -79,6 +79,8 @@ class SpatialGrid {
         row(centre.y, centre.z);
         const int cells = 1 + static_cast<int>(std::sqrt(reachSquared) * cellsPerMetre_);
         for (int ring = 1; ring <= cells; ++ring) {
+            const float nearest = static_cast<float>(ring - 1) * cellMetres_;
+            if (nearest * nearest > reachSquared * kSlack) return;  // enough was found
             for (int i = -ring; i < ring;
                  ++i) {  // the four sides of a square, each without its end
                 row(centre.y + i, centre.z - ring);

@@ -19,19 +19,6 @@ constexpr int kSandSamples = 6;
 constexpr std::array kTrunk{0.2F, -0.05F, -0.3F};
 constexpr float kTrunkRadius = 0.1F;
 
-struct Ray {
-    glm::vec3 from, offset;
-    float squaredLength = dot(offset, offset);
-
-    [[nodiscard]] bool passes(glm::vec3 centre, float radius) const {
-        const glm::vec3 to = centre - from;
-        const float along =
-            std::clamp(dot(to, offset) / std::max(squaredLength, 1.0e-6F), 0.0F, 1.0F);
-        const glm::vec3 miss = to - offset * along;
-        return dot(miss, miss) < radius * radius;
-    }
-};
-
 bool rocksHide(const Obstacles& obstacles, const Ray& ray) {
     for (const Rock& rock : obstacles.rocks)
         if (ray.passes(rock.centre, rock.radiusMetres * kSolidRock)) return true;
@@ -49,27 +36,19 @@ bool sandHides(const Obstacles& obstacles, const Ray& ray) {
     return false;
 }
 
-bool trunkHides(const FishView& view, std::uint32_t body, const Ray& ray) {
-    for (const float place : kTrunk)
-        if (ray.passes(view.position(body) + view.heading(body) * (place * view.length[body]),
-                       kTrunkRadius * view.length[body]))
-            return true;
-    return false;
-}
-
 bool bodiesHide(const Environment& environment,
                 std::uint32_t fish,
                 std::uint32_t object,
                 const Ray& ray) {
     const FishView& view = *environment.view;
     // Every body that the ray meets has its middle near the ray's.
-    const float reach = 0.5F * std::sqrt(ray.squaredLength) + kLargeBodyMetres;
+    const float reach = 0.5F * lengthOf(ray.offset) + kLargeBodyMetres;
     const float reachSquared = reach * reach;
     bool hidden = false;
     environment.grids->large.visitAround(
         ray.from + ray.offset * 0.5F, reachSquared, [&](const auto& row) {
             for (const std::uint32_t body : row.index)
-                hidden = hidden || (body != fish && body != object && trunkHides(view, body, ray));
+                hidden = hidden || (body != fish && body != object && bodyHides(view, body, ray));
         });
     return hidden;
 }
@@ -87,14 +66,33 @@ float sightMetres(const Nature& nature,
     return std::min(nature.visionBodyLengths * lengthMetres * conspicuous, clarityMetres);
 }
 
+bool Ray::passes(glm::vec3 centre, float radius) const {
+    const glm::vec3 to = centre - from;
+    const float squared = std::max(dot(offset, offset), 1.0e-6F);
+    const float along = std::clamp(dot(to, offset) / squared, 0.0F, 1.0F);
+    const glm::vec3 miss = to - offset * along;
+    return dot(miss, miss) < radius * radius;
+}
+
+bool terrainHides(const Obstacles& obstacles, const Ray& ray) {
+    return rocksHide(obstacles, ray) || sandHides(obstacles, ray);
+}
+
+bool bodyHides(const FishView& view, std::uint32_t body, const Ray& ray) {
+    const glm::vec3 middle = view.position(body);
+    const float length = view.length[body];
+    if (!ray.passes(middle, length)) return false;
+    for (const float place : kTrunk)
+        if (ray.passes(middle + view.heading(body) * (place * length), kTrunkRadius * length))
+            return true;
+    return false;
+}
+
 bool isHidden(const Environment& environment,
               std::uint32_t fish,
               std::uint32_t object,
-              glm::vec3 from,
-              glm::vec3 offset) {
-    const Obstacles& obstacles = environment.surroundings->obstacles;
-    const Ray ray{from, offset};
-    return rocksHide(obstacles, ray) || sandHides(obstacles, ray) ||
+              const Ray& ray) {
+    return terrainHides(environment.surroundings->obstacles, ray) ||
            bodiesHide(environment, fish, object, ray);
 }
 

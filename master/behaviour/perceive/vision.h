@@ -23,12 +23,20 @@ inline constexpr float kMostConspicuous = 2.5F;
                                 float conspicuous,
                                 float clarityMetres);
 
-// Whether rock, sand or a large body stands between a fish and what it looks at. Costly: asked only
-// of predators and of the focus of attention.
+// From an eye to what it looks at. Rays are costly: they are cast only to predators and to the
+// focus of attention.
+struct Ray {
+    glm::vec3 from, offset;
+    // Whether it comes so near to a point.
+    [[nodiscard]] bool passes(glm::vec3 centre, float radius) const;
+};
+[[nodiscard]] bool terrainHides(const Obstacles& obstacles, const Ray& ray);
+[[nodiscard]] bool bodyHides(const FishView& view, std::uint32_t body, const Ray& ray);
+
+// Whether rock, sand or a large body stands between a fish and what it looks at.
 [[nodiscard]] bool isHidden(const Environment& environment,
                             std::uint32_t fish,
                             std::uint32_t object,
-                            glm::vec3 from,
-                            glm::vec3 offset);
+                            const Ray& ray);
 
 }  // namespace aquarama

@@ -141,5 +141,23 @@ TEST(MotionState, anImpossibleRecordIsNotPlayable) {
     EXPECT_FALSE(with([](auto& r) { r.speed = -kFastestUnits - 1; }));
 }
 
+TEST(MotionState, anAbsentFishIsNeitherRefusedNorLost) {
+    MotionStates states;
+    states.resize(2);
+    setBodyFrame(states, 0, {.position = {1, -60, -4}, .rotation = {1, 0, 0, 0}});
+    setBodyFrame(states, 1, {.position = {1, -5, -4}, .rotation = {1, 0, 0, 0}});
+    EXPECT_FALSE(isAway(states, 0)) << "the deepest sea floor";
+    setAway(states, 1);
+    EXPECT_TRUE(isAway(states, 1));
+    const FishRecord record = recordOf(states, 1);
+    EXPECT_TRUE(isPlayable(record));
+    EXPECT_TRUE(isAway(record));
+    MotionStates received;
+    received.resize(1);
+    setFromRecord(received, 0, record);
+    EXPECT_TRUE(isAway(received, 0));
+    EXPECT_EQ(received.x[0], states.x[1]) << "it keeps all but its height";
+}
+
 }  // namespace
 }  // namespace aquarama

@@ -153,6 +153,22 @@ TEST(Reconstruct, aFishThatJumpedIsShownWhereItLanded) {
     EXPECT_FLOAT_EQ(fish.lengthMetres, 0.3F);
 }
 
+TEST(Reconstruct, aFishThatGoesOrComesIsAwayAndNotOnItsWay) {
+    MotionStates states;
+    states.resize(1);
+    setBodyFrame(states, 0, {.position = {1, -5, -4}, .rotation = {1, 0, 0, 0}});
+    const FishRecord there = recordOf(states, 0);
+    setAway(states, 0);
+    const FishRecord away = recordOf(states, 0);
+    const FishTraits traits{.id = 7, .lengthMillimetres = 240};
+    for (const float fraction : {0.0F, 0.3F, 1.0F}) {
+        EXPECT_TRUE(isAway(present(there, away, fraction, traits)));
+        EXPECT_TRUE(isAway(present(away, there, fraction, traits)));
+        EXPECT_TRUE(isAway(present(away, away, fraction, traits)));
+        EXPECT_FALSE(isAway(present(there, there, fraction, traits)));
+    }
+}
+
 TEST(Reconstruct, aSegmentThatDoesNotExistIsNotReadBeyondTheLast) {
     PresentedFish fish;
     fish.segment = 250;

@@ -120,7 +120,7 @@ TEST_F(Record, aDamagedRepertoireOrSpeciesIsNamed) {
     recordAShow();
     const auto refusalOf = [](const Recording& recording) -> std::string {
         try {
-            static_cast<void>(stagingOf(recording.production));
+            static_cast<void>(worldOptionsOf(recording.production));
         } catch (const Error& error) {
             return error.what();
         }

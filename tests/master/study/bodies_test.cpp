@@ -38,11 +38,13 @@ TEST(Bodies, ofTwoTheShorterOneCounts) {
     EXPECT_EQ(overlapOf(rodAt({0, 0.1F, 0}), rodAt({}, {1, 0, 0}, 4)), 1);
 }
 
+constexpr std::array kWandering{Intention::Wander, Intention::Wander};
+
 TEST(OverlapLog, aPairThatPartsAndMeetsAgainHasOverlappedTwice) {
     OverlapLog log(5);
     const auto look = [&](std::uint64_t tick, float apart) {
         const std::array rods{rodAt({}), rodAt({0, apart, 0})};
-        return log.note({tick}, rods).size();
+        return log.note({tick}, rods, kWandering).size();
     };
     EXPECT_EQ(look(0, 0.09F), 1U);
     EXPECT_EQ(look(5, 0.09F), 0U) << "it goes on";
@@ -60,7 +62,7 @@ TEST(OverlapLog, whoIsDeepInTheOtherIsToldFromWhoOnlyTouches) {
     OverlapLog log(5);
     for (const float ahead : {0.97F, 0.5F, 0.5F, 0.97F, 0.5F}) {
         const std::array rods{rodAt({}), rodAt({ahead, 0, 0})};
-        log.note({0}, rods);
+        log.note({0}, rods, kWandering);
     }
     ASSERT_EQ(log.all().size(), 1U);
     EXPECT_EQ(log.all()[0].ticks, 25U);

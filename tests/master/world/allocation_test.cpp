@@ -2,7 +2,7 @@
 // A program of its own: it replaces operator new to count.
 #include <gtest/gtest.h>
 
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/master/world/few_fish.h"
 #include "tests/support/count_memory.h"
 
 namespace aquarama {
@@ -16,6 +16,23 @@ TEST(World, advancingTakesNoMemory) {
         for (int i = 0; i < 120; ++i) world.advance();
         EXPECT_EQ(bytesTaken - before, 0U) << threads << " threads";
     }
+}
+
+TEST(World, mealsCatchesAndReturnsTakeNone) {
+    WorldSpecies prey = scads(60);
+    prey.start = Start{.centre = {0, -5.5F, -5}, .radiusMetres = 1, .hunger = 0.8};
+    WorldSpecies hunter = sharks(1);
+    hunter.start = Start{.centre = {-4, -5.5F, -5}, .radiusMetres = 0.5, .hunger = 1};
+    hunter.habits.hunt.restSeconds = 5;
+    WorldOptions options = openWater(1, {prey, hunter});
+    options.scene.plankton = 300;
+    World world(options);
+    for (int i = 0; i < 3; ++i) world.advance();
+    const std::size_t before = bytesTaken;
+    for (int i = 0; i < 4 * 3600; ++i) world.advance();
+    EXPECT_EQ(bytesTaken - before, 0U);
+    EXPECT_GT(world.counts().meals, 0U);
+    EXPECT_GT(world.counts().returns, 0U) << "nobody was eaten";
 }
 
 }  // namespace

@@ -51,12 +51,11 @@ inline WorldSpecies scads(std::uint32_t fish) {
 }
 
 inline WorldSpecies sharks(std::uint32_t fish) {
-    WorldSpecies sharks{.tables = sharkTables(),
-                        .fish = fish,
-                        .lengths = {.meanMetres = 1.3F,
-                                    .deviationMetres = 0,
-                                    .leastMetres = 1.3F,
-                                    .mostMetres = 1.3F}};
+    WorldSpecies sharks{
+        .tables = sharkTables(),
+        .fish = fish,
+        .lengths = {
+            .meanMetres = 1.3F, .deviationMetres = 0, .leastMetres = 1.3F, .mostMetres = 1.3F}};
     sharks.name = "synthetic shark";
     Habits& habits = sharks.habits;
     habits.role = Role::Predator;

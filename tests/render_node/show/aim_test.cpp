@@ -58,7 +58,10 @@ TEST(Aim, turnsWithTheSubmarine) {
 TEST(Aim, dropsNothingIntoTheAir) {
     const Aim aim(shippedRig("desk"), kMiddle);
     const Eye shallow{.positionMetres = {0, -0.1F, 0}, .worldFromWall = {1, 0, 0, 0}};
-    EXPECT_LT(aim.pinchAt({240, 1}, shallow)->y, 0);
+    const auto pinch = aim.pinchAt({240, 60}, shallow);
+    ASSERT_TRUE(pinch);
+    EXPECT_GT(aim.directionOf({240, 60}, shallow)->y, 0.1F);
+    EXPECT_LT(pinch->y, 0);
 }
 
 TEST(WindowFit, aWindowOfThePicturesSizeIsThePicture) {

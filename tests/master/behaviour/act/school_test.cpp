@@ -13,6 +13,14 @@ float right(const Courses& courses, std::size_t fish) {
     return courses.directionZ[fish];  // heading +x, a fish has +z to its right
 }
 
+// In formation already, as a mind remembers and others see.
+void fallIn(Aquarium& scene) {
+    for (std::size_t fish = 0; fish < scene.view.size(); ++fish) {
+        scene.minds.intention[fish] = Intention::School;
+        scene.view.signs[fish] |= kSchooling;
+    }
+}
+
 TEST(SchoolRoutine, fishTooNearPartByASlant) {
     Aquarium scene({{0, 0, -0.04F}, {0, 0, 0.04F}});
     const Courses wanted = scene.think();
@@ -32,6 +40,7 @@ TEST(SchoolRoutine, aFishFallsInWithTheCourseOfItsNeighbours) {
     for (const std::size_t other : {1U, 2U}) {
         scene.head(other, {0.7071F, 0, 0.7071F});
     }
+    fallIn(scene);
     EXPECT_GT(right(scene.think(), 0), 0.2F);
 }
 

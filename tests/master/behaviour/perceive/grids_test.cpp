@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "master/behaviour/perceive/neighbours.h"
 #include "tests/master/behaviour/scattered_school.h"
 
 namespace aquarama {
@@ -17,7 +18,7 @@ constexpr std::size_t kFish = 20000;
 
 struct Sea {
     FishView view = scatteredSchool(2, kFish, kWater);
-    Food food = makeFood(3, kWater, 700);
+    Food food = makeFood(3, obstaclesOf({3, PlaceKind::OpenSea}, kWater), 700);
     std::vector<Nature> natures = std::vector<Nature>(2);
 
     Sea() {
@@ -115,12 +116,11 @@ TEST(Grids, theSparseOnesHoldThoseTheyAreOf) {
     EXPECT_EQ(grids.food.size(), 700U);
 }
 
-TEST(Grids, aLargeOpenSeaTakesNoMoreCellsThanItsFishWarrant) {
+TEST(Grids, aLargeOpenSeaTakesNoMoreMemoryThanItsFishWarrant) {
     const Region sea{{0, -10, 0}, {500, 10, 500}};
-    const SpatialGrid grid(sea, 0.4F, 1000);
-    EXPECT_LT(grid.bytes(), 200'000U);
-    const SpatialGrid school(kWater, 0.4F, kFish);
-    EXPECT_FLOAT_EQ(school.cellMetres(), 0.4F) << "as asked where there are enough fish";
+    EXPECT_LT(Grids(sea, 1000, 0).bytes(), 400'000U);
+    EXPECT_FLOAT_EQ(Grids(kWater, kFish, 0).fish.cellMetres(), kCellMetres)
+        << "where there are fish enough";
 }
 
 }  // namespace

@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES mind_bench.cpp LINK aquarama_world aquarama_compile)

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a tick of the whole world costs with all routines on: scad at equal density in an open sea,
+// a shark for every two thousand, plankton in proportion, and their real repertoires. p50_ms and
+// p99_ms are what a clock on the wall says, on two threads; the others are processor time of both.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "common/motion/motor.h"
+#include "master/capture/compile/capture_repertoire.h"
+#include "master/world/world.h"
+#include "tests/support/cast.h"
+#include "tests/support/scad.h"
+
+namespace aquarama {
+namespace {
+
+constexpr double kLengthMetres = 0.24;
+constexpr double kLengthsCubedPerFish = 4;
+constexpr double kClearanceMetres = 1.5;  // between those at the edge and the border of the water
+constexpr std::uint32_t kFishPerShark = 2000;
+constexpr std::uint32_t kFishPerParticle = 5;
+constexpr int kTicksBefore = 120;
+
+double processMilliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double wallMilliseconds() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double, std::milli>(now).count();
+}
+
+WorldSpecies member(const Species& species,
+                    const std::shared_ptr<const MotorTables>& tables,
+                    std::uint32_t fish,
+                    const Start& start) {
+    WorldSpecies member{.tables = tables, .fish = fish};
+    member.name = species.name;
+    member.habits = species.habits;
+    member.start = start;
+    return member;
+}
+
+std::shared_ptr<const MotorTables> sharkTables() {
+    static const std::shared_ptr<const MotorTables> kTables =
+        makeMotorTables(captureRepertoire(castMember("blacktip_reef_shark"), [](double) {}));
+    return kTables;
+}
+
+std::shared_ptr<const MotorTables> scadTables() {
+    static const std::shared_ptr<const MotorTables> kTables = makeMotorTables(scadRepertoire());
+    return kTables;
+}
+
+WorldOptions openSea(std::uint32_t fish, unsigned threads) {
+    const double volume = fish * kLengthsCubedPerFish * std::pow(kLengthMetres, 3);
+    const double half = 0.5 * std::cbrt(volume);
+    const auto extent = static_cast<float>(half + kClearanceMetres);
+    WorldOptions options;
+    options.threads = threads;
+    options.scene.place = PlaceKind::OpenSea;
+    options.scene.gathering = Gathering::None;
+    options.scene.water.centre = {0, -extent - 2, -extent};
+    options.scene.water.halfExtent = glm::vec3{extent};
+    options.scene.water.leastLengthsCubed = 0;
+    options.scene.eye = {0, -extent - 2, 2};
+    options.scene.plankton = fish / kFishPerParticle;
+    Start start;
+    start.centre = options.scene.water.centre;
+    start.radiusMetres = half;
+    options.cast.push_back(member(scad(), scadTables(), fish, start));
+    const std::uint32_t sharks = fish < 1000 ? 0 : std::max(1U, fish / kFishPerShark);
+    options.cast.push_back(member(castMember("blacktip_reef_shark"), sharkTables(), sharks, start));
+    options.cast.back().lengths = {1.2F, 0.05F, 1.1F, 1.3F};
+    return options;
+}
+
+double quantile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void mindTick(benchmark::State& state) {
+    const auto fish = static_cast<std::uint32_t>(state.range(0));
+    World world(openSea(fish, 2));
+    for (int i = 0; i < kTicksBefore; ++i) world.advance();
+    std::vector<double> wall;
+    std::vector<double> processor;
+    for ([[maybe_unused]] auto _ : state) {
+        const double wallStart = wallMilliseconds();
+        const double processorStart = processMilliseconds();
+        world.advance();
+        processor.push_back(processMilliseconds() - processorStart);
+        wall.push_back(wallMilliseconds() - wallStart);
+        state.SetIterationTime(wall.back() * 1e-3);
+    }
+    state.counters["p50_ms"] = quantile(wall, 0.5);
+    state.counters["p99_ms"] = quantile(wall, 0.99);
+    state.counters["cpu_ms"] = quantile(processor, 0.5);
+    state.counters["best_cpu_ms"] = quantile(processor, 0);
+    state.counters["ns_per_fish"] = 1e6 * quantile(processor, 0.5) / fish;
+    state.counters["bytes_per_fish"] = static_cast<double>(world.bytes()) / fish;
+}
+BENCHMARK(mindTick)
+    ->Name("mind_tick")
+    ->ArgName("fish")
+    ->Arg(60)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->UseManualTime()
+    ->Iterations(1000);
+BENCHMARK(mindTick)
+    ->Name("mind_tick")
+    ->ArgName("fish")
+    ->Arg(100000)
+    ->Arg(250000)
+    ->UseManualTime()
+    ->Iterations(400);
+BENCHMARK(mindTick)
+    ->Name("mind_tick")
+    ->ArgName("fish")
+    ->Arg(1000000)
+    ->UseManualTime()
+    ->Iterations(60);
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/behaviour/perceive/climate_sense.h"
+
+#include <gtest/gtest.h>
+
+#include "master/fish/minds.h"
+
+namespace aquarama {
+namespace {
+
+// Water from 2 to 10 m deep; light falls by 0.02 and warmth by 0.5 degrees a metre.
+struct Deep {
+    Deep() {
+        around.obstacles.water = {{0, -6, 0}, {5, 4, 5}};
+        around.climate.surfaceCelsius = 28;
+        around.climate.celsiusPerMetre = -0.5F;
+        nature.habits.light = {0.5, 0.7};
+        nature.habits.waterCelsius = {25, 26};
+    }
+    [[nodiscard]] Senses at(float depth, unsigned likes) const {
+        Senses senses;
+        senses.position = {0, -depth, 0};
+        feelClimate(around, nature, static_cast<std::uint8_t>(likes), senses);
+        return senses;
+    }
+    Surroundings around;
+    Nature nature;
+};
+
+TEST(Climate, aFishWithoutHabitsIsAtEaseAnywhere) {
+    Deep deep;
+    deep.around.daylight = 0.1F;
+    EXPECT_LT(deep.at(9, kIsFemale | kLikesSchooling).discomfort, 0);
+}
+
+TEST(Climate, lightAndWarmthAreThoseOfItsDepth) {
+    const Senses senses = Deep().at(8, 0);
+    EXPECT_NEAR(senses.light, 0.84F, 1e-5F);
+    EXPECT_NEAR(senses.celsius, 24, 1e-4F);
+}
+
+TEST(Climate, whoLikesBrightnessOrWarmthWantsUpAndTheOthersDown) {
+    Deep deep;
+    deep.around.daylight = 0.55F;  // 0.44 at 10 m
+    EXPECT_GT(deep.at(10, kLikesBrightness).discomfort, 0.05F);
+    EXPECT_EQ(deep.at(10, kLikesBrightness).betterUp, 1);
+    EXPECT_GT(deep.at(9, kLikesWarmth).discomfort, 0.1F);
+    EXPECT_EQ(deep.at(9, kLikesWarmth).betterUp, 1);
+    EXPECT_GT(deep.at(2.5F, kLikesCold).discomfort, 0);
+    EXPECT_EQ(deep.at(2.5F, kLikesCold).betterUp, -1);
+    deep.around.daylight = 0.8F;
+    EXPECT_GT(deep.at(2, kLikesDarkness).discomfort, 0);
+    EXPECT_EQ(deep.at(2, kLikesDarkness).betterUp, -1);
+}
+
+TEST(Climate, withinItsRangeAFishIsAtEase) {
+    Deep deep;
+    EXPECT_LT(deep.at(5, kLikesBrightness | kLikesWarmth).discomfort, 0);
+    EXPECT_EQ(deep.at(5, kLikesBrightness | kLikesWarmth).betterUp, 0);
+}
+
+TEST(Climate, atNightNowhereIsBetterForWhoIsAtTheTop) {
+    Deep deep;
+    deep.around.daylight = 0.2F;
+    const Senses senses = deep.at(2, kLikesBrightness);
+    EXPECT_GT(senses.discomfort, 0.2F);
+    EXPECT_EQ(senses.betterUp, 0);
+}
+
+TEST(Climate, ofTwoThingsAmissTheWorseDecides) {
+    Deep deep;
+    deep.around.daylight = 0.75F;  // 0.72 at 2 m: a little bright
+    const Senses senses = deep.at(9, kLikesDarkness | kLikesWarmth);
+    EXPECT_EQ(senses.betterUp, 1) << "too cold";
+}
+
+}  // namespace
+}  // namespace aquarama

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Courtship goes through its stages and ends; who does not meet the criteria is never courted.
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "common/place/angle.h"
+#include "tests/master/world/few_fish.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::uint32_t kFish = 6;
+
+WorldSpecies inTheMood(WorldSpecies species, double libido) {
+    species.start = Start{.centre = {0, -5.5F, -5}, .radiusMetres = 1.5, .libido = libido};
+    return species;
+}
+
+bool isFemale(const World& world, std::uint32_t fish) {
+    return (world.minds().likes[fish] & kIsFemale) != 0;
+}
+
+std::uint32_t females(const World& world) {
+    std::uint32_t count = 0;
+    for (std::uint32_t fish = 0; fish < kFish; ++fish)
+        count += static_cast<std::uint32_t>(isFemale(world, fish));
+    return count;
+}
+
+TEST(Mate, WillingPairsSpawnWithinAMinute) {
+    int chances = 0;
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        World world(openWater(seed, {inTheMood(pacifists(kFish), 0.6)}));
+        if (females(world) == 0 || females(world) == kFish) continue;
+        ++chances;
+        for (int i = 0; i < 60 * 60 && world.counts().spawnings == 0; ++i) world.advance();
+        EXPECT_GT(world.counts().spawnings, 0U) << "seed " << seed;
+    }
+    EXPECT_GE(chances, 8);
+}
+
+TEST(Mate, ThePairGoesThroughAllStagesInOrderAndBothAreSpentTogether) {
+    World world(openWater(1, {inTheMood(pacifists(kFish), 0.6)}));
+    std::array<std::uint8_t, kFish> reached{};
+    for (int i = 0; i < 3600 && world.counts().spawnings == 0; ++i) {
+        world.advance();
+        for (std::uint32_t fish = 0; fish < kFish; ++fish) {
+            const Mind mind = world.minds().at(fish);
+            if (mind.intention != Intention::Mate || mind.stage < 2) continue;
+            EXPECT_LE(mind.stage, reached[fish] < 2 ? 5 : reached[fish] + 1);
+            reached[fish] = mind.stage;
+            EXPECT_NE(isFemale(world, fish), isFemale(world, mind.target));
+        }
+    }
+    ASSERT_EQ(world.counts().spawnings, 1U);
+    int spent = 0;
+    for (std::uint32_t fish = 0; fish < kFish; ++fish)
+        if (world.minds().sinceSpawning[fish] == 0) {
+            ++spent;
+            EXPECT_EQ(reached[fish], 5);
+        }
+    EXPECT_EQ(spent, 2);
+    for (int i = 0; i < 16; ++i) world.advance();
+    for (std::uint32_t fish = 0; fish < kFish; ++fish)
+        EXPECT_TRUE(world.minds().sinceSpawning[fish] > 60 ||
+                    world.minds().intention[fish] != Intention::Mate)
+            << "it is over";
+}
+
+TEST(Mate, NobodyCourtsItsOwnSexNorWhoIsNotWillingNorAnotherSpecies) {
+    for (const double share : {0.0, 1.0}) {
+        WorldSpecies one = inTheMood(pacifists(kFish), 0.9);
+        one.habits.shares.female = share;
+        WorldSpecies other = inTheMood(pacifists(kFish), 0.9);
+        other.habits.shares.female = 1 - share;
+        other.name = "another";
+        World world(openWater(3, {one, other}));
+        for (int i = 0; i < 1800; ++i) {
+            world.advance();
+            for (std::uint32_t fish = 0; fish < 2 * kFish; ++fish)
+                ASSERT_NE(world.minds().intention[fish], Intention::Mate);
+        }
+    }
+    WorldSpecies unwilling = inTheMood(pacifists(kFish), 0.0);
+    unwilling.habits.libidoPerSecond = 1.0e-6;
+    World world(openWater(3, {unwilling}));
+    for (int i = 0; i < 1800; ++i) world.advance();
+    for (std::uint32_t fish = 0; fish < kFish; ++fish)
+        EXPECT_NE(world.minds().intention[fish], Intention::Mate);
+}
+
+TEST(Mate, ThoseTooDifferentInSizeNever) {
+    WorldSpecies species = inTheMood(pacifists(20), 0.9);
+    species.lengths = {
+        .meanMetres = 0.24F, .deviationMetres = 0.2F, .leastMetres = 0.12F, .mostMetres = 0.36F};
+    World world(openWater(2, {species}));
+    int courting = 0;
+    for (int i = 0; i < 1800; ++i) {
+        world.advance();
+        for (std::uint32_t fish = 0; fish < 20; ++fish) {
+            const Mind mind = world.minds().at(fish);
+            if (mind.intention != Intention::Mate) continue;
+            ++courting;
+            const auto [least, most] =
+                std::minmax(world.view().length[fish], world.view().length[mind.target]);
+            ASSERT_GE(least, 0.7F * most);
+        }
+    }
+    EXPECT_GT(courting, 0);
+}
+
+TEST(Mate, WhoIsNotAnsweredGivesUp) {
+    // One female and many males: most wait in vain.
+    WorldSpecies species = inTheMood(pacifists(kFish), 0.9);
+    std::uint32_t seed = 1;
+    while (females(World(openWater(seed, {species}))) != 1) ++seed;
+    World world(openWater(seed, {species}));
+    std::array<int, kFish> longest{};
+    std::array<int, kFish> now{};
+    for (int i = 0; i < 3 * 3600; ++i) {
+        world.advance();
+        for (std::uint32_t fish = 0; fish < kFish; ++fish) {
+            const Mind mind = world.minds().at(fish);
+            const bool waits = mind.intention == Intention::Mate && mind.stage < 2;
+            now[fish] = waits ? now[fish] + 1 : 0;
+            longest[fish] = std::max(longest[fish], now[fish]);
+        }
+    }
+    for (std::uint32_t fish = 0; fish < kFish; ++fish)
+        EXPECT_LT(longest[fish], 33 * 60) << "fish " << fish;
+}
+
+}  // namespace
+}  // namespace aquarama

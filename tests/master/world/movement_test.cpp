@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each routine of movement in its scene, with what it must achieve there.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include "master/behaviour/act/home.h"
+#include "master/behaviour/act/wander.h"
+#include "master/surroundings/obstacles.h"
+#include "tests/master/world/scene_of_synthetic_fish.h"
+#include "tests/master/world/school_shape.h"
+
+namespace aquarama {
+namespace {
+
+constexpr int kSecond = 60;  // ticks
+
+void advance(World& world, int ticks) {
+    for (int i = 0; i < ticks; ++i) world.advance();
+}
+
+float distanceBetween(const World& world, std::uint32_t a, std::uint32_t b) {
+    return lengthOf(world.view().position(a) - world.view().position(b));
+}
+
+TEST(AvoidObstacle, noFishEntersRockOrSand) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        World world(syntheticScene("routines/avoid_obstacle", seed));
+        bool avoided = false;
+        for (int i = 0; i < 60 * kSecond; ++i) {
+            world.advance();
+            for (std::uint32_t fish = 0; fish < world.view().size(); ++fish) {
+                const glm::vec3 at = world.view().position(fish);
+                for (const Rock& rock : world.surroundings().obstacles.rocks)
+                    ASSERT_GT(lengthOf(at - rock.centre), rock.radiusMetres) << fish << " " << i;
+                ASSERT_GT(at.y, floorHeight({seed}, {at.x, at.z}) + 0.1F);
+                avoided |= world.minds().intention[fish] == Intention::AvoidObstacle;
+            }
+        }
+        EXPECT_TRUE(avoided) << "nothing was in their way: seed " << seed;
+    }
+}
+
+// Two that swim at each other, each a hand's breadth off the other's line at most.
+TEST(AvoidFish, twoThatMeetHeadOnPassWithoutTouching) {
+    for (const float aside : {-0.05F, 0.0F, 0.03F, 0.1F}) {
+        WorldOptions options = syntheticScene("routines/avoid_fish");
+        options.cast.resize(2);
+        for (WorldSpecies& one : options.cast) {
+            one.fish = 1;
+            one.habits.paces = {0, 1, 0, 0};
+            one.start->radiusMetres = 0;
+            one.start->centre.x *= 0.4F;  // near enough to have no time for other ideas
+        }
+        options.cast[0].start->centre.z += aside;
+        World world(options);
+        float nearest = 99;
+        for (int i = 0; i < 12 * kSecond; ++i) {
+            world.advance();
+            nearest = std::min(nearest, distanceBetween(world, 0, 1));
+        }
+        // Each is a sixth of its length wide at most.
+        const float widths = (world.view().length[0] + world.view().length[1]) / 6;
+        EXPECT_GT(nearest, 0.5F * widths + 0.05F) << aside;
+        EXPECT_LT(nearest, 2.0F) << "they do meet";
+    }
+}
+
+// A shark that is not hungry swims at the scad.
+WorldOptions scadBeforeAShark(std::uint32_t scad) {
+    WorldOptions options = syntheticScene("routines/escape");
+    options.cast[0].fish = scad;
+    options.cast[0].start->centre = {-1.2F, -9, -5};
+    options.cast[1].start->hunger = 0;
+    options.cast[1].habits.digestionPerSecond = 1e-6;
+    options.cast[1].habits.paces = {0, 1, 0, 0};
+    return options;
+}
+
+TEST(Escape, theDistanceToThePredatorGrows) {
+    World world(scadBeforeAShark(1));
+    world.advance();
+    bool fled = false;
+    for (int i = 0; i < 5 * kSecond; ++i) {
+        world.advance();
+        fled |= world.minds().intention[0] == Intention::Escape;
+    }
+    EXPECT_TRUE(fled);
+    EXPECT_GT(distanceBetween(world, 0, 1), 2.8F) << "metres; it began 2.3 m before it";
+}
+
+// Scattered over six metres, 40 scad are one school again in 20 seconds and swim one way in 40.
+TEST(SchoolRoutine, reformsAfterItWasScattered) {
+    for (const std::uint32_t seed : {1U, 2U}) {
+        World world(syntheticScene("routines/school", seed));
+        advance(world, kSecond);
+        EXPECT_LT(shapeOf(world.view()).largestGroup, 0.6) << "it was one from the start";
+        advance(world, 19 * kSecond);
+        EXPECT_GT(shapeOf(world.view()).largestGroup, 0.9) << seed;
+        double polarised = 0;
+        double spacing = 0;
+        advance(world, 20 * kSecond);
+        for (int second = 0; second < 20; ++second) {
+            advance(world, kSecond);
+            const SchoolShape shape = shapeOf(world.view());
+            polarised += shape.polarisation / 20;
+            spacing += shape.nearestNeighbour / 20;
+        }
+        EXPECT_GT(polarised, 0.65) << "Tunstrom et al. 2013";
+        EXPECT_GT(spacing, 0.5) << "Partridge 1980, Pitcher & Parrish 1993";
+        EXPECT_LT(spacing, 1.5);
+    }
+}
+
+TEST(SchoolRoutine, splitsRoundTheSubmarineAndIsOneSchoolAgain) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        World world(syntheticScene("routines/submarine", seed));
+        const Submarine& submarine = world.surroundings().submarine;
+        const std::size_t fish = world.view().size();
+        std::vector<char> side(fish);  // by which it passed
+        std::size_t passed = 0;
+        int apart = 0;  // ticks after 9 of 10 have passed until they are one
+        for (int i = 0; i < 60 * kSecond; ++i) {
+            world.advance();
+            for (std::size_t one = 0; one < fish; ++one) {
+                const glm::vec3 from = world.view().position(one) - submarine.position;
+                ASSERT_GT(lengthOf(from), submarine.radiusMetres) << seed << " tick " << i;
+                if (side[one] != 0 || from.z < 0) continue;
+                side[one] = from.x < 0 ? 'l' : 'r';
+                ++passed;
+            }
+            if (passed * 10 < fish * 9) continue;
+            if (shapeOf(world.view()).largestGroup > 0.95) break;
+            ++apart;
+        }
+        EXPECT_GT(std::ranges::count(side, 'l'), static_cast<long>(fish) / 10) << seed;
+        EXPECT_GT(std::ranges::count(side, 'r'), static_cast<long>(fish) / 10) << seed;
+        EXPECT_LT(apart, 8 * kSecond) << "seed " << seed;
+    }
+}
+
+TEST(SchoolRoutine, anAlarmedSchoolClosesUp) {
+    WorldOptions options = scadBeforeAShark(40);
+    options.cast[0].start->radiusMetres = 0.9;
+    WorldOptions calm = options;
+    calm.cast.pop_back();
+    options.cast[1].start->centre = {3, -9, -9.5F};  // seen, and not near
+    options.cast[1].habits.paces = {1, 0, 0, 0};
+    World alarmed(options);
+    World atEase(calm);
+    double close = 0;
+    double wide = 0;
+    advance(alarmed, 5 * kSecond);
+    advance(atEase, 5 * kSecond);
+    for (int second = 0; second < 10; ++second) {
+        advance(alarmed, kSecond);
+        advance(atEase, kSecond);
+        close += shapeOf(alarmed.view(), 0, 40).nearestNeighbour / 10;
+        wide += shapeOf(atEase.view(), 0, 40).nearestNeighbour / 10;
+    }
+    EXPECT_LT(close, 0.85 * wide) << "body lengths";
+}
+
+TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
+    World world(syntheticScene("routines/leave"));
+    advance(world, kSecond);
+    const auto suits = [&](std::uint32_t fish) {
+        const Habits& habits = world.natures()[0].habits;
+        const Surroundings& around = world.surroundings();
+        const float y = world.view().y[fish];
+        const float light = lightAt(around.climate, around.daylight, y);
+        const float celsius = celsiusAt(around.climate, y);
+        constexpr float kNearly = 0.05F;  // at the edge of what suits a fish stops
+        return light >= static_cast<float>(habits.light.least) - kNearly &&
+               celsius >= static_cast<float>(habits.waterCelsius.least) - kNearly;
+    };
+    const std::uint32_t fish = 3;
+    for (std::uint32_t i = 0; i < fish; ++i) EXPECT_FALSE(suits(i)) << "there was no need";
+    advance(world, 120 * kSecond);
+    for (std::uint32_t i = 0; i < fish; ++i) EXPECT_TRUE(suits(i)) << world.view().y[i];
+}
+
+WorldOptions one(const std::string& species) {
+    WorldOptions options = syntheticScene("reef");
+    std::erase_if(options.cast, [&](const WorldSpecies& each) { return each.name != species; });
+    options.scene.plankton = 0;
+    return options;
+}
+
+TEST(Wander, eachPaceHasItsShareOfTheTime) {
+    const WorldOptions options = one("parrotfish");
+    const World world(options);
+    const Nature& nature = world.natures()[0];
+    const Paces& paces = options.cast[0].habits.paces;
+    int slow = 0;
+    int hovers = 0;
+    constexpr int kSpells = 4000;
+    for (int i = 0; i < kSpells; ++i) {
+        const float pace = paceOf(nature, 1, 0, {static_cast<std::uint64_t>(i) * 5 * kSecond});
+        slow += pace == nature.slow ? 1 : 0;
+        hovers += pace < 0.25F * nature.slow ? 1 : 0;
+    }
+    EXPECT_NEAR(slow / double{kSpells}, paces.slow, 0.03);
+    EXPECT_NEAR(hovers / double{kSpells}, paces.hover, 0.03);
+}
+
+TEST(Wander, oneWithoutAHomeVisitsAllItsWater) {
+    World world(one("parrotfish"));
+    glm::vec3 least{99};
+    glm::vec3 most{-99};
+    for (int i = 0; i < 300 * kSecond; ++i) {
+        world.advance();
+        least = glm::min(least, world.view().position(0));
+        most = glm::max(most, world.view().position(0));
+    }
+    EXPECT_GT(most.x - least.x, 5.0F);
+    EXPECT_GT(most.z - least.z, 3.0F);
+}
+
+TEST(Wander, oneWithAHomeStaysWithinItsLeash) {
+    WorldOptions options = one("clownfish");
+    const Home& home = options.cast[0].habits.home;
+    ASSERT_EQ(home.kind, HomeKind::Place);
+    World world(options);
+    const auto depth = static_cast<float>(options.cast[0].habits.bestDepthMetres);
+    const glm::vec3 place = homeOf(1, home, world.surroundings().obstacles, depth, 0);
+    float farthest = 0;
+    for (int i = 0; i < 180 * kSecond; ++i) {
+        world.advance();
+        farthest = std::max(farthest, lengthOf(world.view().position(0) - place));
+    }
+    EXPECT_LT(farthest, static_cast<float>(home.leashMetres) + 0.3F) << "room of a turn";
+}
+
+TEST(Wander, thoseThatLiveInPairsKeepNearEachOther) {
+    World world(one("moorish_idol"));
+    ASSERT_EQ(world.view().size(), 2U);
+    advance(world, 30 * kSecond);
+    double apart = 0;
+    for (int second = 0; second < 120; ++second) {
+        advance(world, kSecond);
+        apart += double{distanceBetween(world, 0, 1) / world.view().length[0]} / 120;
+    }
+    EXPECT_LT(apart, 6) << "body lengths; they like to be 2.5 apart";
+    EXPECT_GT(apart, 1);
+}
+
+// The reef of the paper, ten minutes of it, as its species live.
+TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
+    World world(syntheticScene("reef"));
+    const Obstacles& obstacles = world.surroundings().obstacles;
+    const Submarine& submarine = world.surroundings().submarine;
+    float outside = -99;  // metres
+    float aboveSand = 99;
+    float aboveRock = 99;  // from the rocks' balls
+    float fromSubmarine = 99;
+    for (int i = 0; i < 600 * kSecond; ++i) {
+        world.advance();
+        if (i % 4 != 0) continue;
+        for (std::uint32_t fish = 0; fish < world.view().size(); ++fish) {
+            if (world.view().shows(fish, kAway)) continue;
+            const glm::vec3 at = world.view().position(fish);
+            const glm::vec3 out =
+                glm::abs(at - obstacles.water.centre) - obstacles.water.halfExtent;
+            outside = std::max({outside, out.x, out.y, out.z});
+            aboveSand = std::min(aboveSand, at.y - floorHeight({1}, {at.x, at.z}));
+            fromSubmarine = std::min(fromSubmarine, lengthOf(at - submarine.position));
+            for (const Rock& rock : obstacles.rocks)
+                aboveRock = std::min(aboveRock, lengthOf(at - rock.centre) - rock.radiusMetres);
+        }
+    }
+    RecordProperty("outside", std::to_string(outside));
+    RecordProperty("aboveSand", std::to_string(aboveSand));
+    RecordProperty("aboveRock", std::to_string(aboveRock));
+    RecordProperty("fromSubmarine", std::to_string(fromSubmarine));
+    EXPECT_LT(outside, 0.6F) << "half the circle that the shark turns in";
+    EXPECT_GT(aboveSand, 0.1F);
+    EXPECT_GT(aboveRock, 0.0F);
+    EXPECT_GT(fromSubmarine, submarine.radiusMetres);
+}
+
+// Three hundred scad and three sharks that are not hungry.
+TEST(BaitBall, millsOpensBeforeASharkAndClosesBehindIt) {
+    WorldOptions options = syntheticScene("bait_ball");
+    options.scene.plankton = 0;
+    options.cast[1].habits.digestionPerSecond = 1e-6;
+    options.cast[1].habits.paces = {0, 0, 1, 0};
+    options.cast[1].start = Start{.centre = {4.5F, -11, -7}, .radiusMetres = 1.5};
+    World world(options);
+    const std::uint32_t scad = options.cast[0].fish;
+    advance(world, 20 * kSecond);
+    double rotation = 0;
+    double spacing = 0;
+    int longestOpen = 0;  // seconds of a rotation below the threshold
+    int open = 0;
+    std::vector<float> hollows;  // nearest scad to a shark within the ball
+    constexpr int kSeconds = 90;
+    for (int second = 0; second < kSeconds; ++second) {
+        advance(world, kSecond);
+        const SchoolShape shape = shapeOf(world.view(), 0, scad);
+        rotation += shape.rotation / kSeconds;
+        spacing += shape.nearestNeighbour / kSeconds;
+        open = shape.rotation < 0.65 ? open + 1 : 0;
+        longestOpen = std::max(longestOpen, open);
+        for (std::uint32_t shark = scad; shark < world.view().size(); ++shark) {
+            const glm::vec3 at = world.view().position(shark);
+            if (lengthOf(at - shape.centre) > 2 * world.environment().schoolRadiusMetres) continue;
+            float nearest = 99;
+            for (std::uint32_t fish = 0; fish < scad; ++fish)
+                nearest = std::min(nearest, distanceBetween(world, shark, fish));
+            hollows.push_back(nearest);
+        }
+    }
+    RecordProperty("rotation", std::to_string(rotation));
+    RecordProperty("spacing", std::to_string(spacing));
+    EXPECT_GT(rotation, 0.65) << "Tunstrom et al. 2013";
+    EXPECT_GT(spacing, 0.4);
+    EXPECT_LT(spacing, 0.95);
+    EXPECT_LT(longestOpen, 12) << "seconds";
+    ASSERT_FALSE(hollows.empty()) << "no shark passed";
+    std::ranges::sort(hollows);
+    EXPECT_GT(hollows[hollows.size() / 2], 0.6F) << "metres";
+}
+
+}  // namespace
+}  // namespace aquarama
