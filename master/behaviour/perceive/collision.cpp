@@ -2,7 +2,6 @@
 #include "master/behaviour/perceive/collision.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "common/place/angle.h"
@@ -104,10 +103,6 @@ struct Watch {
         const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
         if (dot(offset, drift) > 0) return;
         const Box body = scaled(kBody, senses.length);
-        // Most are too far off for any part of theirs to come so near so soon.
-        const float reach = body.behind + body.aside + kTailBehind * view.length[other];
-        const float comes = kSoon[std::size(kSoon) - 1] * lengthOf(drift);
-        if (dot(offset, offset) > (reach + comes) * (reach + comes)) return;
         const glm::vec3 along = view.heading(other) * view.length[other];
         // Most pass beside or above: that is known before the rest is worked out.
         const auto passes = [&](glm::vec3 axis, float least, float most) {
