@@ -99,7 +99,7 @@ void ChannelShow::build(const Admission& admission) {
     spdlog::info("building {} x {} pixels on {}", size.x, size.y, context_.description());
     picture_.reset();
     picture_.emplace(admission, channel);
-    aim_.emplace(admission.rig, channel);
+    pointing_.emplace(admission.rig, channel);
     watched_.reset();
     offscreen_.emplace(GL_RGBA8, size);
     built_ = admission.welcome;
@@ -137,13 +137,13 @@ void ChannelShow::draw(const StateFrame& frame) {
 void ChannelShow::feed(const Eye& eye) {
     while (const auto pinch = controls_.nextPinch()) {
         const auto pixel = pixelAt(pinch->place);
-        const auto place = pixel ? aim_->pinchAt(*pixel, eye) : std::nullopt;
+        const auto place = pixel ? pointing_->pinchAt(*pixel, eye) : std::nullopt;
         if (place) session_.dropFood(*place);
     }
 }
 
 std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
-    if (!place) return aim_->middle();
+    if (!place) return pointing_->middle();
     return picturePlace(context_.framebufferPixels(), picture_->sizePixels(), *place);
 }
 
@@ -153,7 +153,7 @@ std::optional<WatchedMind> ChannelShow::watchMind() {
     constexpr std::chrono::milliseconds kBetweenQuestions{250};
     if (now() - askedAt_ >= kBetweenQuestions) {
         askedAt_ = now();
-        const auto pixel = pixelAt(controls_.pointer()).value_or(aim_->middle());
+        const auto pixel = pixelAt(controls_.pointer()).value_or(pointing_->middle());
         watched_ = picture_->fishNearest(pixel);
         if (watched_) session_.askMind(*watched_);
     }

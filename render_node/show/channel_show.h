@@ -9,10 +9,10 @@
 #include "render_node/context/context.h"
 #include "render_node/gl/target.h"
 #include "render_node/session/session.h"
-#include "render_node/show/aim.h"
 #include "render_node/show/channel_picture.h"
 #include "render_node/show/controls.h"
 #include "render_node/show/node_options.h"
+#include "render_node/show/pointing.h"
 #include "render_node/show/trace.h"
 
 namespace aquarama {
@@ -42,7 +42,7 @@ class ChannelShow {
     NodeOptions options_;
     Trace trace_;
     std::optional<Welcome> built_;  // what picture_ was built for
-    std::optional<Aim> aim_;
+    std::optional<Pointing> pointing_;
     std::optional<ChannelPicture> picture_;
     std::optional<gl::Target> offscreen_;   // where there is no window of the channel's size
     std::optional<std::uint32_t> watched_;  // the fish whose mind is shown

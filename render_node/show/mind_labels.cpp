@@ -11,8 +11,10 @@ namespace aquarama {
 
 namespace {
 
-constexpr float kWidestShare = 0.55F;  // of the picture
-constexpr std::string_view kIndent = "  ";
+constexpr float kWidestShare = 0.6F;   // of the picture
+constexpr float kBorderShare = 0.06F;  // of the picture: what the neighbours and the floor take
+constexpr std::string_view kIndent = "          ";  // where the master's lines begin their text
+constexpr float kLeastColumns = 24;
 
 std::string inCapitals(std::string_view text) {
     std::string capitals(text);
@@ -60,17 +62,16 @@ std::vector<Label> mindLabels(const FishPlace& fish,
                               glm::ivec2 pictureSize,
                               float dotPixels) {
     const glm::vec2 size(pictureSize);
-    const glm::vec2 cell = (extentInDots("A") - extentInDots("")) * glm::vec2(1, 0) +
-                           extentInDots("") * glm::vec2(0, 1);
-    const glm::vec2 glyph = cell * dotPixels;
+    const glm::vec2 glyph =
+        glm::vec2(extentInDots("A").x - extentInDots("").x, extentInDots("").y) * dotPixels;
     const glm::vec2 bracket = extentInDots("[") * dotPixels;
     const glm::vec2 reach(fish.halfLengthPixels + bracket.x / 2, 0);
     std::vector<Label> labels{{fish.middle - reach - bracket / 2.0F, "["},
                               {fish.middle + reach - bracket / 2.0F, "]"}};
 
-    // At least a few columns and rows, however small the picture.
-    const float columns = std::max(size.x * kWidestShare / glyph.x, 8.0F);
-    const float mostRows = std::max(size.y / glyph.y, 1.0F);
+    const glm::vec2 border = size * kBorderShare;
+    const float columns = std::max(size.x * kWidestShare / glyph.x, kLeastColumns);
+    const float mostRows = std::max((size.y - 2 * border.y) / glyph.y, 1.0F);
     std::vector<std::string> rows = wrapped(mind.lines, static_cast<std::size_t>(columns));
     rows.resize(std::min(rows.size(), static_cast<std::size_t>(mostRows)));
     if (rows.empty()) return labels;
@@ -82,7 +83,7 @@ std::vector<Label> mindLabels(const FishPlace& fish,
     const bool toTheRight = fish.middle.x < size.x / 2;
     const glm::vec2 wished(toTheRight ? fish.middle.x + aside : fish.middle.x - aside - box.x,
                            fish.middle.y - box.y / 2);
-    glm::vec2 corner = glm::clamp(wished, glm::vec2(0), glm::max(size - box, glm::vec2(0)));
+    glm::vec2 corner = glm::clamp(wished, border, glm::max(size - border - box, border));
     for (std::string& row : rows) {
         labels.push_back({corner, std::move(row)});
         corner.y += glyph.y;

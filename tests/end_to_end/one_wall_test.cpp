@@ -10,9 +10,6 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/measure.h"
@@ -20,24 +17,12 @@
 #include "calibration/theatre/snapshot.h"
 #include "common/config/rig.h"
 #include "common/wall/wall.h"
+#include "tests/end_to_end/free_port.h"
 
 namespace aquarama {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A port that nobody listens on at the moment.
-int freePort() {
-    const int descriptor = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    bind(descriptor, reinterpret_cast<sockaddr*>(&address), size);
-    getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
-    close(descriptor);
-    return ntohs(address.sin_port);
-}
 
 // One of config/*.txtpb on ports of its own, its pictures in a folder that goes with it.
 class Installation {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "common/wall/picture.h"
 #include "common/wall/wall.h"
 #include "render_node/show/font.h"
+#include "render_node/show/pointing.h"
 #include "tests/render_node/show/fake_session.h"
 
 namespace aquarama {
@@ -81,8 +83,14 @@ class ChannelPictureTest : public testing::Test {
     static void SetUpTestSuite() { stage = std::make_unique<Stage>(); }
     static void TearDownTestSuite() { stage.reset(); }
 
-    static std::vector<std::uint8_t> shown(const Overlays& overlays) {
-        stage->picture.drawScene(frameWithAFish(), overlays);
+    static std::vector<std::uint8_t> shownOf(const StateFrame& frame) {
+        stage->picture.drawScene(frame, {});
+        stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, {});
+        return gl::readRgb<std::uint8_t>(stage->target);
+    }
+    static std::vector<std::uint8_t> shown(const Overlays& overlays,
+                                           const std::optional<WatchedMind>& mind = {}) {
+        stage->picture.drawScene(frameWithAFish(), overlays, mind);
         stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, overlays);
         return gl::readRgb<std::uint8_t>(stage->target);
     }
@@ -124,6 +132,58 @@ TEST_F(ChannelPictureTest, theWorldIsAFunctionOfTheFrameAlone) {
     stage->picture.drawScene(other, {});
     EXPECT_EQ(shown({}), first);
     EXPECT_GT(std::set<std::uint8_t>(first.begin(), first.end()).size(), 40U) << "a flat picture";
+}
+
+// From the mouse to the world and back to the light: through warp, eye and scene.
+TEST_F(ChannelPictureTest, foodThatIsDroppedUnderTheMouseIsSeenUnderTheMouse) {
+    const Pointing pointing(stage->admission.rig, kMiddle);
+    for (const glm::vec2 mouse : {glm::vec2(240, 180), glm::vec2(120, 80), glm::vec2(350, 250)}) {
+        const auto plain = shownOf(emptySea());
+        StateFrame fed = emptySea();
+        const auto place = pointing.pinchAt(mouse, fed.eye);
+        ASSERT_TRUE(place);
+        fed.foodAfter = {foodRecord(FoodRecord::Kind::Pellet, *place, 1)};
+        const auto shown = shownOf(fed);
+        glm::vec2 sum(0);
+        float count = 0;
+        for (std::size_t i = 0; i < plain.size(); i += 3) {
+            if (plain[i] == shown[i]) continue;
+            const auto pixel = static_cast<int>(i / 3);
+            sum += glm::vec2(pixel % 480, pixel / 480) + 0.5F;
+            ++count;
+        }
+        ASSERT_GT(count, 2) << "no pellet is seen";
+        EXPECT_LT(glm::distance(sum / count, mouse), 1.5F);
+    }
+}
+
+TEST_F(ChannelPictureTest, theFishNearestToThePointerIsTheOneThatIsSeenThere) {
+    StateFrame frame = frameWithAFish();
+    const StateFrame other = frameWithAFish({.position = kEyePosition + glm::vec3(-0.7F, 0, -3)});
+    frame.after.push_back(other.after.front());
+    Admission two = stage->admission;
+    two.welcome.school.push_back({.id = 18, .lengthMillimetres = 240});
+    two.cast.front().fish = 2;
+    two.welcome.pattern = Pattern::World;
+    ChannelPicture picture(two, kMiddle);
+    EXPECT_EQ(picture.fishNearest({240, 180}), std::nullopt);
+    picture.drawScene(frame, {});
+    EXPECT_EQ(picture.fishNearest(glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);
+    EXPECT_EQ(picture.fishNearest({5, 180}), 1U);
+}
+
+TEST_F(ChannelPictureTest, aMindIsWrittenBesideItsFish) {
+    const auto plain = shown({});
+    const auto explained = shown({}, WatchedMind{0, {"SEES NOBODY"}});
+    const auto changed = [&] {
+        int count = 0;
+        for (std::size_t i = 0; i < plain.size(); i += 3) {
+            count += plain[i] != explained[i] ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GT(changed(), 300);
+    EXPECT_EQ(plain, shown({}, WatchedMind{5, {"OF NO FISH OF THE SCHOOL"}}));
 }
 
 TEST_F(ChannelPictureTest, aFishsNumberStandsWhereTheWallShowsIt) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,6 +120,32 @@ TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
         // Half floats hold 0.18 to one part in 4000.
         ASSERT_NEAR(picture.rgb[3 * i], 65535 * srgbOf(kGrey * weight), 10) << "weight " << weight;
     }
+}
+
+// Straight ahead of the picture's middle; a click goes where the window is clicked.
+TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
+    StateFrame frame = frameNumber(0);
+    frame.eye.positionMetres = {4, -6, 0};
+    FakeSession session(events_, {{frame, Release::Present}});
+    Controls controls(session);
+    controls.press('d');
+    controls.click({0, 180});
+    controls.click({480, 180});  // just outside
+    ChannelShow(session, context_, controls, options()).run(admissionTo(Pattern::Grey));
+    ASSERT_EQ(session.drops_.size(), 2U);
+    EXPECT_LT(glm::distance(session.drops_[0], {4, -6, -2.5F}), 0.5F);
+    EXPECT_LT(session.drops_[1].x, session.drops_[0].x - 0.2F);
+    for (const glm::vec3 drop : session.drops_)
+        EXPECT_NEAR(glm::distance(drop, frame.eye.positionMetres), 2.5F, 1e-3F);
+}
+
+// Without fish nobody is asked for, and the show goes on.
+TEST_F(ChannelShowTest, aSeaWithoutFishHasNoMinds) {
+    FakeSession session(events_, {{frameNumber(0), Release::Present}});
+    Controls controls(session);
+    controls.press('e');
+    ChannelShow(session, context_, controls, options()).run(admissionTo(Pattern::Grey));
+    EXPECT_EQ(events_, (Events{"prepared", "ready 0", "swap"}));
 }
 
 // What a pixel of the middle channel should show of the grid, by closed forms alone; 0 off the

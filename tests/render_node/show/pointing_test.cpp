@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/show/aim.h"
+#include "render_node/show/pointing.h"
 
 #include <cmath>
 
@@ -19,9 +19,9 @@ constexpr std::size_t kMiddle = 1;  // channel of the desk
 const Eye kEye{.positionMetres = {1, -6, 2}, .worldFromWall = {1, 0, 0, 0}};
 
 // By closed forms alone: the screen is seen from its middle.
-TEST(Aim, theMiddleOfTheMiddleChannelLooksStraightAhead) {
-    const Aim aim(shippedRig("desk"), kMiddle);
-    const auto direction = aim.directionOf(aim.middle(), kEye);
+TEST(Pointing, theMiddleOfTheMiddleChannelLooksStraightAhead) {
+    const Pointing pointing(shippedRig("desk"), kMiddle);
+    const auto direction = pointing.directionOf(pointing.middle(), kEye);
     ASSERT_TRUE(direction);
     EXPECT_NEAR(direction->x, 0, 1e-3);
     EXPECT_LT(direction->z, -0.95F);
@@ -29,15 +29,15 @@ TEST(Aim, theMiddleOfTheMiddleChannelLooksStraightAhead) {
 }
 
 // What a pixel lights and what is dropped there lie on one ray from the eye.
-TEST(Aim, aPinchFallsBehindThePixelThatIsPointedAt) {
+TEST(Pointing, aPinchFallsBehindThePixelThatIsPointedAt) {
     const Rig rig = shippedRig("theatre");
     for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
-        const Aim aim(rig, channel);
+        const Pointing pointing(rig, channel);
         for (const glm::dvec2 share : {glm::dvec2(0.5, 0.5), {0.2, 0.7}, {0.8, 0.3}}) {
             const glm::dvec2 pixel = share * glm::dvec2(rig.channels[channel].sizePixels);
             const auto lit = screenPoint(rig.screen, rig.channels[channel], pixel);
             ASSERT_TRUE(lit);
-            const auto pinch = aim.pinchAt(glm::vec2(pixel), kEye);
+            const auto pinch = pointing.pinchAt(glm::vec2(pixel), kEye);
             ASSERT_TRUE(pinch);
             const glm::vec3 way = *pinch - kEye.positionMetres;
             EXPECT_NEAR(glm::length(way), 2.5F, 1e-3F);
@@ -46,21 +46,21 @@ TEST(Aim, aPinchFallsBehindThePixelThatIsPointedAt) {
     }
 }
 
-TEST(Aim, turnsWithTheSubmarine) {
-    const Aim aim(shippedRig("desk"), kMiddle);
+TEST(Pointing, turnsWithTheSubmarine) {
+    const Pointing pointing(shippedRig("desk"), kMiddle);
     const Eye left{.positionMetres = {0, -6, 0},
                    .worldFromWall = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0))};
-    const auto direction = aim.directionOf(aim.middle(), left);
+    const auto direction = pointing.directionOf(pointing.middle(), left);
     ASSERT_TRUE(direction);
     EXPECT_LT(direction->x, -0.95F);
 }
 
-TEST(Aim, dropsNothingIntoTheAir) {
-    const Aim aim(shippedRig("desk"), kMiddle);
+TEST(Pointing, dropsNothingIntoTheAir) {
+    const Pointing pointing(shippedRig("desk"), kMiddle);
     const Eye shallow{.positionMetres = {0, -0.1F, 0}, .worldFromWall = {1, 0, 0, 0}};
-    const auto pinch = aim.pinchAt({240, 60}, shallow);
+    const auto pinch = pointing.pinchAt({240, 60}, shallow);
     ASSERT_TRUE(pinch);
-    EXPECT_GT(aim.directionOf({240, 60}, shallow)->y, 0.1F);
+    EXPECT_GT(pointing.directionOf({240, 60}, shallow)->y, 0.1F);
     EXPECT_LT(pinch->y, 0);
 }
 

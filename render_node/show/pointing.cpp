@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/show/aim.h"
+#include "render_node/show/pointing.h"
 
 #include <algorithm>
 
@@ -16,13 +16,13 @@ constexpr float kLeastDepthMetres = 0.25F;  // food is dropped into water, not i
 
 }  // namespace
 
-std::optional<glm::vec3> Aim::directionOf(glm::vec2 pixel, const Eye& eye) const {
+std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const Eye& eye) const {
     const auto point = screenPoint(screen_, channel_, glm::dvec2(pixel));
     if (!point) return std::nullopt;
     return eye.worldFromWall * glm::vec3(glm::normalize(*point));
 }
 
-std::optional<glm::vec3> Aim::pinchAt(glm::vec2 pixel, const Eye& eye) const {
+std::optional<glm::vec3> Pointing::pinchAt(glm::vec2 pixel, const Eye& eye) const {
     const auto direction = directionOf(pixel, eye);
     if (!direction) return std::nullopt;
     glm::vec3 place = eye.positionMetres + *direction * kArmMetres;

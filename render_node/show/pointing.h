@@ -12,9 +12,9 @@
 
 namespace aquarama {
 
-class Aim {
+class Pointing {
   public:
-    Aim(const Rig& rig, std::size_t channel)
+    Pointing(const Rig& rig, std::size_t channel)
         : screen_{rig.screen}, channel_{rig.channels.at(channel)} {}
 
     // Unit vector in the world, from the eye through the point of the screen that the pixel
