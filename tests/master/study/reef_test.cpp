@@ -67,15 +67,18 @@ class Reef : public testing::Test {
 
 // They meet, cross and brush past one another, but nobody stays inside another fish.
 TEST_F(Reef, noTwoFishOverlapForLong) {
+    // In a day of many thousands some last longer.
+    const std::uint64_t longest = (isSoak() ? 12 : 6) * 60;
+    const std::uint64_t longestDeep = (isSoak() ? 8 : 4) * 60;
     for (const Overlap& overlap : life().overlaps) {
         const auto pair = [&] {
             return testing::Message() << "fish " << overlap.a << " and " << overlap.b
                                       << " from tick " << overlap.from.value;
         };
-        EXPECT_LE(overlap.ticks, 6 * 60U) << pair();
-        EXPECT_LE(overlap.deepTicks, 4 * 60U) << pair() << ", over a quarter of a body";
+        EXPECT_LE(overlap.ticks, longest) << pair();
+        EXPECT_LE(overlap.deepTicks, longestDeep) << pair() << ", over a quarter of a body";
     }
-    everyHour([](const Hour& hour) { EXPECT_LT(hour.overlapPercent, 3); });
+    everyHour([](const Hour& hour) { EXPECT_LT(hour.overlapPercent, 5); });
 }
 
 TEST_F(Reef, nobodyLeavesTheWaterOrEntersTheTerrain) {
