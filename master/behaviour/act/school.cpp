@@ -50,16 +50,9 @@ glm::vec3 circled(const Goal& goal, glm::vec3 towards, float pull) {
     return directionOf(around, {1, 0, 0}) * 1.6F + directionOf(towards, {}) * (pull + 0.3F);
 }
 
-// Of a bait ball every fish keeps a level of its own, more of them near the middle; else all would
-// mill in one flat ring.
-float levelOf(const Environment& environment, std::uint32_t fish) {
-    const std::uint32_t own = hashOf(hashOf(environment.seed, kLevels), fish);
-    return unitOf(own) + unitOf(hashOf(own)) - 1;
-}
-
 glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 towards) {
     const float high = environment.schoolRadiusMetres;
-    const float climb = towards.y + levelOf(environment, fish) * high;
+    const float climb = towards.y + levelInBall(environment.seed, fish) * high;
     return {0, std::clamp(climb / (0.3F * high), -1.0F, 1.0F) * kKeepLevel, 0};
 }
 
@@ -147,6 +140,11 @@ glm::vec3 clearing(const Situation& situation) {
 
 }  // namespace
 
+float levelInBall(std::uint32_t seed, std::uint32_t fish) {
+    const std::uint32_t own = hashOf(hashOf(seed, kLevels), fish);
+    return unitOf(own) + unitOf(hashOf(own)) - 1;
+}
+
 float schoolRadiusMetres(std::size_t fish) {
     // A ball at one fish in (0.3 m)^3; grown in steps, as there is no exact cube root.
     float radius = 0.3F;
@@ -158,8 +156,7 @@ Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
     const float alarm = alarmOf(situation.nature, situation.feelings);
-    const Company company = companyOf(
-        *environment.view, senses, situation.fish, kSpacing + (kAlarmedSpacing - kSpacing) * alarm);
+    const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
     // What must be avoided comes before where one would like to go.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 way = environment.gathering == Gathering::None

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <iostream>
-#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 
