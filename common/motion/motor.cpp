@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "common/motion/headings.h"
 #include "common/motion/motor_tick.h"
 
 namespace aquarama {
@@ -178,19 +179,29 @@ void MotorStep::runReference() const {
     for (std::size_t fish = first; fish < last; ++fish) stepFish(*this, columns, fish);
 }
 
-glm::quat meanRotation(const MotorTables& tables, const MotionStates& states, std::size_t fish) {
-    const float share = static_cast<float>(states.warpFrame[fish] + 1) /
-                        static_cast<float>(states.warpLength[fish] + 1);
-    const auto swayOf = [&](std::uint8_t segment, std::uint16_t phase) {
+Quaternion swayOf(const MotorTables& tables, const MotionStates& states, std::size_t fish) {
+    const auto swayIn = [&](std::uint8_t segment, std::uint16_t phase) {
         return swayAt(tables.segments[segment], phase);
     };
-    const Quaternion played = swayOf(states.segment[fish], states.phase[fish]);
-    const bool warps = states.warpFrame[fish] != states.warpLength[fish];
-    const Quaternion sway =
-        warps ? lerp(swayOf(states.fromSegment[fish], states.fromPhase[fish]), played, share)
-              : played;
-    const Quaternion mean = normalised(orientationOf(states, fish) * sway);
+    const Quaternion played = swayIn(states.segment[fish], states.phase[fish]);
+    if (states.warpFrame[fish] == states.warpLength[fish]) return played;
+    const float share = static_cast<float>(states.warpFrame[fish] + 1) /
+                        static_cast<float>(states.warpLength[fish] + 1);
+    return lerp(swayIn(states.fromSegment[fish], states.fromPhase[fish]), played, share);
+}
+
+glm::quat meanRotation(const MotorTables& tables, const MotionStates& states, std::size_t fish) {
+    const Quaternion mean = normalised(orientationOf(states, fish) * swayOf(tables, states, fish));
     return {mean.w, mean.x, mean.y, mean.z};
+}
+
+glm::vec3 meanHeadingReference(const MotorTables& tables,
+                               const MotionStates& states,
+                               std::size_t fish) {
+    const glm::quat m = meanRotation(tables, states, fish);
+    return {1.0F - 2.0F * (m.y * m.y + m.z * m.z),
+            2.0F * (m.x * m.y + m.w * m.z),
+            2.0F * (m.x * m.z - m.w * m.y)};
 }
 
 }  // namespace aquarama

@@ -2,9 +2,11 @@
 #include "master/world/world.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
+#include "common/motion/headings.h"
 #include "common/place/angle.h"
 #include "common/units/error.h"
 #include "common/units/folded_hash.h"
@@ -23,9 +25,27 @@ namespace {
 // Chunks and slices depend on the number of fish alone, never on the number of threads.
 constexpr std::size_t kFishInChunk = 512;
 constexpr std::size_t kSlotsInSlice = 1024;
+constexpr std::size_t kFetchedAhead = 3;  // thoughts
 
 float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
+}
+
+void fetch(std::uint32_t fish, const auto&... columns) {
+    (__builtin_prefetch(columns.data() + fish), ...);
+}
+
+// Of a fish that will think soon, what lies apart from all that others of its cell have: so that it
+// is near when it is asked for.
+void fetch(const Minds& minds, const FishView& view, const Courses& courses, std::uint32_t fish) {
+    fetch(fish, minds.intention, minds.remembered, minds.target, minds.rememberedTarget);
+    fetch(fish, minds.pursued, minds.sinceRemembered, minds.sinceMeal, minds.sinceSpawning);
+    fetch(fish, minds.sinceChase, minds.sinceStage, minds.alarm, minds.eaten);
+    fetch(fish, minds.likes, minds.stage);
+    fetch(fish, view.x, view.y, view.z, view.headingX, view.headingY, view.headingZ);
+    fetch(fish, view.speed, view.length, view.kind);
+    fetch(fish, courses.directionX, courses.directionY, courses.directionZ);
+    fetch(fish, courses.speed, courses.urgency, courses.openToChange);
 }
 
 Mind beginningMind(const Nature& nature,
@@ -131,9 +151,8 @@ Goal World::goal() const {
 
 void World::advance() {
     goal_ = goal();
-    advanceSurroundings(surroundings_, tick_);
     receive();
-    rebuildGrids();
+    beginTick();
     advanceMeals(meals_, view_, surroundings_.food, tick_);
     thinkAll();
     pool_.run(chunks_.size(), [this](std::size_t i) { swim(chunks_[i]); });
@@ -141,13 +160,16 @@ void World::advance() {
     ++tick_.value;
 }
 
-void World::rebuildGrids() {
+// What goes on without the fish, what they show, and who is where. While one thread lets the food
+// drift, others look at the fish: neither asks the other.
+void World::beginTick() {
     grids_.rebuild(
         view_,
         surroundings_.food,
         natures_,
         [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
         [this](std::size_t first, std::size_t last) {
+            if (first == 0) advanceSurroundings(surroundings_, tick_);
             for (const Kind& kind : kinds_)
                 look(kind, std::max(first, kind.first), std::min(last, kind.last));
         });
@@ -155,19 +177,23 @@ void World::rebuildGrids() {
 
 // What all see of fish [first, last).
 void World::look(const Kind& kind, std::size_t first, std::size_t last) {
+    if (first >= last) return;
+    meanHeadings(*kind.tables,
+                 states_,
+                 first,
+                 last,
+                 {view_.headingX.data(), view_.headingY.data(), view_.headingZ.data()});
     for (std::size_t fish = first; fish < last; ++fish) {
-        const glm::vec3 position = bodyFrameOf(states_, fish).position;
-        const glm::vec3 heading = meanRotation(*kind.tables, states_, fish) * glm::vec3{1, 0, 0};
-        view_.x[fish] = position.x;
-        view_.y[fish] = position.y;
-        view_.z[fish] = position.z;
-        view_.headingX[fish] = heading.x;
-        view_.headingY[fish] = heading.y;
-        view_.headingZ[fish] = heading.z;
+        view_.x[fish] = static_cast<float>(states_.x[fish]) * kPositionUnitMetres;
+        view_.y[fish] = static_cast<float>(states_.y[fish]) * kPositionUnitMetres;
+        view_.z[fish] = static_cast<float>(states_.z[fish]) * kPositionUnitMetres;
         view_.length[fish] = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
-        view_.speed[fish] = speedBodyLengths(states_, fish) * view_.length[fish];
-        showMood(natures_[view_.kind[fish]], minds_, static_cast<std::uint32_t>(fish), view_);
+        view_.speed[fish] =
+            static_cast<float>(states_.speed[fish]) / kSpeedUnitsPerBodyLength * view_.length[fish];
     }
+    const Nature& nature = natures_[view_.kind[first]];
+    for (std::size_t fish = first; fish < last; ++fish)
+        showMood(nature, minds_, static_cast<std::uint32_t>(fish), view_);
 }
 
 Environment World::environment() const {
@@ -189,12 +215,20 @@ void World::thinkAll() {
     const SpatialGrid& grid = grids_.fish;
     const Environment around = environment();
     pool_.run(slices_.size(), [&](std::size_t i) {
+        const std::size_t first = std::min(grid.size(), i * kSlotsInSlice);
+        const std::size_t last = std::min(grid.size(), first + kSlotsInSlice);
+        std::array<std::uint32_t, kSlotsInSlice + kFetchedAhead> thinkers{};
+        std::size_t count = 0;
+        for (std::size_t slot = first; slot < last; ++slot) {
+            thinkers[count] = grid.index()[slot];
+            count += thinksAt(tick_, thinkers[count]) ? 1 : 0;
+        }
         Deeds& deeds = slices_[i].deeds;
         deeds.clear();
-        const std::size_t last = std::min(grid.size(), (i + 1) * kSlotsInSlice);
-        for (std::size_t slot = i * kSlotsInSlice; slot < last; ++slot) {
-            const std::uint32_t fish = grid.index()[slot];
-            if (thinksAt(tick_, fish)) think(around, fish, minds_, courses_, deeds);
+        for (std::size_t t = 0; t < count; ++t) {
+            if (t + kFetchedAhead < count)
+                fetch(minds_, view_, courses_, thinkers[t + kFetchedAhead]);
+            think(around, thinkers[t], minds_, courses_, deeds);
         }
     });
 }

@@ -98,7 +98,7 @@ class World {
     };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     void begin(const WorldOptions& options);
-    void rebuildGrids();
+    void beginTick();
     void look(const Kind& kind, std::size_t first, std::size_t last);
     void makeRoomForDeeds();
     void thinkAll();

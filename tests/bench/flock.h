@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "master/behaviour/perceive/spatial_grid.h"
@@ -50,9 +51,12 @@ class FlockStep {
     // Only the sorting.
     void sort(Flock& flock);
     [[nodiscard]] double neighboursOf(const Flock& flock);  // on average, within kFlockReach
+    // Who stood where the boid at this place stands now, before the last step.
+    [[nodiscard]] std::uint32_t formerPlaceOf(std::size_t place) const {
+        return grid_.index()[place];
+    }
 
   private:
-    friend struct FlockThoughts;
     float radius_;
     SpatialGrid grid_;
     Flock sorted_;

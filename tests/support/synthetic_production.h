@@ -6,7 +6,10 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "common/config/scene.h"
 #include "common/motion/repertoire.h"
 #include "common/wire/recording.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
@@ -23,17 +26,19 @@ inline std::string textOf(const std::string& path) {
 // A school of 40 about a reef that hungers soon, and a shark that hunts it.
 inline Production syntheticProduction(std::uint32_t seed = 1) {
     const std::string species = AQUARAMA_SOURCE_DIR "/config/species/";
-    const ByteVector repertoire = encodeRepertoire(syntheticScad());
-    Production production{.seed = seed,
-                          .sceneFile = "scene",
-                          .scene =
-                              "name: \"tank\" place: REEF gathering: JOURNEY plankton: 200\n"
-                              "cast { species: \"bigeye_scad.txtpb\" fish: 40 }\n"
-                              "cast { species: \"blacktip_reef_shark.txtpb\" fish: 1 }\n",
-                          .cast = {}};
+    Repertoire scad = syntheticScad();
+    scad.species = "synthetic_scad";
+    const std::vector<std::byte> repertoire = encodeRepertoire(scad);
+    Scene scene;
+    scene.name = "tank";
+    scene.plankton = 200;
+    Production production{.seed = seed, .sceneFile = "scene", .scene = {}, .cast = {}};
     for (const auto& [name, fish] :
-         {std::pair{"bigeye_scad.txtpb", 40U}, std::pair{"blacktip_reef_shark.txtpb", 1U}})
+         {std::pair{"bigeye_scad.txtpb", 40U}, std::pair{"blacktip_reef_shark.txtpb", 1U}}) {
+        scene.cast.push_back({.species = name, .fish = fish});
         production.cast.push_back({name, textOf(species + name), repertoire, fish});
+    }
+    production.scene = writeScene(scene);
     return production;
 }
 

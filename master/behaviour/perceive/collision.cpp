@@ -88,9 +88,9 @@ struct Watch {
         const float length = view.length[other];
         const float hold =
             other == mind.target && mind.intention == Intention::AvoidFish ? kHoldOn : 1.0F;
-        // No part of the other is nearer to the box than this.
-        const float reach = hold * std::max(box.ahead, box.behind) + kTailBehind * length +
-                            std::max(box.aside, box.up);
+        // From farther off no part of the other is in the box.
+        const float reach =
+            hold * (std::max(box.ahead, box.behind) + box.aside + box.up) + kTailBehind * length;
         if (squared > reach * reach) return;
         const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
         const float parting = dot(offset, drift);

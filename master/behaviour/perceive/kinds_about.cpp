@@ -8,7 +8,7 @@ namespace aquarama {
 
 namespace {
 
-constexpr int kBlockBits = 3;  // a block is 8 cells wide
+constexpr int kBlockBits = 2;  // a block is 4 cells wide
 constexpr std::uint8_t kEmpty = 0xff;
 constexpr std::uint8_t kMixed = 0xfe;
 

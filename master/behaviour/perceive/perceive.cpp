@@ -64,6 +64,7 @@ Sighting cheapestIn(
     const SpatialGrid& grid, glm::vec3 position, float reach, float best, const CostOf& costOf) {
     Sighting cheapest;
     float reachSquared = std::min(reach * reach, best * best);
+    if (reachSquared <= 0) return cheapest;
     grid.visitAround(position, reachSquared, [&](const SpatialGrid::Candidates& row) {
         for (std::size_t i = 0; i < row.index.size(); ++i) {
             const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;

@@ -36,7 +36,7 @@ SpatialGrid::SpatialGrid(const Region& water,
     : origin_(water.centre - water.halfExtent),
       cellMetres_(cellMetres),
       cellOfPoint_(most),
-      parts_((most + kPointsInPart - 1) / kPointsInPart) {
+      parts_(std::max<std::size_t>(1, (most + kPointsInPart - 1) / kPointsInPart)) {
     const auto cover = [&] {
         cells_ = {cellsAcross(water.halfExtent.x, cellMetres_),
                   cellsAcross(water.halfExtent.y, cellMetres_),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include "common/motion/headings.h"
 #include "tests/common/motion/school.h"
 
 namespace aquarama {
@@ -53,6 +54,31 @@ TEST(MotorStep, everyInstructionSetComputesTheBitsOfThePlainStep) {
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     EXPECT_GT(compared, 0);
+}
+
+TEST(MeanHeadings, everyInstructionSetComputesTheBitsOfPlainCode) {
+    School school = randomSchool();
+    std::mt19937 random(14);
+    for (int tick = 0; tick < 60; ++tick) {  // some are in a warp then
+        commandAtRandom(school, random);
+        school.tick();
+    }
+    const MotorTables& tables = *school.step().tables;
+    std::vector<float> x(kFish);
+    std::vector<float> y(kFish);
+    std::vector<float> z(kFish);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        SCOPED_TRACE(hwy::TargetName(target));
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        meanHeadings(tables, school.states, 5, kFish, {x.data(), y.data(), z.data()});
+        for (std::size_t fish = 5; fish < kFish; ++fish)
+            ASSERT_EQ(glm::vec3(x[fish], y[fish], z[fish]),
+                      meanHeadingReference(tables, school.states, fish))
+                << fish;
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(MotorStep, anySplitIntoRangesComputesTheSameBits) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where fish head, of many at a time.
+#pragma once
+
+#include <cstddef>
+
+#include <glm/vec3.hpp>
+
+#include "common/motion/motor.h"
+#include "common/motion/orientation.h"
+
+namespace aquarama {
+
+struct HeadingColumns {  // unit vectors, world frame, by fish
+    float *x, *y, *z;
+};
+
+// The x axis of meanRotation() of fish [first, last); the same bits on any instruction set.
+void meanHeadings(const MotorTables& tables,
+                  const MotionStates& states,
+                  std::size_t first,
+                  std::size_t last,
+                  const HeadingColumns& headings);
+// The same of one fish by plain code.
+[[nodiscard]] glm::vec3 meanHeadingReference(const MotorTables& tables,
+                                             const MotionStates& states,
+                                             std::size_t fish);
+
+// The cycle-mean frame as its body frame sees it, in a warp between that of two segments.
+[[nodiscard]] Quaternion swayOf(const MotorTables& tables,
+                                const MotionStates& states,
+                                std::size_t fish);
+
+}  // namespace aquarama

@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES avoidance_bench.cpp LINK aquarama_surroundings)

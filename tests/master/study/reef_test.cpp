@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reef as on the wall, with its real fish: five minutes of it, or with AQUARAMA_SOAK in the
+// environment a day and a night.
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <iostream>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "master/study/chronicle.h"
+#include "master/study/chronicle_report.h"
+#include "master/study/scenarios.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::uint64_t kTicksOfMinute = 3600;
+
+bool isSoak() {
+    return std::getenv("AQUARAMA_SOAK") != nullptr;
+}
+
+// What was seen, each hour or, of the short life, all of it.
+struct Life {
+    std::vector<Hour> hours;
+    std::vector<Overlap> overlaps;
+    std::uint64_t hash = 0;
+};
+
+void print(const Chronicle& chronicle, const World& world, const Scenario& scenario) {
+    const auto hours = static_cast<double>(world.tick().value) / (60.0 * kTicksOfMinute);
+    std::cout << hoursMarkdown(chronicle.hours()) << '\n'
+              << overlapsMarkdown(chronicle.overlaps(), world, scenario.world.cast, hours)
+              << "\nhash of the world: " << std::hex << world.hash() << std::dec << '\n';
+}
+
+Life lived() {
+    const Scenario scenario = readScenario(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
+    World world(scenario.world);
+    const std::uint64_t hour = (isSoak() ? 60 : 5) * kTicksOfMinute;
+    Chronicle chronicle(world, scenario.halfWidths, hour);
+    const std::uint64_t ticks = isSoak() ? 24 * hour : hour;
+    for (std::uint64_t tick = 0; tick < ticks; ++tick) {
+        world.advance();
+        chronicle.note(world);
+    }
+    if (isSoak()) print(chronicle, world, scenario);
+    return {chronicle.hours(), chronicle.overlaps().all(), world.hash()};
+}
+
+class Reef : public testing::Test {
+  protected:
+    static const Life& life() {
+        static const Life life = lived();
+        return life;
+    }
+    template <class Claim>
+    static void everyHour(const Claim& claim) {
+        for (std::size_t i = 0; i < life().hours.size(); ++i) {
+            SCOPED_TRACE(testing::Message() << "hour " << i + 1);
+            claim(life().hours[i]);
+        }
+    }
+};
+
+// They meet, cross and brush past one another, but nobody stays inside another fish.
+TEST_F(Reef, noTwoFishOverlapForLong) {
+    for (const Overlap& overlap : life().overlaps) {
+        const auto pair = [&] {
+            return testing::Message() << "fish " << overlap.a << " and " << overlap.b
+                                      << " from tick " << overlap.from.value;
+        };
+        EXPECT_LE(overlap.ticks, 6 * 60U) << pair();
+        EXPECT_LE(overlap.deepTicks, 4 * 60U) << pair() << ", over a quarter of a body";
+    }
+    everyHour([](const Hour& hour) { EXPECT_LT(hour.overlapPercent, 3); });
+}
+
+TEST_F(Reef, nobodyLeavesTheWaterOrEntersTheTerrain) {
+    everyHour([](const Hour& hour) {
+        EXPECT_EQ(hour.bumps, 0U) << "into rock, sand or surface";
+        EXPECT_LT(hour.farthestOutMetres, 1) << "a turn needs room";
+    });
+}
+
+TEST_F(Reef, nobodyIsStuckAndNothingCollapsesIntoACorner) {
+    const float minutes = isSoak() ? 60 : 5;
+    everyHour([&](const Hour& hour) {
+        EXPECT_GT(hour.shortestWayMetres, 0.5F * minutes);
+        EXPECT_LT(hour.longestStaySeconds, 180) << "fish " << hour.whoStayed;
+        EXPECT_GT(hour.spreadMetres, 1.0F);
+        EXPECT_GT(hour.waterUsedPercent, 50);
+    });
+}
+
+TEST_F(Reef, noSpeciesDiesOut) {
+    everyHour([](const Hour& hour) { EXPECT_GE(hour.fewest, 54U) << "of 60"; });
+}
+
+TEST_F(Reef, inADayEveryRoutineIsSeenAndFishEatHuntAndSpawn) {
+    if (!isSoak()) GTEST_SKIP() << "takes a day: AQUARAMA_SOAK=1";
+    WorldCounts all;
+    std::array<double, kIntentions> shares{};
+    for (const Hour& hour : life().hours) {
+        all.meals += hour.counts.meals;
+        all.catches += hour.counts.catches;
+        all.spawnings += hour.counts.spawnings;
+        all.returns += hour.counts.returns;
+        EXPECT_GT(hour.counts.meals, 0U);
+        for (std::size_t i = 0; i < kIntentions; ++i) shares.at(i) += hour.intentionShare.at(i);
+    }
+    EXPECT_GT(all.catches, 0U);
+    EXPECT_GT(all.spawnings, 0U);
+    EXPECT_LE(all.catches - all.returns, 6U) << "who was eaten is replaced within a minute";
+    for (std::size_t i = 0; i < kIntentions; ++i) {
+        // The reef's light and warmth suit all who live there.
+        if (i == static_cast<std::size_t>(Intention::Leave)) continue;
+        EXPECT_GT(shares.at(i), 0) << "routine " << i;
+    }
+}
+
+}  // namespace
+}  // namespace aquarama
