@@ -37,12 +37,11 @@ const char* wordFor(Role role) {
 
 std::string likesOf(const Mind& mind) {
     std::string words = (mind.likes & kIsFemale) != 0 ? "female" : "male";
-    constexpr std::array<std::pair<Like, const char*>, 5> kWords{
-        {{kLikesSchooling, "company"},
-         {kLikesBrightness, "bright water"},
-         {kLikesDarkness, "dark water"},
-         {kLikesWarmth, "warm water"},
-         {kLikesCold, "cold water"}}};
+    constexpr std::array<std::pair<Like, const char*>, 5> kWords{{{kLikesSchooling, "company"},
+                                                                  {kLikesBrightness, "light"},
+                                                                  {kLikesDarkness, "darkness"},
+                                                                  {kLikesWarmth, "warmth"},
+                                                                  {kLikesCold, "cold"}}};
     bool first = true;
     for (const auto& [like, word] : kWords) {
         if ((mind.likes & like) == 0) continue;
@@ -124,8 +123,9 @@ class Screen {
         std::string list = near.count == 0 ? "-" : "";
         for (std::size_t i = 0; i < near.count; ++i) {
             const double distance = std::sqrt(double{near.distanceSquared[i]});
-            const std::string one = format("#{} {:.1f}  ", near.fish[i], lengths(distance));
-            if (list.size() + one.size() > kListColumns) return list + "..";
+            const std::string one =
+                format("{}#{} {:.1f}", i == 0 ? "" : "  ", near.fish[i], lengths(distance));
+            if (list.size() + one.size() > kListColumns) return list + "  ..";
             list += one;
         }
         return list;
@@ -237,9 +237,12 @@ std::string notInView(Rung rung) {
 }
 
 std::string Screen::verdictOn(Rung rung, const Weighed& weighed) const {
+    const bool shelters = rung == Rung::Fear && weighed.intention == Intention::School;
     switch (weighed.verdict) {
         case Verdict::Wins:
-            return format("WINS: {}", targeted(weighed.intention, weighed.target));
+            return format("WINS: {}{}",
+                          targeted(weighed.intention, weighed.target),
+                          shelters ? ", for shelter" : "");
         case Verdict::Outranked:
             return format("{}: comes after {}",
                           targeted(weighed.intention, weighed.target),

@@ -164,9 +164,10 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
 
 bool SecondaryController::endsTurn(std::size_t fish) const {
     const std::size_t playing = states->segment[fish];
+    if (!isTurn(static_cast<Action>(playing))) return false;  // one byte is read of most fish
     const bool goesOn = commands->segment[fish] == playing;
     const int rate = goesOn ? commands->phaseRate[fish] : gaits->phaseRate[playing];
-    return isTurn(static_cast<Action>(playing)) && states->phase[fish] + rate > 0xffff;
+    return states->phase[fish] + rate > 0xffff;
 }
 
 void SecondaryController::decide(std::size_t fish) const {

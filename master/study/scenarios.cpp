@@ -34,7 +34,7 @@ Scenario readScenario(const std::filesystem::path& scene) {
 std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
     std::vector<Scenario> scenarios;
     for (const std::string_view scene :
-         {"reef", "study/school", "bait_ball", "study/crowded_tank", "study/feeding"})
+         {"reef", "study/school", "study/crowded_tank", "study/feeding"})
         scenarios.push_back(
             readScenario(configFolder / "scenes" / (std::string(scene) + ".txtpb")));
     scenarios.back().ticksBetweenPinches = kTicksBetweenPinches;

@@ -12,8 +12,8 @@ namespace aquarama {
 // A scene's file, whose own name the scenario bears. Throws Error.
 [[nodiscard]] Scenario readScenario(const std::filesystem::path& scene);
 
-// The reef and the bait ball as on the wall; the reef's school alone; fish in a tank where they
-// must keep out of each other's way; and hungry ones that are fed.
+// The reef as on the wall; its school alone; fish in a tank where they must keep out of each
+// other's way; and hungry ones that are fed.
 [[nodiscard]] std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder);
 
 }  // namespace aquarama

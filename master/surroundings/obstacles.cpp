@@ -51,10 +51,12 @@ float plainSand(const Obstacles& obstacles, glm::vec3 position) {
     return floorHeight(obstacles.place, {position.x, position.z});
 }
 
-// What is near counts more than what the path meets later.
-glm::vec3 pushAway(glm::vec3 away, float gap, float margin, float share) {
-    if (gap >= margin) return {};
-    return directionOf(away, {0, 1, 0}) * ((1 - 0.5F * share) * ramp(margin - gap, margin));
+// From something of a radius. What is near counts more than what the path meets later.
+glm::vec3 pushAway(glm::vec3 away, float radius, float margin, float share) {
+    const float felt = radius + margin;
+    if (dot(away, away) >= felt * felt) return {};
+    const float distance = lengthOf(away);
+    return directionOf(away, {0, 1, 0}) * ((1 - 0.5F * share) * ramp(felt - distance, margin));
 }
 
 // A stem is passed in plan, below its top.
@@ -64,8 +66,7 @@ glm::vec3 stemPush(const Stem& stem, glm::vec3 position, glm::vec3 heading, floa
     const glm::vec3 level{heading.x, 0, heading.z};
     const float along = std::clamp(dot(to, level), 0.0F, reachMetres);
     const glm::vec3 away = level * along - to;
-    return pushAway(
-        away, lengthOf(away) - kStemRadiusMetres, kStemMarginMetres, along / reachMetres);
+    return pushAway(away, kStemRadiusMetres, kStemMarginMetres, along / reachMetres);
 }
 
 glm::vec3 pushOf(const Obstacles& obstacles,
@@ -116,9 +117,12 @@ Chart chartOf(const Obstacles& obstacles) {
 
 glm::vec3 ballPush(
     glm::vec3 centre, float radius, glm::vec3 position, glm::vec3 heading, float reachMetres) {
+    // Most rocks are low, and most fish swim well above them.
+    const float lowest = position.y + std::min(0.0F, heading.y * reachMetres);
+    if (lowest - centre.y >= radius + kRockMarginMetres) return {};
     const float along = std::clamp(dot(centre - position, heading), 0.0F, reachMetres);
     const glm::vec3 away = position + heading * along - centre;
-    return pushAway(away, lengthOf(away) - radius, kRockMarginMetres, along / reachMetres);
+    return pushAway(away, radius, kRockMarginMetres, along / reachMetres);
 }
 
 Obstacles obstaclesOf(const PlaceKey& place, const Region& water) {

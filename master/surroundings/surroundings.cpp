@@ -2,7 +2,6 @@
 #include "master/surroundings/surroundings.h"
 
 #include "common/place/water.h"
-
 #include "common/units/folded_hash.h"
 
 namespace aquarama {

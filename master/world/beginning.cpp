@@ -9,6 +9,8 @@
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 #include "master/behaviour/act/home.h"
+#include "master/behaviour/act/school.h"
+#include "master/surroundings/journey.h"
 
 namespace aquarama {
 
@@ -99,6 +101,30 @@ void placeSchool(std::uint32_t seed,
     }
 }
 
+// A bait ball that mills already: in rings about the goal, each fish on its level.
+void placeBall(std::uint32_t seed,
+               const Goal& goal,
+               float radius,
+               const Region& water,
+               std::size_t fish,
+               MotionStates& states) {
+    constexpr float kInnermost = 0.7F;  // of the radius
+    const glm::vec3 room = water.halfExtent * 0.85F;
+    for (std::uint32_t i = 0; i < fish; ++i) {
+        const std::uint32_t own = hashOf(hashOf(seed, Place), i);
+        const glm::vec3 out =
+            directionOf({signedUnitOf(hashOf(own, 0)), 0, signedUnitOf(hashOf(own, 1))}, {1, 0, 0});
+        const float away = radius * (kInnermost + unitOf(hashOf(own, 2)));
+        const float rise = radius * goal.flatness * levelInBall(seed, i);
+        const glm::vec3 place = goal.position + out * away + glm::vec3{0, rise, 0};
+        begin(seed,
+              i,
+              {glm::clamp(place, water.centre - room, water.centre + room),
+               facing(glm::vec3{out.z, 0, -out.x} * goal.mill)},
+              states);
+    }
+}
+
 // At home, or at the first place that they are bound for.
 glm::vec3 restingPlace(std::uint32_t seed,
                        const Habits& habits,
@@ -184,7 +210,14 @@ void placeFish(const WorldOptions& options,
         if (species.start)
             placeAbout(options.seed, *species.start, first, last, states);
         else if (first == 0 && species.habits.shares.schooling > 0)
-            placeSchool(options.seed, goal, water, last, states);
+            options.scene.gathering == Gathering::Mill
+                ? placeBall(options.seed,
+                            goal,
+                            millRadiusMetres(water, last, species.lengths.meanMetres),
+                            water,
+                            last,
+                            states)
+                : placeSchool(options.seed, goal, water, last, states);
         else
             placeWanderers(
                 options.seed, species.habits, surroundings.obstacles, first, last, states);

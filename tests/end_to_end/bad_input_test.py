@@ -50,6 +50,32 @@ class BadInput(unittest.TestCase):
         self.refuses(r"nowhere\.txtpb", "check", "nowhere.txtpb")
         self.refuses(r"nowhere\.txtpb", "run", "nowhere.txtpb", "--headless", "--frames", 1)
 
+    def test_a_scene_that_is_not_there(self):
+        self.refuses(r"nowhere\.txtpb", "run", self.edited(), "--headless", "--frames", 1, "--scene", "nowhere.txtpb")
+        rig = self.edited((r"reef\.txtpb", "atlantis.txtpb"))
+        self.refuses(r"desk\.txtpb:\d+:\d+:.*atlantis", "run", rig, "--headless", "--frames", 1)
+        self.refuses(r"desk\.txtpb:\d+:\d+:.*atlantis", "check", rig)
+
+    def test_a_mistake_in_a_scene_and_in_a_species_of_it(self):
+        scene = (ROOT / "config/scenes/reef.txtpb").read_text().replace("../species", str(ROOT / "config/species"))
+        own = Path(self.folder.name) / "own.txtpb"
+        for wrong, expected in [
+            (scene.replace("plankton: 300", "plankton: -3"), r"own\.txtpb:\d+:\d+: .*"),
+            (scene.replace("blue_tang", "mermaid"), r"own\.txtpb:\d+:\d+: .*mermaid"),
+            (scene.replace(str(ROOT / "config/species/parrotfish"), "odd"), r"odd\.txtpb:\d+:\d+: .*hunts"),
+        ]:
+            species = (ROOT / "config/species/parrotfish.txtpb").read_text()
+            hunt = 'hunt { prey: "clownfish" chase_s: 1 give_up_m: 1 rest_s: 1 }'
+            (Path(self.folder.name) / "odd.txtpb").write_text(species.replace("persistence:", hunt + " persistence:"))
+            own.write_text(wrong)
+            self.refuses(expected, "check", own)
+            self.refuses(expected, "run", self.edited(), "--headless", "--frames", 1, "--scene", own)
+
+    def test_a_number_of_fish_that_the_scene_cannot_hold(self):
+        reef = ROOT / "config/scenes/reef.txtpb"
+        for fish, expected in [(0, "only an open sea"), (999_000, "room for"), (2_000_000, "--fish")]:
+            self.refuses(expected, "run", self.edited(), "--headless", "--frames", 1, "--scene", reef, "--fish", fish)
+
     def test_binding_past_the_loopback_is_refused(self):
         rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://0.0.0.0:"))
         self.refuses("loopback|keys", "run", rig, "--headless", "--frames", 1)

@@ -16,6 +16,8 @@ constexpr float kAbreastToFile = 0.6F;  // room abreast for room in file
 constexpr float kAsideShare = 0.25F;    // of a push in file that is along it: the rest is sideways
 constexpr float kAlignFully = 2.0F;
 constexpr float kAttractFully = 5.0F;
+constexpr float kAttractAlarmed = 1.5F;
+constexpr float kHuddle = 1.5F;  // times as much more, alarmed
 
 constexpr float kSeparate = 2.2F;  // weights against the unit vector of one's own course
 constexpr float kMostSeparation = 0.9F;
@@ -66,26 +68,23 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
 
 }  // namespace
 
-Company companyOf(const FishView& view,
-                  const Senses& senses,
-                  std::uint32_t fish,
-                  float spacingBodyLengths) {
+Company companyOf(const FishView& view, const Senses& senses, std::uint32_t fish, float alarm) {
     Company company;
     const float perLength = 1 / view.length[fish];
+    const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
+    const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
     for (std::size_t i = 0; i < senses.others.count; ++i) {
         // Of a larger fish one stays clear by its length.
         const std::uint32_t other = senses.others.fish[i];
         const float per = std::min(perLength, 1 / view.length[other]);
-        giveWay(company, neighbourOf(view, senses, other, per), senses.heading, spacingBodyLengths);
+        giveWay(company, neighbourOf(view, senses, other, per), senses.heading, spacing);
     }
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
         const std::uint32_t other = senses.schoolmates.fish[i];
         const Neighbour mate = neighbourOf(view, senses, other, perLength);
-        giveWay(company, mate, senses.heading, spacingBodyLengths);
+        giveWay(company, mate, senses.heading, spacing);
         const float tooFar =
-            std::clamp((mate.distance - spacingBodyLengths) / (kAttractFully - spacingBodyLengths),
-                       0.0F,
-                       1.0F);
+            std::clamp((mate.distance - spacing) / (attract - spacing), 0.0F, 1.0F);
         const float inStep =
             std::clamp((kAttractFully - mate.distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
         company.cohesion += mate.towards * tooFar;
@@ -98,7 +97,7 @@ Company companyOf(const FishView& view,
     if (senses.schoolmates.count == 0) return company;
     const float share = 1 / static_cast<float>(senses.schoolmates.count);
     company.alignment *= share;
-    company.cohesion *= share;
+    company.cohesion *= share * (1 + kHuddle * alarm);
     company.hurry = dot(company.cohesion, senses.heading);
     company.speed *= share;
     return company;

@@ -24,11 +24,12 @@ struct Company {
     float brake = 0;  // for those just ahead, body lengths a second
 };
 
-// Of the same species one keeps with; to others one only gives way.
+// Of the same species one keeps with; to others one only gives way. alarm: 0 at ease, 1 where a
+// predator is about and all close up.
 [[nodiscard]] Company companyOf(const FishView& view,
                                 const Senses& senses,
                                 std::uint32_t fish,
-                                float spacingBodyLengths);
+                                float alarm);
 
 // The three together, against the unit vector of one's own course.
 [[nodiscard]] glm::vec3 pullOf(const Company& company);

@@ -16,6 +16,7 @@ namespace {
 constexpr float kKeepCourse = 0.8F;  // weights against the unit vector of one's own course
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
+constexpr float kAttentive = 0.7F;  // so much less of that, alarmed
 constexpr float kGiveWayToHunter = 0.8F;
 
 constexpr float kSlowest = 0.85F;  // body lengths a second
@@ -50,16 +51,9 @@ glm::vec3 circled(const Goal& goal, glm::vec3 towards, float pull) {
     return directionOf(around, {1, 0, 0}) * 1.6F + directionOf(towards, {}) * (pull + 0.3F);
 }
 
-// Of a bait ball every fish keeps a level of its own, more of them near the middle; else all would
-// mill in one flat ring.
-float levelOf(const Environment& environment, std::uint32_t fish) {
-    const std::uint32_t own = hashOf(hashOf(environment.seed, kLevels), fish);
-    return unitOf(own) + unitOf(hashOf(own)) - 1;
-}
-
 glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 towards) {
     const float high = environment.schoolRadiusMetres;
-    const float climb = towards.y + levelOf(environment, fish) * high;
+    const float climb = towards.y + levelInBall(environment.seed, fish) * high;
     return {0, std::clamp(climb / (0.3F * high), -1.0F, 1.0F) * kKeepLevel, 0};
 }
 
@@ -106,8 +100,8 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
 }
 
 // Beyond its neighbours a fish sees others of its kind, a few at a time: so parts of a school that
-// lost one another find together again.
-glm::vec3 glimpses(const Situation& situation) {
+// lost one another find together again; alarmed, all seek the middle.
+glm::vec3 glimpses(const Situation& situation, float alarm) {
     const FishView& view = *situation.environment.view;
     const Nature& nature = situation.nature;
     const std::uint32_t own = hashOf(hashOf(situation.environment.seed, kGlances), situation.fish);
@@ -121,7 +115,7 @@ glm::vec3 glimpses(const Situation& situation) {
         const std::uint32_t other = nature.first + hash % (nature.last - nature.first);
         const glm::vec3 offset = view.position(other) - situation.senses.position;
         const float distance = lengthOf(offset);
-        const bool seen = distance > kSightMetres && distance < sight &&
+        const bool seen = distance > kSightMetres * (1 - alarm) && distance < sight &&
                           !view.shows(other, kAway) &&
                           inFieldOfView(situation.senses.heading, offset);
         if (seen) sum += offset / (distance * static_cast<float>(kGlimpses));
@@ -147,6 +141,11 @@ glm::vec3 clearing(const Situation& situation) {
 
 }  // namespace
 
+float levelInBall(std::uint32_t seed, std::uint32_t fish) {
+    const std::uint32_t own = hashOf(hashOf(seed, kLevels), fish);
+    return unitOf(own) + unitOf(hashOf(own)) - 1;
+}
+
 float schoolRadiusMetres(std::size_t fish) {
     // A ball at one fish in (0.3 m)^3; grown in steps, as there is no exact cube root.
     float radius = 0.3F;
@@ -158,15 +157,15 @@ Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
     const float alarm = alarmOf(situation.nature, situation.feelings);
-    const Company company = companyOf(
-        *environment.view, senses, situation.fish, kSpacing + (kAlarmedSpacing - kSpacing) * alarm);
+    const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
     // What must be avoided comes before where one would like to go.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 way = environment.gathering == Gathering::None
-                              ? glimpses(situation) * kRejoin
+                              ? glimpses(situation, alarm) * kRejoin
                               : commonWay(environment, situation.fish, senses.position);
     const glm::vec3 wish = senses.heading * kKeepCourse + pullOf(company) + way * follow +
-                           whim(environment.seed, situation.fish, environment.tick) * kWander +
+                           whim(environment.seed, situation.fish, environment.tick) *
+                               (kWander * (1 - kAttentive * alarm)) +
                            clearing(situation) + wayRound(situation);
     return {levelled(directionOf(wish, senses.heading)),
             wantedSpeed(situation, company, alarm),

@@ -286,11 +286,14 @@ HWY_INLINE void lookInBlock(const Search& search, const Block& block, float reac
 HWY_INLINE Neighbours nearestOfKind(const Search& search) {
     constexpr float kEnough = 0.8F;  // of the hoped for reach: then half of them are in it
     constexpr float kFarther = 1.5F;
+    // In a ball so dense most of the 27 cells are passed by.
+    constexpr float kFewOfACell = 0.7F;
     const auto everyRow = [](int, int, int, int) { return true; };
     Kept kept;
     const Block block(*search.grid, search.place);
     const float hoped = std::min(guess(*search.grid, block), kSightMetres);
-    if (block.reach >= kEnough * hoped) {
+    const bool isDense = hoped < kFewOfACell * search.grid->cellMetres();
+    if (!isDense && block.reach >= kEnough * hoped) {
         lookInBlock(search, block, std::min(block.reach, hoped), kept);
         if (kept.count >= kMostNeighbours) return nearestOf(kept);
     }

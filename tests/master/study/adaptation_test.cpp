@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What adaptation gives, as a property over seeds; how much it gives is in docs/adaptation.md.
-#include <numeric>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
