@@ -52,7 +52,7 @@ std::string likesOf(const Mind& mind) {
 }
 
 double degreesLeft(glm::vec3 heading, glm::vec3 direction) {
-    return double{yawBetween(heading, direction)} * kDegreesPerRadian;
+    return static_cast<double>(yawBetween(heading, direction)) * kDegreesPerRadian;
 }
 
 std::string whereabouts(glm::vec3 heading, glm::vec3 offset) {
@@ -90,7 +90,7 @@ class Screen {
     }
 
     [[nodiscard]] double lengths(double metres) const {
-        return metres / std::max(1e-3, double{of_.lengthMetres});
+        return metres / std::max(1e-3, static_cast<double>(of_.lengthMetres));
     }
 
     [[nodiscard]] const std::string& speciesOf(std::uint32_t fish) const {
@@ -106,7 +106,7 @@ class Screen {
         if (!sighting.seen()) return "-";
         return format("{}, {:.1f} L {}",
                       who,
-                      lengths(double{sighting.distance}),
+                      lengths(static_cast<double>(sighting.distance)),
                       whereabouts(of_.senses.heading, sighting.offset));
     }
 
@@ -122,7 +122,7 @@ class Screen {
     [[nodiscard]] std::string listed(const Neighbours& near) const {
         std::string list = near.count == 0 ? "-" : "";
         for (std::size_t i = 0; i < near.count; ++i) {
-            const double distance = std::sqrt(double{near.distanceSquared[i]});
+            const double distance = std::sqrt(static_cast<double>(near.distanceSquared[i]));
             const std::string one =
                 format("{}#{} {:.1f}", i == 0 ? "" : "  ", near.fish[i], lengths(distance));
             if (list.size() + one.size() > kListColumns) return list + "  ..";
@@ -153,7 +153,7 @@ class Screen {
         add("",
             format("submarine   {:.1f} m   light {:.0f} %   water {:.1f} C",
                    senses.submarineMetres,
-                   100 * double{senses.light},
+                   100 * static_cast<double>(senses.light),
                    senses.celsius));
     }
 
@@ -194,12 +194,13 @@ class Screen {
     void does() {
         const Course& course = of_.course;
         const double climb =
-            std::asin(std::clamp(double{course.direction.y}, -1.0, 1.0)) * kDegreesPerRadian;
+            std::asin(std::clamp(static_cast<double>(course.direction.y), -1.0, 1.0)) *
+            kDegreesPerRadian;
         const double left = degreesLeft(of_.senses.heading, course.direction);
         add("DOES",
             format("{} at {:.0f} %, swims {:.2f} L/s, urgency {:.2f}",
                    nameOf(of_.segment),
-                   100 * double{of_.phase},
+                   100 * static_cast<double>(of_.phase),
                    of_.swims,
                    course.urgency));
         add("",

@@ -2,6 +2,7 @@
 #include "master/surroundings/food.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
@@ -41,6 +42,12 @@ Region reachable(const Region& water) {
 
 float lowestAt(const Obstacles& obstacles, float x, float z) {
     return floorHeight(obstacles.place, {x, z}) + kFloorRoomMetres;
+}
+
+bool isWithin(const Region& water, glm::vec3 place) {
+    const glm::vec3 from = place - water.centre;
+    return std::abs(from.x) < water.halfExtent.x && std::abs(from.y) < water.halfExtent.y &&
+           std::abs(from.z) < water.halfExtent.z;
 }
 
 bool isClear(const Obstacles& obstacles, glm::vec3 place) {
@@ -90,8 +97,7 @@ void strew(Food& food,
 inline float wave(float cycles) {
     const float t = cycles - static_cast<float>(static_cast<std::int32_t>(cycles + 4096.0F) - 4096);
     const float half = 2 * t - 1;
-    const float hump = 4 * (half < 0 ? half + half * half : half - half * half);
-    return -hump;
+    return -4 * half * (1 - std::abs(half));
 }
 
 // The swell of one tick.
@@ -120,16 +126,18 @@ struct Swell {
     }
     [[nodiscard]] static float calm(float at, float centre, float perHalf) {
         const float share = (at - centre) * perHalf;
-        const float left = 1 - share * share;
-        return left > 0 ? left : 0.0F;
+        // Not cut off beyond the border: what gets there is strewn anew.
+        return 1 - share * share;
     }
 };
 
 // All plankton, there or not: a loop without branches.
-void drift(Food& food, std::size_t count, const Swell& swell) {
-    float* const x = food.x.data();
-    float* const y = food.y.data();
-    float* const z = food.z.data();
+// The swell by value and the arrays apart: else the compiler could not know that storing a place
+// changes neither, and would not vectorise.
+void drift(Food& food, std::size_t count, const Swell swell) {
+    float* const __restrict x = food.x.data();
+    float* const __restrict y = food.y.data();
+    float* const __restrict z = food.z.data();
     for (std::size_t i = 0; i < count; ++i) {
         const float atX = x[i];
         const float atY = y[i];
@@ -153,8 +161,9 @@ void lookAfter(Food& food,
     if (food.isThere(i)) {
         food.lowest[i] = lowestAt(obstacles, food.x[i], food.z[i]);
         food.y[i] = std::max(food.y[i], food.lowest[i]);
-        if (food.taken[i] == 0 && !isClear(obstacles, food.position(i)))
-            strew(food, seed, obstacles, i, now);
+        const bool fits =
+            isWithin(obstacles.water, food.position(i)) && isClear(obstacles, food.position(i));
+        if (food.taken[i] == 0 && !fits) strew(food, seed, obstacles, i, now);
     } else if (isDue(food, i, now)) {
         strew(food, seed, obstacles, i, now);
     }

@@ -131,7 +131,7 @@ class BadInput(unittest.TestCase):
     def test_unknown_arguments_and_commands(self):
         self.refuses("--warp-nine", "run", "--warp-nine")
         self.refuses("dance", "dance")
-        for command in ["run", "master", "node", "capture", "check", "inspect", "export", "status"]:
+        for command in ["run", "master", "node", "capture", "check", "inspect", "export", "status", "explain", "replay"]:
             asked = aquarama(command, "--help")
             self.assertEqual(asked.returncode, 0, f"{command} --help: {asked.stderr}")
             self.assertIn("--help", asked.stdout)

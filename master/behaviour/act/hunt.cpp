@@ -15,9 +15,9 @@ constexpr float kRushFrom = 2.0F;               // body lengths
 constexpr float kAheadCosine = 0.5F;            // and only at what is before it
 constexpr std::uint32_t kStalkTicks = 20 * 60;  // then the time of its chase runs
 // A bite reaches so far from the mouth, in body lengths: a gape and the water that rushes in.
-constexpr float kBite = 0.08F;
-constexpr float kBiteCosine = 0.7F;  // or, before it, further by as much again
-constexpr float kMostLeadSeconds = 0.6F;
+constexpr float kBite = 0.05F;
+constexpr float kBiteCosine = 0.85F;  // or, before it, further by as much again
+constexpr float kMostLeadSeconds = 0.3F;
 
 bool isInTheMouth(const Senses& senses, glm::vec3 fromMouth) {
     const float distance = lengthOf(fromMouth) / senses.length;

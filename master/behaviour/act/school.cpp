@@ -16,6 +16,7 @@ namespace {
 constexpr float kKeepCourse = 0.8F;  // weights against the unit vector of one's own course
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
+constexpr float kAttentive = 0.7F;  // so much less of that, alarmed
 constexpr float kGiveWayToHunter = 0.8F;
 
 constexpr float kSlowest = 0.85F;  // body lengths a second
@@ -99,8 +100,8 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
 }
 
 // Beyond its neighbours a fish sees others of its kind, a few at a time: so parts of a school that
-// lost one another find together again.
-glm::vec3 glimpses(const Situation& situation) {
+// lost one another find together again; alarmed, all seek the middle.
+glm::vec3 glimpses(const Situation& situation, float alarm) {
     const FishView& view = *situation.environment.view;
     const Nature& nature = situation.nature;
     const std::uint32_t own = hashOf(hashOf(situation.environment.seed, kGlances), situation.fish);
@@ -114,7 +115,7 @@ glm::vec3 glimpses(const Situation& situation) {
         const std::uint32_t other = nature.first + hash % (nature.last - nature.first);
         const glm::vec3 offset = view.position(other) - situation.senses.position;
         const float distance = lengthOf(offset);
-        const bool seen = distance > kSightMetres && distance < sight &&
+        const bool seen = distance > kSightMetres * (1 - alarm) && distance < sight &&
                           !view.shows(other, kAway) &&
                           inFieldOfView(situation.senses.heading, offset);
         if (seen) sum += offset / (distance * static_cast<float>(kGlimpses));
@@ -160,10 +161,11 @@ Course school(const Situation& situation) {
     // What must be avoided comes before where one would like to go.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 way = environment.gathering == Gathering::None
-                              ? glimpses(situation) * kRejoin
+                              ? glimpses(situation, alarm) * kRejoin
                               : commonWay(environment, situation.fish, senses.position);
     const glm::vec3 wish = senses.heading * kKeepCourse + pullOf(company) + way * follow +
-                           whim(environment.seed, situation.fish, environment.tick) * kWander +
+                           whim(environment.seed, situation.fish, environment.tick) *
+                               (kWander * (1 - kAttentive * alarm)) +
                            clearing(situation) + wayRound(situation);
     return {levelled(directionOf(wish, senses.heading)),
             wantedSpeed(situation, company, alarm),

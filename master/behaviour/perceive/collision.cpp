@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/place/angle.h"
-#include "master/behaviour/perceive/sparse.h"
 
 namespace aquarama {
 
@@ -23,8 +22,6 @@ constexpr float kPartingLengths = 0.1F;  // a second: who goes away so fast is n
 // where a schoolmate will be after these seconds if neither turns.
 constexpr Box kBody{0.45F, 0.5F, 0.17F, 0.12F};
 constexpr float kSoon[] = {0.2F, 0.4F};
-
-constexpr std::size_t kFewBodies = 8;
 
 // Body axes without roll.
 struct Axes {
@@ -88,9 +85,9 @@ struct Watch {
         const float length = view.length[other];
         const float hold =
             other == mind.target && mind.intention == Intention::AvoidFish ? kHoldOn : 1.0F;
-        // No part of the other is nearer to the box than this.
-        const float reach = hold * std::max(box.ahead, box.behind) + kTailBehind * length +
-                            std::max(box.aside, box.up);
+        // From farther off no part of the other is in the box.
+        const float reach =
+            hold * (std::max(box.ahead, box.behind) + box.aside + box.up) + kTailBehind * length;
         if (squared > reach * reach) return;
         const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
         const float parting = dot(offset, drift);
@@ -146,8 +143,7 @@ void heedLargeBodies(Watch& watch, std::uint32_t fish) {
         for (const std::uint32_t other : row.index)
             if (other != fish) watch.heed(other);
     };
-    visitSparse(
-        watch.environment.grids->large, kFewBodies, watch.senses.position, reachSquared, heedAll);
+    watch.environment.grids->large.visitAround(watch.senses.position, reachSquared, heedAll);
 }
 
 }  // namespace

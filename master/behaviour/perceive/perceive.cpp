@@ -9,7 +9,6 @@
 #include "master/behaviour/perceive/climate_sense.h"
 #include "master/behaviour/perceive/collision.h"
 #include "master/behaviour/perceive/mate_choice.h"
-#include "master/behaviour/perceive/sparse.h"
 #include "master/behaviour/perceive/stimulus.h"
 #include "master/behaviour/perceive/vision.h"
 #include "master/fish/drives.h"
@@ -22,9 +21,6 @@ namespace {
 
 constexpr float kReachSeconds = 2.2F;  // how far ahead the surroundings are felt
 constexpr float kReachMetres = 0.4F;
-
-// So many are looked at one by one.
-constexpr std::size_t kFewPredators = 96;
 
 // b1, b2 of a predator's cost of a prey: schooling and turning make it dearer (Tu &
 // Terzopoulos 1994).
@@ -153,11 +149,7 @@ void seePredators(const Onlooker& onlooker) {
                 reachSquared = std::min(reachSquared, farthest * farthest);
         }
     };
-    visitSparse(onlooker.environment.grids->predators,
-                kFewPredators,
-                senses.position,
-                reachSquared,
-                lookAlong);
+    onlooker.environment.grids->predators.visitAround(senses.position, reachSquared, lookAlong);
     forgetHiddenPredators(onlooker);
 }
 

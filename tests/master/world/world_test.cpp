@@ -53,6 +53,19 @@ TEST(World, theHashSeesASingleTick) {
     EXPECT_EQ(world.tick(), Tick{1});
 }
 
+// Before any fish has seen it: a replay that lacks it is told at the next checkpoint.
+TEST(World, theHashSeesAtOnceWhatReachesTheWorldFromOutside) {
+    World world = syntheticWorld(1, 51);
+    std::set<std::uint64_t> hashes{world.hash()};
+    world.apply(DropFood{.position = {0, -5, -5}});
+    hashes.insert(world.hash());
+    world.apply(MoveSubmarine{{0, -6, -1}, {}});
+    hashes.insert(world.hash());
+    world.apply(MoveSubmarine{{0, -6, -1}, {0, 0, -0.1F}});
+    hashes.insert(world.hash());
+    EXPECT_EQ(hashes.size(), 4U);
+}
+
 TEST(World, recordsAreTheStates) {
     World world = syntheticWorld(1, 51);
     world.advance();
