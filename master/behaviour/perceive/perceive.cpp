@@ -143,7 +143,7 @@ void seePredators(const Onlooker& onlooker) {
             const float seen = onlooker.sight(conspicuousness(view.length[other]));
             if (squared > seen * seen) continue;
             if (!alarmed && !inFieldOfView(senses.heading, offset)) continue;
-            insert(senses, {other, offset, std::sqrt(squared)});
+            insert(senses, {other, offset, std::sqrt(squared), view.shows(other, kHunting)});
             const float farthest = senses.predators[kMostPredators - 1].distance;
             if (senses.predatorCount == kMostPredators)
                 reachSquared = std::min(reachSquared, farthest * farthest);
