@@ -25,5 +25,5 @@ build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"
 cp "$drawn/fidelity/"fidelity_{ways,segments}.svg docs/pictures/
 
 # Prints the tables of docs/adaptation.md besides.
-build/show/bin/aquarama-study --seeds 6 --minutes 2 --out "$drawn/study"
+build/show/bin/aquarama-study --seeds 16 --minutes 4 --out "$drawn/study"
 cp "$drawn/study/adaptation.svg" docs/pictures/

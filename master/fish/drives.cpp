@@ -19,7 +19,7 @@ float seconds(std::uint32_t ticks) {
 
 std::uint32_t ticksOf(float seconds) {
     return static_cast<std::uint32_t>(
-        std::min(seconds * kTicksASecond, static_cast<float>(kLongAgo / 2)));
+        std::min(seconds * kTicksASecond, static_cast<float>(kLongAgo) / 2));
 }
 
 // R of the thesis: 1 after a meal, 0 when it is digested.

@@ -27,7 +27,8 @@ std::span<const Overlap> OverlapLog::note(Tick tick,
 }
 
 void OverlapLog::meet(const Overlap& overlap, float share) {
-    const auto [entry, isNew] = open_.try_emplace({overlap.a, overlap.b}, Open{overlap, 0, overlap.from});
+    const auto [entry, isNew] =
+        open_.try_emplace({overlap.a, overlap.b}, Open{overlap, 0, overlap.from});
     if (isNew) fresh_.push_back(overlap);
     Open& open = entry->second;
     open.last = overlap.from;

@@ -10,6 +10,8 @@ namespace aquarama {
 
 namespace {
 
+constexpr float kFearOfIdle = 0.5F;
+
 // No stimulus tempts those who never mate.
 float libidoOf(const Nature& nature, const Mind& mind, const Senses& senses, float hunger) {
     if (!mates(nature)) return 0;
@@ -26,6 +28,13 @@ float hungerOf(const Nature& nature, const Mind& mind, const Senses& senses) {
     return std::min(1.0F, inner + kHungerStimulus * stimulus);
 }
 
+// Tu's F_i = min(D0 / d_i, 1). A predator that is after nobody frightens less: fish keep an eye on
+// it and go on eating (threat sensitivity: Helfman 1989, Behav. Ecol. Sociobiol. 24:47).
+float fearOf(const Nature& nature, const Sighting& predator) {
+    const float heeded = predator.hunting ? 1.0F : kFearOfIdle;
+    return heeded * std::min(nature.fearMetres / predator.distance, 1.0F);
+}
+
 }  // namespace
 
 Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses) {
@@ -33,7 +42,7 @@ Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses) {
     feelings.hunger = hungerOf(nature, mind, senses);
     feelings.libido = libidoOf(nature, mind, senses, feelings.hunger);
     for (std::size_t i = 0; i < senses.predatorCount; ++i) {
-        const float fear = std::min(nature.fearMetres / senses.predators[i].distance, 1.0F);
+        const float fear = fearOf(nature, senses.predators[i]);
         feelings.fear = std::min(1.0F, feelings.fear + fear);
         feelings.greatestFear = std::max(feelings.greatestFear, fear);
     }

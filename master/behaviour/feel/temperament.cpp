@@ -40,7 +40,8 @@ std::uint8_t likesOf(const Nature& nature, std::uint32_t seed, std::uint32_t fis
     draw(Cold, shares.cold, kLikesCold);
     draw(Schooling, shares.schooling, kLikesSchooling);
     draw(Female, shares.female, kIsFemale);
-    for (const unsigned both : {kLikesBrightness | kLikesDarkness, kLikesWarmth | kLikesCold})
+    for (const unsigned both : {unsigned{kLikesBrightness} | unsigned{kLikesDarkness},
+                                unsigned{kLikesWarmth} | unsigned{kLikesCold}})
         if ((likes & both) == both) likes &= ~both;
     return static_cast<std::uint8_t>(likes);
 }

@@ -153,7 +153,7 @@ void seePredators(const Onlooker& onlooker) {
         if (!alarmed && !inFieldOfView(senses.heading, offset)) return;
         const float seen = onlooker.sight(conspicuousness(view.fish[other].length));
         if (squared > seen * seen) return;
-        insert(senses, {other, offset, std::sqrt(squared)});
+        insert(senses, {other, offset, std::sqrt(squared), view.shows(other, kHunting)});
         const float farthest = senses.predators[kMostPredators - 1].distance;
         if (senses.predatorCount == kMostPredators)
             reachSquared = std::min(reachSquared, farthest * farthest);

@@ -18,6 +18,7 @@ struct Sighting {
     std::uint32_t object = kNobody;  // fish, or particle of food
     glm::vec3 offset{};              // from the body's middle
     float distance = std::numeric_limits<float>::infinity();
+    bool hunting = false;  // of a predator: it is after somebody
     [[nodiscard]] bool seen() const { return object != kNobody; }
 };
 

@@ -218,7 +218,7 @@ TEST(SecondaryController, theIntentionMayWithdrawItsConsent) {
         const Action action = mind.think();
         if (!isForward(action) || action == Action::ForwardMedium) continue;
         mind.courses[0].openToChange = false;
-        EXPECT_EQ(mind.think(), Action::ForwardMedium);
+        EXPECT_EQ(mind.thinkFor(6), Action::ForwardMedium) << "after the shortest time of a gait";
         ++withdrawn;
     }
     EXPECT_GT(withdrawn, 0);

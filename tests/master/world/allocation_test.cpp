@@ -24,12 +24,13 @@ TEST(World, mealsCatchesAndReturnsTakeNone) {
     WorldSpecies hunter = sharks(1);
     hunter.start = Start{.centre = {-4, -5.5F, -5}, .radiusMetres = 0.5, .hunger = 1};
     hunter.habits.hunt.restSeconds = 5;
-    WorldOptions options = openWater(1, {prey, hunter});
+    WorldOptions options = openWater(3, {prey, hunter});
     options.scene.plankton = 300;
+    options.scene.water.halfExtent = {8, 2, 6};
     World world(options);
     for (int i = 0; i < 3; ++i) world.advance();
     const std::size_t before = bytesTaken;
-    for (int i = 0; i < 4 * 3600; ++i) world.advance();
+    for (int i = 0; i < 20 * 3600 && world.counts().returns == 0; ++i) world.advance();
     EXPECT_EQ(bytesTaken - before, 0U);
     EXPECT_GT(world.counts().meals, 0U);
     EXPECT_GT(world.counts().returns, 0U) << "nobody was eaten";

@@ -40,8 +40,9 @@ Senses lonely() {
     return senses;
 }
 
-void see(Senses& senses, float predatorMetres) {
-    senses.predators[senses.predatorCount++] = {7, {predatorMetres, 0, 0}, predatorMetres};
+void see(Senses& senses, float predatorMetres, bool hunting = true) {
+    senses.predators[senses.predatorCount++] = {
+        7, {predatorMetres, 0, 0}, predatorMetres, hunting};
 }
 
 TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
@@ -142,6 +143,15 @@ TEST(Fear, addsUpOverThePredatorsInSightAndIsCutAtOne) {
     const Feelings three = feel(nature, fed(3), senses);
     EXPECT_EQ(three.fear, 1);
     EXPECT_EQ(three.greatestFear, 1) << "nearer than D0 frightens wholly and no more";
+}
+
+TEST(Fear, ofAPredatorThatHuntsNobodyIsHalf) {
+    const Nature nature = tang();
+    Senses hunted = lonely();
+    see(hunted, 1.5F, true);
+    Senses watched = lonely();
+    see(watched, 1.5F, false);
+    EXPECT_FLOAT_EQ(feel(nature, fed(3), watched).fear, 0.5F * feel(nature, fed(3), hunted).fear);
 }
 
 }  // namespace
