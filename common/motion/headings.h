@@ -11,7 +11,7 @@
 
 namespace aquarama {
 
-struct HeadingColumns {  // unit vectors, world frame, by fish
+struct HeadingColumns {  // unit vectors, world frame; of the first fish asked for at 0
     float *x, *y, *z;
 };
 

@@ -61,9 +61,9 @@ void headVectors(const MotorTables& tables,
                                                 hn::Mul(turned.y, inverse),
                                                 hn::Mul(turned.z, inverse)})
                                         .forward;
-        hn::StoreU(forward.x, kFloats, headings.x + fish);
-        hn::StoreU(forward.y, kFloats, headings.y + fish);
-        hn::StoreU(forward.z, kFloats, headings.z + fish);
+        hn::StoreU(forward.x, kFloats, headings.x + (fish - first));
+        hn::StoreU(forward.y, kFloats, headings.y + (fish - first));
+        hn::StoreU(forward.z, kFloats, headings.z + (fish - first));
     }
 }
 
@@ -84,9 +84,9 @@ void meanHeadings(const MotorTables& tables,
     HWY_DYNAMIC_DISPATCH(headVectors)(tables, states, first, rest, headings);
     for (std::size_t fish = rest; fish < last; ++fish) {
         const glm::vec3 heading = meanHeadingReference(tables, states, fish);
-        headings.x[fish] = heading.x;
-        headings.y[fish] = heading.y;
-        headings.z[fish] = heading.z;
+        headings.x[fish - first] = heading.x;
+        headings.y[fish - first] = heading.y;
+        headings.z[fish - first] = heading.z;
     }
 }
 

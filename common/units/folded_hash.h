@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <type_traits>
 #include <vector>
 
@@ -28,16 +29,19 @@ template <class Value>
 
 // Eight chains side by side: one alone would wait for each of its multiplications, and a quarter of
 // a million fish are folded at every tick.
-template <class Value>
-[[nodiscard]] std::uint64_t folded(std::uint64_t hash, const std::vector<Value>& values) {
+template <class Value, class Projection = std::identity>
+[[nodiscard]] std::uint64_t folded(std::uint64_t hash,
+                                   const std::vector<Value>& values,
+                                   Projection projection = {}) {
     constexpr std::size_t kChains = 8;
     std::array<std::uint64_t, kChains> chains;
     for (std::size_t c = 0; c < kChains; ++c) chains[c] = foldedOne(hash, c);
     std::size_t i = 0;
     for (; i + kChains <= values.size(); i += kChains)
-        for (std::size_t c = 0; c < kChains; ++c) chains[c] = foldedOne(chains[c], values[i + c]);
+        for (std::size_t c = 0; c < kChains; ++c)
+            chains[c] = foldedOne(chains[c], std::invoke(projection, values[i + c]));
     for (std::size_t c = 0; i + c < values.size(); ++c)
-        chains[c] = foldedOne(chains[c], values[i + c]);
+        chains[c] = foldedOne(chains[c], std::invoke(projection, values[i + c]));
     for (const std::uint64_t chain : chains) hash = foldedOne(hash, chain);
     return foldedOne(hash, values.size());
 }

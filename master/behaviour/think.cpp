@@ -16,7 +16,7 @@ void think(const Environment& environment,
            Courses& courses,
            Deeds& deeds) {
     const Nature& nature = environment.natures[environment.view->kind[fish]];
-    Mind mind = minds.at(fish);
+    Mind mind = minds[fish];
     passTime(nature, mind);
     const Senses senses = perceive(environment, nature, fish, mind);
     const Feelings feelings = feel(nature, mind, senses);
@@ -24,8 +24,8 @@ void think(const Environment& environment,
     Course course = act({environment, nature, fish, senses, feelings}, mind, deeds);
     course.openToChange = environment.adaptation.recommendations &&
                           acceptsRecommendation(nature, mind, senses, feelings);
-    courses.set(fish, course);
-    minds.set(fish, mind);
+    courses[fish] = course;
+    minds[fish] = mind;
 }
 
 }  // namespace aquarama

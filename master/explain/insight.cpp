@@ -17,10 +17,8 @@ std::optional<Insight> insightInto(const World& world, std::uint32_t fish) {
     insight.nature = environment.natures[view.kind[fish]];
     insight.lengthMetres = static_cast<float>(world.traits()[fish].lengthMillimetres) * 0.001F;
     insight.away = view.shows(fish, kAway);
-    insight.mind = world.minds().at(fish);
-    insight.course = {.direction = courses.direction(fish),
-                      .speed = courses.speed[fish],
-                      .urgency = courses.urgency[fish]};
+    insight.mind = world.minds()[fish];
+    insight.course = courses[fish];
     insight.segment = static_cast<Action>(states.segment[fish]);
     insight.phase = static_cast<float>(states.phase[fish]) / 65536.0F;
     insight.swims = speedBodyLengths(states, fish);

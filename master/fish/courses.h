@@ -27,28 +27,6 @@ struct Course {
     bool openToChange = false;
 };
 
-struct Courses {  // structure of arrays, as Course
-    std::vector<float> directionX, directionY, directionZ;
-    std::vector<float> speed;
-    std::vector<float> urgency;
-    std::vector<std::uint8_t> openToChange;
-
-    void resize(std::size_t fish) {
-        for (auto* values : {&directionX, &directionY, &directionZ, &speed, &urgency})
-            values->resize(fish);
-        openToChange.resize(fish);
-    }
-    [[nodiscard]] glm::vec3 direction(std::size_t fish) const {
-        return {directionX[fish], directionY[fish], directionZ[fish]};
-    }
-    void set(std::size_t fish, const Course& course) {
-        directionX[fish] = course.direction.x;
-        directionY[fish] = course.direction.y;
-        directionZ[fish] = course.direction.z;
-        speed[fish] = course.speed;
-        urgency[fish] = course.urgency;
-        openToChange[fish] = course.openToChange ? 1 : 0;
-    }
-};
+using Courses = std::vector<Course>;  // of all fish
 
 }  // namespace aquarama

@@ -83,21 +83,18 @@ struct Aim {
     return {mind.intention, mind.target};
 }
 
-struct Minds {  // structure of arrays, as Mind
-    std::vector<Intention> intention, remembered;
-    std::vector<std::uint32_t> target, rememberedTarget;
-    std::vector<std::uint32_t> pursued, sinceRemembered, sinceMeal, sinceSpawning, sinceChase;
-    std::vector<std::uint32_t> sinceStage;
-    std::vector<Alarm> alarm;
-    std::vector<std::uint16_t> eaten;
-    std::vector<std::uint8_t> likes, stage;
-
-    void resize(std::size_t fish);
-    [[nodiscard]] std::size_t size() const { return intention.size(); }
-    [[nodiscard]] Mind at(std::size_t fish) const;
-    void set(std::size_t fish, const Mind& mind);
+// Of all fish: each mind by itself, as a thought needs the whole of it.
+class Minds {
+  public:
+    void resize(std::size_t fish) { minds_.resize(fish); }
+    [[nodiscard]] std::size_t size() const { return minds_.size(); }
+    [[nodiscard]] const Mind& operator[](std::size_t fish) const { return minds_[fish]; }
+    [[nodiscard]] Mind& operator[](std::size_t fish) { return minds_[fish]; }
     [[nodiscard]] std::uint64_t hash() const;
     [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    std::vector<Mind> minds_;
 };
 
 // What a fish did at this tick to something that others see too. Deeds are done after all have

@@ -14,7 +14,7 @@ namespace aquarama {
 inline constexpr float kMouthBodyLengths = 0.385F;
 
 [[nodiscard]] inline glm::vec3 mouthOf(const FishView& view, std::uint32_t fish) {
-    return view.position(fish) + view.heading(fish) * (kMouthBodyLengths * view.length[fish]);
+    return view.position(fish) + view.heading(fish) * (kMouthBodyLengths * view.fish[fish].length);
 }
 
 }  // namespace aquarama

@@ -22,14 +22,14 @@ unsigned moodOf(std::uint8_t likes, Intention aim) {
 
 void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, FishView& view) {
     const unsigned away = view.signs[fish] & unsigned{kAway};
+    const Mind& mind = minds[fish];
     if (nature.role == Role::Prey) {  // most fish are; they need but three bytes of their mind
-        const bool schools = minds.intention[fish] == Intention::School ||
-                             minds.remembered[fish] == Intention::School;
+        const bool schools =
+            mind.intention == Intention::School || mind.remembered == Intention::School;
         view.signs[fish] = static_cast<std::uint8_t>(
-            away | moodOf(minds.likes[fish], schools ? Intention::School : minds.intention[fish]));
+            away | moodOf(mind.likes, schools ? Intention::School : mind.intention));
         return;
     }
-    const Mind mind = minds.at(fish);
     const Aim aim = aimOf(mind);
     unsigned signs = away | moodOf(mind.likes, aim.intention);
     if (wouldMate(nature, mind, aim.intention)) signs |= kWilling;

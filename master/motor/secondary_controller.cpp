@@ -177,19 +177,20 @@ void SecondaryController::decide(std::size_t fish) const {
     commands->segment[fish] = static_cast<std::uint8_t>(chosen);
     commands->phaseRate[fish] = phaseRateFor(fish, chosen, moment);
     commands->pitch[fish] =
-        static_cast<std::int16_t>(courses->directionY[fish] * kUnitsOfPitchSine);
+        static_cast<std::int16_t>((*courses)[fish].direction.y * kUnitsOfPitchSine);
     commands->yawRate[fish] = isTurn(chosen) ? std::int16_t{0} : yawRateFor(moment.yawError);
     commands->brake[fish] = isTurn(chosen) ? std::uint8_t{0} : brakeFor(*gaits, moment);
 }
 
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
+    const Course& course = (*courses)[fish];
     Moment moment{static_cast<Action>(commands->segment[fish]),
-                  yawBetween(view->heading(fish), courses->direction(fish)),
-                  courses->speed[fish],
+                  yawBetween(view->heading(fish), course.direction),
+                  course.speed,
                   speedBodyLengths(*states, fish),
-                  courses->urgency[fish],
+                  course.urgency,
                   tick.value - memory->chosenAt[fish],
-                  courses->openToChange[fish] != 0};
+                  course.openToChange};
     // A turn will be played to its end: what is chosen comes after it.
     const std::size_t playing = states->segment[fish];
     const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;

@@ -32,7 +32,7 @@ bool mayTouch(const Rod& a, const Rod& b, float room) {
 void rodsOf(const FishView& view, std::span<const float> halfWidths, std::vector<Rod>& rods) {
     rods.resize(view.size());
     for (std::size_t fish = 0; fish < view.size(); ++fish) {
-        const float length = view.shows(fish, kAway) ? 0.0F : view.length[fish];
+        const float length = view.shows(fish, kAway) ? 0.0F : view.fish[fish].length;
         rods[fish] = {
             view.position(fish), view.heading(fish), length, length * halfWidths[view.kind[fish]]};
     }

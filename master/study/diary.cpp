@@ -31,10 +31,15 @@ Diary::Diary(const World& world, std::vector<float> halfWidths)
     : halfWidths_(std::move(halfWidths)),
       overlaps_(kTicksBetweenGlances),
       bumps_(world.view().size()),
-      intention_(world.minds().intention),
-      target_(world.minds().target),
+      intention_(world.view().size()),
+      target_(world.view().size()),
       rushes_(world.view().size()),
-      before_(world.counts()) {}
+      before_(world.counts()) {
+    for (std::size_t fish = 0; fish < intention_.size(); ++fish) {
+        intention_[fish] = world.minds()[fish].intention;
+        target_[fish] = world.minds()[fish].target;
+    }
+}
 
 void Diary::note(const World& world) {
     ++tally_.ticks;
@@ -50,10 +55,10 @@ void Diary::note(const World& world) {
 
 void Diary::noteMind(const World& world, std::size_t fish) {
     const Minds& minds = world.minds();
-    const Intention intention = minds.intention[fish];
+    const Intention intention = minds[fish].intention;
     const bool hunts = world.natures()[world.view().kind[fish]].role == Role::Predator;
     const bool isNew = intention != intention_[fish];
-    const bool another = isNew || minds.target[fish] != target_[fish];
+    const bool another = isNew || minds[fish].target != target_[fish];
     ++tally_.fishTicks;
     ++tally_.intentionTicks.at(static_cast<std::size_t>(intention));
     tally_.changes += isNew ? 1 : 0;
@@ -61,17 +66,17 @@ void Diary::noteMind(const World& world, std::size_t fish) {
         ++tally_.tries;
     }
     const bool rushes = hunts && intention == Intention::Eat &&
-                        minds.stage[fish] == static_cast<std::uint8_t>(HuntStage::Rush);
+                        minds[fish].stage == static_cast<std::uint8_t>(HuntStage::Rush);
     tally_.rushes += rushes && rushes_[fish] == 0 ? 1 : 0;
     rushes_[fish] = rushes ? 1 : 0;
     intention_[fish] = intention;
-    target_[fish] = minds.target[fish];
+    target_[fish] = minds[fish].target;
 }
 
 void Diary::noteBodies(const World& world) {
     rodsOf(world.view(), halfWidths_, rods_);
     const std::uint64_t before = overlaps_.pairTicks();
-    tally_.touches += overlaps_.note(world.tick(), rods_, world.minds().intention).size();
+    tally_.touches += overlaps_.note(world.tick(), rods_, intention_).size();
     tally_.overlapTicks += 2 * static_cast<double>(overlaps_.pairTicks() - before);
     for (std::size_t fish = 0; fish < rods_.size(); ++fish) {
         const bool bumps = isInTerrain(world.surroundings().obstacles, rods_[fish]);

@@ -54,7 +54,7 @@ SchoolFigures schoolFigures(const FishView& view, std::size_t first, std::size_t
         if (distance > 0) momentum += glm::cross(from / distance, view.heading(i)) * share;
         figures.radiusMetres += static_cast<double>(distance * distance * share);
         figures.nearestNeighbour +=
-            static_cast<double>(distanceToNearest(view, fish, i) / view.length[i] * share);
+            static_cast<double>(distanceToNearest(view, fish, i) / view.fish[i].length * share);
     }
     figures.polarisation = static_cast<double>(glm::length(heading));
     figures.rotation = static_cast<double>(glm::length(momentum));

@@ -25,23 +25,23 @@ void World::perform(const Deed& deed) {
             view_.signs[deed.object] = kAway;
             absences_.push_back(absenceFrom(seed_, deed.object, tick_));
             feed(deed.fish);
-            minds_.sinceChase[deed.fish] = kLongAgo;  // one is enough for a chase
+            minds_[deed.fish].sinceChase = kLongAgo;  // one is enough for a chase
             ++counts_.catches;
             return;
         case DeedKind::Spawn:
             // Whoever spawned in this very tick has no more to give.
-            if (minds_.sinceSpawning[deed.fish] == 0 || minds_.sinceSpawning[deed.object] == 0)
+            if (minds_[deed.fish].sinceSpawning == 0 || minds_[deed.object].sinceSpawning == 0)
                 return;
-            minds_.sinceSpawning[deed.fish] = 0;
-            minds_.sinceSpawning[deed.object] = 0;
+            minds_[deed.fish].sinceSpawning = 0;
+            minds_[deed.object].sinceSpawning = 0;
             ++counts_.spawnings;
             return;
     }
 }
 
 void World::feed(std::uint32_t fish) {
-    if (minds_.eaten[fish] < 0xffffU) ++minds_.eaten[fish];
-    minds_.sinceMeal[fish] = 0;
+    if (minds_[fish].eaten < 0xffffU) ++minds_[fish].eaten;
+    minds_[fish].sinceMeal = 0;
 }
 
 // Those whose time it is come back as others: with a mind and likes of their own.
@@ -61,8 +61,8 @@ void World::arrive(std::uint32_t fish) {
     placeFishAt(states_, fish, place, inwards);
     setSpeedBodyLengths(states_, fish, nature.medium);
     const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
-    minds_.set(fish, freshMind(nature, drawn, fish));
-    courses_.set(fish, {levelled(inwards), nature.medium, 0});
+    minds_[fish] = freshMind(nature, drawn, fish);
+    courses_[fish] = {levelled(inwards), nature.medium, 0};
     view_.signs[fish] = 0;
     ++counts_.returns;
 }

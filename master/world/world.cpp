@@ -31,21 +31,12 @@ float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
 }
 
-void fetch(std::uint32_t fish, const auto&... columns) {
-    (__builtin_prefetch(columns.data() + fish), ...);
-}
-
 // Of a fish that will think soon, what lies apart from all that others of its cell have: so that it
 // is near when it is asked for.
 void fetch(const Minds& minds, const FishView& view, const Courses& courses, std::uint32_t fish) {
-    fetch(fish, minds.intention, minds.remembered, minds.target, minds.rememberedTarget);
-    fetch(fish, minds.pursued, minds.sinceRemembered, minds.sinceMeal, minds.sinceSpawning);
-    fetch(fish, minds.sinceChase, minds.sinceStage, minds.alarm, minds.eaten);
-    fetch(fish, minds.likes, minds.stage);
-    fetch(fish, view.x, view.y, view.z, view.headingX, view.headingY, view.headingZ);
-    fetch(fish, view.speed, view.length, view.kind);
-    fetch(fish, courses.directionX, courses.directionY, courses.directionZ);
-    fetch(fish, courses.speed, courses.urgency, courses.openToChange);
+    __builtin_prefetch(&minds[fish]);
+    view.fetch(fish);
+    __builtin_prefetch(&courses[fish]);
 }
 
 Mind beginningMind(const Nature& nature,
@@ -110,14 +101,14 @@ void World::begin(const WorldOptions& options) {
         startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
         for (std::uint32_t fish = nature.first; fish < nature.last; ++fish) {
             setSpeedBodyLengths(states_, fish, nature.medium);
-            minds_.set(fish, beginningMind(nature, options.cast[nature.kind].start, seed_, fish));
+            minds_[fish] = beginningMind(nature, options.cast[nature.kind].start, seed_, fish);
             view_.kind[fish] = nature.kind;
         }
         look(kind, kind.first, kind.last);
     }
     grids_.expect(view_, natures_);
     for (std::size_t fish = 0; fish < traits_.size(); ++fish)
-        courses_.set(fish, {view_.heading(fish), 1, 0});
+        courses_[fish] = {view_.heading(fish), 1, 0};
 }
 
 // A tick's thoughts are about an eighth of the fish; each does one thing at most.
@@ -177,23 +168,28 @@ void World::beginTick() {
 
 // What all see of fish [first, last).
 void World::look(const Kind& kind, std::size_t first, std::size_t last) {
-    if (first >= last) return;
-    meanHeadings(*kind.tables,
-                 states_,
-                 first,
-                 last,
-                 {view_.headingX.data(), view_.headingY.data(), view_.headingZ.data()});
-    for (std::size_t fish = first; fish < last; ++fish) {
-        view_.x[fish] = static_cast<float>(states_.x[fish]) * kPositionUnitMetres;
-        view_.y[fish] = static_cast<float>(states_.y[fish]) * kPositionUnitMetres;
-        view_.z[fish] = static_cast<float>(states_.z[fish]) * kPositionUnitMetres;
-        view_.length[fish] = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
-        view_.speed[fish] =
-            static_cast<float>(states_.speed[fish]) / kSpeedUnitsPerBodyLength * view_.length[fish];
+    constexpr std::size_t kAtATime = 256;
+    std::array<float, kAtATime> x;
+    std::array<float, kAtATime> y;
+    std::array<float, kAtATime> z;
+    for (std::size_t from = first; from < last; from += kAtATime) {
+        const std::size_t to = std::min(last, from + kAtATime);
+        meanHeadings(*kind.tables, states_, from, to, {x.data(), y.data(), z.data()});
+        const Nature& nature = natures_[view_.kind[from]];
+        for (std::size_t fish = from; fish < to; ++fish) {
+            const std::size_t i = fish - from;
+            const float length = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
+            const float lengthsASecond =
+                static_cast<float>(states_.speed[fish]) / kSpeedUnitsPerBodyLength;
+            view_.fish[fish] = {{static_cast<float>(states_.x[fish]) * kPositionUnitMetres,
+                                 static_cast<float>(states_.y[fish]) * kPositionUnitMetres,
+                                 static_cast<float>(states_.z[fish]) * kPositionUnitMetres},
+                                {x[i], y[i], z[i]},
+                                lengthsASecond * length,
+                                length};
+            showMood(nature, minds_, static_cast<std::uint32_t>(fish), view_);
+        }
     }
-    const Nature& nature = natures_[view_.kind[first]];
-    for (std::size_t fish = first; fish < last; ++fish)
-        showMood(nature, minds_, static_cast<std::uint32_t>(fish), view_);
 }
 
 Environment World::environment() const {
@@ -258,13 +254,13 @@ std::uint64_t World::hash() const {
     hash = folded(hash, commands_.pitch);
     hash = folded(hash, commands_.yawRate);
     hash = folded(hash, commands_.brake);
-    for (const auto* values : {&courses_.directionX,
-                               &courses_.directionY,
-                               &courses_.directionZ,
-                               &courses_.speed,
-                               &courses_.urgency})
-        hash = folded(hash, *values);
-    hash = folded(hash, courses_.openToChange);
+    const auto fold = [&](auto member) { hash = folded(hash, courses_, member); };
+    fold([](const Course& course) { return course.direction.x; });
+    fold([](const Course& course) { return course.direction.y; });
+    fold([](const Course& course) { return course.direction.z; });
+    fold(&Course::speed);
+    fold(&Course::urgency);
+    fold(&Course::openToChange);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
     hash = folded(hash, memory_.patience);
@@ -280,7 +276,6 @@ std::uint64_t World::hash() const {
 std::size_t World::bytes() const {
     const MotionStates& s = states_;
     const MotorCommands& c = commands_;
-    const Courses& w = courses_;
     const FishView& v = view_;
     return grids_.bytes() + minds_.bytes() +
            bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
@@ -288,9 +283,7 @@ std::size_t World::bytes() const {
            bytesIn(s.orientationLargest, s.phase, s.segment, s.fromPhase, s.fromSegment) +
            bytesIn(s.warpFrame, s.warpLength, s.speed) +
            bytesIn(c.segment, c.phaseRate, c.pitch, c.yawRate, c.brake) +
-           bytesIn(w.directionX, w.directionY, w.directionZ, w.speed, w.urgency, w.openToChange) +
-           bytesIn(v.x, v.y, v.z, v.headingX, v.headingY, v.headingZ, v.speed, v.length) +
-           bytesIn(v.kind, v.signs, v.partner, v.stage) +
+           bytesIn(courses_, v.fish, v.kind, v.signs, v.partner, v.stage) +
            meals_.swallows.capacity() * sizeof(Meals::Swallow) +
            absences_.capacity() * sizeof(Absence);
 }

@@ -31,9 +31,7 @@ struct Flock {  // structure of arrays; OpenSteer's units
     [[nodiscard]] const float* operator[](Column column) const { return columns[column].data(); }
     [[nodiscard]] float* operator[](Column column) { return columns[column].data(); }
     [[nodiscard]] std::size_t size() const { return columns[X].size() - kMostLanes; }
-    [[nodiscard]] Points points() const {
-        return {{(*this)[X], size()}, {(*this)[Y], size()}, {(*this)[Z], size()}};
-    }
+    [[nodiscard]] Points points() const { return {(*this)[X], (*this)[Y], (*this)[Z], size()}; }
 };
 
 // Of so many boids with so many neighbours each, on average, within kFlockReach.

@@ -56,7 +56,7 @@ float speedPast(const Situation& situation) {
     const bool ahead = dot(directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
     const bool sameWay = dot(view.heading(threat.object), senses.heading) > kSameWay;
     if (!ahead) return std::max(slow, senses.speed / senses.length);
-    const float theirs = view.speed[threat.object] / senses.length;
+    const float theirs = view.fish[threat.object].speed / senses.length;
     return sameWay ? std::min(slow, theirs * (1 - kBrake)) : slow;
 }
 
@@ -67,7 +67,7 @@ Course avoidFish(const Situation& situation, const Mind& mind) {
     const Senses& senses = situation.senses;
     const Sighting& threat = senses.collision;
     if (!threat.seen()) return heading(situation, senses.heading, situation.nature.slow);
-    const glm::vec3 theirs = view.heading(threat.object) * view.speed[threat.object];
+    const glm::vec3 theirs = view.heading(threat.object) * view.fish[threat.object].speed;
     const glm::vec3 miss = missOf(threat.offset, theirs - senses.heading * senses.speed);
     const glm::vec3 aside = asideFrom(miss, senses.heading, senses.length);
     const bool schooling =

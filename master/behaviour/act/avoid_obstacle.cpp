@@ -30,10 +30,11 @@ float openSide(const Situation& situation, glm::vec3 right) {
 glm::vec3 wayRound(const Situation& situation) {
     const Senses& senses = situation.senses;
     const float back = -dot(senses.push, senses.heading);
+    if (back <= 0) return senses.push;
     const glm::vec3 right = directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
     const float aside = dot(senses.push, right);
     const float up = senses.push.y + back * senses.heading.y;
-    if (back <= 0 || aside * aside + up * up > kHeadOn * kHeadOn * back * back) return senses.push;
+    if (aside * aside + up * up > kHeadOn * kHeadOn * back * back) return senses.push;
     const bool even = std::abs(aside) < 0.05F * back;
     const float side = even ? openSide(situation, right) : (aside < 0 ? -1.0F : 1.0F);
     return senses.push + right * (side * back);

@@ -35,7 +35,7 @@ Course alongside(const Situation& situation, std::uint32_t other, glm::vec3 plac
     // Far off it only has to come; near, it must not overtake.
     const float distance = lengthOf(towards) / senses.length;
     const float behind = distance > kNearLengths ? distance : dot(towards, course) / senses.length;
-    const float theirs = view.speed[other] / senses.length;
+    const float theirs = view.fish[other].speed / senses.length;
     const float speed = std::clamp(theirs + kCatchUp * behind, 0.0F, situation.nature.fast);
     return heading(situation, towards + course * (kSameCourse * senses.length), speed);
 }
@@ -88,7 +88,7 @@ std::optional<Course> keptCompany(const Situation& situation) {
     const Senses& senses = situation.senses;
     const std::uint32_t host = shadowedBy(situation);
     if (host != kNobody) {
-        const float over = kOverBackMetres + kHalfHeight * view.length[host];
+        const float over = kOverBackMetres + kHalfHeight * view.fish[host].length;
         return alongside(situation, host, view.position(host) + glm::vec3{0, over, 0});
     }
     const auto apart = static_cast<float>(situation.nature.habits.pairBodyLengths) * senses.length;

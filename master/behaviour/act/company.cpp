@@ -27,6 +27,8 @@ constexpr float kCohere = 1.2F;
 constexpr float kGiveWay = 1.5F;          // of one that keeps to itself
 constexpr float kRoomBodyLengths = 1.2F;  // of the longer of two fish
 
+constexpr float kNowhere = 1.0e-6F;  // lengths: no way leads to what is nearer
+
 struct Neighbour {
     glm::vec3 offset;  // in lengths: of the fish itself, or of a larger one that it meets
     glm::vec3 towards;
@@ -35,7 +37,8 @@ struct Neighbour {
 
 Neighbour neighbourOf(const FishView& view, const Senses& senses, std::uint32_t other, float per) {
     const glm::vec3 offset = (view.position(other) - senses.position) * per;
-    return {offset, directionOf(offset, {0, 1, 0}), lengthOf(offset)};
+    const float distance = lengthOf(offset);
+    return {offset, distance > kNowhere ? offset / distance : glm::vec3{0, 1, 0}, distance};
 }
 
 // Fish are long: in file they need more room than abreast; there the one behind brakes and moves
@@ -44,7 +47,8 @@ void giveWay(Company& company, const Neighbour& neighbour, glm::vec3 heading, fl
     const float ahead = dot(neighbour.offset, heading);
     const glm::vec3 aside = neighbour.offset - heading * ahead;
     const float room = lengthOf(aside + heading * (ahead * kAbreastToFile));
-    const float tooNear = std::max(0.0F, 1 - room / spacing);
+    if (room >= spacing) return;
+    const float tooNear = 1 - room / spacing;
     const float repulsion = tooNear * (1 + 2 * tooNear * tooNear);
     company.separation -=
         directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
@@ -58,7 +62,7 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
     for (std::size_t i = 0; i < those.count; ++i) {
         const std::uint32_t other = those.fish[i];
         if ((situation.nature.hunts >> view.kind[other] & 1U) != 0) continue;
-        const float room = kRoomBodyLengths * std::max(senses.length, view.length[other]);
+        const float room = kRoomBodyLengths * std::max(senses.length, view.fish[other].length);
         const glm::vec3 offset = view.position(other) - senses.position;
         const float tooNear = std::max(0.0F, 1 - lengthOf(offset) / room);
         away -= directionOf(offset, {0, 1, 0}) * (kGiveWay * tooNear);
@@ -70,13 +74,13 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
 
 Company companyOf(const FishView& view, const Senses& senses, std::uint32_t fish, float alarm) {
     Company company;
-    const float perLength = 1 / view.length[fish];
+    const float perLength = 1 / view.fish[fish].length;
     const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
     const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
     for (std::size_t i = 0; i < senses.others.count; ++i) {
         // Of a larger fish one stays clear by its length.
         const std::uint32_t other = senses.others.fish[i];
-        const float per = std::min(perLength, 1 / view.length[other]);
+        const float per = std::min(perLength, 1 / view.fish[other].length);
         giveWay(company, neighbourOf(view, senses, other, per), senses.heading, spacing);
     }
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
@@ -89,7 +93,7 @@ Company companyOf(const FishView& view, const Senses& senses, std::uint32_t fish
             std::clamp((kAttractFully - mate.distance) / (kAttractFully - kAlignFully), 0.0F, 1.0F);
         company.cohesion += mate.towards * tooFar;
         company.alignment += view.heading(other) * inStep;
-        company.speed += view.speed[other] * perLength;
+        company.speed += view.fish[other].speed * perLength;
     }
     // Parting by more than a slant would bring the tails together.
     const float parting = lengthOf(company.separation) * kSeparate;

@@ -14,8 +14,9 @@ constexpr float kNearestSquaredMetres = 0.01F;  // nearer than this does not cou
 
 glm::vec3 awayFrom(glm::vec3 offset, glm::vec3 course, glm::vec3 otherwise) {
     const glm::vec3 away = directionOf(-offset, otherwise);
-    const float before = std::max(0.0F, dot(away, course));
-    const glm::vec3 aside = directionOf(away - course * dot(away, course), otherwise);
+    const float before = dot(away, course);
+    if (before <= 0) return directionOf(away, otherwise);
+    const glm::vec3 aside = directionOf(away - course * before, otherwise);
     return directionOf(away + aside * (kAsideOfItsWay * before), otherwise);
 }
 

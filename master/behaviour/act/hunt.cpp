@@ -26,7 +26,7 @@ bool isInTheMouth(const Senses& senses, glm::vec3 fromMouth) {
 }
 
 glm::vec3 velocityOf(const FishView& view, std::uint32_t fish) {
-    return view.heading(fish) * view.speed[fish];
+    return view.heading(fish) * view.fish[fish].speed;
 }
 
 Course stalk(const Situation& situation, Mind& mind, const Sighting& prey) {

@@ -17,8 +17,8 @@ Couple coupleOf(const Situation& situation, const Mind& mind) {
     const std::uint32_t first = std::min(situation.fish, mate);
     return {.offset = view.position(mate) - situation.senses.position,
             .matesHeading = view.heading(mate),
-            .matesSpeed = view.speed[mate],
-            .length = 0.5F * (situation.senses.length + view.length[mate]),
+            .matesSpeed = view.fish[mate].speed,
+            .length = 0.5F * (situation.senses.length + view.fish[mate].length),
             .isFemale = (mind.likes & kIsFemale) != 0,
             .turnsLeft = (hashOf(situation.environment.seed, first) & 1U) != 0};
 }

@@ -2,6 +2,7 @@
 #include "master/behaviour/act/school.h"
 
 #include <algorithm>
+#include <array>
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
@@ -99,20 +100,28 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
         pace + company.hurry - company.brake - stop + kAlarmedPace * alarm, kSlowest, kFastest);
 }
 
-// Beyond its neighbours a fish sees others of its kind, a few at a time: so parts of a school that
-// lost one another find together again; alarmed, all seek the middle.
-glm::vec3 glimpses(const Situation& situation, float alarm) {
-    const FishView& view = *situation.environment.view;
+// Whom it catches sight of, of its own kind.
+using Glance = std::array<std::uint32_t, kGlimpses>;
+Glance glanceOf(const Situation& situation) {
     const Nature& nature = situation.nature;
     const std::uint32_t own = hashOf(hashOf(situation.environment.seed, kGlances), situation.fish);
-    const auto glance =
-        static_cast<std::uint32_t>(situation.environment.tick.value / kTicksOfGlance);
+    const auto when = static_cast<std::uint32_t>(situation.environment.tick.value / kTicksOfGlance);
+    Glance glance{};
+    for (std::uint32_t i = 0; i < kGlimpses; ++i) {
+        glance[i] = nature.first + hashOf(hashOf(own, when), i) % (nature.last - nature.first);
+        situation.environment.view->fetch(glance[i]);
+    }
+    return glance;
+}
+
+// Beyond its neighbours a fish sees others of its kind, a few at a time: so parts of a school that
+// lost one another find together again; alarmed, all seek the middle.
+glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm) {
+    const FishView& view = *situation.environment.view;
     // A school is a large, flashing thing: it is seen as far as the water is clear.
     const float sight = situation.environment.surroundings->clarityMetres;
     glm::vec3 sum{};
-    for (std::uint32_t i = 0; i < kGlimpses; ++i) {
-        const std::uint32_t hash = hashOf(hashOf(own, glance), i);
-        const std::uint32_t other = nature.first + hash % (nature.last - nature.first);
+    for (const std::uint32_t other : glance) {
         const glm::vec3 offset = view.position(other) - situation.senses.position;
         const float distance = lengthOf(offset);
         const bool seen = distance > kSightMetres * (1 - alarm) && distance < sight &&
@@ -157,12 +166,13 @@ Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
     const float alarm = alarmOf(situation.nature, situation.feelings);
+    const bool gathers = environment.gathering != Gathering::None;
+    const Glance glance = gathers ? Glance{} : glanceOf(situation);
     const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
     // What must be avoided comes before where one would like to go.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
-    const glm::vec3 way = environment.gathering == Gathering::None
-                              ? glimpses(situation, alarm) * kRejoin
-                              : commonWay(environment, situation.fish, senses.position);
+    const glm::vec3 way = gathers ? commonWay(environment, situation.fish, senses.position)
+                                  : glimpses(situation, glance, alarm) * kRejoin;
     const glm::vec3 wish = senses.heading * kKeepCourse + pullOf(company) + way * follow +
                            whim(environment.seed, situation.fish, environment.tick) *
                                (kWander * (1 - kAttentive * alarm)) +

@@ -47,7 +47,7 @@ Box scaled(const Box& box, float scale) {
 bool reaches(float at, float extent, float least, float most) {
     const float nose = at + extent * kNoseAhead;
     const float tail = at - extent * kTailBehind;
-    return std::max(nose, tail) >= least && std::min(nose, tail) <= most;
+    return (std::max(nose, tail) >= least) & (std::min(nose, tail) <= most);
 }
 
 struct Watch {
@@ -82,14 +82,14 @@ struct Watch {
         if (!isHeeded(other)) return;
         const glm::vec3 offset = view.position(other) - senses.position;
         const float squared = dot(offset, offset);
-        const float length = view.length[other];
+        const float length = view.fish[other].length;
         const float hold =
             other == mind.target && mind.intention == Intention::AvoidFish ? kHoldOn : 1.0F;
         // From farther off no part of the other is in the box.
         const float reach =
             hold * (std::max(box.ahead, box.behind) + box.aside + box.up) + kTailBehind * length;
         if (squared > reach * reach) return;
-        const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
+        const glm::vec3 drift = view.heading(other) * view.fish[other].speed - velocity;
         const float parting = dot(offset, drift);
         if (parting > kPartingLengths * senses.length * std::sqrt(squared)) return;
         note(other, offset, shareOf(view.heading(other) * length, scaled(box, hold), offset));
@@ -97,21 +97,22 @@ struct Watch {
 
     void heedSchoolmate(std::uint32_t other) {
         const glm::vec3 offset = view.position(other) - senses.position;
-        const glm::vec3 drift = view.heading(other) * view.speed[other] - velocity;
-        if (dot(offset, drift) > 0) return;
+        const glm::vec3 drift = view.heading(other) * view.fish[other].speed - velocity;
         const Box body = scaled(kBody, senses.length);
-        const glm::vec3 along = view.heading(other) * view.length[other];
-        // Most pass beside or above: that is known before the rest is worked out.
-        const auto passes = [&](glm::vec3 axis, float least, float most) {
+        const glm::vec3 along = view.heading(other) * view.fish[other].length;
+        // Most part, or pass beside, above or behind: that is known before the rest is worked out,
+        // and all of it asked at once, as it is not to be foretold which.
+        const auto meets = [&](glm::vec3 axis, float least, float most) {
             const float at = dot(offset, axis);
             const float moves = dot(drift, axis);
             const float extent = dot(along, axis);
-            return !reaches(at + moves * kSoon[0], extent, least, most) &&
-                   !reaches(at + moves * kSoon[1], extent, least, most);
+            return reaches(at + moves * kSoon[0], extent, least, most) |
+                   reaches(at + moves * kSoon[1], extent, least, most);
         };
-        if (passes(axes.right, -body.aside, body.aside) || passes(axes.up, -body.up, body.up) ||
-            passes(axes.ahead, -body.behind, body.ahead))
-            return;
+        const bool mayMeet =
+            (dot(offset, drift) <= 0) & meets(axes.right, -body.aside, body.aside) &
+            meets(axes.up, -body.up, body.up) & meets(axes.ahead, -body.behind, body.ahead);
+        if (!mayMeet) return;
         float share = 0;
         for (const float soon : kSoon)
             share = std::max(share, shareOf(along, body, offset + drift * soon));

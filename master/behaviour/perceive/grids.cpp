@@ -56,7 +56,7 @@ void Grids::expect(const FishView& view, std::span<const Nature> natures) {
     std::size_t big = 0;
     for (std::size_t i = 0; i < view.size(); ++i) {
         hunting += isPredator(view, natures, i) ? 1 : 0;
-        big += view.length[i] >= kLargeBodyMetres ? 1 : 0;
+        big += view.fish[i].length >= kLargeBodyMetres ? 1 : 0;
     }
     expect(predators, kPredators, hunting);
     expect(large, kLarges, big);
@@ -70,7 +70,7 @@ void Grids::mark(const FishView& view,
         const std::uint8_t signs = view.signs[i];
         int marks = kPresent;
         if (isPredator(view, natures, i)) marks |= kPredator;
-        if (view.length[i] >= kLargeBodyMetres) marks |= kLarge;
+        if (view.fish[i].length >= kLargeBodyMetres) marks |= kLarge;
         if ((signs & kWilling) != 0) marks |= kMate;
         marks_[i] = static_cast<std::uint8_t>((signs & kAway) != 0 ? 0 : marks);
     }
@@ -108,7 +108,8 @@ void Grids::rebuildSparse(std::size_t which, const Points& fishPoints, const Foo
     there.clear();
     for (std::uint32_t i = 0; i < particles.size(); ++i)
         if (particles.isFree(i)) there.push_back(i);
-    food.rebuild({particles.x, particles.y, particles.z}, there);
+    food.rebuild({particles.x.data(), particles.y.data(), particles.z.data(), particles.size()},
+                 there);
 }
 
 std::size_t Grids::bytes() const {

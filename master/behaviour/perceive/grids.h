@@ -45,7 +45,7 @@ class Grids {
                  std::span<const Nature> natures,
                  const Share& share,
                  const Look& look) {
-        const Points points{view.x, view.y, view.z};
+        const Points points = placesOf(view);
         share(fish.parts(), [&](std::size_t part) {
             const std::size_t first = SpatialGrid::firstOfPart(part);
             const std::size_t last = std::min(view.size(), SpatialGrid::firstOfPart(part + 1));
@@ -81,6 +81,12 @@ class Grids {
               std::span<const Nature> natures,
               std::size_t first,
               std::size_t last);
+    [[nodiscard]] static Points placesOf(const FishView& view) {
+        constexpr std::size_t kStride = sizeof(VisibleFish) / sizeof(float);
+        if (view.size() == 0) return {};
+        const glm::vec3& first = view.fish.front().position;
+        return {&first.x, &first.y, &first.z, view.size(), kStride};
+    }
     void rebuildSparse(std::size_t which, const Points& fishPoints, const Food& particles);
     [[nodiscard]] std::span<const std::uint32_t> marked(Sparse which, Mark mark);
     void expect(SpatialGrid& grid, Sparse which, std::size_t count);

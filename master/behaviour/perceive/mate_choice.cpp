@@ -19,7 +19,7 @@ bool suitsAsMate(const FishView& view,
     if (other == fish || view.kind[other] != view.kind[fish]) return false;
     if (!view.shows(other, kWilling) || view.shows(other, kAway)) return false;
     if (view.shows(other, kFemale) == ((likes & kIsFemale) != 0)) return false;
-    const auto [shorter, longer] = std::minmax(view.length[fish], view.length[other]);
+    const auto [shorter, longer] = std::minmax(view.fish[fish].length, view.fish[other].length);
     return shorter >= kLeastSizeRatio * longer;
 }
 
@@ -34,7 +34,7 @@ float dearnessOfMate(const FishView& view,
     if (isCourted && own != other) dearness = kDevotion;
     if ((likes & kIsFemale) == 0) return dearness;
     // Nothing may cost less than its distance: so the smaller are dearer.
-    const float smaller = view.length[fish] / (kLeastSizeRatio * view.length[other]);
+    const float smaller = view.fish[fish].length / (kLeastSizeRatio * view.fish[other].length);
     return dearness * std::max(1.0F, smaller * smaller);
 }
 

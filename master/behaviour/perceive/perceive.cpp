@@ -9,6 +9,7 @@
 #include "master/behaviour/perceive/climate_sense.h"
 #include "master/behaviour/perceive/collision.h"
 #include "master/behaviour/perceive/mate_choice.h"
+#include "master/behaviour/perceive/points_within.h"
 #include "master/behaviour/perceive/stimulus.h"
 #include "master/behaviour/perceive/vision.h"
 #include "master/fish/drives.h"
@@ -52,6 +53,9 @@ struct Onlooker {
     }
 };
 
+// Within so few cells all are looked at; farther, from the fish outwards, until none can cost less.
+constexpr float kNearCells = 1.5F;
+
 // Searches a grid for what costs least. costOf(index, offset, distance) must be `distance` or more,
 // and infinite for what is not sought, as all beyond reach; what costs `best` or more is passed
 // over. Of equal costs the lower index has it.
@@ -61,17 +65,24 @@ Sighting cheapestIn(
     Sighting cheapest;
     float reachSquared = std::min(reach * reach, best * best);
     if (reachSquared <= 0) return cheapest;
+    const auto weigh = [&](std::uint32_t index, glm::vec3 offset, float squared) {
+        if (squared > reachSquared) return;
+        const float distance = std::sqrt(squared);
+        const float cost = costOf(index, offset, distance);
+        if (cost > best || (cost == best && index >= cheapest.object)) return;
+        cheapest = {index, offset, distance};
+        best = cost;
+        reachSquared = std::min(reachSquared, cost * cost);
+    };
+    const float near = kNearCells * grid.cellMetres();
+    if (reachSquared <= near * near) {
+        visitPointsWithin(grid, position, reachSquared, weigh);
+        return cheapest;
+    }
     grid.visitAround(position, reachSquared, [&](const SpatialGrid::Candidates& row) {
         for (std::size_t i = 0; i < row.index.size(); ++i) {
             const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;
-            const float squared = dot(offset, offset);
-            if (squared > reachSquared) continue;
-            const float distance = std::sqrt(squared);
-            const float cost = costOf(row.index[i], offset, distance);
-            if (cost > best || (cost == best && row.index[i] >= cheapest.object)) continue;
-            cheapest = {row.index[i], offset, distance};
-            best = cost;
-            reachSquared = std::min(reachSquared, cost * cost);
+            weigh(row.index[i], offset, dot(offset, offset));
         }
     });
     return cheapest;
@@ -82,8 +93,8 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 void feelItself(const FishView& view, std::uint32_t fish, Senses& senses) {
     senses.position = view.position(fish);
     senses.heading = view.heading(fish);
-    senses.speed = view.speed[fish];
-    senses.length = view.length[fish];
+    senses.speed = view.fish[fish].speed;
+    senses.length = view.fish[fish].length;
 }
 
 void seeNeighbours(const Onlooker& onlooker) {
@@ -91,6 +102,9 @@ void seeNeighbours(const Onlooker& onlooker) {
         onlooker.view(), *onlooker.environment.grids, onlooker.nature, onlooker.fish);
     onlooker.senses.schoolmates = nearest.schoolmates;
     onlooker.senses.others = nearest.others;
+    // They are looked at last, when they have come from memory.
+    for (const Neighbours* those : {&onlooker.senses.schoolmates, &onlooker.senses.others})
+        for (std::size_t i = 0; i < those->count; ++i) onlooker.view().fetch(those->fish[i]);
 }
 
 // Keeps the nearest, sorted; of equally near ones the lower index first.
@@ -134,22 +148,17 @@ void seePredators(const Onlooker& onlooker) {
     const bool alarmed = onlooker.mind.alarm != Alarm::Calm;
     const float reach = onlooker.sight(kMostConspicuous);
     float reachSquared = reach * reach;
-    const auto lookAlong = [&](const SpatialGrid::Candidates& row) {
-        for (std::size_t i = 0; i < row.index.size(); ++i) {
-            const std::uint32_t other = row.index[i];
-            const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - senses.position;
-            const float squared = dot(offset, offset);
-            if (squared > reachSquared || (nature.huntedBy >> view.kind[other] & 1U) == 0) continue;
-            const float seen = onlooker.sight(conspicuousness(view.length[other]));
-            if (squared > seen * seen) continue;
-            if (!alarmed && !inFieldOfView(senses.heading, offset)) continue;
-            insert(senses, {other, offset, std::sqrt(squared), view.shows(other, kHunting)});
-            const float farthest = senses.predators[kMostPredators - 1].distance;
-            if (senses.predatorCount == kMostPredators)
-                reachSquared = std::min(reachSquared, farthest * farthest);
-        }
+    const auto notice = [&](std::uint32_t other, glm::vec3 offset, float squared) {
+        if (squared > reachSquared || (nature.huntedBy >> view.kind[other] & 1U) == 0) return;
+        if (!alarmed && !inFieldOfView(senses.heading, offset)) return;
+        const float seen = onlooker.sight(conspicuousness(view.fish[other].length));
+        if (squared > seen * seen) return;
+        insert(senses, {other, offset, std::sqrt(squared), view.shows(other, kHunting)});
+        const float farthest = senses.predators[kMostPredators - 1].distance;
+        if (senses.predatorCount == kMostPredators)
+            reachSquared = std::min(reachSquared, farthest * farthest);
     };
-    onlooker.environment.grids->predators.visitAround(senses.position, reachSquared, lookAlong);
+    visitPointsWithin(onlooker.environment.grids->predators, senses.position, reachSquared, notice);
     forgetHiddenPredators(onlooker);
 }
 
@@ -323,13 +332,13 @@ Senses perceive(const Environment& environment,
     feelItself(*environment.view, fish, senses);
     const Onlooker onlooker{environment, nature, fish, mind, senses};
     seeNeighbours(onlooker);
-    feelCollision(environment, nature, fish, mind, senses);
     seePredators(onlooker);
     seePrey(onlooker);
     senseFood(onlooker);
     seeMate(onlooker);
     feelSurroundings(environment, senses);
     feelClimate(*environment.surroundings, nature, mind.likes, senses);
+    feelCollision(environment, nature, fish, mind, senses);
     return senses;
 }
 

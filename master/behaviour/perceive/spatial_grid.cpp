@@ -61,7 +61,7 @@ void SpatialGrid::makeRoomForSteps() {
 void SpatialGrid::rebuild(const Points& points, std::span<const std::uint32_t> chosen) {
     std::fill(starts_.begin(), starts_.end(), 0U);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-        cellOfPoint_[i] = cellIndex(points, chosen[i]);
+        cellOfPoint_[i] = cellIndex(points[chosen[i]]);
         ++starts_[cellOfPoint_[i]];
     }
     std::uint32_t end = 0;
@@ -69,8 +69,7 @@ void SpatialGrid::rebuild(const Points& points, std::span<const std::uint32_t> c
     // Filled from the back, each start moves down to where its cell begins.
     for (std::size_t i = chosen.size(); i-- > 0;) {
         const std::uint32_t point = chosen[i];
-        sorted_.put(
-            --starts_[cellOfPoint_[i]], points.x[point], points.y[point], points.z[point], point);
+        sorted_.put(--starts_[cellOfPoint_[i]], points[point], point);
     }
 }
 
@@ -91,12 +90,12 @@ void SpatialGrid::arrange() {
 
 void SpatialGrid::spread(std::size_t part, const Points& points) {
     std::uint32_t* const next = tallies_.data() + part * buckets_;
-    const std::size_t last = std::min(points.x.size(), firstOfPart(part + 1));
+    const std::size_t last = std::min(points.count, firstOfPart(part + 1));
     for (std::size_t i = firstOfPart(part); i < last; ++i) {
         const std::uint32_t cell = cellOfPoint_[i];
         if (cell == kNowhere) continue;
         const std::uint32_t slot = next[cell / cellsInBucket_]++;
-        spread_.put(slot, points.x[i], points.y[i], points.z[i], static_cast<std::uint32_t>(i));
+        spread_.put(slot, points[i], static_cast<std::uint32_t>(i));
         spreadCells_[slot] = cell;
     }
 }
@@ -114,8 +113,9 @@ void SpatialGrid::sort(std::size_t bucket) {
     }
     // Filled from the back, each start moves down to where its cell begins.
     for (std::uint32_t i = last; i-- > first;)
-        sorted_.put(
-            --starts_[spreadCells_[i]], spread_.x[i], spread_.y[i], spread_.z[i], spread_.index[i]);
+        sorted_.put(--starts_[spreadCells_[i]],
+                    {spread_.x[i], spread_.y[i], spread_.z[i]},
+                    spread_.index[i]);
 }
 
 SpatialGrid::Candidates SpatialGrid::candidates(const Slots& slots) const {

@@ -16,8 +16,15 @@ namespace aquarama {
 // The most points that a search reads at a time.
 inline constexpr std::size_t kMostLanes = 16;
 
-struct Points {  // metres
-    std::span<const float> x, y, z;
+// Places in metres, in columns or in records of so many floats.
+struct Points {
+    const float *x = nullptr, *y = nullptr, *z = nullptr;
+    std::size_t count = 0;
+    std::size_t stride = 1;
+
+    [[nodiscard]] glm::vec3 operator[](std::size_t i) const {
+        return {x[i * stride], y[i * stride], z[i * stride]};
+    }
 };
 
 class SpatialGrid {
@@ -42,9 +49,9 @@ class SpatialGrid {
     void count(std::size_t part, const Points& points, const IsThere& isThere) {
         std::uint32_t* const tally = tallies_.data() + part * buckets_;
         std::fill_n(tally, buckets_, 0U);
-        const std::size_t last = std::min(points.x.size(), firstOfPart(part + 1));
+        const std::size_t last = std::min(points.count, firstOfPart(part + 1));
         for (std::size_t i = firstOfPart(part); i < last; ++i) {
-            cellOfPoint_[i] = isThere(i) ? cellIndex(points, i) : kNowhere;
+            cellOfPoint_[i] = isThere(i) ? cellIndex(points[i]) : kNowhere;
             if (cellOfPoint_[i] != kNowhere) ++tally[cellOfPoint_[i] / cellsInBucket_];
         }
     }
@@ -140,10 +147,10 @@ class SpatialGrid {
         std::vector<std::uint32_t> index;
 
         void resize(std::size_t points);
-        void put(std::size_t slot, float px, float py, float pz, std::uint32_t i) {
-            x[slot] = px;
-            y[slot] = py;
-            z[slot] = pz;
+        void put(std::size_t slot, glm::vec3 point, std::uint32_t i) {
+            x[slot] = point.x;
+            y[slot] = point.y;
+            z[slot] = point.z;
             index[slot] = i;
         }
         [[nodiscard]] std::size_t bytes() const;
@@ -162,8 +169,8 @@ class SpatialGrid {
                : other < own ? at - static_cast<float>(other + 1)
                              : 0.0F;
     }
-    [[nodiscard]] std::uint32_t cellIndex(const Points& points, std::size_t i) const {
-        const Cell cell = cellOf({points.x[i], points.y[i], points.z[i]});
+    [[nodiscard]] std::uint32_t cellIndex(glm::vec3 point) const {
+        const Cell cell = cellOf(point);
         return static_cast<std::uint32_t>(rowOf(cell.y, cell.z)) +
                static_cast<std::uint32_t>(cell.x);
     }

@@ -14,6 +14,7 @@ namespace {
 constexpr float kSolidRock = 0.75F;          // of the radius that holds all that grows on it
 constexpr float kHighestSandMetres = -8.0F;  // no dune is higher
 constexpr int kSandSamples = 6;
+constexpr float kBetweenCornersMetres = 0.05F;  // more than sand rises between a chart's corners
 
 // A large body hides what is behind these balls along its middle line, in its lengths.
 constexpr std::array kTrunk{0.2F, -0.05F, -0.3F};
@@ -26,7 +27,9 @@ bool rocksHide(const Obstacles& obstacles, const Ray& ray) {
 }
 
 bool sandHides(const Obstacles& obstacles, const Ray& ray) {
-    if (std::min(ray.from.y, ray.from.y + ray.offset.y) > kHighestSandMetres) return false;
+    const float highest =
+        std::min(kHighestSandMetres, obstacles.chart.highestSand() + kBetweenCornersMetres);
+    if (std::min(ray.from.y, ray.from.y + ray.offset.y) > highest) return false;
     for (int i = 1; i <= kSandSamples; ++i) {
         const float along = static_cast<float>(i) / static_cast<float>(kSandSamples + 1);
         const glm::vec3 at = ray.from + ray.offset * along;
@@ -80,7 +83,7 @@ bool terrainHides(const Obstacles& obstacles, const Ray& ray) {
 
 bool bodyHides(const FishView& view, std::uint32_t body, const Ray& ray) {
     const glm::vec3 middle = view.position(body);
-    const float length = view.length[body];
+    const float length = view.fish[body].length;
     if (!ray.passes(middle, length)) return false;
     for (const float place : kTrunk)
         if (ray.passes(middle + view.heading(body) * (place * length), kTrunkRadius * length))

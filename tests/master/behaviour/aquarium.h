@@ -34,9 +34,9 @@ struct Aquarium {
         minds.resize(fish + 1);
         courses.resize(fish + 1);
         put(fish, offset);
-        view.headingX[fish] = 1;
-        view.speed[fish] = 0.4F;
-        view.length[fish] = length;
+        view.fish[fish].heading.x = 1;
+        view.fish[fish].speed = 0.4F;
+        view.fish[fish].length = length;
         view.kind[fish] = kind;
         if (natures[kind].last == 0) natures[kind].first = static_cast<std::uint32_t>(fish);
         natures[kind].last = static_cast<std::uint32_t>(fish) + 1;
@@ -44,19 +44,11 @@ struct Aquarium {
         mind.likes = kLikesSchooling;
         mind.eaten = 100;
         mind.sinceMeal = 0;
-        minds.set(fish, mind);
+        minds[fish] = mind;
         return static_cast<std::uint32_t>(fish);
     }
-    void put(std::size_t fish, glm::vec3 offset) {
-        view.x[fish] = kCentre.x + offset.x;
-        view.y[fish] = kCentre.y + offset.y;
-        view.z[fish] = kCentre.z + offset.z;
-    }
-    void head(std::size_t fish, glm::vec3 heading) {
-        view.headingX[fish] = heading.x;
-        view.headingY[fish] = heading.y;
-        view.headingZ[fish] = heading.z;
-    }
+    void put(std::size_t fish, glm::vec3 offset) { view.fish[fish].position = kCentre + offset; }
+    void head(std::size_t fish, glm::vec3 heading) { view.fish[fish].heading = heading; }
 
     // The grids must be made anew before they are asked.
     [[nodiscard]] Environment environment(Grids& grids) const {

@@ -24,14 +24,10 @@ inline FishView scatteredSchool(std::uint32_t seed, std::size_t fish, const Regi
         const std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(i));
         const glm::vec3 position = region.centre + scatteredPoint(hash) * region.halfExtent;
         const glm::vec3 heading = directionOf(scatteredPoint(~hash), {1, 0, 0});
-        view.x[i] = position.x;
-        view.y[i] = position.y;
-        view.z[i] = position.z;
-        view.headingX[i] = heading.x;
-        view.headingY[i] = heading.y;
-        view.headingZ[i] = heading.z;
-        view.speed[i] = 0.4F;
-        view.length[i] = 0.24F;
+        view.fish[i].position = position;
+        view.fish[i].heading = heading;
+        view.fish[i].speed = 0.4F;
+        view.fish[i].length = 0.24F;
     }
     return view;
 }

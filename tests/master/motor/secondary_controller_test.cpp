@@ -27,17 +27,16 @@ struct Mind {
         commands.resize(1);
         courses.resize(1);
         memory.resize(1);
-        view.headingX[0] = 1;
+        view.fish[0].heading.x = 1;
         startCommands(gaits, 1, 0, commands.segment.size(), commands, memory);
         want(0, 2.0F);
     }
     void want(float degreesToTheLeft, float speed, float urgency = 0) {
         const float angle = degreesToTheLeft * kRadiansPerDegree;
-        courses.directionX[0] = std::cos(angle);
-        courses.directionZ[0] = -std::sin(angle);
-        courses.speed[0] = speed;
-        courses.urgency[0] = urgency;
-        courses.openToChange[0] = 1;
+        courses[0].direction = {std::cos(angle), 0, -std::sin(angle)};
+        courses[0].speed = speed;
+        courses[0].urgency = urgency;
+        courses[0].openToChange = true;
     }
     // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
     Action think() {
@@ -206,7 +205,7 @@ TEST(SecondaryController, theIntentionMayRefuseARecommendation) {
     Mind mind;
     for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {
         mind.want(0, 2.0F);
-        mind.courses.openToChange[0] = 0;
+        mind.courses[0].openToChange = false;
         EXPECT_EQ(mind.think(), Action::ForwardMedium);
     }
 }
@@ -218,7 +217,7 @@ TEST(SecondaryController, theIntentionMayWithdrawItsConsent) {
         mind.want(0, 2.0F);
         const Action action = mind.think();
         if (!isForward(action) || action == Action::ForwardMedium) continue;
-        mind.courses.openToChange[0] = 0;
+        mind.courses[0].openToChange = false;
         EXPECT_EQ(mind.thinkFor(6), Action::ForwardMedium) << "after the shortest time of a gait";
         ++withdrawn;
     }

@@ -16,11 +16,11 @@ FishView ring(std::size_t fish) {
     for (std::size_t i = 0; i < fish; ++i) {
         const double angle =
             2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(fish);
-        view.x[i] = static_cast<float>(std::cos(angle));
-        view.z[i] = static_cast<float>(std::sin(angle));
-        view.headingX[i] = -view.z[i];
-        view.headingZ[i] = view.x[i];
-        view.length[i] = 0.5F;
+        view.fish[i].position.x = static_cast<float>(std::cos(angle));
+        view.fish[i].position.z = static_cast<float>(std::sin(angle));
+        view.fish[i].heading.x = -view.fish[i].position.z;
+        view.fish[i].heading.z = view.fish[i].position.x;
+        view.fish[i].length = 0.5F;
     }
     return view;
 }
@@ -36,8 +36,8 @@ TEST(SchoolFigures, aMillRotatesAndIsNotPolarised) {
 TEST(SchoolFigures, thoseWhoHeadOneWayArePolarisedAndDoNotRotate) {
     FishView view = ring(12);
     for (std::size_t i = 0; i < 12; ++i) {
-        view.headingX[i] = 1;
-        view.headingZ[i] = 0;
+        view.fish[i].heading.x = 1;
+        view.fish[i].heading.z = 0;
     }
     const SchoolFigures school = schoolFigures(view, 0, 12);
     EXPECT_NEAR(school.polarisation, 1, 1e-5);

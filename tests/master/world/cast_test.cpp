@@ -50,14 +50,14 @@ TEST(Cast, thoseWhoKeepToThemselvesStayInTheWaterAndGoAbout) {
     options.scene.plankton = 0;  // no food keeps them anywhere
     World world(options);
     const Region water = schoolRegion();
-    for (std::size_t fish = kSchool; fish < 60; ++fish) EXPECT_GT(world.view().speed[fish], 0);
+    for (std::size_t fish = kSchool; fish < 60; ++fish) EXPECT_GT(world.view().fish[fish].speed, 0);
     std::vector<float> west(60, 100.0F);
     std::vector<float> east(60, -100.0F);
     for (int i = 0; i < 5 * 60 * 60; ++i) {
         world.advance();
         for (std::size_t fish = kSchool; fish < 60; ++fish) {
             const glm::vec3 from = world.view().position(fish) - water.centre;
-            const float margin = 0.7F + 0.5F * world.view().length[fish];  // of a turn
+            const float margin = 0.7F + 0.5F * world.view().fish[fish].length;  // of a turn
             ASSERT_LT(std::abs(from.x), water.halfExtent.x + margin) << fish;
             ASSERT_LT(std::abs(from.y), water.halfExtent.y + margin) << fish;
             ASSERT_LT(std::abs(from.z), water.halfExtent.z + margin) << fish;

@@ -20,7 +20,7 @@ WorldSpecies hungry(WorldSpecies species, double radiusMetres) {
 }
 
 float hungerOf(const World& world, std::uint32_t fish) {
-    return innerHunger(world.natures()[world.view().kind[fish]], world.minds().at(fish));
+    return innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
 }
 
 glm::vec3 middleOf(const World& world) {
@@ -60,17 +60,22 @@ TEST(Eat, AMealIsInOneStomachAndHungerFalls) {
     world.apply(DropFood{kMiddle + glm::vec3{0.5F, 0, 0}, 60});
     float before = 0;
     for (std::uint32_t fish = 0; fish < 20; ++fish) before += hungerOf(world, fish);
-    std::vector<std::uint16_t> eaten = world.minds().eaten;
+    const auto eatenByEach = [&] {
+        std::vector<std::uint16_t> eaten;
+        for (std::uint32_t fish = 0; fish < 20; ++fish) eaten.push_back(world.minds()[fish].eaten);
+        return eaten;
+    };
+    std::vector<std::uint16_t> eaten = eatenByEach();
     std::uint64_t fed = 0;
     std::uint64_t meals = 0;
     for (int i = 0; i < 1800; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish < 20; ++fish)
-            if (world.minds().eaten[fish] > eaten[fish]) {
+            if (world.minds()[fish].eaten > eaten[fish]) {
                 ++fed;
-                EXPECT_LT(world.minds().sinceMeal[fish], kTicksBetweenThoughts);
+                EXPECT_LT(world.minds()[fish].sinceMeal, kTicksBetweenThoughts);
             }
-        eaten = world.minds().eaten;
+        eaten = eatenByEach();
         meals = world.counts().meals;
         ASSERT_EQ(fed, meals) << "two fish were fed by one particle, or none";
     }
@@ -95,7 +100,7 @@ TEST(Eat, AParticleIsDrawnIntoTheMouthInSightOfAll) {
             return lengthOf(mouthOf(world.view(), 0) - food.position(particle));
         };
         float before = fromMouth();
-        EXPECT_LT(before, 0.4F * world.view().length[0]);
+        EXPECT_LT(before, 0.4F * world.view().fish[0].length);
         while (food.taken[particle] != 0) {
             EXPECT_TRUE(food.isThere(particle));
             world.advance();

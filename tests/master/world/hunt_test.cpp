@@ -25,7 +25,7 @@ WorldOptions seaOfTheHunt(std::uint32_t seed) {
 }
 
 bool isHunting(const World& world) {
-    return aimOf(world.minds().at(kShark)).intention == Intention::Eat;
+    return aimOf(world.minds()[kShark]).intention == Intention::Eat;
 }
 
 TEST(Hunt, SometimesCatchesAndNotAlways) {
@@ -73,7 +73,7 @@ TEST(Hunt, WhoIsEatenIsAwayAndAnotherComesFromAfar) {
                 EXPECT_GT(lengthOf(bodyFrameOf(world.states(), fish).position - eye), 12);
             }
             if (away && world.tick().value > awaySince[fish] + kTicksBetweenThoughts) {
-                EXPECT_FALSE(isHunting(world) && world.minds().target[kShark] == fish);
+                EXPECT_FALSE(isHunting(world) && world.minds()[kShark].target == fish);
             }
         }
         std::uint64_t away = 0;
@@ -97,7 +97,7 @@ TEST(Hunt, TheSchoolFormsAgainAfterAChase) {
                     least = std::min(
                         least,
                         lengthOf(world.view().position(other) - world.view().position(fish)));
-            nearest.push_back(least / world.view().length[fish]);
+            nearest.push_back(least / world.view().fish[fish].length);
         }
         std::ranges::sort(nearest);
         return nearest[nearest.size() / 2];

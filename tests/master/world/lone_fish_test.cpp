@@ -24,15 +24,15 @@ class LoneFish {
         nature_.habits.shares.schooling = 1;
         nature_.last = 1;
         minds_.resize(1);
-        minds_.likes[0] = kLikesSchooling;
-        minds_.eaten[0] = 1000;
-        minds_.sinceMeal[0] = 0;
+        minds_[0].likes = kLikesSchooling;
+        minds_[0].eaten = 1000;
+        minds_[0].sinceMeal = 0;
         view_.resize(1);
         states_.resize(1);
         commands_.resize(1);
         courses_.resize(1);
         memory_.resize(1);
-        view_.length[0] = 0.24F;
+        view_.fish[0].length = 0.24F;
         setBodyFrame(states_, 0, {start, {1, 0, 0, 0}});  // heads along +x
         states_.segment[0] = static_cast<std::uint8_t>(Action::ForwardMedium);
         startCommands(gaits_, 1, 0, 1, commands_, memory_);
@@ -41,13 +41,9 @@ class LoneFish {
     glm::vec3 swim() {
         const glm::vec3 position = bodyFrameOf(states_, 0).position;
         const glm::vec3 heading = meanRotation(*tables_, states_, 0) * glm::vec3{1, 0, 0};
-        view_.x[0] = position.x;
-        view_.y[0] = position.y;
-        view_.z[0] = position.z;
-        view_.headingX[0] = heading.x;
-        view_.headingY[0] = heading.y;
-        view_.headingZ[0] = heading.z;
-        view_.speed[0] = 2 * view_.length[0];
+        view_.fish[0].position = position;
+        view_.fish[0].heading = heading;
+        view_.fish[0].speed = 2 * view_.fish[0].length;
         grids_.rebuild(view_, surroundings_.food, {&nature_, 1});
         if (thinksAt(tick_, 0)) think(environment(), 0, minds_, courses_, deeds_);
         SecondaryController{&gaits_, &view_, &courses_, &states_, 1, tick_, &commands_, &memory_}

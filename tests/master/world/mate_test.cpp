@@ -19,7 +19,7 @@ WorldSpecies inTheMood(WorldSpecies species, double libido) {
 }
 
 bool isFemale(const World& world, std::uint32_t fish) {
-    return (world.minds().likes[fish] & kIsFemale) != 0;
+    return (world.minds()[fish].likes & kIsFemale) != 0;
 }
 
 std::uint32_t females(const World& world) {
@@ -47,7 +47,7 @@ TEST(Mate, ThePairGoesThroughAllStagesInOrderAndBothAreSpentTogether) {
     for (int i = 0; i < 3600 && world.counts().spawnings == 0; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish < kFish; ++fish) {
-            const Mind mind = world.minds().at(fish);
+            const Mind mind = world.minds()[fish];
             if (mind.intention != Intention::Mate || mind.stage < 2) continue;
             EXPECT_LE(mind.stage, reached[fish] < 2 ? 5 : reached[fish] + 1);
             reached[fish] = mind.stage;
@@ -57,15 +57,15 @@ TEST(Mate, ThePairGoesThroughAllStagesInOrderAndBothAreSpentTogether) {
     ASSERT_EQ(world.counts().spawnings, 1U);
     int spent = 0;
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
-        if (world.minds().sinceSpawning[fish] == 0) {
+        if (world.minds()[fish].sinceSpawning == 0) {
             ++spent;
             EXPECT_EQ(reached[fish], 5);
         }
     EXPECT_EQ(spent, 2);
     for (int i = 0; i < 16; ++i) world.advance();
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
-        EXPECT_TRUE(world.minds().sinceSpawning[fish] > 60 ||
-                    world.minds().intention[fish] != Intention::Mate)
+        EXPECT_TRUE(world.minds()[fish].sinceSpawning > 60 ||
+                    world.minds()[fish].intention != Intention::Mate)
             << "it is over";
 }
 
@@ -80,7 +80,7 @@ TEST(Mate, NobodyCourtsItsOwnSexNorWhoIsNotWillingNorAnotherSpecies) {
         for (int i = 0; i < 1800; ++i) {
             world.advance();
             for (std::uint32_t fish = 0; fish < 2 * kFish; ++fish)
-                ASSERT_NE(world.minds().intention[fish], Intention::Mate);
+                ASSERT_NE(world.minds()[fish].intention, Intention::Mate);
         }
     }
     WorldSpecies unwilling = inTheMood(pacifists(kFish), 0.0);
@@ -88,7 +88,7 @@ TEST(Mate, NobodyCourtsItsOwnSexNorWhoIsNotWillingNorAnotherSpecies) {
     World world(openWater(3, {unwilling}));
     for (int i = 0; i < 1800; ++i) world.advance();
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
-        EXPECT_NE(world.minds().intention[fish], Intention::Mate);
+        EXPECT_NE(world.minds()[fish].intention, Intention::Mate);
 }
 
 TEST(Mate, ThoseTooDifferentInSizeNever) {
@@ -100,11 +100,11 @@ TEST(Mate, ThoseTooDifferentInSizeNever) {
     for (int i = 0; i < 1800; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish < 20; ++fish) {
-            const Mind mind = world.minds().at(fish);
+            const Mind mind = world.minds()[fish];
             if (mind.intention != Intention::Mate) continue;
             ++courting;
             const auto [least, most] =
-                std::minmax(world.view().length[fish], world.view().length[mind.target]);
+                std::minmax(world.view().fish[fish].length, world.view().fish[mind.target].length);
             ASSERT_GE(least, 0.7F * most);
         }
     }
@@ -122,7 +122,7 @@ TEST(Mate, WhoIsNotAnsweredGivesUp) {
     for (int i = 0; i < 3 * 3600; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish < kFish; ++fish) {
-            const Mind mind = world.minds().at(fish);
+            const Mind mind = world.minds()[fish];
             const bool waits = mind.intention == Intention::Mate && mind.stage < 2;
             now[fish] = waits ? now[fish] + 1 : 0;
             longest[fish] = std::max(longest[fish], now[fish]);

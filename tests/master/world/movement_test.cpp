@@ -43,7 +43,7 @@ TEST(AvoidObstacle, noFishEntersRockOrSand) {
                 for (const Rock& rock : world.surroundings().obstacles.rocks)
                     ASSERT_GT(lengthOf(at - rock.centre), rock.radiusMetres) << fish << " " << i;
                 ASSERT_GT(at.y, floorHeight({seed}, {at.x, at.z}) + 0.1F);
-                avoided |= world.minds().intention[fish] == Intention::AvoidObstacle;
+                avoided |= world.minds()[fish].intention == Intention::AvoidObstacle;
             }
         }
         EXPECT_TRUE(avoided) << "nothing was in their way: seed " << seed;
@@ -69,7 +69,7 @@ TEST(AvoidFish, twoThatMeetHeadOnPassWithoutTouching) {
             nearest = std::min(nearest, distanceBetween(world, 0, 1));
         }
         // Each is a sixth of its length wide at most.
-        const float widths = (world.view().length[0] + world.view().length[1]) / 6;
+        const float widths = (world.view().fish[0].length + world.view().fish[1].length) / 6;
         EXPECT_GT(nearest, 0.5F * widths + 0.05F) << aside;
         EXPECT_LT(nearest, 2.0F) << "they do meet";
     }
@@ -92,7 +92,7 @@ TEST(Escape, theDistanceToThePredatorGrows) {
     bool fled = false;
     for (int i = 0; i < 5 * kSecond; ++i) {
         world.advance();
-        fled |= world.minds().intention[0] == Intention::Escape;
+        fled |= world.minds()[0].intention == Intention::Escape;
     }
     EXPECT_TRUE(fled);
     print("distance after 5 s, m", double{distanceBetween(world, 0, 1)});
@@ -189,7 +189,7 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
     const auto suits = [&](std::uint32_t fish) {
         const Habits& habits = world.natures()[0].habits;
         const Surroundings& around = world.surroundings();
-        const float y = world.view().y[fish];
+        const float y = world.view().fish[fish].position.y;
         const float light = lightAt(around.climate, around.daylight, y);
         const float celsius = celsiusAt(around.climate, y);
         constexpr float kNearly = 0.05F;  // at the edge of what suits a fish stops
@@ -199,7 +199,8 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
     const std::uint32_t fish = 3;
     for (std::uint32_t i = 0; i < fish; ++i) EXPECT_FALSE(suits(i)) << "there was no need";
     advance(world, 120 * kSecond);
-    for (std::uint32_t i = 0; i < fish; ++i) EXPECT_TRUE(suits(i)) << world.view().y[i];
+    for (std::uint32_t i = 0; i < fish; ++i)
+        EXPECT_TRUE(suits(i)) << world.view().fish[i].position.y;
 }
 
 WorldOptions one(const std::string& species) {
@@ -261,7 +262,7 @@ TEST(Wander, thoseThatLiveInPairsKeepNearEachOther) {
     double apart = 0;
     for (int second = 0; second < 120; ++second) {
         advance(world, kSecond);
-        apart += double{distanceBetween(world, 0, 1) / world.view().length[0]} / 120;
+        apart += double{distanceBetween(world, 0, 1) / world.view().fish[0].length} / 120;
     }
     EXPECT_LT(apart, 6) << "body lengths; they like to be 2.5 apart";
     EXPECT_GT(apart, 1);

@@ -61,7 +61,7 @@ TEST(Population, isStable) {
         if (minute < 10) continue;
         float hunger = 0;
         for (std::uint32_t fish = 0; fish < kScads + kTangs; ++fish)
-            hunger += innerHunger(world.natures()[world.view().kind[fish]], world.minds().at(fish));
+            hunger += innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
         mostHungry = std::max(mostHungry, hunger / (kScads + kTangs));
     }
     const WorldCounts& counts = world.counts();

@@ -48,7 +48,7 @@ inline SchoolShape shapeOf(const FishView& view, std::uint32_t first, std::uint3
             if (j != i) nearest = std::min(nearest, distance);
             if (j < i && distance < kLinkMetres) group[rootOf(i)] = rootOf(j);
         }
-        shape.nearestNeighbour += double{nearest / view.length[first + i]} / count;
+        shape.nearestNeighbour += double{nearest / view.fish[first + i].length} / count;
     }
     std::vector<std::uint32_t> members(count);
     for (std::uint32_t i = 0; i < count; ++i) ++members[rootOf(i)];

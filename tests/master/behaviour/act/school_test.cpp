@@ -10,13 +10,13 @@ namespace aquarama {
 namespace {
 
 float right(const Courses& courses, std::size_t fish) {
-    return courses.directionZ[fish];  // heading +x, a fish has +z to its right
+    return courses[fish].direction.z;  // heading +x, a fish has +z to its right
 }
 
 // In formation already, as a mind remembers and others see.
 void fallIn(Aquarium& scene) {
     for (std::size_t fish = 0; fish < scene.view.size(); ++fish) {
-        scene.minds.intention[fish] = Intention::School;
+        scene.minds[fish].intention = Intention::School;
         scene.view.signs[fish] |= kSchooling;
     }
 }
@@ -47,13 +47,13 @@ TEST(SchoolRoutine, aFishFallsInWithTheCourseOfItsNeighbours) {
 TEST(SchoolRoutine, oneBehindATailBrakes) {
     Aquarium scene({{0, 0, 0}, {0.23F, 0, 0}});
     const Courses wanted = scene.think();
-    EXPECT_LT(wanted.speed[0], wanted.speed[1] - 0.3F);
+    EXPECT_LT(wanted[0].speed, wanted[1].speed - 0.3F);
 }
 
 TEST(SchoolRoutine, aFishThatFellBehindHurriesAndOneAheadWaits) {
     Aquarium scene({{-1.5F, 0, 0}, {1.5F, 0, 0}});
     const Courses wanted = scene.think();
-    EXPECT_GT(wanted.speed[0], wanted.speed[1] + 0.5F);
+    EXPECT_GT(wanted[0].speed, wanted[1].speed + 0.5F);
 }
 
 TEST(SchoolRoutine, wantedDirectionsAreUnitVectorsOfModeratePitch) {
@@ -65,8 +65,8 @@ TEST(SchoolRoutine, wantedDirectionsAreUnitVectorsOfModeratePitch) {
     }
     const Courses wanted = scene.think();
     for (std::size_t fish = 0; fish < scene.view.size(); ++fish) {
-        EXPECT_NEAR(lengthOf(wanted.direction(fish)), 1, 1e-5F);
-        EXPECT_LT(std::abs(wanted.directionY[fish]), 0.43F);
+        EXPECT_NEAR(lengthOf(wanted[fish].direction), 1, 1e-5F);
+        EXPECT_LT(std::abs(wanted[fish].direction.y), 0.43F);
     }
 }
 

@@ -32,7 +32,7 @@ glm::vec3 wishBeside(float rightMetres) {
     water.natures[0].role = Role::Pacifist;
     water.addFish({}, 0, 0.3F);
     water.addFish({0, 0, rightMetres}, 0, 0.3F);
-    return water.think().direction(0);
+    return water.think()[0].direction;
 }
 
 TEST(Wandering, aFishGivesWayToOneBesideIt) {

@@ -61,12 +61,12 @@ TEST(Recommendation, isRefusedNearAMealButNotOnTheLongWayThere) {
 TEST(Recommendation, isHeededByNobodyWhereTheAdaptationIsOff) {
     Aquarium aquarium({glm::vec3{}});
     aquarium.think();
-    EXPECT_TRUE(aquarium.courses.openToChange[0]);
+    EXPECT_TRUE(aquarium.courses[0].openToChange);
     Grids grids = aquarium.freshGrids();
     Environment environment = aquarium.environment(grids);
     environment.adaptation.recommendations = false;
     think(environment, 0, aquarium.minds, aquarium.courses, aquarium.deeds);
-    EXPECT_FALSE(aquarium.courses.openToChange[0]);
+    EXPECT_FALSE(aquarium.courses[0].openToChange);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Shown shown(Role role, const Mind& mind, std::uint8_t before = 0) {
     view.signs[0] = before;
     Minds minds;
     minds.resize(1);
-    minds.set(0, mind);
+    minds[0] = mind;
     showMood(nature, minds, 0, view);
     return {view.signs[0], view.partner[0]};
 }

@@ -16,7 +16,7 @@ Senses perceived(const Aquarium& scene, std::uint32_t fish, const Adaptation& ad
     Grids grids = scene.freshGrids();
     Environment environment = scene.environment(grids);
     environment.adaptation = adaptation;
-    return perceive(environment, scene.natures[scene.view.kind[fish]], fish, scene.minds.at(fish));
+    return perceive(environment, scene.natures[scene.view.kind[fish]], fish, scene.minds[fish]);
 }
 
 // Two kinds that keep to themselves, in body lengths of the first.
@@ -59,17 +59,17 @@ TEST(Collision, isFeltFromFartherOffWhereRegionsAreEnlarged) {
 
 TEST(Collision, whoSwimsAwayIsNoThreat) {
     Aquarium scene = strangers({1.2F, 0, 0});
-    scene.view.speed[1] = scene.view.speed[0] + 0.5F * kLength;
+    scene.view.fish[1].speed = scene.view.fish[0].speed + 0.5F * kLength;
     EXPECT_FALSE(perceived(scene, 0).collision.seen());
 }
 
 TEST(Collision, whoIsAvoidedIsHeededForLonger) {
     Aquarium scene = strangers({2.6F, 0, 0});
     EXPECT_FALSE(perceived(scene, 0).collision.seen());
-    Mind avoiding = scene.minds.at(0);
+    Mind avoiding = scene.minds[0];
     avoiding.intention = Intention::AvoidFish;
     avoiding.target = 1;
-    scene.minds.set(0, avoiding);
+    scene.minds[0] = avoiding;
     EXPECT_TRUE(perceived(scene, 0).collision.seen());
 }
 
@@ -114,8 +114,8 @@ TEST(Collision, inFormationSchoolmatesAreNoThreat) {
 TEST(Collision, inFormationASchoolmateOnACollisionCourseIs) {
     Aquarium scene({{0, 0, 0}, glm::vec3{0.6F, 0, 0.7F} * kLength});
     scene.head(1, {0, 0, -1});
-    scene.view.speed[1] = 2.0F * kLength;
-    scene.view.speed[0] = 1.0F * kLength;
+    scene.view.fish[1].speed = 2.0F * kLength;
+    scene.view.fish[0].speed = 1.0F * kLength;
     EXPECT_EQ(perceived(scene, 0).collision.object, 1U);
 }
 

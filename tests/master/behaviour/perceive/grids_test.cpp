@@ -26,7 +26,7 @@ struct Sea {
         for (std::size_t fish = 0; fish < kFish; ++fish) {
             if (fish % 5 == 0) view.signs[fish] = kAway;
             if (fish % 7 == 0) view.signs[fish] |= kWilling;
-            if (fish % 97 == 0) view.length[fish] = 1.4F;
+            if (fish % 97 == 0) view.fish[fish].length = 1.4F;
             view.kind[fish] = fish >= kFish - 60 ? 1 : 0;
         }
     }
@@ -111,7 +111,7 @@ TEST(Grids, theSparseOnesHoldThoseTheyAreOf) {
     };
     expectHolds(grids.predators, [&](std::uint32_t fish) { return sea.view.kind[fish] == 1; });
     expectHolds(grids.large,
-                [&](std::uint32_t fish) { return sea.view.length[fish] >= kLargeBodyMetres; });
+                [&](std::uint32_t fish) { return sea.view.fish[fish].length >= kLargeBodyMetres; });
     expectHolds(grids.mates, [&](std::uint32_t fish) { return sea.view.shows(fish, kWilling); });
     EXPECT_EQ(grids.food.size(), 700U);
 }

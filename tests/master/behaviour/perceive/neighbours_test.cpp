@@ -156,11 +156,9 @@ TEST(Neighbours, theSearchUsesTheProcessorsVectors) {
 TEST(Neighbours, ofEquallyNearFishTheLowerIndexComesFirst) {
     FishView view = scatteredSchool(9, 12, kWater);
     for (std::size_t i = 0; i < 12; ++i) {
-        view.x[i] = i == 5 ? 0.0F : 0.5F;  // eleven at one point, ahead of fish 5
-        view.y[i] = -6;
-        view.z[i] = -5;
-        view.headingX[i] = 1;
-        view.headingY[i] = view.headingZ[i] = 0;
+        // Eleven at one point, ahead of fish 5.
+        view.fish[i].position = {i == 5 ? 0.0F : 0.5F, -6, -5};
+        view.fish[i].heading = {1, 0, 0};
     }
     School school(view, kWater);
     school.natures[0].last = 12;
@@ -179,9 +177,10 @@ TEST(Neighbours, allFishAtOnePointFindTheLowestIndices) {
 TEST(Neighbours, equalDistancesOnALatticeAreSettledByIndex) {
     FishView view = scatteredSchool(4, 1000, kWater);
     for (std::size_t i = 0; i < 1000; ++i) {
-        view.x[i] = kWater.centre.x + 0.25F * static_cast<float>(i % 10);
-        view.y[i] = kWater.centre.y + 0.25F * static_cast<float>(i / 10 % 10) - 1;
-        view.z[i] = kWater.centre.z + 0.25F * static_cast<float>(i / 100) - 1;
+        view.fish[i].position =
+            kWater.centre + glm::vec3{0.25F * static_cast<float>(i % 10),
+                                      0.25F * static_cast<float>(i / 10 % 10) - 1,
+                                      0.25F * static_cast<float>(i / 100) - 1};
     }
     expectVectorsEqualBruteForce(School(view, kWater));
 }

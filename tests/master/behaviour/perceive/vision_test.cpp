@@ -30,7 +30,7 @@ struct Sea : Aquarium {
     std::uint32_t addShark(glm::vec3 offset) {
         const std::uint32_t shark = addFish(offset, kShark, kSharkLength);
         Mind hungry;
-        minds.set(shark, hungry);
+        minds[shark] = hungry;
         return shark;
     }
     void feed(std::initializer_list<glm::vec3> offsets) {
@@ -47,13 +47,13 @@ struct Sea : Aquarium {
         }
     }
     void alter(std::uint32_t fish, auto change) {
-        Mind mind = minds.at(fish);
+        Mind mind = minds[fish];
         change(mind);
-        minds.set(fish, mind);
+        minds[fish] = mind;
     }
     [[nodiscard]] Senses perceived(std::uint32_t fish) const {
         Grids grids = freshGrids();
-        return perceive(environment(grids), natures[view.kind[fish]], fish, minds.at(fish));
+        return perceive(environment(grids), natures[view.kind[fish]], fish, minds[fish]);
     }
 };
 
