@@ -11,6 +11,20 @@ build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$
 cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
+
+# The routines as they are seen on the wall: a clip, and its last frame.
+while read -r scene frames every; do
+    build/show/bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$scene.txtpb" --headless \
+        --frames "$frames" --film-every "$every" --snapshot "$drawn/$scene" </dev/null
+    cp "$drawn/$scene/clip.webp" "docs/pictures/$scene.webp"
+    cp "$drawn/$scene/panorama.png" "docs/pictures/$scene.png"
+done <<'SCENES'
+submarine 680 17
+chase 490 14
+eat 700 20
+mate 880 22
+SCENES
+
 build/show/bin/aquarama-capture controllers --out docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
 for figure in forward_medium turn_right_sharp midlines_forward_medium; do
