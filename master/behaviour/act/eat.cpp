@@ -22,7 +22,7 @@ constexpr float kTooNear = 2.0F;  // body lengths
 constexpr float kRunUpLengths = 3.0F;
 constexpr float kAbeamCosine = 0.35F;
 constexpr std::uint32_t kRunUpTicks = 240;  // at most
-constexpr float kSteepest = 0.42F;         // sine of the steepest way up or down
+constexpr float kSteepest = 0.42F;          // sine of the steepest way up or down
 
 void enter(Mind& mind, Stage stage) {
     mind.stage = stage;

@@ -41,8 +41,7 @@ Senses lonely() {
 }
 
 void see(Senses& senses, float predatorMetres, bool hunting = true) {
-    senses.predators[senses.predatorCount++] = {
-        7, {predatorMetres, 0, 0}, predatorMetres, hunting};
+    senses.predators[senses.predatorCount++] = {7, {predatorMetres, 0, 0}, predatorMetres, hunting};
 }
 
 TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
