@@ -12,18 +12,19 @@ cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
 
-# The routines as they are seen on the wall: a clip, and its last frame.
+# The routines as they are seen on the wall.
 while read -r scene frames every; do
     build/show/bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$scene.txtpb" --headless \
         --frames "$frames" --film-every "$every" --snapshot "$drawn/$scene" </dev/null
     cp "$drawn/$scene/clip.webp" "docs/pictures/$scene.webp"
-    cp "$drawn/$scene/panorama.png" "docs/pictures/$scene.png"
 done <<'SCENES'
 submarine 680 17
 chase 490 14
 eat 700 20
 mate 880 22
 SCENES
+cp "$drawn/submarine/panorama.png" docs/pictures/submarine.png
+cp "$drawn/chase/panorama.png" docs/pictures/chase.png
 
 build/show/bin/aquarama-capture controllers --out docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
