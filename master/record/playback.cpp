@@ -41,7 +41,7 @@ void Playback::compareWith(const RecordedHash& expected) {
 ReplayedWorld::ReplayedWorld(const Recording& recording,
                              Simulation& world,
                              std::function<void()> onEnd)
-    : world_(world), playback_(recording, world), onEnd_(std::move(onEnd)) {}
+    : AroundWorld(world), playback_(recording, world), onEnd_(std::move(onEnd)) {}
 
 void ReplayedWorld::advance() {
     playback_.advance();

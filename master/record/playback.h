@@ -10,6 +10,7 @@
 
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
+#include "master/record/around_world.h"
 
 namespace aquarama {
 
@@ -43,25 +44,15 @@ class Playback {
 };
 
 // The replay as the conductor shows it. What visitors do meanwhile does not reach the world.
-class ReplayedWorld final : public Simulation {
+class ReplayedWorld final : public AroundWorld {
   public:
     // onEnd is called once, from the tick thread, when all that was recorded has been replayed.
     ReplayedWorld(const Recording& recording, Simulation& world, std::function<void()> onEnd);
 
     void advance() override;
     void apply(const WorldInput& input) override;
-    [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    void food(FoodCloud& cloud) const override { world_.food(cloud); }
-    [[nodiscard]] Eye eye() const override { return world_.eye(); }
-    [[nodiscard]] float daylight() const override { return world_.daylight(); }
-    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
-        return world_.explain(fish);
-    }
 
   private:
-    Simulation& world_;
     Playback playback_;
     std::function<void()> onEnd_;
     bool toldOfInput_ = false, toldOfDifference_ = false, ended_ = false;

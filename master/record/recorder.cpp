@@ -43,7 +43,8 @@ void RecordingFile::add(const Packet& entry) {
     file_.close();
 }
 
-RecordedWorld::RecordedWorld(Simulation& world, RecordingFile& file) : world_(world), file_(file) {
+RecordedWorld::RecordedWorld(Simulation& world, RecordingFile& file)
+    : AroundWorld(world), file_(file) {
     file_.add(entryOf(now()));
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
+#include "master/record/around_world.h"
 
 namespace aquarama {
 
@@ -33,7 +34,7 @@ class RecordingFile {
 
 // A world whose inputs are recorded. They reach it as its next tick begins, here as in a replay, so
 // that no snapshot tells the two apart.
-class RecordedWorld final : public Simulation {
+class RecordedWorld final : public AroundWorld {
   public:
     RecordedWorld(Simulation& world, RecordingFile& file);
     ~RecordedWorld() override;  // writes the end
@@ -42,20 +43,10 @@ class RecordedWorld final : public Simulation {
 
     void advance() override;
     void apply(const WorldInput& input) override { pending_.push_back(input); }
-    [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    void food(FoodCloud& cloud) const override { world_.food(cloud); }
-    [[nodiscard]] Eye eye() const override { return world_.eye(); }
-    [[nodiscard]] float daylight() const override { return world_.daylight(); }
-    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
-        return world_.explain(fish);
-    }
 
   private:
     [[nodiscard]] RecordedHash now() const { return {world_.tick(), world_.hash()}; }
 
-    Simulation& world_;
     RecordingFile& file_;
     std::vector<WorldInput> pending_;
 };

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What recorder and playback have in common: another simulation stands behind them and is seen
+// through them; they differ in how it advances and in what reaches it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "master/conductor/simulation.h"
+
+namespace aquarama {
+
+class AroundWorld : public Simulation {
+  public:
+    [[nodiscard]] Tick tick() const override { return world_.tick(); }
+    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
+    void food(FoodCloud& cloud) const override { world_.food(cloud); }
+    [[nodiscard]] Eye eye() const override { return world_.eye(); }
+    [[nodiscard]] float daylight() const override { return world_.daylight(); }
+    [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
+    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
+        return world_.explain(fish);
+    }
+
+  protected:
+    explicit AroundWorld(Simulation& world) : world_(world) {}
+    Simulation& world_;
+};
+
+}  // namespace aquarama
