@@ -18,6 +18,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "render_node/surface/school_surface.h"
+#include "render_node/surface/skin_programs.h"
 
 namespace aquarama {
 
@@ -43,16 +44,23 @@ glm::vec4 daylightOf(float daylight) {
     return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
 }
 
-FrameUniforms uniformsOf(const SceneFrame& frame, const View& view) {
-    FrameUniforms uniforms;
-    uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
-    uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
+// What is the same for all views of a frame.
+FrameUniforms frameUniforms(const SceneFrame& frame, float pixelRadians) {
+    FrameUniforms uniforms{};
     uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, static_cast<float>(frame.timeSeconds));
+    uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
     uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
-    const glm::vec2 size(view.sizePixels);
-    uniforms.viewport = glm::vec4(size, 1.0F / size);
     uniforms.daylight = daylightOf(frame.daylight);
     return uniforms;
+}
+
+void setView(FrameUniforms& uniforms, const View& view) {
+    uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+    uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
+    const glm::vec3 eye(glm::inverse(view.cameraFromWorld)[3]);
+    uniforms.eyeAndTime = glm::vec4(eye, uniforms.eyeAndTime.w);
+    const glm::vec2 size(view.sizePixels);
+    uniforms.viewport = glm::vec4(size, 1.0F / size);
 }
 
 // All that stands on the sea floor. In the open sea it lies too deep to be seen.
@@ -68,8 +76,9 @@ struct Bottom {
 struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
+          quality{qualityOf(chosen.quality)},
           light{chosen.seed, kFilterDepthMetres},
-          picture{chosen.samples},
+          picture{quality.samples},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
@@ -87,12 +96,17 @@ struct SceneRenderer::Parts {
         }
     }
 
-    void updateFish(const SceneFrame& frame, const FrameUniforms& uniforms);
+    void setUniforms() const;
+    void cullFish();
     void drawSolids(const Viewpoint& viewpoint);
     void drawWater() const;
     void drawSnow() const;
 
     SceneOptions options;
+    Quality quality;
+    FrameUniforms uniforms{};
+    std::vector<PresentedFish> fish;  // of the frame
+    std::vector<FoodParticle> specks;
     gl::Buffer frameBlock;
     gl::VertexArray empty;
     SeaLight light;
@@ -104,12 +118,19 @@ struct SceneRenderer::Parts {
     gl::ProgramHandle surface, water, snow;
 };
 
-void SceneRenderer::Parts::updateFish(const SceneFrame& frame, const FrameUniforms& uniforms) {
+void SceneRenderer::Parts::setUniforms() const {
+    glNamedBufferSubData(frameBlock.name(), 0, sizeof(uniforms), &uniforms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock.name());
+}
+
+void SceneRenderer::Parts::cullFish() {
+    const std::span<const PresentedFish> all = fish;
     std::size_t first = 0;
     for (std::size_t i = 0; i < schools.size(); ++i) {
-        const std::size_t count = std::min(fishOfSchool[i], frame.fish.size() - first);
-        schools[i].update(
-            frame.fish.subspan(first, count), uniforms.clipFromWorld, frame.eyePositionMetres);
+        const std::size_t count = std::min(fishOfSchool[i], all.size() - first);
+        schools[i].update(all.subspan(first, count),
+                          uniforms.clipFromWorld,
+                          glm::vec3(uniforms.sharedEyeAndPixel));
         first += count;
     }
 }
@@ -147,25 +168,34 @@ SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SceneS
 
 SceneRenderer::~SceneRenderer() = default;
 
-unsigned SceneRenderer::draw(const SceneFrame& frame, const View& view) {
+void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
-    const FrameUniforms uniforms = uniformsOf(frame, view);
+    parts.uniforms = frameUniforms(frame, parts.options.pixelRadians);
+    parts.fish.assign(frame.fish.begin(), frame.fish.end());
+    parts.specks.assign(frame.food.begin(), frame.food.end());
+    parts.setUniforms();
+    parts.light.update(frame.timeSeconds, frame.eyePositionMetres);
+}
+
+unsigned SceneRenderer::draw(const View& view) {
+    Parts& parts = *parts_;
+    setView(parts.uniforms, view);
+    parts.setUniforms();
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glNamedBufferSubData(parts.frameBlock.name(), 0, sizeof(uniforms), &uniforms);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, parts.frameBlock.name());
-    parts.light.update(frame.timeSeconds, frame.eyePositionMetres, uniforms.worldFromClip);
+    const glm::vec3 eye(parts.uniforms.eyeAndTime);
+    parts.light.drawShafts(eye, parts.uniforms.worldFromClip);
     parts.light.bind();
-    parts.updateFish(frame, uniforms);
+    parts.cullFish();
     parts.picture.begin(view.sizePixels);
-    const Viewpoint viewpoint{Frustum{uniforms.clipFromWorld},
-                              frame.eyePositionMetres,
+    const Viewpoint viewpoint{Frustum{parts.uniforms.clipFromWorld},
+                              glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,
                               detailOf(view.sizePixels)};
     parts.drawSolids(viewpoint);
     parts.drawWater();
     for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water
-    parts.food.update(frame.food, viewpoint);
+    parts.food.update(parts.specks, viewpoint);
     parts.food.draw();
     parts.drawSnow();
     return parts.picture.finish();

@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,10 +16,12 @@
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
 #include "render_node/scene/food_specks.h"
+#include "render_node/scene/quality.h"
 
 namespace aquarama {
 
-// One camera at the sweet spot. Column vectors; reversed depth, zero to one.
+// One camera: at the sweet spot, or one of two eyes beside it. Column vectors; reversed depth, zero
+// to one.
 struct View {
     glm::mat4 clipFromCamera{1.0F};
     glm::mat4 cameraFromWorld{1.0F};
@@ -31,8 +32,7 @@ struct View {
 // tick and the fish.
 struct SceneFrame {
     double timeSeconds = 0;
-    glm::vec3 eyePositionMetres{};
-    glm::quat worldFromWall{1, 0, 0, 0};
+    glm::vec3 eyePositionMetres{};        // the shared eye: of the submarine, for levels of detail
     std::span<const PresentedFish> fish;  // of each species in turn, as many as it has
     std::span<const FoodParticle> food = {};
     float daylight = 1.0F;  // of the sky: 1 at noon, towards 0 at night
@@ -49,8 +49,9 @@ struct SceneSpecies {
 struct SceneOptions {
     std::uint32_t seed = 1;
     PlaceKind place = PlaceKind::Reef;
-    int samples = 0;      // of multisampling, 1 for none; 0: 4 on a GPU, 1 on software GL
-    bool culling = true;  // off only to measure what it saves
+    QualityTier quality = QualityTier::Low;
+    float pixelRadians = 0.0016F;  // the finest pixel of the whole wall, seen from the sweet spot
+    bool culling = true;           // off only to measure what it saves
     bool levelsOfDetail = true;
 };
 
@@ -65,10 +66,14 @@ class SceneRenderer {
     SceneRenderer(SceneRenderer&&) = delete;
     SceneRenderer& operator=(SceneRenderer&&) = delete;
 
-    // Draws into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already exposed and toned
-    // to display light (0 black, 1 the projector's full white), and returns its GL name; valid
-    // until the next draw.
-    unsigned draw(const SceneFrame& frame, const View& view);
+    // Once a frame, before it is drawn for each view: the state of the sea, what its light does,
+    // and the fish.
+    void update(const SceneFrame& frame);
+
+    // Draws the updated frame into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already
+    // exposed and toned to display light (0 black, 1 the projector's full white), and returns its
+    // GL name; valid until the next draw.
+    unsigned draw(const View& view);
 
   private:
     struct Parts;

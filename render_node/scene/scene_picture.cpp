@@ -2,7 +2,6 @@
 #include "render_node/scene/scene_picture.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
@@ -11,16 +10,7 @@ namespace aquarama {
 
 namespace {
 
-// Software GL takes four times as long for four samples.
-bool drawsInSoftware() {
-    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    const std::string_view renderer = name != nullptr ? name : "";
-    return renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe");
-}
-
 int supported(int samples) {
-    constexpr int kOnGpu = 4;
-    if (samples == 0) samples = drawsInSoftware() ? 1 : kOnGpu;
     int most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     return std::clamp(samples, 1, std::max(most, 1));

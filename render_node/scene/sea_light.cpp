@@ -102,9 +102,9 @@ SeaLight::SeaLight(std::uint32_t seed, float filterDepthMetres)
     glVertexArrayElementBuffer(causticGrid_.name(), causticIndices_.name());
 }
 
-void SeaLight::update(double timeSeconds, glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
-    if (tableDepthMetres_ != -eyeMetres.y) {
-        tableDepthMetres_ = -eyeMetres.y;
+void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
+    if (tableDepthMetres_ != -sharedEyeMetres.y) {
+        tableDepthMetres_ = -sharedEyeMetres.y;
         refill(inscatterTable_,
                inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres_)));
     }
@@ -114,7 +114,6 @@ void SeaLight::update(double timeSeconds, glm::vec3 eyeMetres, const glm::mat4& 
     glDisable(GL_DEPTH_TEST);
     drawWaves();
     drawCaustics();
-    drawShafts(eyeMetres, worldFromClip);
 }
 
 void SeaLight::drawWaves() {
@@ -144,6 +143,7 @@ void SeaLight::drawCaustics() {
 
 void SeaLight::drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
     const Box box = texelsInView(eyeMetres, worldFromClip);
+    glDisable(GL_DEPTH_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, shaftTarget_.name());
     glViewport(0, 0, kShaftTexels, kShaftTexels);
     glEnable(GL_SCISSOR_TEST);

@@ -19,8 +19,10 @@ class SeaLight {
     // filterDepthMetres: how much of the way down the diver's filter undoes.
     SeaLight(std::uint32_t seed, float filterDepthMetres);
 
-    // Expects the frame's uniform block to be bound. Shafts are computed only where the view looks.
-    void update(double timeSeconds, glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
+    // What is the same for all views. Expects the frame's uniform block to be bound.
+    void update(double timeSeconds, glm::vec3 sharedEyeMetres);
+    // Only where the view looks.
+    void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
     void bind() const;  // to the units that water.glsl names
 
     [[nodiscard]] const gl::Texture& causticTile() const { return causticTile_; }
@@ -29,7 +31,6 @@ class SeaLight {
   private:
     void drawWaves();
     void drawCaustics();
-    void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
 
     float filterDepthMetres_;
     Waves waves_;

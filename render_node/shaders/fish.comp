@@ -1,14 +1,10 @@
 // One workgroup a fish: its control points from the recorded ones (eq. 13), kept in shared memory,
 // then each vertex of its surface by the stencils of its level.
-#include "fish_data.glsl"
+#include "fish_pose.glsl"
 
 const uint kThreads = 128u;
-const uint kControlPoints = 426u;
-const uint kPhases = 64u;
 
 layout(local_size_x = 128) in;
-// 3 x 16 bits a point, body lengths.
-layout(std430, binding = 1) readonly buffer Recorded { uvec2 recorded[]; };
 layout(std430, binding = 2) readonly buffer FirstEntries { uint firstEntry[]; };
 struct Entry {
     uint controlPoint;
@@ -23,26 +19,10 @@ layout(location = 2) uniform uint vertexCount;  // of one fish
 
 shared vec3 controlPoints[kControlPoints];
 
-vec3 recordedPoint(uint segment, uint phase, uint point) {
-    uvec2 bits = recorded[(segment * kPhases + phase) * kControlPoints + point];
-    return vec3(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y).x);
-}
-
-vec3 pointAt(uint segment, float phase, uint point) {
-    float sampled = phase * float(kPhases);
-    uint before = uint(floor(sampled)) % kPhases;
-    uint after = (before + 1u) % kPhases;
-    return mix(recordedPoint(segment, before, point), recordedPoint(segment, after, point),
-               fract(sampled));
-}
-
 void main() {
     Fish self = fish[firstFish + gl_WorkGroupID.x];
     for (uint i = gl_LocalInvocationID.x; i < kControlPoints; i += kThreads) {
-        vec3 point = pointAt(self.segment, self.phase, i);
-        if (self.warpWeight < 1.0)
-            point = mix(pointAt(self.fromSegment, self.fromPhase, i), point, self.warpWeight);
-        controlPoints[i] = point;
+        controlPoints[i] = controlPointOf(self, i);
     }
     barrier();
 

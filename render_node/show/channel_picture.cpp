@@ -102,11 +102,11 @@ void ChannelPicture::drawWorld(const StateFrame& frame) {
     clipFromWorld_ = view.clipFromCamera * view.cameraFromWorld;
     const SceneFrame scene{.timeSeconds = presentedSeconds(frame),
                            .eyePositionMetres = frame.eye.positionMetres,
-                           .worldFromWall = frame.eye.worldFromWall,
                            .fish = fish_,
                            .food = food_,
                            .daylight = frame.daylight};
-    sceneTexture_ = scene_->draw(scene, view);
+    scene_->update(scene);
+    sceneTexture_ = scene_->draw(view);
 }
 
 void ChannelPicture::drawPattern() {

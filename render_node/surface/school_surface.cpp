@@ -2,7 +2,6 @@
 #include "render_node/surface/school_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -12,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "render_node/gl/handle.h"
-#include "render_node/gl/program.h"
 #include "render_node/surface/level_buffers.h"
+#include "render_node/surface/skin_programs.h"
 #include "render_node/surface/visibility.h"
 
 namespace aquarama {
@@ -24,8 +23,6 @@ namespace {
 constexpr GLuint kSchool = 0, kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 4;
 // Uniforms of fish.comp and fish.vert.
 constexpr GLint kFirstFish = 0, kFirstVertex = 1, kVertexCount = 2;
-// And of reef_skins.glsl.
-constexpr GLint kPattern = 3, kEyeOfSpecies = 4, kGroundColours = 5;
 
 constexpr std::size_t kBytesPerVertex = 16;
 // Half of the least block that GL drivers allow in practice (128 MiB on software Mesa).
@@ -48,19 +45,6 @@ struct VisibleFish {
 
 }  // namespace
 
-struct SkinPrograms {
-    gl::ProgramHandle compute = gl::makeProgram({"fish.comp"});
-    gl::ProgramHandle nearScad = gl::makeProgram({"fish.vert", "fish.frag"});
-    gl::ProgramHandle farScad = gl::makeProgram({"fish.vert", "fish_far.frag"});
-    gl::ProgramHandle scadFins = gl::makeProgram({"fish.vert", "fish_fin.frag"});
-    gl::ProgramHandle reefFish = gl::makeProgram({"fish.vert", "reef_fish.frag"});
-    gl::ProgramHandle reefFins = gl::makeProgram({"fish.vert", "reef_fish_fin.frag"});
-};
-
-std::shared_ptr<const SkinPrograms> makeSkinPrograms() {
-    return std::make_shared<const SkinPrograms>();
-}
-
 struct SchoolSurface::Parts {
     Parts(const FishBody& body,
           const std::vector<RecordedPoint>& points,
@@ -80,15 +64,12 @@ struct SchoolSurface::Parts {
         glObjectLabel(GL_BUFFER, surface.name(), -1, "fish surfaces");
     }
 
-    [[nodiscard]] bool isScad() const { return options.skin.pattern == SkinPattern::BigeyeScad; }
-
     void cull(std::span<const PresentedFish> fish,
               const glm::mat4& clipFromWorld,
               glm::vec3 sharedEyeMetres);
     void upload();
     void splitIntoBatches();
     void evaluate(const Batch& batch) const;
-    [[nodiscard]] unsigned bodyProgram(int level) const;
     void bind(const Batch& batch, unsigned program) const;
     void drawBatch(const Batch& batch) const;
 
@@ -156,31 +137,19 @@ void SchoolSurface::Parts::splitIntoBatches() {
     }
 }
 
-unsigned SchoolSurface::Parts::bodyProgram(int level) const {
-    if (!isScad()) return programs->reefFish.name();
-    return level == 0 ? programs->farScad.name() : programs->nearScad.name();
-}
-
 void SchoolSurface::Parts::bind(const Batch& batch, unsigned program) const {
     const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
     glUseProgram(program);
     glUniform1ui(kFirstFish, static_cast<GLuint>(batch.firstFish));
     glUniform1ui(kFirstVertex, static_cast<GLuint>(batch.firstVertex));
     glUniform1ui(kVertexCount, static_cast<GLuint>(level.vertexCount));
-    if (program == programs->reefFish.name() || program == programs->reefFins.name()) {
-        const FishSkin& skin = options.skin;
-        const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
-        glUniform1ui(kPattern, static_cast<GLuint>(skin.pattern));
-        glUniform3fv(kEyeOfSpecies, 1, &eye.x);
-        glUniform3fv(kGroundColours, 3, &colours[0].x);
-    }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSchool, school.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSurface, surface.name());
 }
 
 void SchoolSurface::Parts::evaluate(const Batch& batch) const {
     const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
-    bind(batch, programs->compute.name());
+    bind(batch, programs->surface.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecorded, recorded.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFirstEntries, level.firstEntries.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, level.entries.name());
@@ -195,10 +164,14 @@ void SchoolSurface::Parts::drawBatch(const Batch& batch) const {
     glBindVertexArray(level.vertexArray.name());
     glEnable(GL_CULL_FACE);
 
-    bind(batch, bodyProgram(batch.level));
+    const unsigned body = programs->bodyOf(options.skin.pattern, batch.level);
+    bind(batch, body);
+    programs->dress(body, options.skin, eye);
     glDrawElementsInstanced(GL_TRIANGLES, level.bodyIndices, GL_UNSIGNED_INT, nullptr, instances);
 
-    bind(batch, isScad() ? programs->scadFins.name() : programs->reefFins.name());
+    const unsigned fins = programs->finsOf(options.skin.pattern);
+    bind(batch, fins);
+    programs->dress(fins, options.skin, eye);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);

@@ -23,9 +23,7 @@ struct SurfaceOptions {
     FishSkin skin{};
 };
 
-// The shaders of all skins, which the species share.
 struct SkinPrograms;
-[[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms();
 
 struct SurfaceCounts {  // of the last update
     int visible = 0;

@@ -63,9 +63,9 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     const auto drawFrame = [&] {
         const SceneFrame frame{
             .timeSeconds = seconds += 1.0 / 60, .eyePositionMetres = kEyePosition, .fish = fish};
-        projection.draw({.sceneTexture = scene.draw(frame, view),
-                         .framebuffer = target.framebuffer(),
-                         .frame = {}});
+        scene.update(frame);
+        projection.draw(
+            {.sceneTexture = scene.draw(view), .framebuffer = target.framebuffer(), .frame = {}});
         finish(target);
     };
     drawFrame();  // compiles what the driver compiles on first use

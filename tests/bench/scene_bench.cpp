@@ -39,7 +39,8 @@ void sceneFrame(benchmark::State& state) {
     frame.eyePositionMetres = kEyePosition;
     for (auto iteration : state) {
         frame.timeSeconds += 1.0 / 60.0;
-        benchmark::DoNotOptimize(scene.draw(frame, view));
+        scene.update(frame);
+        benchmark::DoNotOptimize(scene.draw(view));
         glFinish();
     }
 }

@@ -8,6 +8,7 @@
 
 #include "render_node/context/context.h"
 #include "render_node/surface/school_surface.h"
+#include "render_node/surface/skin_programs.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace {

@@ -63,7 +63,8 @@ Shot shoot(SceneRenderer& scene,
     frame.eyePositionMetres = kEyePosition;
     frame.food = water.food;
     frame.daylight = water.daylight;
-    const unsigned texture = scene.draw(frame, viewTowards(azimuthDegrees));
+    scene.update(frame);
+    const unsigned texture = scene.draw(viewTowards(azimuthDegrees));
     Shot shot;
     shot.pixels.resize(static_cast<std::size_t>(kSize.x) * static_cast<std::size_t>(kSize.y));
     glGetTextureImage(texture,
@@ -85,8 +86,7 @@ class Place : public testing::Test {
         scene().reset();
         context().reset();
     }
-    static std::unique_ptr<SceneRenderer> fresh(SceneOptions options, int samples = 1) {
-        options.samples = samples;
+    static std::unique_ptr<SceneRenderer> fresh(const SceneOptions& options) {
         return std::make_unique<SceneRenderer>(options, std::span<const SceneSpecies>{});
     }
     static std::unique_ptr<Context>& context() {
@@ -256,7 +256,7 @@ std::vector<float> differencesAlongTheSeam(const Shot& left, const Shot& right, 
 
 TEST_F(Place, neighboursAgreeWhereTheyOverlap) {
     constexpr float kBetween = 30.0F;
-    const auto smooth = fresh({}, 4);
+    const auto smooth = fresh({.quality = QualityTier::High});
     const Shot left = shoot(*smooth, 9.0, -kBetween / 2.0F);
     const Shot right = shoot(*smooth, 9.0, kBetween / 2.0F);
     std::vector<float> codes = differencesAlongTheSeam(left, right, kBetween);
@@ -278,7 +278,7 @@ TEST_F(Place, wavesGatherLightAndMakeNone) {
     glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
     for (const double time : {0.0, 2.7, 1000.3}) {
-        light.update(time, kEyePosition, glm::mat4{1.0F});
+        light.update(time, kEyePosition);
         constexpr int kTexels = 256 * 256;
         std::vector<float> texels(kTexels);
         glGetTextureImage(light.causticTile().name(),

@@ -53,7 +53,7 @@ Picture portrait(const Species& species) {
                                           .skin = skinOf(species),
                                           .repertoire = test::swaying(body, 0.0F),
                                           .fish = 1}};
-    SceneRenderer scene{{.seed = 1, .samples = 4}, cast};
+    SceneRenderer scene{{.seed = 1, .quality = QualityTier::High}, cast};
     const PresentedFish fish = test::fishAt(kEyePosition + glm::vec3{0, 0, -kAway},
                                             glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0}),
                                             kLength);
@@ -68,7 +68,8 @@ Picture portrait(const Species& species) {
     SceneFrame frame;
     frame.eyePositionMetres = kEyePosition;
     frame.fish = {&fish, 1};
-    const unsigned texture = scene.draw(frame, view);
+    scene.update(frame);
+    const unsigned texture = scene.draw(view);
     Picture picture;
     picture.pixels.resize(static_cast<std::size_t>(kSize.x) * static_cast<std::size_t>(kSize.y));
     glGetTextureImage(texture,

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws one still of the sea to a PNG: for documents, and for looking. See --help.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "common/wall/png_file.h"
+#include "render_node/context/context.h"
+#include "tests/support/still.h"
+
+namespace {
+
+using namespace aquarama;
+
+struct Wish {
+    std::vector<float> eye{0.0F, -6.0F, 0.0F};
+    std::vector<std::string> portraits;
+    float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F;
+    int ball = 0;
+    float ballMetres = 6.0F;
+    std::string tier = "ultra", out = "still.png";
+    bool openSea = false;
+};
+
+test::Still stillOf(const Wish& wish, test::Still still) {
+    still.camera.eyeMetres = {wish.eye.at(0), wish.eye.at(1), wish.eye.at(2)};
+    if (wish.openSea) still.options.place = PlaceKind::OpenSea;
+    const auto tier = std::ranges::find(kTierNames, wish.tier);
+    still.options.quality = static_cast<QualityTier>(tier - kTierNames.begin());
+    // Side by side, the first in the middle.
+    test::Camera camera = still.camera;
+    for (const std::string& species : wish.portraits) {
+        still.fish.push_back(test::portraitOf(
+            species, camera, wish.metresAway, wish.turnDegrees, wish.lengthMetres));
+        camera.azimuthDegrees += 60.0F * wish.lengthMetres / wish.metresAway;
+    }
+    test::Camera ahead = still.camera;
+    const glm::vec3 centre =
+        test::portraitOf("bigeye_scad", ahead, wish.ballMetres, 0.0F, 0.24F).placeMetres;
+    for (test::StillFish& fish : test::ballOf("bigeye_scad", wish.ball, centre, 1.6F))
+        still.fish.push_back(std::move(fish));
+    return still;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    CLI::App app{"Draws one still of the sea to a PNG."};
+    Wish wish;
+    test::Still still;
+    still.camera.sizePixels = {960, 540};
+    app.add_option("--eye", wish.eye, "x y z, metres")->expected(3);
+    app.add_option("--azimuth", still.camera.azimuthDegrees, "degrees to the right of -z");
+    app.add_option("--elevation", still.camera.elevationDegrees, "degrees up");
+    app.add_option("--fov", still.camera.heightDegrees, "degrees, vertical");
+    app.add_option("--width", still.camera.sizePixels.x, "pixels");
+    app.add_option("--height", still.camera.sizePixels.y, "pixels");
+    app.add_option("--time", still.timeSeconds, "seconds");
+    app.add_option("--daylight", still.daylight, "1 noon .. 0 night");
+    app.add_option("--seed", still.options.seed, "of the place");
+    app.add_option("--quality", wish.tier, "tier")
+        ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
+    app.add_option("--portrait", wish.portraits, "species before the camera");
+    app.add_option("--away", wish.metresAway, "of the portraits, metres");
+    app.add_option("--turn", wish.turnDegrees, "0 left side, 90 face, 180 right side");
+    app.add_option("--length", wish.lengthMetres, "of the portraits, metres");
+    app.add_option("--ball", wish.ball, "so many scad in a ball");
+    app.add_option("--ball-away", wish.ballMetres, "metres");
+    app.add_flag("--open-sea", wish.openSea, "no floor");
+    app.add_option("--out", wish.out, "PNG file");
+    CLI11_PARSE(app, argc, argv);
+    const auto context = makeOffscreenContext("auto", {16, 16});
+    writePng(wish.out, test::pictureOf(stillOf(wish, still)));
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "aquarama_draw_still: %s\n", error.what());
+    return 1;
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture of the sea without a master: a camera anywhere, a place, some fish, one instant. For
+// golden pictures, for documents, and for looking while one works on what a visitor sees.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/place/place.h"
+#include "common/wall/picture.h"
+#include "render_node/scene/scene.h"
+
+namespace aquarama::test {
+
+struct Camera {
+    glm::vec3 eyeMetres = kEyePosition;
+    float azimuthDegrees = 0.0F;  // from -z to the right
+    float elevationDegrees = 0.0F;
+    float heightDegrees = 50.0F;  // field of view
+    glm::ivec2 sizePixels{480, 270};
+};
+// Reversed depth, zero to one, far plane at infinity.
+[[nodiscard]] View viewOf(const Camera& camera);
+
+struct StillFish {
+    std::string species;  // of config/species
+    glm::vec3 placeMetres{};
+    glm::quat worldFromBody{1, 0, 0, 0};
+    float lengthMetres = 0.24F;
+    float phase = 0.0F;
+};
+// So far before the camera and turned so that it shows its left side (0), its face (90), its right
+// side (180).
+[[nodiscard]] StillFish portraitOf(const std::string& species,
+                                   const Camera& camera,
+                                   float metresAway,
+                                   float turnDegrees,
+                                   float lengthMetres);
+// A ball of fish about a place that mill to the left; the same for the same number.
+[[nodiscard]] std::vector<StillFish> ballOf(const std::string& species,
+                                            int fish,
+                                            glm::vec3 centreMetres,
+                                            float radiusMetres);
+
+struct Still {
+    Camera camera;
+    std::vector<StillFish> fish;
+    double timeSeconds = 12.0;
+    SceneOptions options;  // quality, place, seed
+    float daylight = 1.0F;
+};
+// Needs a current context. Bodies sway; they are not captured. sRGB, 8 bits, without dither.
+[[nodiscard]] Picture pictureOf(const Still& still);
+
+}  // namespace aquarama::test
