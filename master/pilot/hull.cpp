@@ -2,7 +2,10 @@
 #include "master/pilot/hull.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "common/place/angle.h"
 #include "common/place/water.h"
@@ -66,6 +69,27 @@ void visitFaces(const Waters& waters, glm::vec3 at, const Visit& visit) {
         if (isNear(stem.foot.x, stem.foot.y, kStemRadiusMetres)) visit(stemFace(stem, at));
 }
 
+// All faces that are near, found once a tick.
+class Faces {
+  public:
+    Faces(const Waters& waters, glm::vec3 at) {
+        visitFaces(waters, at, [this](const Face& face) {
+            // Where there are more, the movement itself is refused at last.
+            if (face.gapMetres < kFeltMetres && count_ < faces_.size()) faces_[count_++] = face;
+        });
+    }
+    [[nodiscard]] std::span<const Face> near() const { return {faces_.data(), count_}; }
+    [[nodiscard]] float gap() const {
+        float least = kFeltMetres;
+        for (const Face& face : near()) least = std::min(least, face.gapMetres);
+        return least;
+    }
+
+  private:
+    std::array<Face, 128> faces_;
+    std::size_t count_ = 0;
+};
+
 // How fast a hull may come nearer to a face: so that a constant braking ends at the stand-off, and
 // never farther in a tick than half the way that is left.
 float allowedInward(float gapMetres) {
@@ -73,7 +97,7 @@ float allowedInward(float gapMetres) {
     return std::min(std::sqrt(2 * kBrakingMetres * left), 0.5F * left / kTickSeconds);
 }
 
-glm::vec3 heldOffOne(const Face& face, glm::vec3 velocity) {
+glm::vec3 heldOff(const Face& face, glm::vec3 velocity) {
     const float outward = dot(velocity, face.away);
     const float least = -allowedInward(face.gapMetres);
     if (outward < least) velocity += face.away * (least - outward);
@@ -100,24 +124,17 @@ Waters watersOf(const PlaceKey& place, const Region& fishWater, glm::vec3 eye) {
 }
 
 float gapAt(const Waters& waters, glm::vec3 position) {
-    float least = kFeltMetres;
-    visitFaces(waters, position, [&](const Face& face) { least = std::min(least, face.gapMetres); });
-    return least;
-}
-
-glm::vec3 heldOff(const Waters& waters, glm::vec3 position, glm::vec3 velocity) {
-    visitFaces(waters, position, [&](const Face& face) { velocity = ledAway(face, velocity); });
-    for (int pass = 0; pass < kPasses; ++pass)
-        visitFaces(
-            waters, position, [&](const Face& face) { velocity = heldOffOne(face, velocity); });
-    return velocity;
+    return Faces(waters, position).gap();
 }
 
 // A tick's way is a twentieth of the hull's radius: to look at its end is to look along all of it.
 void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity) {
-    velocity = heldOff(waters, position, velocity);
+    const Faces faces(waters, position);
+    for (const Face& face : faces.near()) velocity = ledAway(face, velocity);
+    for (int pass = 0; pass < kPasses; ++pass)
+        for (const Face& face : faces.near()) velocity = heldOff(face, velocity);
     const glm::vec3 next = position + velocity * kTickSeconds;
-    if (gapAt(waters, next) < std::min(0.0F, gapAt(waters, position)))
+    if (gapAt(waters, next) < std::min(0.0F, faces.gap()))
         velocity = {};
     else
         position = next;

@@ -28,11 +28,9 @@ struct Waters {
 // How far the hull is from all of it; negative inside something.
 [[nodiscard]] float gapAt(const Waters& waters, glm::vec3 position);
 
-// The velocity with which a tick may move the hull from there: what leads at an obstacle is braked
-// in time, so that it comes to rest at the stand-off, and within that it is led away gently.
-[[nodiscard]] glm::vec3 heldOff(const Waters& waters, glm::vec3 position, glm::vec3 velocity);
-
-// One tick of movement. Never ends inside anything that the hull was outside of.
+// One tick of movement. What leads at an obstacle is braked in time, so that it comes to rest at the
+// stand-off, and within that it is led away gently. Never ends inside anything that the hull was
+// outside of.
 void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity);
 
 }  // namespace aquarama
