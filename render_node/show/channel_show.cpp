@@ -69,7 +69,9 @@ ChannelShow::ChannelShow(Session& session,
       context_{context},
       controls_{controls},
       options_{options},
-      trace_{options.traceFolder, options.channel} {}
+      trace_{options.traceFolder, options.channel} {
+    if (!options.filmPipe.empty()) film_.emplace(options.filmPipe);
+}
 
 void ChannelShow::run(Admission first) {
     std::optional<Admission> admission = std::move(first);
@@ -165,12 +167,8 @@ std::optional<WatchedMind> ChannelShow::watchMind() {
 }
 
 void ChannelShow::film(Frame frame) {
-    if (options_.filmEvery <= 0 || options_.snapshotFolder.empty()) return;
-    if (frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
-    writeSnapshot(filmFolder(options_.snapshotFolder, frame),
-                  options_.channel,
-                  *picture_,
-                  PictureBits::Dithered8);
+    if (!film_ || frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
+    film_->write(frame.value, takePicture(*picture_, PictureBits::Dithered8));
 }
 
 }  // namespace aquarama

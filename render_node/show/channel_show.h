@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/wall/frame_pipe.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/target.h"
 #include "render_node/session/session.h"
@@ -41,6 +42,7 @@ class ChannelShow {
     Controls& controls_;
     NodeOptions options_;
     Trace trace_;
+    std::optional<FramePipeWriter> film_;
     std::optional<Welcome> built_;  // what picture_ was built for
     std::optional<Pointing> pointing_;
     std::optional<ChannelPicture> picture_;

@@ -11,7 +11,7 @@ namespace aquarama {
 namespace {
 
 template <class Sample>
-Picture takePicture(ChannelPicture& picture, GLenum format, Encoding encoding) {
+Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding) {
     const gl::Target target(format, picture.sizePixels());
     picture.project(target.framebuffer(), encoding, Overlays{});
     const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
@@ -20,6 +20,12 @@ Picture takePicture(ChannelPicture& picture, GLenum format, Encoding encoding) {
 }
 
 }  // namespace
+
+Picture takePicture(ChannelPicture& picture, PictureBits bits) {
+    return bits == PictureBits::Deep16
+               ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain)
+               : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8);
+}
 
 void writeSnapshot(const std::string& folder,
                    const std::string& channel,
@@ -30,16 +36,7 @@ void writeSnapshot(const std::string& folder,
     if (failure)
         throw Error(folder + ": cannot be made (" + failure.message() +
                     "); choose another folder for --snapshot");
-    writePng(folder + "/channel-" + channel + ".png",
-             bits == PictureBits::Deep16
-                 ? takePicture<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain)
-                 : takePicture<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8));
-}
-
-std::string filmFolder(const std::string& folder, Frame frame) {
-    std::string number = std::to_string(frame.value);
-    number.insert(0, std::max<std::size_t>(6, number.size()) - number.size(), '0');
-    return folder + "/film/" + number;
+    writePng(folder + "/channel-" + channel + ".png", takePicture(picture, bits));
 }
 
 }  // namespace aquarama

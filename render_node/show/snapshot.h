@@ -4,12 +4,15 @@
 
 #include <string>
 
-#include "common/units/ids.h"
+#include "common/wall/picture.h"
 #include "render_node/show/channel_picture.h"
 
 namespace aquarama {
 
 enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
+
+// The frame that was drawn last, without overlays.
+[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits);
 
 // folder/channel-NAME.png: the frame that was drawn last, without overlays. Throws Error where it
 // cannot be written.
@@ -17,8 +20,5 @@ void writeSnapshot(const std::string& folder,
                    const std::string& channel,
                    ChannelPicture& picture,
                    PictureBits bits);
-
-// Each frame of a film is a folder of snapshots: folder/film/000012.
-[[nodiscard]] std::string filmFolder(const std::string& folder, Frame frame);
 
 }  // namespace aquarama
