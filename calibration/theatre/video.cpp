@@ -22,6 +22,9 @@ namespace aquarama {
 namespace {
 
 constexpr AVPixelFormat kPixels = AV_PIX_FMT_YUV420P;  // what every player shows
+// Exact: the library's fast ways are two codes off.
+constexpr int kConversion =
+    SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP | SWS_FULL_CHR_H_INT;
 constexpr AVRational kTick{1, static_cast<int>(kTicksPerSecond)};
 
 struct Free {
@@ -51,8 +54,8 @@ glm::ivec2 evenSize(glm::ivec2 size) {
 
 // What makes each of them good enough that noise of one code and dark gradients stay as they are.
 void chooseQuality(AVCodecContext& encoder) {
-    av_opt_set(encoder.priv_data, "crf", "18", 0);      // H.264: hardly to be told from the original
-    av_opt_set(encoder.priv_data, "aq-mode", "3", 0);   // H.264: bits for what is dark
+    av_opt_set(encoder.priv_data, "crf", "18", 0);     // H.264: hardly to be told from the original
+    av_opt_set(encoder.priv_data, "aq-mode", "3", 0);  // H.264: bits for what is dark
     av_opt_set(encoder.priv_data, "deadline", "good", 0);  // VP9
     av_opt_set(encoder.priv_data, "cpu-used", "4", 0);
     const std::string name = encoder.codec->name;
@@ -91,7 +94,7 @@ Owner<SwsContext> makeConverter(glm::ivec2 size) {
                                                size.x,
                                                size.y,
                                                kPixels,
-                                               SWS_BILINEAR | SWS_ACCURATE_RND,
+                                               kConversion,
                                                nullptr,
                                                nullptr,
                                                nullptr)};

@@ -11,9 +11,9 @@ namespace aquarama {
 namespace {
 
 template <class Sample>
-Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding) {
+Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
     const gl::Target target(format, picture.sizePixels());
-    picture.project(target.framebuffer(), encoding, Overlays{});
+    picture.project(target.framebuffer(), encoding, Overlays{}, shown);
     const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
     return {
         picture.sizePixels(), 8 * static_cast<int>(sizeof(Sample)), {pixels.begin(), pixels.end()}};
@@ -21,10 +21,16 @@ Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding) {
 
 }  // namespace
 
-Picture takePicture(ChannelPicture& picture, PictureBits bits) {
+Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
     return bits == PictureBits::Deep16
-               ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain)
-               : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8);
+               ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain, shown)
+               : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8, shown);
+}
+
+Shown flat(const ChannelPicture& picture) {
+    const StereoMode mode = picture.stereo().mode;
+    const bool whole = mode == StereoMode::Mono || mode == StereoMode::Anaglyph;
+    return whole ? Shown::Display : Shown::LeftEye;
 }
 
 void writeSnapshot(const std::string& folder,
@@ -36,7 +42,11 @@ void writeSnapshot(const std::string& folder,
     if (failure)
         throw Error(folder + ": cannot be made (" + failure.message() +
                     "); choose another folder for --snapshot");
-    writePng(folder + "/channel-" + channel + ".png", takePicture(picture, bits));
+    const std::string name = folder + "/channel-" + channel;
+    writePng(name + ".png", takePicture(picture, bits, Shown::Display));
+    if (picture.stereo().mode == StereoMode::Mono) return;
+    writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
+    writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
 }
 
 }  // namespace aquarama

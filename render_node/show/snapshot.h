@@ -12,10 +12,14 @@ namespace aquarama {
 enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
 
 // The frame that was drawn last, without overlays.
-[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits);
+[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
 
-// folder/channel-NAME.png: the frame that was drawn last, without overlays. Throws Error where it
-// cannot be written.
+// What somebody without glasses may look at: one eye's picture where a display takes the two apart
+// from one another.
+[[nodiscard]] Shown flat(const ChannelPicture& picture);
+
+// folder/channel-NAME.png: takePicture() of the display, and in stereo channel-NAME.left_eye.png
+// and .right_eye.png beside it. Throws Error where they cannot be written.
 void writeSnapshot(const std::string& folder,
                    const std::string& channel,
                    ChannelPicture& picture,
