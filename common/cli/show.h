@@ -21,6 +21,7 @@ struct ShowOptions {
     std::optional<std::uint32_t> seed;
     std::optional<std::uint32_t> fish;
     std::string pattern;         // empty: the world
+    std::string quality;         // empty: the rig's
     std::string snapshotFolder;  // empty: no pictures
     bool deep = false;           // 16-bit pictures
     std::string clipPath;            // a clip of the show, .mp4 or .webp; empty: none

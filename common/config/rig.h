@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/config/quality.h"
 #include "common/config/source_place.h"
 
 namespace aquarama {
@@ -91,6 +92,7 @@ struct Rig {
     Stereo stereo;
     glm::dvec3 sweetSpotMetres{};  // wall frame: between the viewer's eyes
     SourcePlace sweetSpotPlace;
+    std::optional<QualityTier> quality;  // nothing: measured at start
 };
 
 // Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind

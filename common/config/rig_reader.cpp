@@ -123,6 +123,17 @@ void refuseOddHalves(const TextPlace& at, const Rig& rig, const Channel& channel
         at.refuse("height_px", "height_px is odd: TOP_BOTTOM gives each eye half of it");
 }
 
+std::optional<QualityTier> readQuality(const TextPlace& at) {
+    if (!at.has("quality")) return std::nullopt;
+    std::string choice = at.choice("quality");
+    if (choice == "MEASURED") return std::nullopt;
+    std::ranges::transform(
+        choice, choice.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; });
+    const auto tier = tierNamed(choice);
+    if (!tier) at.refuse("quality", "write MEASURED, LOW, MEDIUM, HIGH or ULTRA");
+    return tier;
+}
+
 Projector readProjector(const TextPlace& at, glm::dvec2 sizePixels) {
     Projector projector;
     projector.positionMetres = readPosition(at.in("position"));
@@ -240,6 +251,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
         rig.sweetSpotMetres = readPosition(root.in("sweet_spot"));
         rig.sweetSpotPlace = root.placeOf("sweet_spot");
     }
+    rig.quality = readQuality(root);
     rig.channels = readChannels(root);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         refuseOddHalves(root.in("channels", static_cast<int>(i)), rig, rig.channels[i]);

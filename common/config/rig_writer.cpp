@@ -87,6 +87,9 @@ std::string writeRig(const Rig& rig) {
     out.set_scene(rig.scene);
     write(rig.stereo, *out.mutable_stereo());
     write(rig.sweetSpotMetres, *out.mutable_sweet_spot());
+    if (rig.quality)
+        out.set_quality(
+            static_cast<v1::Rig::Quality>(v1::Rig::LOW + static_cast<int>(*rig.quality)));
     for (const Channel& channel : rig.channels) write(channel, *out.add_channels());
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);

@@ -70,7 +70,7 @@ ChannelPicture::Viewing::Viewing(const Rig& rig, std::size_t channel, const Chan
       pattern{from, rig.screen},
       projection{projectionMap(warpMap(rig, channel), from), rig.channels[channel].id} {}
 
-ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
+ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
       stereo_{stereoOf(admission.rig, channel)},
       school_{admission.welcome.school},
@@ -88,8 +88,10 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
     if (world)
-        scene_.emplace(SceneOptions{.seed = admission.welcome.seed, .place = admission.scene.place},
-                       castOf(admission));
+        scene_.emplace(
+            SceneOptions{
+                .seed = admission.welcome.seed, .place = admission.scene.place, .quality = quality},
+            castOf(admission));
 }
 
 void ChannelPicture::drawScene(const StateFrame& frame,

@@ -31,7 +31,7 @@ enum class Shown : std::uint8_t { Display, LeftEye, RightEye };
 // Owns its GL objects; construct, use and destroy with the same context current.
 class ChannelPicture {
   public:
-    ChannelPicture(const Admission& admission, std::size_t channel);
+    ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality);
 
     // The picture of each eye's frustum, in linear light, with what belongs to the world.
     void drawScene(const StateFrame& frame,
