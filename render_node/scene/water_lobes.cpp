@@ -17,16 +17,16 @@ struct Stencil {
     std::array<double, 4> share{};
 };
 
-// Catmull and Rom 1974, at places given by index: no kink at an entry, or the gradient of open water
-// would show a line there.
+// Catmull and Rom 1974, at places given by index: no kink at an entry, or the gradient of open
+// water would show a line there.
 Stencil smooth(double place, std::size_t count) {
     const double inside = std::clamp(place, 0.0, static_cast<double>(count - 1));
     const auto left = static_cast<int>(std::min(inside, static_cast<double>(count) - 1.0001));
     const double t = inside - left;
     Stencil stencil;
     for (int i = 0; i < 4; ++i)
-        stencil.at[static_cast<std::size_t>(i)] = static_cast<std::size_t>(
-            std::clamp(left + i - 1, 0, static_cast<int>(count) - 1));
+        stencil.at[static_cast<std::size_t>(i)] =
+            static_cast<std::size_t>(std::clamp(left + i - 1, 0, static_cast<int>(count) - 1));
     stencil.share = {0.5 * (-t + 2 * t * t - t * t * t),
                      0.5 * (2 - 5 * t * t + 3 * t * t * t),
                      0.5 * (t + 4 * t * t - 3 * t * t * t),
@@ -80,8 +80,8 @@ WaterLobe waterLobe(double albedo, double opticalDepth, double rise, double azim
 }
 
 double plainLobe(glm::dvec3 direction, glm::dvec3 towardsSun) {
-    return 0.51 * henyeyGreenstein(glm::dot(direction, towardsSun), 0.84) +
-           0.245 * henyeyGreenstein(direction.y, 0.70);
+    return 0.22 * henyeyGreenstein(glm::dot(direction, towardsSun), 0.64) +
+           0.10 * henyeyGreenstein(direction.y, 0.40);
 }
 
 }  // namespace aquarama

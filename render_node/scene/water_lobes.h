@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // From where the light comes that water scatters into a view: a table over the water's albedo b/c,
-// the eye's optical depth and the direction, traced by the Monte Carlo of tests/support/water_light.h
-// and written by aquarama_trace_water. One table serves all types of water, as their particles
-// scatter alike.
+// the eye's optical depth and the direction, traced by the Monte Carlo of
+// tests/support/water_light.h and written by aquarama_trace_water. One table serves all types of
+// water, as their particles scatter alike.
 #pragma once
 
 #include <array>

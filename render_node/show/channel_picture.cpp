@@ -74,7 +74,9 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
       patternPass_{frustum_},
       projection_{map_, admission.rig.channels[channel].id} {
     if (pattern_ == Pattern::World) {
-        scene_.emplace(SceneOptions{.seed = admission.welcome.seed, .place = admission.scene.place},
+        scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
+                                    .place = admission.scene.place,
+                                    .water = admission.scene.water.jerlov},
                        castOf(admission));
     } else {
         patternPicture_.emplace(GL_RGBA16F, sceneSize_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traces the table of render_node/scene/water_lobes.h and writes its C++. The same seed and number of
-// paths give the same table.
+// Traces the table of render_node/scene/water_lobes.h and writes its C++. The same seed and number
+// of paths give the same table.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -85,9 +85,7 @@ struct Water {
     const test::ForwardPhase& phase;
     double albedo, depth;
     [[nodiscard]] double scale() const { return 1 - phase.peakShare() * albedo; }
-    [[nodiscard]] double scaledAlbedo() const {
-        return albedo * (1 - phase.peakShare()) / scale();
-    }
+    [[nodiscard]] double scaledAlbedo() const { return albedo * (1 - phase.peakShare()) / scale(); }
 };
 
 WaterLobe traced(const Water& water, double irradiance, glm::dvec3 direction, const Wish& wish) {
@@ -102,12 +100,10 @@ WaterLobe traced(const Water& water, double irradiance, glm::dvec3 direction, co
                                    water.depth * water.scale(),
                                    direction,
                                    ranges.back() * water.scale()};
-        lights.push_back(
-            test::scatteredIn(water.phase, seen, sun, wish.paths, wish.seed).mean /
-            (water.albedo * irradiance * plainLobe(direction, sun)));
+        lights.push_back(test::scatteredIn(water.phase, seen, sun, wish.paths, wish.seed).mean /
+                         (water.albedo * irradiance * plainLobe(direction, sun)));
     }
-    return fitted(
-        ranges, lights, guessedLoss(water.albedo, direction.y, water.phase.peakShare()));
+    return fitted(ranges, lights, guessedLoss(water.albedo, direction.y, water.phase.peakShare()));
 }
 
 void write(const Wish& wish) {

@@ -12,17 +12,17 @@
 
 namespace aquarama::test {
 
-// Fournier and Forand 1994 in its latest form, n = 1.10, mu = 3.5835: the particles of Mobley, Sundman
-// and Boss 2002, of whose scattering 1.8 % goes back and half within 4 degrees.
+// Fournier and Forand 1994 in its latest form, n = 1.10, mu = 3.5835: the particles of Mobley,
+// Sundman and Boss 2002, of whose scattering 1.8 % goes back and half within 4 degrees.
 class ForwardPhase {
   public:
     // What is scattered by less than the peak counts as not scattered: of an albedo w the share
-    // peakShare() then belongs to the light that goes straight on. 0 is the plain truth; some degrees
-    // change little and quiet the noise by an order.
+    // peakShare() then belongs to the light that goes straight on. 0 is the plain truth; some
+    // degrees change little and quiet the noise by an order.
     explicit ForwardPhase(double peakRadians = 0);
     [[nodiscard]] double peakShare() const { return peakShare_; }
-    [[nodiscard]] double angleAt(double share) const;       // within it goes this share of all
-    [[nodiscard]] double towardsSun(double cosine) const;   // 1/sr, of a sun of 6 degrees
+    [[nodiscard]] double angleAt(double share) const;      // within it goes this share of all
+    [[nodiscard]] double towardsSun(double cosine) const;  // 1/sr, of a sun of 6 degrees
     [[nodiscard]] double shareWithin(double radians) const;
 
   private:
