@@ -106,7 +106,7 @@ Tile sandTile() {
     return tileOf(512, kSandTileMetres, sandAt);
 }
 Tile rockTile() {
-    return tileOf(256, kRockTileMetres, rockAt);
+    return tileOf(512, kRockTileMetres, rockAt);
 }
 
 }  // namespace aquarama
