@@ -24,7 +24,7 @@ constexpr std::array kRockGroups{
     // Left: a reef that climbs from the corner of the wall to near the surface.
     RockGroup{{-4.6F, -3.5F}, 1.05F, 4},
     RockGroup{{-7.3F, -6.2F}, 2.35F, 5},
-    RockGroup{{-9.0F, -7.4F}, 1.9F, 2, 3},
+    RockGroup{{-9.4F, -7.6F}, 2.3F, 3, 3},
     RockGroup{{-11.6F, -9.6F}, 2.9F, 4, 3},
     RockGroup{{-9.2F, -12.6F}, 1.5F, 4, 1},
     RockGroup{{-14.6F, -7.0F}, 2.6F, 3, 2},
@@ -38,8 +38,8 @@ constexpr std::array kRockGroups{
     // Right: a head before the kelp, a reef behind it.
     RockGroup{{4.7F, -4.1F}, 0.95F, 4},
     RockGroup{{7.2F, -7.6F}, 1.75F, 4, 1},
-    RockGroup{{9.8F, -5.6F}, 1.5F, 4, 1},
-    RockGroup{{13.4F, -11.6F}, 2.9F, 4, 3},
+    RockGroup{{10.2F, -6.0F}, 1.9F, 4, 2},
+    RockGroup{{14.4F, -11.0F}, 2.9F, 4, 3},
     RockGroup{{16.5F, -8.0F}, 2.6F, 3, 2},
     // What is but a shape in the blue.
     RockGroup{{-19.0F, -15.0F}, 3.8F, 3, 3},
@@ -56,18 +56,19 @@ struct ArchStone {
     float heightMetres;
     float radiusMetres;
 };
-constexpr glm::vec2 kArch{7.6F, -15.2F};
+constexpr glm::vec2 kArch{8.4F, -16.2F};
 constexpr std::array kArchStones{
-    ArchStone{{-2.7F, 0.5F}, 0.25F, 1.45F},
-    ArchStone{{-2.5F, 0.3F}, 1.5F, 1.15F},
-    ArchStone{{-2.0F, 0.1F}, 2.6F, 1.10F},
-    ArchStone{{-1.05F, 0.0F}, 3.45F, 1.05F},
-    ArchStone{{0.15F, -0.1F}, 3.75F, 1.10F},
-    ArchStone{{1.35F, -0.2F}, 3.40F, 1.15F},
-    ArchStone{{2.2F, -0.3F}, 2.5F, 1.25F},
-    ArchStone{{2.6F, -0.5F}, 1.2F, 1.5F},
-    ArchStone{{3.1F, -0.6F}, 0.2F, 1.9F},
-    ArchStone{{-3.6F, 0.9F}, 0.1F, 0.9F},
+    ArchStone{{-3.6F, 0.5F}, 0.25F, 1.45F},
+    ArchStone{{-3.4F, 0.3F}, 1.5F, 1.15F},
+    ArchStone{{-2.8F, 0.1F}, 2.6F, 1.05F},
+    ArchStone{{-1.7F, 0.0F}, 3.50F, 0.95F},
+    ArchStone{{-0.5F, -0.1F}, 3.95F, 0.90F},
+    ArchStone{{0.7F, -0.1F}, 4.05F, 0.90F},
+    ArchStone{{1.9F, -0.2F}, 3.65F, 1.00F},
+    ArchStone{{2.9F, -0.3F}, 2.7F, 1.15F},
+    ArchStone{{3.4F, -0.5F}, 1.4F, 1.4F},
+    ArchStone{{3.9F, -0.6F}, 0.2F, 1.9F},
+    ArchStone{{-4.7F, 0.9F}, 0.1F, 0.9F},
 };
 
 constexpr float kDropMetres = 10.0F;
@@ -129,21 +130,26 @@ Rock rockAt(const PlaceKey& place, glm::vec2 xz, float radiusMetres, std::uint32
     return {{xz.x, floorHeight(place, xz) + kSunk * radiusMetres, xz.y}, radiusMetres, rockSeed};
 }
 
-// A tower: each boulder sits on the one below, a little aside and a little smaller.
+// A reef that climbs: each boulder sits on the one below, a little aside, and leans on another.
 void pile(std::vector<Rock>& rocks, const RockGroup& group, Rock below, std::uint32_t seed) {
+    constexpr float kHighestMetres = -1.2F;  // the sea wears off what comes near its surface
     for (int storey = 0; storey < group.storeys; ++storey) {
         const std::uint32_t next = hashOf(seed, 100 + static_cast<std::uint32_t>(storey));
         const glm::vec2 aside = inDisc(next, 0);
-        const float radius = below.radiusMetres * (0.72F + 0.16F * unitOf(hashOf(next, 1)));
-        below.centre += glm::vec3{0.45F * radius * aside.x,
-                                  0.62F * below.radiusMetres + 0.20F * radius,
-                                  0.45F * radius * aside.y};
-        // The sea wears off what comes near its surface.
-        constexpr float kHighestMetres = -1.2F;
+        const float radius = below.radiusMetres * (0.74F + 0.20F * unitOf(hashOf(next, 1)));
+        const Rock buttress{below.centre + glm::vec3{-1.1F * radius * aside.x,
+                                                     0.10F * below.radiusMetres,
+                                                     -1.1F * radius * aside.y},
+                            0.8F * radius,
+                            hashOf(next, 2)};
+        below.centre += glm::vec3{0.6F * radius * aside.x,
+                                  0.50F * below.radiusMetres + 0.20F * radius,
+                                  0.6F * radius * aside.y};
         if (below.centre.y + radius > kHighestMetres) return;
         below.radiusMetres = radius;
         below.seed = next;
         rocks.push_back(below);
+        rocks.push_back(buttress);
     }
 }
 

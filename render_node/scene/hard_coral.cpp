@@ -171,8 +171,8 @@ void growFingers(Mesh& mesh, std::size_t level, Dice dice) {
 
 // A plate on a foot, fingers like a carpet upon it, its rim pale where it grows.
 void growTable(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kAround{40, 24, 13, 8};
-    constexpr std::array kCarpet{420, 150, 36, 0};
+    constexpr std::array kAround{64, 30, 15, 8};
+    constexpr std::array kCarpet{560, 200, 40, 0};
     const std::uint32_t seed = dice.seed();
     const float foot = dice.between(0.22F, 0.40F);
     const float bowl = dice.between(0.05F, 0.14F);
@@ -189,17 +189,18 @@ void growTable(Mesh& mesh, std::size_t level, Dice dice) {
         .around = kAround.at(level), .seed = seed, .wide = 0.26F, .high = 0.07F, .lobes = 1.8F};
     addTurned(mesh, rings, turning, tissue(1.0F));
     const int carpet = kCarpet.at(level);
-    const float broader = carpet > 0 ? std::sqrt(420.0F / static_cast<float>(carpet)) : 0.0F;
+    const float broader = carpet > 0 ? std::sqrt(560.0F / static_cast<float>(carpet)) : 0.0F;
     for (int i = 0; i < carpet; ++i) {
         const float out =
             0.95F * std::sqrt((static_cast<float>(i) + 0.5F) / static_cast<float>(carpet));
         const float turn = kGoldenAngle * static_cast<float>(i);
         const glm::vec3 side{std::cos(turn), 0, std::sin(turn)};
         const glm::vec3 at = side * turning.lobes;
-        const float waver = solidNoise(seed, at) + 0.5F * solidNoise(seed, at * 2.7F);
+        const float waver = waverAt(seed, at);
         const float reach = out * (1.0F + 0.26F * waver * glm::mix(0.3F, 1.0F, out));
         const float lift = 0.07F * solidNoise(seed ^ 1U, at * 1.4F) * out;
-        const glm::vec3 base = side * reach + glm::vec3{0, foot + bowl * out * out + lift, 0};
+        const glm::vec3 base =
+            side * reach + glm::vec3{0, foot + 0.02F + bowl * out * out + lift, 0};
         const glm::vec3 way = glm::normalize(glm::vec3{0, 1, 0} + side * (0.9F * out * out));
         const float tall = 0.085F * dice.between(0.6F, 1.2F);
         const float radius = 0.020F * broader;
@@ -297,21 +298,28 @@ void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
+// Low mounds that run over the rock.
 void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kAround{20, 12, 8, 5};
-    const std::array rings{Ring{1.0F, -0.10F, 0.5F, 0.7F},
-                           Ring{0.95F, 0.03F, 0.9F, 1.45F},
-                           Ring{0.8F, 0.09F, 1.0F, 1.0F},
-                           Ring{0.45F, 0.13F, 1.0F, 0.9F, 0.6F},
-                           Ring{0.0F, 0.16F, 1.0F, 0.95F, 0.0F}};
-    addTurned(mesh,
-              rings,
-              {.around = kAround.at(level),
-               .seed = dice.seed(),
-               .wide = 0.45F,
-               .high = 0.04F,
-               .lobes = 1.5F},
-              tissue(1.0F, dice.unit() < 0.4F ? 1.0F : 0.0F));
+    constexpr std::array kMounds{7, 6, 4, 2};
+    constexpr std::array kRings{5, 3, 2, 2};
+    constexpr std::array kAround{12, 8, 6, 5};
+    const float meanders = dice.unit() < 0.4F ? 1.0F : 0.0F;
+    for (int i = 0; i < kMounds.at(level); ++i) {
+        const float out =
+            0.6F * std::sqrt(static_cast<float>(i) / static_cast<float>(kMounds.at(level)));
+        const float turn = kGoldenAngle * static_cast<float>(i);
+        const float radius = dice.between(0.34F, 0.55F);
+        addBall(mesh,
+                {.centre = {out * std::cos(turn), -0.10F, out * std::sin(turn)},
+                 .radii = {radius, dice.between(0.24F, 0.38F), radius},
+                 .capRadians = 1.9F,
+                 .rings = kRings.at(level),
+                 .around = kAround.at(level),
+                 .seed = dice.seed(),
+                 .lumps = 0.22F,
+                 .cells = 2.4F},
+                tissue(1.0F, meanders));
+    }
 }
 
 }  // namespace aquarama

@@ -36,7 +36,7 @@ constexpr std::array kWays{
     Way{Form::Brain, 1.8F, 0.8F, 0.0F, 0.12F, 0.48F, 0.2F, 0.0F},
     Way{Form::Lobes, 2.4F, 1.4F, 0.0F, 0.18F, 0.62F, 0.3F, 0.0F},
     Way{Form::Leaves, 2.0F, 2.4F, 0.0F, 0.20F, 0.60F, 0.5F, 0.0F},
-    Way{Form::Crust, 1.2F, 3.0F, 4.0F, 0.12F, 0.42F, 0.0F, 0.0F},
+    Way{Form::Crust, 1.0F, 2.4F, 3.0F, 0.08F, 0.24F, 0.0F, 0.0F},
     Way{Form::Fan, 0.9F, 2.4F, 0.3F, 0.28F, 0.95F, 0.5F, 0.05F},
     Way{Form::Whips, 0.5F, 0.5F, 0.0F, 0.45F, 1.20F, 0.8F, 0.10F},
     Way{Form::Tubes, 0.6F, 1.0F, 0.6F, 0.22F, 0.60F, 0.6F, 0.0F},
@@ -111,13 +111,21 @@ std::uint32_t patchAt(const PlaceKey& place, glm::vec3 at, float metres) {
     return hashOf(column, static_cast<std::uint32_t>(cell.z));
 }
 
+// The chance that a spot is settled: what looks at the light is, and bare patches stay bare.
+float coverAt(const PlaceKey& place, const Spot& spot) {
+    const float light = glm::smoothstep(-0.5F, 0.7F, spot.normal.y);
+    const float luck = solidNoise(place.seed ^ 0x77U, spot.place * 0.9F);
+    return glm::mix(0.12F, 1.0F, light) *
+           glm::mix(0.25F, 1.0F, glm::smoothstep(-0.35F, 0.25F, luck));
+}
+
 const Way& wayFor(float up, std::uint32_t patch, Dice& dice) {
     const std::size_t first = patch % kWays.size();
     const std::size_t second = hashOf(patch) % 8;  // a hard coral
     const auto weightOf = [&](std::size_t i) {
         const Way& way = kWays.at(i);
         const float weight = up > 0.45F ? way.above : up > -0.25F ? way.aside : way.below;
-        return weight * (i == first ? 4.0F : i == second ? 5.0F : 1.0F);
+        return weight * (i == first ? 6.0F : i == second ? 10.0F : 1.0F);
     };
     float sum = 0.0F;
     for (std::size_t i = 0; i < kWays.size(); ++i) sum += weightOf(i);
@@ -182,8 +190,8 @@ void coverRock(std::vector<Instance>& all, const Bed& bed) {
         const float rank =
             1.0F - (static_cast<float>(i) + dice.unit()) / static_cast<float>(corals);
         const Spot spot = spotOn(bed, dice);
-        if (isBuried(bed, spot.place)) continue;
-        const Way& way = wayFor(spot.normal.y, patchAt(*bed.place, spot.place, 2.0F), dice);
+        if (dice.unit() > coverAt(*bed.place, spot) || isBuried(bed, spot.place)) continue;
+        const Way& way = wayFor(spot.normal.y, patchAt(*bed.place, spot.place, 2.6F), dice);
         const float host = glm::clamp(0.42F + 0.38F * radius, 0.45F, 1.25F);
         const float size = host * glm::mix(way.least, way.most, rank * rank * rank);
         if (isCrowded(planted, spot.place, size)) continue;
@@ -208,7 +216,7 @@ void addPebble(
     const glm::quat turn = glm::quat_cast(
         frameAbout(glm::normalize(glm::vec3{dice.between(-1, 1), 0.8F, dice.between(-1, 1)}),
                    kTwoPi * dice.unit()));
-    const float light = dice.between(0.8F, 1.3F);
+    const float light = dice.between(1.3F, 2.1F);  // bleached
     const glm::vec3 above = spot.place + glm::vec3{0, 0.1F, 0};
     all.push_back({glm::vec4(spot.place + glm::vec3{0, 0.15F * size, 0}, size),
                    packed(turn),

@@ -30,6 +30,11 @@ Surface shaded(Surface surface, float shade) {
 
 }  // namespace
 
+float waverAt(std::uint32_t seed, glm::vec3 place) {
+    return solidNoise(seed, place) + 0.5F * solidNoise(seed, place * 2.7F) +
+           0.3F * solidNoise(seed, place * 7.1F);
+}
+
 void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 facing) {
     if (sides == 0) {
         const glm::vec3 across = glm::cross(joints.back().centre - joints.front().centre, facing);
@@ -90,8 +95,7 @@ void addTurned(Mesh& mesh,
                                static_cast<float>(turning.around);
             const glm::vec3 out{std::cos(turn), 0.0F, std::sin(turn)};
             const glm::vec3 at = out * turning.lobes;
-            const float waver =
-                solidNoise(turning.seed, at) + 0.5F * solidNoise(turning.seed, at * 2.7F);
+            const float waver = waverAt(turning.seed, at);
             const float lift = solidNoise(turning.seed ^ 1U, at * 1.4F);
             const float radius = ring.radius * (1.0F + turning.wide * waver * ring.waver);
             const float height = ring.height + turning.high * lift * ring.waver;

@@ -49,6 +49,8 @@ struct Turning {
     float high = 0.0F;   // metres
     float lobes = 2.0F;  // noise cells over the unit circle
 };
+// By how much its radius wavers where, as a share of Turning::wide.
+[[nodiscard]] float waverAt(std::uint32_t seed, glm::vec3 place);
 void addTurned(Mesh& mesh,
                std::span<const Ring> rings,
                const Turning& turning,

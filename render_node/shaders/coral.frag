@@ -18,7 +18,8 @@ void main() {
     vec3 n = normalize(normal.xyz);
     float range = distance(place, eyeAndTime.xyz);
     // Finer than pixels it is but grey.
-    float near = 1.0 / (1.0 + 0.05 * range * range);
+    float pixels = range / pixelsARadian() / 0.03;
+    float near = 1.0 / (1.0 + pixels * pixels);
     vec3 colour = albedo;
     float sky = open.y;
     if (matter.z > 0.5) {

@@ -62,7 +62,7 @@ void main() {
     vec3 sponge = vec3(0.58, 0.27, 0.07) * (0.7 + 0.5 * middle.tone.y);
     vec3 colour = mix(stone, turf, 0.85 * smoothstep(0.25, 0.75, mottle.y + 0.7 * (patches - 0.5)));
     colour = mix(colour, crust, 0.9 * smoothstep(0.42, 0.62, 0.75 * mottle.z + 0.55 * (middle.tone.y - 0.4)));
-    colour = mix(colour, sponge, smoothstep(0.80, 0.90, patches + 0.15 * (fine.tone.y - 0.5)) * step(n.y, 0.6));
+    colour = mix(colour, sponge, 0.8 * smoothstep(0.86, 0.94, patches + 0.15 * (fine.tone.y - 0.5)) * step(n.y, 0.6));
     Openness openness = Openness(open.x * mix(0.6, 1.0, pits), open.y * pits);
     radiance = vec4(seen(litUnder(openness, colour * tint, place, n, 0.0), place), 1.0);
 }

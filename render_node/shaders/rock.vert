@@ -14,7 +14,7 @@ void main() {
     place = one.placeAndScale.xyz + one.placeAndScale.w * turned(one.turn, position);
     normal = turned(one.turn, normalAndRoughness.xyz);
     mottle = mottleAndSky.rgb;
-    float contact = mix(0.4, 1.0, smoothstep(-0.1, 0.6, place.y - one.light.z));
+    float contact = mix(0.4, 1.0, smoothstep(-0.1, 0.6, (place.y - one.light.z) / min(one.placeAndScale.w, 1.0)));
     open = vec2(one.light.x * mix(0.3, 1.0, mottleAndSky.w), one.light.y * mottleAndSky.w * contact);
     tint = one.tintAndSway.rgb;
     gl_Position = clipFromWorld * vec4(place, 1.0);
