@@ -85,10 +85,10 @@ struct Stand {
     float heightMetres;
 };
 constexpr std::array kKelpStands{
-    Stand{{9.4F, -8.6F}, 1.7F, 15, 7.0F},
-    Stand{{12.0F, -7.6F}, 2.3F, 20, 7.3F},
-    Stand{{16.5F, -13.5F}, 3.0F, 18, 7.2F},
-    Stand{{-17.0F, -10.5F}, 2.2F, 10, 6.9F},
+    Stand{{8.2F, -11.4F}, 1.7F, 22, 7.0F},
+    Stand{{11.6F, -14.2F}, 2.4F, 28, 7.3F},
+    Stand{{18.5F, -12.0F}, 3.0F, 20, 7.2F},
+    Stand{{-18.5F, -9.5F}, 2.2F, 12, 6.9F},
     Stand{{10.0F, 9.0F}, 3.2F, 26, 7.2F},
     Stand{{-6.0F, 15.0F}, 3.0F, 18, 7.0F},
 };

@@ -180,12 +180,34 @@ void plant(std::vector<Instance>& all,
         *bed.place, bed.others, way.form, sunk, size, stance(way, spot.normal, dice), tint, dice));
 }
 
+// What crowns a boulder makes it a head of its own: a table, a thicket or a fan against the light.
+void crownRock(std::vector<Instance>& all,
+               const Bed& bed,
+               std::vector<Planted>& planted,
+               Dice& dice) {
+    constexpr std::array kCrowns{Form::Table, Form::Staghorn, Form::Table, Form::Fan, Form::Lobes};
+    const float radius = bed.rock->radiusMetres;
+    Spot best = spotOn(bed, dice);
+    for (int attempt = 0; attempt < 24; ++attempt) {
+        const Spot spot = spotOn(bed, dice);
+        if (spot.place.y + 0.5F * spot.normal.y > best.place.y + 0.5F * best.normal.y) best = spot;
+    }
+    if (isBuried(bed, best.place)) return;
+    const Form form = kCrowns.at(dice.seed() % kCrowns.size());
+    const Way& way = *std::ranges::find(kWays, form, &Way::form);
+    const float size = glm::clamp(0.52F * radius, 0.3F, 1.15F) * dice.between(0.8F, 1.15F);
+    planted.push_back({best.place, size});
+    plant(all, bed, way, best, size, dice);
+}
+
 // Large ones first, so that small ones fill what is left; cover is what makes rock look alive.
 void coverRock(std::vector<Instance>& all, const Bed& bed) {
     const float radius = bed.rock->radiusMetres;
-    const auto corals = static_cast<int>(22.0F + 70.0F * std::pow(radius, 1.5F));
+    const auto corals = static_cast<int>(30.0F + 130.0F * std::pow(radius, 1.6F));
     Dice dice{hashOf(bed.rock->seed, 77)};
     std::vector<Planted> planted;
+    for (int crown = 0; crown < (radius > 1.2F ? 2 : 1); ++crown)
+        crownRock(all, bed, planted, dice);
     for (int i = 0; i < corals; ++i) {
         const float rank =
             1.0F - (static_cast<float>(i) + dice.unit()) / static_cast<float>(corals);

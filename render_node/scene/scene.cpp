@@ -28,12 +28,6 @@ namespace {
 constexpr float kFilterDepthMetres = 4.9F;
 constexpr int kFlakes = 9000;
 
-// All channels of a wall are about as large, so neighbours agree.
-float detailOf(glm::ivec2 sizePixels) {
-    constexpr int kSmallWindow = 640;
-    return sizePixels.y < kSmallWindow ? 0.5F : 1.0F;
-}
-
 // The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
 // sun is mirrored away; what is left then comes from above, and is bluer. Never nothing: a wall
 // that is dark is broken. Exactly 1 at noon.
@@ -189,7 +183,7 @@ unsigned SceneRenderer::draw(const View& view) {
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,
-                              detailOf(view.sizePixels)};
+                              parts.quality.placeDetail};
     parts.drawSolids(viewpoint);
     parts.drawWater();
     for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water

@@ -11,19 +11,19 @@ layout(location = 0) out vec4 radiance;
 const float kPolypTile = 0.16;
 // Height of a ridge between grooves, 0 to 1.
 float meander(vec3 p) {
-    p = 30.0 * (p + 0.035 * sin(7.0 * p.yzx));
+    p = 64.0 * (p + 0.016 * sin(15.0 * p.yzx));
     return abs(sin(p.x + sin(p.y)) + sin(p.z + sin(p.x))) * 0.5;
 }
 void main() {
     vec3 n = normalize(normal.xyz);
     float range = distance(place, eyeAndTime.xyz);
     // Finer than pixels it is but grey.
-    float pixels = range / pixelsARadian() / 0.03;
+    float pixels = range / pixelsARadian() / 0.014;
     float near = 1.0 / (1.0 + pixels * pixels);
     vec3 colour = albedo;
     float sky = open.y;
     if (matter.z > 0.5) {
-        const float kStep = 0.006;
+        const float kStep = 0.003;
         float here = meander(rest);
         vec3 slope = vec3(meander(rest + vec3(kStep, 0.0, 0.0)), meander(rest + vec3(0.0, kStep, 0.0)),
                           meander(rest + vec3(0.0, 0.0, kStep))) - here;

@@ -56,12 +56,12 @@ void main() {
                  mix(0.65, 1.0, smoothstep(0.1, 0.6, broad.tone.y));
     float patches = broad.tone.y + 0.35 * (middle.tone.y - 0.5);
     // Bare stone is seldom bare: films of algae, in patches of a hand to an arm.
-    vec3 stone = mix(vec3(0.15, 0.13, 0.105), vec3(0.44, 0.39, 0.31), mottle.x) * tone;
-    vec3 turf = mix(vec3(0.15, 0.15, 0.045), vec3(0.34, 0.26, 0.11), smoothstep(0.3, 0.8, patches)) * tone;
+    vec3 stone = mix(vec3(0.19, 0.155, 0.12), vec3(0.54, 0.45, 0.34), mottle.x) * tone;
+    vec3 turf = mix(vec3(0.20, 0.16, 0.06), vec3(0.42, 0.29, 0.13), smoothstep(0.3, 0.8, patches)) * tone;
     vec3 crust = mix(vec3(0.50, 0.20, 0.25), vec3(0.62, 0.38, 0.40), middle.tone.y) * (0.6 + 0.4 * tone);
     vec3 sponge = vec3(0.58, 0.27, 0.07) * (0.7 + 0.5 * middle.tone.y);
-    vec3 colour = mix(stone, turf, 0.85 * smoothstep(0.25, 0.75, mottle.y + 0.7 * (patches - 0.5)));
-    colour = mix(colour, crust, 0.9 * smoothstep(0.42, 0.62, 0.75 * mottle.z + 0.55 * (middle.tone.y - 0.4)));
+    vec3 colour = mix(stone, turf, 0.75 * smoothstep(0.35, 0.85, mottle.y + 0.9 * (patches - 0.5)));
+    colour = mix(colour, crust, 0.9 * smoothstep(0.36, 0.56, 0.75 * mottle.z + 0.55 * (middle.tone.y - 0.4)));
     colour = mix(colour, sponge, 0.8 * smoothstep(0.86, 0.94, patches + 0.15 * (fine.tone.y - 0.5)) * step(n.y, 0.6));
     Openness openness = Openness(open.x * mix(0.6, 1.0, pits), open.y * pits);
     radiance = vec4(seen(litUnder(openness, colour * tint, place, n, 0.0), place), 1.0);
