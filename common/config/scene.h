@@ -3,9 +3,11 @@
 // metres, Y up, the surface is y = 0.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -21,6 +23,12 @@ enum class PlaceKind : std::uint8_t {
     Reef,     // sand, rocks and plants about the wall
     OpenSea,  // nothing but water
 };
+
+// Jerlov's optical types of sea water, the clearest first: I to III of the oceans, 1C and 3C of
+// coasts.
+enum class WaterType : std::uint8_t { I, IA, IB, II, III, C1, C3 };
+inline constexpr std::array<std::string_view, 7> kWaterTypeNames{
+    "I", "IA", "IB", "II", "III", "1C", "3C"};
 
 // What a school is drawn to.
 enum class Gathering : std::uint8_t {
@@ -56,6 +64,7 @@ struct SceneWater {
     double leastLengthsCubed = 4;
     double clarityMetres = 12;                            // no fish sees farther
     double surfaceCelsius = 28, celsiusPerMetre = -0.15;  // with depth
+    WaterType jerlov = WaterType::IA;                     // what light does in it
 };
 
 // Brightness over a day: 1 at noon, `night` at midnight. Length 0: always as at the start.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "common/config/angle.h"
@@ -42,6 +43,17 @@ Gathering readGathering(const TextPlace& root) {
     return Gathering::Mill;
 }
 
+WaterType readWaterType(const TextPlace& at) {
+    if (!at.has("jerlov")) return SceneWater{}.jerlov;
+    const std::string type = at.text("jerlov");
+    const auto found = std::ranges::find(kWaterTypeNames, type);
+    if (found == kWaterTypeNames.end())
+        at.refuse(
+            "jerlov",
+            "jerlov is \"" + type + "\", no type of water: write I, IA, IB, II, III, 1C or 3C");
+    return static_cast<WaterType>(found - kWaterTypeNames.begin());
+}
+
 SceneWater readWater(const TextPlace& at) {
     SceneWater water;
     water.centre = readPoint(at.in("centre"));
@@ -55,6 +67,7 @@ SceneWater readWater(const TextPlace& at) {
     water.clarityMetres = at.numberOr("clarity_m", {0.5, 100}, water.clarityMetres);
     water.surfaceCelsius = at.numberOr("surface_c", {-2, 45}, water.surfaceCelsius);
     water.celsiusPerMetre = at.numberOr("celsius_per_metre", {-5, 5}, water.celsiusPerMetre);
+    water.jerlov = readWaterType(at);
     return water;
 }
 

@@ -27,6 +27,7 @@ void write(const SceneWater& water, v1::SceneWater& out) {
     out.set_clarity_m(water.clarityMetres);
     out.set_surface_c(water.surfaceCelsius);
     out.set_celsius_per_metre(water.celsiusPerMetre);
+    out.set_jerlov(std::string(kWaterTypeNames.at(static_cast<std::size_t>(water.jerlov))));
 }
 
 void write(const Day& day, v1::Day& out) {

@@ -312,15 +312,17 @@ void seeMate(const Onlooker& onlooker) {
 }
 
 // The way that is felt ahead is the one past the submarine, which comes to meet the fish or overtakes
-// it. One that moves throws its weight about farther.
+// it; one that comes on is felt from farther.
 glm::vec3 submarinePush(const Submarine& submarine, const Senses& senses, float reach) {
     const glm::vec3 velocity = submarine.velocityMetresPerSecond;
     if (velocity == glm::vec3{})
         return ballPush(
             submarine.position, submarine.radiusMetres, senses.position, senses.heading, reach);
     const glm::vec3 past = senses.heading * reach - velocity * kReachSeconds;
+    const glm::vec3 towards = directionOf(senses.position - submarine.position, {});
+    const float comingOn = std::max(0.0F, dot(velocity, towards));
     return ballPush(submarine.position,
-                    submarine.radiusMetres + lengthOf(velocity) * kBowWaveSeconds,
+                    submarine.radiusMetres + comingOn * kBowWaveSeconds,
                     senses.position,
                     directionOf(past, senses.heading),
                     lengthOf(past));
