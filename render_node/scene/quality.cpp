@@ -9,8 +9,8 @@ Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{
         Quality{.samples = 1},
         Quality{.samples = 1},
-        Quality{.samples = 4},
-        Quality{.samples = 4},
+        Quality{.samples = 4, .closeUps = true, .fishFineness = 1.25F},
+        Quality{.samples = 4, .closeUps = true, .fishFineness = 1.6F},
     };
     return kTiers.at(static_cast<std::size_t>(tier));
 }

@@ -19,6 +19,8 @@ inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "hi
 
 struct Quality {
     int samples = 1;  // of multisampling
+    bool closeUps = false;      // fish that fill much of the picture are refined a third time
+    float fishFineness = 1.0F;  // of fishes' meshes: detailLimits() of surface/visibility.h
 };
 
 [[nodiscard]] Quality qualityOf(QualityTier tier);

@@ -127,7 +127,7 @@ Release ChannelShow::play() {
 
 void ChannelShow::draw(const StateFrame& frame) {
     const Overlays overlays = controls_.overlays();
-    picture_->drawScene(frame, overlays, overlays.mind ? watchMind() : std::nullopt);
+    picture_->drawScene(frame, overlays, overlays.mind ? watchMind(frame) : std::nullopt);
     const glm::ivec2 window = context_.framebufferPixels();
     const bool fits = context_.hasWindow() && window == picture_->sizePixels();
     picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays);
@@ -149,12 +149,12 @@ std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
 
 // Another fish may come nearest at any time: it is chosen as often as is asked, so that the answer
 // can be read.
-std::optional<WatchedMind> ChannelShow::watchMind() {
+std::optional<WatchedMind> ChannelShow::watchMind(const StateFrame& frame) {
     constexpr std::chrono::milliseconds kBetweenQuestions{250};
     if (now() - askedAt_ >= kBetweenQuestions) {
         askedAt_ = now();
         const auto pixel = pixelAt(controls_.pointer()).value_or(pointing_->middle());
-        watched_ = picture_->fishNearest(pixel);
+        watched_ = picture_->fishNearest(frame, pixel);
         if (watched_) session_.askMind(*watched_);
     }
     if (!watched_) return std::nullopt;

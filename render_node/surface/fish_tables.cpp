@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/surface/fish_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/skin/coarser_level.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+RecordedPoint quantised(glm::vec3 point) {
+    RecordedPoint recorded{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const float value = std::round(point[axis] / kPoseUnit);
+        if (!(std::abs(value) <= 32767))
+            throw Error("a control point lies further than a body length from its fish");
+        recorded.at(static_cast<std::size_t>(axis)) = static_cast<std::int16_t>(value);
+    }
+    return recorded;
+}
+
+void addPosed(const FishBody& body, const NodalPose& pose, std::vector<RecordedPoint>& points) {
+    NodalPoints nodes{};
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        nodes.at(n) = glm::vec3(pose.at(n)[0], pose.at(n)[1], pose.at(n)[2]) * kPoseUnit;
+    std::vector<glm::vec3> cage(kControlPoints);
+    poseCage(body, nodes, cage);
+    std::ranges::transform(cage, std::back_inserter(points), quantised);
+}
+
+}  // namespace
+
+std::vector<RecordedPoint> recordedPoints(const FishBody& body, const Repertoire& repertoire) {
+    std::vector<RecordedPoint> points;
+    points.reserve(std::size_t{kActions} * kPhases * kControlPoints);
+    for (const ActionSegment& segment : repertoire.segments) {
+        if (segment.controlPoints.size() == kPhases) {
+            for (const ControlPointPose& pose : segment.controlPoints)
+                for (const auto& [x, y, z] : pose) points.push_back({x, y, z, 0});
+        } else {
+            for (const NodalPose& pose : segment.nodes) addPosed(body, pose, points);
+        }
+    }
+    return points;
+}
+
+float reachOf(std::span<const RecordedPoint> points) {
+    float reach = 0.0F;
+    for (const auto& [x, y, z, unused] : points)
+        reach = std::max(reach, glm::length(glm::vec3(x, y, z)));
+    return reach * kPoseUnit;
+}
+
+namespace {
+
+template <class T>
+std::uint32_t append(std::vector<T>& all, std::span<const T> more) {
+    const auto first = static_cast<std::uint32_t>(all.size());
+    all.insert(all.end(), more.begin(), more.end());
+    return first;
+}
+
+// Gathers the tables of all species before they go to the GPU.
+class Gatherer {
+  public:
+    SpeciesTables add(const SchoolSpecies& species, std::size_t finest) {
+        SpeciesTables tables;
+        const std::vector<RecordedPoint> points = recordedPoints(species.body, species.repertoire);
+        append<RecordedPoint>(recorded, points);
+        tables.area.w = reachOf(points);
+        LimitTable coarser;
+        for (std::size_t surface = 0; surface <= finest; ++surface) {
+            const LimitTable table = makeLimitTable(species.body, static_cast<int>(surface));
+            tables.meshes.at(1 + surface) = add(species.body, surface, table, coarser);
+            coarser = table;
+        }
+        isFirst_ = false;
+        return tables;
+    }
+
+    std::vector<RecordedPoint> recorded;
+    std::vector<std::uint32_t> firstEntry, parents, indices;
+    std::vector<StencilEntry> entries;
+    std::vector<SkinPlace> places;
+
+  private:
+    SpeciesTables::Mesh add(const FishBody& body,
+                            std::size_t surface,
+                            const LimitTable& table,
+                            const LimitTable& coarser) {
+        SpeciesTables::Mesh mesh{};
+        mesh.vertices = static_cast<std::uint32_t>(table.vertices.size());
+        mesh.firstEntry = addStencils(surface, table);
+        mesh.firstParent = static_cast<std::uint32_t>(parents.size());
+        if (surface > 0)
+            for (const auto& [a, b] : coarserParents(body, static_cast<int>(surface), coarser))
+                parents.push_back(a | b << 16U);
+        mesh.firstVertex = append<SkinPlace>(places, table.vertices);
+        mesh.firstBodyIndex = append<std::uint32_t>(indices, table.indices);
+        mesh.bodyIndices = static_cast<std::uint32_t>(table.bodyIndices);
+        mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
+        mesh.finIndices = static_cast<std::uint32_t>(table.indices.size() - table.bodyIndices);
+        return mesh;
+    }
+
+    // All cages hang together alike, so that one species' stencils serve the others.
+    std::uint32_t addStencils(std::size_t surface, const LimitTable& table) {
+        Stencils& shared = shared_.at(surface);
+        const bool serves =
+            std::ranges::equal(table.entries, shared.entries, sameEntry) &&
+            table.firstEntry == shared.firstEntry;
+        if (!isFirst_ && serves) return shared.at;
+        const auto firstOfAll = static_cast<std::uint32_t>(entries.size());
+        append<StencilEntry>(entries, table.entries);
+        const auto at = static_cast<std::uint32_t>(firstEntry.size());
+        for (const std::uint32_t first : table.firstEntry) firstEntry.push_back(firstOfAll + first);
+        if (isFirst_) shared = {table.firstEntry, table.entries, at};
+        return at;
+    }
+    static bool sameEntry(const StencilEntry& a, const StencilEntry& b) {
+        return a.controlPoint == b.controlPoint && a.position == b.position &&
+               a.tangentU == b.tangentU && a.tangentV == b.tangentV;
+    }
+
+    struct Stencils {
+        std::vector<std::uint32_t> firstEntry;
+        std::vector<StencilEntry> entries;
+        std::uint32_t at = 0;
+    };
+    std::array<Stencils, kSurfaces> shared_;
+    bool isFirst_ = true;
+};
+
+}  // namespace
+
+FishTables::FishTables(std::span<const SchoolSpecies> members, std::size_t finest) {
+    if (members.size() > kMostSpecies)
+        throw Error("a scene has more than " + std::to_string(kMostSpecies) +
+                    " species; leave some out");
+    Gatherer all;
+    std::size_t firstFish = 0;
+    for (const SchoolSpecies& member : members) {
+        SpeciesTables tables = all.add(member, finest);
+        tables.firstFish = static_cast<std::uint32_t>(firstFish);
+        tables.fish = static_cast<std::uint32_t>(member.fish.size());
+        tables.firstGroup = static_cast<std::uint32_t>(groups);
+        tables.groups = static_cast<std::uint32_t>((member.fish.size() + kGroup - 1) / kGroup);
+        firstFish += member.fish.size();
+        groups += tables.groups;
+        mostVertices = std::max<std::size_t>(mostVertices, tables.meshes.at(1 + finest).vertices);
+        species.push_back(tables);
+    }
+    cast = makeBuffer(species, "cast");
+    recorded = makeBuffer(all.recorded, "recorded control points");
+    firstEntries = makeBuffer(all.firstEntry, "stencil offsets");
+    entries = makeBuffer(all.entries, "stencil entries");
+    parents = makeBuffer(all.parents, "parents of vertices");
+    places = makeBuffer(all.places, "skin places");
+    indices = makeBuffer(all.indices, "fish indices");
+}
+
+}  // namespace aquarama
