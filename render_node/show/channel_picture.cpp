@@ -77,7 +77,7 @@ std::size_t channelIndex(const Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
-ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
+ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
       school_{admission.welcome.school},
       frustum_{channelFrustum(admission.rig, channel, kMarginRadians)},
@@ -89,6 +89,7 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
         const auto pixel = static_cast<float>(finestPixelRadians(admission.rig));
         scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
                                     .place = admission.scene.place,
+                                    .quality = quality,
                                     .pixelRadians = pixel},
                        castOf(admission));
     } else {
