@@ -178,7 +178,7 @@ unsigned SceneRenderer::draw(const View& view) {
     parts.school.drawBodies();
     parts.drawSolids(viewpoint);
     parts.drawWater();
-    parts.school.drawFins();
+    parts.school.drawBlended();
     parts.food.update(parts.specks, viewpoint);
     parts.food.draw();
     parts.drawSnow();

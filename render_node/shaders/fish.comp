@@ -15,7 +15,9 @@ struct Entry {
 };
 layout(std430, binding = 3) readonly buffer Entries { Entry entries[]; };
 layout(std430, binding = 5) coherent buffer Surface { uvec4 surface[]; };
-// Of each vertex the two, of the same mesh, between which the coarser level has it.
+// Of each vertex the two, of the same mesh, between which the coarser level has it: 16 bits each. Of
+// the control mesh its place on few triangles: three control points of 9 bits, the weights of two,
+// and a normal.
 layout(std430, binding = 7) readonly buffer Parents { uint parents[]; };
 
 layout(location = 18) uniform uint turn;
@@ -43,6 +45,16 @@ uvec4 packVertex(Fish self, Vertex vertex) {
     return uvec4(floatBitsToUint(world), packNormal(rotate(self.rotation, vertex.normal)));
 }
 
+Vertex morphFromFew(Fish self, Vertex v, uint at) {
+    uvec3 point = uvec3(parents[at], parents[at] >> 9, parents[at] >> 18) & 511u;
+    vec2 weights = unpackUnorm2x16(parents[at + 1u]);
+    vec3 onFew = weights.x * controlPoints[point.x] + weights.y * controlPoints[point.y] +
+                 (1.0 - weights.x - weights.y) * controlPoints[point.z];
+    v.position = mix(onFew, v.position, self.blend);
+    v.normal = normalize(mix(unpackNormal(parents[at + 2u]), v.normal, self.blend));
+    return v;
+}
+
 // Towards the middle of the edge or quad of the coarser level on which the vertex appears.
 void morph(Fish self, bool ontoControlMesh, uint first, uint vertex, uvec2 parent) {
     uvec4 own = surface[first + vertex], a = surface[first + parent.x], b = surface[first + parent.y];
@@ -67,6 +79,8 @@ void main() {
     bool ontoControlMesh = self.detail == kControlMesh + 1u;
     for (uint vertex = thread; vertex < mesh.vertexCount; vertex += kThreads) {
         Vertex v = evaluate(mesh, vertex);
+        if (self.detail == kControlMesh && self.blend < 1.0)
+            v = morphFromFew(self, v, mesh.firstParent + 3u * vertex);
         // The first vertices are the control points'.
         if (ontoControlMesh && vertex < kControlPoints)
             v.position = mix(controlPoints[vertex], v.position, self.blend);

@@ -15,6 +15,10 @@ layout(location = 3) out vec2 fin;     // p along its base, q from base to edge
 layout(location = 4) flat out uint part;
 layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
+layout(location = 7) out float opacity;     // 1 but where a level of detail fades
+
+// Of DetailLevel, and of CagePart.
+const uint kControlMesh = 3u, kPelvic = 5u;
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
@@ -25,5 +29,8 @@ void main() {
     part = vertexPart;
     id = fish[slot].id;
     dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));
+    // Few triangles have no paired fins.
+    bool grows = fish[slot].detail == kControlMesh && vertexPart >= kPelvic;
+    opacity = grows ? fish[slot].blend : 1.0;
     gl_Position = clipFromWorld * vec4(place, 1.0);
 }

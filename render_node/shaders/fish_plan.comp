@@ -7,6 +7,8 @@ layout(local_size_x = 1) in;
 layout(location = 18) uniform uint speciesCount;
 layout(location = 19) uniform uint roomVertices;  // of the surface buffer
 
+const uint kPointIndices = 12u;
+
 uint turn = 0u, usedVertices = 0u;
 
 Command bodyOf(Mesh mesh, uint fish, uint first) {
@@ -67,7 +69,7 @@ uint placeTail(uint species, uint first) {
     tails[species * kTails] = bodyOf(mesh, few + fading, first);
     tails[species * kTails + 1u + kSurfaces] = finsOf(mesh, few + fading, first);
     tails[species * kTails + 2u + 2u * kSurfaces] =
-        Command(12u, fading + totals[list + kPoint], 0u, 0u, first + few);
+        Command(kPointIndices, fading + totals[list + kPoint], 0u, 0u, first + few);
     return first + few + fading + totals[list + kPoint];
 }
 

@@ -6,7 +6,9 @@
 #include <iterator>
 #include <string>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/packing.hpp>
 #include <glm/vec3.hpp>
 
 #include "common/skin/coarser_level.h"
@@ -68,6 +70,42 @@ std::uint32_t append(std::vector<T>& all, std::span<const T> more) {
     return first;
 }
 
+// As packNormal() of fish_data.glsl.
+std::uint32_t packedNormal(glm::vec3 normal) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < 3; ++k) {
+        const auto number = static_cast<std::int32_t>(std::lround(normal[k] * 511.0F));
+        bits |= (static_cast<std::uint32_t>(number) & 1023U) << static_cast<unsigned>(10 * k);
+    }
+    return bits;
+}
+
+// The areas that a pose covers from three sides, and its middle. Of a fin, through which one sees,
+// half is counted.
+void measure(const LimitTable& mesh, std::span<const RecordedPoint> pose, SpeciesTables& tables) {
+    constexpr float kFinOpacity = 0.5F;
+    std::vector<glm::vec3> points;
+    for (const auto& [x, y, z, unused] : pose.first(kControlPoints))
+        points.push_back(glm::vec3(x, y, z) * kPoseUnit);
+    std::vector<glm::vec3> places;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        places.push_back(skinPoint(mesh, i, points).position);
+    glm::vec3 area{}, moment{};
+    float side = 0.0F;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        const glm::vec3 a = places[mesh.indices[t]], b = places[mesh.indices[t + 1]],
+                        c = places[mesh.indices[t + 2]];
+        const float weight = t < mesh.bodyIndices ? 1.0F : kFinOpacity;
+        // A closed surface covers its area once by its front and once by its back.
+        const glm::vec3 own = 0.25F * weight * glm::abs(glm::cross(b - a, c - a));
+        area += own;
+        moment += own.z * (a + b + c) / 3.0F;
+        side += own.z;
+    }
+    tables.area = glm::vec4{area, tables.area.w};
+    tables.middle = glm::vec4{moment / side, 0.0F};
+}
+
 // Gathers the tables of all species before they go to the GPU.
 class Gatherer {
   public:
@@ -76,10 +114,14 @@ class Gatherer {
         const std::vector<RecordedPoint> points = recordedPoints(species.body, species.repertoire);
         append<RecordedPoint>(recorded, points);
         tables.area.w = reachOf(points);
-        LimitTable coarser;
+        LimitTable coarser = makeLimitTable(species.body, 0);
+        const FewTriangles few = makeFewTriangles(species.body, coarser);
+        tables.meshes[0] = add(few);
         for (std::size_t surface = 0; surface <= finest; ++surface) {
             const LimitTable table = makeLimitTable(species.body, static_cast<int>(surface));
             tables.meshes.at(1 + surface) = add(species.body, surface, table, coarser);
+            if (surface == 0) addPlaces(few);
+            if (surface == 1) measure(table, points, tables);
             coarser = table;
         }
         isFirst_ = false;
@@ -90,8 +132,31 @@ class Gatherer {
     std::vector<std::uint32_t> firstEntry, parents, indices;
     std::vector<StencilEntry> entries;
     std::vector<SkinPlace> places;
+    std::vector<FewTriangles::Vertex> fewVertices;
+    std::vector<std::uint32_t> fewIndices;
 
   private:
+    SpeciesTables::Mesh add(const FewTriangles& few) {
+        SpeciesTables::Mesh mesh{};
+        mesh.vertices = static_cast<std::uint32_t>(few.vertices.size());
+        mesh.firstVertex = append<FewTriangles::Vertex>(fewVertices, few.vertices);
+        mesh.firstBodyIndex = append<std::uint32_t>(fewIndices, few.indices);
+        mesh.bodyIndices = static_cast<std::uint32_t>(few.bodyIndices);
+        mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
+        mesh.finIndices = static_cast<std::uint32_t>(few.indices.size() - few.bodyIndices);
+        return mesh;
+    }
+
+    // The parents of the control mesh, as fish.comp has them.
+    void addPlaces(const FewTriangles& few) {
+        for (const FewTriangles::Place& place : few.cage) {
+            const auto& [a, b, c] = place.controlPoints;
+            parents.push_back(a | b << 9U | c << 18U);
+            parents.push_back(glm::packUnorm2x16({place.weights[0], place.weights[1]}));
+            parents.push_back(packedNormal(place.normal));
+        }
+    }
+
     SpeciesTables::Mesh add(const FishBody& body,
                             std::size_t surface,
                             const LimitTable& table,
@@ -163,6 +228,8 @@ FishTables::FishTables(std::span<const SchoolSpecies> members, std::size_t fines
     firstEntries = makeBuffer(all.firstEntry, "stencil offsets");
     entries = makeBuffer(all.entries, "stencil entries");
     parents = makeBuffer(all.parents, "parents of vertices");
+    fewVertices = makeBuffer(all.fewVertices, "few vertices");
+    fewIndices = makeBuffer(all.fewIndices, "few indices");
     places = makeBuffer(all.places, "skin places");
     indices = makeBuffer(all.indices, "fish indices");
 }

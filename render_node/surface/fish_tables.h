@@ -17,6 +17,7 @@
 #include "common/motion/repertoire.h"
 #include "common/skin/limit_table.h"
 #include "render_node/gl/handle.h"
+#include "render_node/surface/few_triangles.h"
 #include "render_node/surface/fish_plan.h"
 
 namespace aquarama {
@@ -77,6 +78,7 @@ struct FishTables {
     std::size_t mostVertices = 1;  // of a fish
     std::size_t groups = 0;
     gl::Buffer cast, recorded, firstEntries, entries, parents, places, indices;
+    gl::Buffer fewVertices, fewIndices;
 };
 
 }  // namespace aquarama

@@ -64,11 +64,28 @@ std::size_t surfaceOf(DetailLevel level) {
     return std::size_t(level) - std::size_t(DetailLevel::ControlMesh);
 }
 
-// What is drawn of the fish of one species.
-struct Dress {
-    FishSkin skin;
-    glm::vec3 eye;
-};
+// Indices, and for each instance its place in the school.
+void describe(const gl::VertexArray& array, const gl::Buffer& indices, const gl::Buffer& slots) {
+    glVertexArrayElementBuffer(array.name(), indices.name());
+    glVertexArrayVertexBuffer(array.name(), 1, slots.name(), 0, sizeof(std::uint32_t));
+    glVertexArrayBindingDivisor(array.name(), 1, 1);
+    glEnableVertexArrayAttrib(array.name(), 3);
+    glVertexArrayAttribBinding(array.name(), 3, 1);
+    glVertexArrayAttribIFormat(array.name(), 3, 1, GL_UNSIGNED_INT, 0);
+}
+
+// The SkinPlace with which each vertex begins.
+void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::size_t stride) {
+    glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, static_cast<GLsizei>(stride));
+    for (const unsigned attribute : {0U, 1U, 2U}) {
+        glEnableVertexArrayAttrib(array.name(), attribute);
+        glVertexArrayAttribBinding(array.name(), attribute, 0);
+    }
+    const unsigned name = array.name();
+    glVertexArrayAttribFormat(name, 0, 4, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, rest));
+    glVertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, fin));
+    glVertexArrayAttribIFormat(name, 2, 1, GL_UNSIGNED_INT, offsetof(SkinPlace, part));
+}
 
 }  // namespace
 
@@ -82,15 +99,15 @@ struct SchoolSurface::Parts {
           programs{std::move(skins)} {
         for (const SchoolSpecies& member : members) {
             fish += member.fish.size();
-            dresses.push_back({member.skin, member.body.eye});
+            painters.emplace_back(member.skin, member.body.eye);
         }
         makeBuffers(members);
-        makeVertexArray();
+        makeVertexArrays();
         setConstants();
     }
 
     void makeBuffers(std::span<const SchoolSpecies> members);
-    void makeVertexArray() const;
+    void makeVertexArrays() const;
     void setConstants() const;
     void upload(const gl::Buffer& buffer, std::span<const FishRecord> records) const;
     void bindRecords() const;
@@ -99,16 +116,21 @@ struct SchoolSurface::Parts {
     void evaluate(std::size_t turn, std::size_t groupsOffset) const;
     void drawSurfaces(std::size_t turn, bool isFins) const;
     void drawTurns(bool isFins) const;
+    void drawTails(std::size_t first, std::size_t commands, gl::ProgramHandle SkinPainter::*program)
+        const;
+    void drawPoints() const;
+    void drawFew() const;
 
     SurfaceOptions options;
     DetailLimits limits;
     FishTables tables;
     std::shared_ptr<const SkinPrograms> programs;
-    std::vector<Dress> dresses;
+    std::vector<SkinPainter> painters;  // one a species
     std::size_t fish = 0;
     std::size_t turns = 1;  // of the surface buffer, at most
     gl::Buffer before, after, traits, choices, counts, plan, school, surface, slots;
-    gl::VertexArray vertexArray;
+    gl::VertexArray surfaceArray, fewArray, pointArray;
+    gl::Buffer pointIndices{makeBuffer(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, "point indices")};
     gl::ProgramHandle cull{gl::makeProgram({"fish_cull.comp"})};
     gl::ProgramHandle scan{gl::makeProgram({"fish_scan.comp"})};
     gl::ProgramHandle planner{gl::makeProgram({"fish_plan.comp"})};
@@ -136,20 +158,20 @@ void SchoolSurface::Parts::makeBuffers(std::span<const SchoolSpecies> members) {
     glProgramUniform1ui(planner.name(), kRoom, static_cast<GLuint>(room));
 }
 
-void SchoolSurface::Parts::makeVertexArray() const {
-    const unsigned array = vertexArray.name();
-    glVertexArrayElementBuffer(array, tables.indices.name());
-    glVertexArrayVertexBuffer(array, 0, tables.places.name(), 0, sizeof(SkinPlace));
-    glVertexArrayVertexBuffer(array, 1, slots.name(), 0, sizeof(std::uint32_t));
-    glVertexArrayBindingDivisor(array, 1, 1);
-    for (const unsigned attribute : {0U, 1U, 2U, 3U}) {
-        glEnableVertexArrayAttrib(array, attribute);
-        glVertexArrayAttribBinding(array, attribute, attribute == 3 ? 1 : 0);
+void SchoolSurface::Parts::makeVertexArrays() const {
+    describe(surfaceArray, tables.indices, slots);
+    addPlaces(surfaceArray, tables.places, sizeof(SkinPlace));
+    describe(fewArray, tables.fewIndices, slots);
+    addPlaces(fewArray, tables.fewVertices, sizeof(FewTriangles::Vertex));
+    const unsigned few = fewArray.name();
+    for (const unsigned attribute : {4U, 5U}) {
+        glEnableVertexArrayAttrib(few, attribute);
+        glVertexArrayAttribBinding(few, attribute, 0);
     }
-    glVertexArrayAttribFormat(array, 0, 4, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, rest));
-    glVertexArrayAttribFormat(array, 1, 2, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, fin));
-    glVertexArrayAttribIFormat(array, 2, 1, GL_UNSIGNED_INT, offsetof(SkinPlace, part));
-    glVertexArrayAttribIFormat(array, 3, 1, GL_UNSIGNED_INT, 0);
+    using Vertex = FewTriangles::Vertex;
+    glVertexArrayAttribIFormat(few, 4, 1, GL_UNSIGNED_INT, offsetof(Vertex, controlPoint));
+    glVertexArrayAttribFormat(few, 5, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
+    describe(pointArray, pointIndices, slots);
 }
 
 void SchoolSurface::Parts::setConstants() const {
@@ -159,7 +181,7 @@ void SchoolSurface::Parts::setConstants() const {
         glProgramUniform1i(program, kChoosesDetail, options.levelsOfDetail ? 1 : 0);
     }
     glProgramUniform1i(cull.name(), kCulls, options.culling ? 1 : 0);
-    glProgramUniform1ui(planner.name(), kOwn, static_cast<GLuint>(dresses.size()));
+    glProgramUniform1ui(planner.name(), kOwn, static_cast<GLuint>(painters.size()));
 }
 
 void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
@@ -201,7 +223,7 @@ void SchoolSurface::Parts::sort() const {
     glDispatchCompute(groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(scan.name());
-    glDispatchCompute(static_cast<GLuint>(dresses.size()), kDetailLevels, 1);
+    glDispatchCompute(static_cast<GLuint>(painters.size()), kDetailLevels, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(planner.name());
     glDispatchCompute(1, 1, 1);
@@ -232,19 +254,16 @@ void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) 
 // All levels of a species that one program draws go in one call.
 void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
     const std::size_t surfaces = 1 + surfaceOf(options.finest);
-    const auto programOf = [&](SkinPattern pattern, std::size_t surfaceLevel) {
-        return isFins ? programs->finsOf(pattern)
-                      : programs->bodyOf(pattern, static_cast<int>(surfaceLevel));
+    const auto programOf = [&](const SkinPainter& painter, std::size_t surfaceLevel) {
+        return isFins ? painter.fins.name() : painter.bodyOf(static_cast<int>(surfaceLevel));
     };
     const std::size_t table = isFins ? offsetof(FishPlan, fins) : offsetof(FishPlan, bodies);
-    for (std::size_t s = 0; s < dresses.size(); ++s) {
-        const Dress& dress = dresses[s];
+    for (std::size_t s = 0; s < painters.size(); ++s) {
         for (std::size_t first = 0; first < surfaces;) {
-            const unsigned program = programOf(dress.skin.pattern, first);
+            const unsigned program = programOf(painters[s], first);
             std::size_t last = first + 1;
-            while (last < surfaces && programOf(dress.skin.pattern, last) == program) ++last;
+            while (last < surfaces && programOf(painters[s], last) == program) ++last;
             glUseProgram(program);
-            programs->dress(program, dress.skin, dress.eye);
             const std::size_t piece = (turn * kMostSpecies + s) * kSurfaces + first;
             glMultiDrawElementsIndirect(GL_TRIANGLES,
                                         GL_UNSIGNED_INT,
@@ -257,7 +276,7 @@ void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
 }
 
 void SchoolSurface::Parts::drawTurns(bool isFins) const {
-    glBindVertexArray(vertexArray.name());
+    glBindVertexArray(surfaceArray.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
     for (std::size_t turn = 0; turn < turns; ++turn) {
         if (!isFins || turns > 1)
@@ -268,6 +287,41 @@ void SchoolSurface::Parts::drawTurns(bool isFins) const {
         bindStorage(kSurface, surface);
         drawSurfaces(turn, isFins);
     }
+}
+
+void SchoolSurface::Parts::drawTails(std::size_t first,
+                                     std::size_t commands,
+                                     gl::ProgramHandle SkinPainter::*program) const {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
+    for (std::size_t s = 0; s < painters.size(); ++s) {
+        glUseProgram((painters[s].*program).name());
+        glMultiDrawElementsIndirect(
+            GL_TRIANGLES,
+            GL_UNSIGNED_INT,
+            at(offsetof(FishPlan, tails) + (s * kTails + first) * sizeof(FishPlan::Command)),
+            static_cast<GLsizei>(commands),
+            sizeof(FishPlan::Command));
+    }
+}
+
+// Before the few triangles that fade in over them. They hide nothing.
+void SchoolSurface::Parts::drawPoints() const {
+    bindStorage(kSchool, school);
+    bindStorage(kCast, tables.cast);
+    glBindVertexArray(pointArray.name());
+    glDepthMask(GL_FALSE);
+    drawTails(2 * kMeshes, 1, &SkinPainter::point);
+    glDepthMask(GL_TRUE);
+}
+
+void SchoolSurface::Parts::drawFew() const {
+    bindStorage(kSchool, school);
+    bindStorage(kRecorded, tables.recorded);
+    glBindVertexArray(fewArray.name());
+    glEnable(GL_CULL_FACE);
+    drawTails(0, kMeshes, &SkinPainter::fewBody);
+    glDisable(GL_CULL_FACE);  // a sheet has two sides
+    drawTails(kMeshes, kMeshes, &SkinPainter::fewFins);
 }
 
 SchoolSurface::SchoolSurface(std::span<const SchoolSpecies> cast,
@@ -304,14 +358,18 @@ void SchoolSurface::drawBodies() const {
     glDisable(GL_CULL_FACE);
 }
 
-void SchoolSurface::drawFins() const {
+void SchoolSurface::drawBlended() const {
     if (parts_->fish == 0) return;
-    glEnable(GL_CULL_FACE);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (parts_->options.levelsOfDetail) {
+        parts_->drawPoints();
+        parts_->drawFew();
+    }
+    glEnable(GL_CULL_FACE);
     parts_->drawTurns(true);
-    glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
 }
 
 void SchoolSurface::bindRecords() const { parts_->bindRecords(); }
@@ -324,7 +382,7 @@ SurfaceCounts SchoolSurface::counts() const {
     decltype(FishPlan::totals) totals{};
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(parts_->plan.name(), offsetof(FishPlan, totals), sizeof(totals), &totals);
-    for (std::size_t s = 0; s < parts_->dresses.size(); ++s)
+    for (std::size_t s = 0; s < parts_->painters.size(); ++s)
         for (std::size_t level = 0; level < kDetailLevels; ++level)
             counts.atLevel.at(level) += totals.at(s).at(level);
     counts.visible = std::accumulate(counts.atLevel.begin(), counts.atLevel.end(), std::size_t{0});

@@ -81,10 +81,11 @@ class SchoolSurface {
 
     // Draw what the last look found, with its painted skin, lit and seen through the water by
     // light.glsl. Expect the frame's uniform block to be bound (shaders/frame_uniforms.h). Bodies
-    // are solid things. Fins are blended over what is behind them: draw them after the water and all
-    // solid things, before what floats in front. The order is that of the school, in every frame.
+    // are solid things. Points, fish of few triangles and fins are blended over what is behind them:
+    // draw them after the water and all solid things, before what floats in front. The order is that
+    // of the school, in every frame.
     void drawBodies() const;
-    void drawFins() const;
+    void drawBlended() const;
 
     // Makes the records readable by shaders that include fish_record.glsl.
     void bindRecords() const;

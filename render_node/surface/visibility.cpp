@@ -12,7 +12,7 @@ namespace {
 
 // By level, pixels. A control mesh has 26 rings, so that its quads are 2 pixels wide where the mesh
 // takes over, as are the mesh's where the hero does, and so on.
-constexpr DetailLimits kLimits{0.0F, 0.0F, 0.0F, 0.0F, 60.0F, 180.0F, 600.0F};
+constexpr DetailLimits kLimits{0.0F, 2.5F, 4.0F, 14.0F, 60.0F, 180.0F, 600.0F};
 constexpr float kMorph = 1.35F;  // a level is all its own at so many times its limit
 
 }  // namespace

@@ -88,7 +88,7 @@ class SurfaceTest : public testing::Test {
         glBindFramebuffer(GL_FRAMEBUFFER, target.name());
         glEnable(GL_RASTERIZER_DISCARD);
         surface.drawBodies();
-        surface.drawFins();
+        surface.drawBlended();
         glDisable(GL_RASTERIZER_DISCARD);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
