@@ -71,6 +71,8 @@ int main(int argc, char** argv) try {
     app.add_option("--length", wish.lengthMetres, "of the portraits, metres");
     app.add_option("--ball", wish.ball, "so many scad in a ball");
     app.add_option("--ball-away", wish.ballMetres, "metres");
+    app.add_flag_callback(
+        "--no-lod", [&] { still.options.levelsOfDetail = false; }, "all fish are heroes");
     app.add_flag("--open-sea", wish.openSea, "no floor");
     app.add_option("--out", wish.out, "PNG file");
     CLI11_PARSE(app, argc, argv);
