@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/motion/reconstruct.h"
 #include "common/wire/messages.h"
 #include "render_node/gl/target.h"
 #include "render_node/project/pattern_pass.h"
