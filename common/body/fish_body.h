@@ -12,6 +12,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/fin_table.h"
+
 namespace aquarama {
 
 inline constexpr int kNodalPoints = 23;
@@ -67,6 +69,7 @@ struct FishBody {
     std::vector<float> profileHalfWidth;
     glm::vec3 eye{};  // (s, y, radius)
     ControlCage cage;
+    FinTable fins;
 };
 
 struct Species;

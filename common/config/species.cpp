@@ -113,6 +113,7 @@ Species parseSpecies(const std::string& text, const std::string& source) {
     species.size = readSize(root.in("size"));
     species.profile = readProfile(root);
     species.fins = readFins(root.in("fins"), species.profile.stations.back());
+    if (root.has("fin_motion")) species.finMotion = readFinMotion(root.in("fin_motion"));
     species.eye = readEye(root.in("eye"));
     species.skeleton = readSkeleton(root.in("skeleton"));
     species.tissue = readTissue(root.in("tissue"));
@@ -132,6 +133,7 @@ std::string motionText(const std::string& text, const std::string& source) {
     const TextReader reader(text, source, message);
     message.clear_habits();
     message.clear_palette();
+    message.clear_fin_motion();
     std::string kept;
     google::protobuf::TextFormat::PrintToString(message, &kept);
     return kept;

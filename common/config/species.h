@@ -29,12 +29,31 @@ struct Fin {
     std::vector<glm::vec2> base;
     std::vector<glm::vec2> edge;
     float angleRadians = 0.0F;  // paired fins: how far it stands off the flank
+    float flex = 1.0F;          // median fins and tail: how far it ripples
 };
 
 struct Fins {
     Fin firstDorsal;  // the only one, along the whole back, where there is no second
     std::optional<Fin> secondDorsal;
     Fin anal, caudal, pelvic, pectoral;
+};
+
+// How fins move beside the body, at their most; all zero: they keep still (species.proto).
+struct Rowing {
+    float beatHertz = 0;
+    float strokeRadians = 0, featherRadians = 0, openRadians = 0, flapRadians = 0, trimRadians = 0;
+    float alternateBelow = 0, foldAbove = 0;  // body lengths a second
+};
+struct Ripple {
+    float amplitude = 0;  // lengths of a ray
+    float waves = 0;
+    float beatHertz = 0;
+    bool isOpposed = false;
+};
+struct FinMotion {
+    Rowing rowing;
+    Ripple swimming, hovering;
+    float cuppingRadians = 0, pelvicFoldRadians = 0;
 };
 
 struct FishEye {
@@ -106,6 +125,7 @@ struct Species {
     SizeRange size;
     BodyProfile profile;
     Fins fins;
+    FinMotion finMotion;
     FishEye eye;
     Skeleton skeleton;
     Tissue tissue;

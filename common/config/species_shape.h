@@ -11,6 +11,7 @@ namespace aquarama {
 [[nodiscard]] BodyProfile readProfile(const TextPlace& root);
 // tailRoot: the last station of the profile, before which the other fins end.
 [[nodiscard]] Fins readFins(const TextPlace& at, float tailRoot);
+[[nodiscard]] FinMotion readFinMotion(const TextPlace& at);
 [[nodiscard]] FishEye readEye(const TextPlace& at);
 
 }  // namespace aquarama

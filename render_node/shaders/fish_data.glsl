@@ -13,7 +13,8 @@ struct Fish {
     uint segment;
     uint fromSegment;
     uint id;
-    uint padding0, padding1;
+    float speed;  // body lengths a second
+    uint padding;
 };
 layout(std430, binding = 0) readonly buffer School { Fish fish[]; };
 

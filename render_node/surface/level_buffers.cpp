@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
+#include <numbers>
+#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/fin_motion.h"
 #include "common/units/error.h"
 
 namespace aquarama {
@@ -25,13 +29,31 @@ RecordedPoint quantised(glm::vec3 point) {
     return recorded;
 }
 
-void addPosed(const FishBody& body, const NodalPose& pose, std::vector<RecordedPoint>& points) {
+NodalPoints nodesOf(const NodalPose& pose) {
     NodalPoints nodes{};
     for (std::size_t n = 0; n < nodes.size(); ++n)
         nodes.at(n) = glm::vec3(pose.at(n)[0], pose.at(n)[1], pose.at(n)[2]) * kPoseUnit;
+    return nodes;
+}
+
+void addPosed(const FishBody& body,
+              const NodalPoints& nodes,
+              std::vector<RecordedPoint>& points) {
     std::vector<glm::vec3> cage(kControlPoints);
     poseCage(body, nodes, cage);
     std::ranges::transform(cage, std::back_inserter(points), quantised);
+}
+
+// Of the last points, one pose's.
+void addHeadings(const FishBody& body,
+                 const NodalPoints& nodes,
+                 std::vector<RecordedPoint>& points) {
+    std::array<float, kControlPoints> headings{};
+    headingsOf(body, nodes, headings);
+    const std::size_t first = points.size() - headings.size();
+    for (std::size_t i = 0; i < headings.size(); ++i)
+        points[first + i][3] = static_cast<std::int16_t>(
+            std::lround(headings.at(i) / std::numbers::pi_v<float> * 32767.0F));
 }
 
 }  // namespace
@@ -40,11 +62,15 @@ std::vector<RecordedPoint> recordedPoints(const FishBody& body, const Repertoire
     std::vector<RecordedPoint> points;
     points.reserve(std::size_t{kActions} * kPhases * kControlPoints);
     for (const ActionSegment& segment : repertoire.segments) {
-        if (segment.controlPoints.size() == kPhases) {
-            for (const ControlPointPose& pose : segment.controlPoints)
-                for (const auto& [x, y, z] : pose) points.push_back({x, y, z, 0});
-        } else {
-            for (const NodalPose& pose : segment.nodes) addPosed(body, pose, points);
+        for (std::size_t phase = 0; phase < kPhases; ++phase) {
+            const NodalPoints nodes = nodesOf(segment.nodes.at(phase));
+            if (segment.controlPoints.empty()) {
+                addPosed(body, nodes, points);
+            } else {
+                for (const auto& [x, y, z] : segment.controlPoints[phase])
+                    points.push_back({x, y, z, 0});
+            }
+            addHeadings(body, nodes, points);
         }
     }
     return points;
@@ -55,6 +81,14 @@ float reachOf(const std::vector<RecordedPoint>& points) {
     for (const auto& [x, y, z, unused] : points)
         reach = std::max(reach, glm::length(glm::vec3(x, y, z)));
     return reach * kPoseUnit;
+}
+
+gl::Buffer makeFinBuffer(const FinTable& fins) {
+    std::vector<std::byte> bytes(sizeof(FinStyle));
+    std::memcpy(bytes.data(), &fins.style, sizeof(FinStyle));
+    const auto points = std::as_bytes(std::span(fins.points));
+    bytes.insert(bytes.end(), points.begin(), points.end());
+    return makeBuffer(bytes, "fins");
 }
 
 LevelBuffers::LevelBuffers(const LimitTable& table)

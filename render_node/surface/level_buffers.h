@@ -15,7 +15,7 @@
 
 namespace aquarama {
 
-// Four 16-bit numbers, of which the last is unused.
+// A place, body lengths, and a heading (headingsOf()), half turns: 16 bits each.
 using RecordedPoint = std::array<std::int16_t, 4>;
 
 // By segment, phase and control point. Of segments that were captured without control points they
@@ -36,6 +36,9 @@ gl::Buffer makeBuffer(const std::vector<T>& values, const char* label) {
     glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
     return buffer;
 }
+
+// FinTable as fish_pose.glsl reads it.
+[[nodiscard]] gl::Buffer makeFinBuffer(const FinTable& fins);
 
 struct LevelBuffers {
     explicit LevelBuffers(const LimitTable& table);

@@ -20,7 +20,7 @@ namespace aquarama {
 namespace {
 
 // Bindings of shader storage, as fish_data.glsl, fish.comp and fish.vert have them.
-constexpr GLuint kSchool = 0, kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 4;
+constexpr GLuint kSchool = 0, kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 4, kFins = 9;
 // Uniforms of fish.comp and fish.vert.
 constexpr GLint kFirstFish = 0, kFirstVertex = 1, kVertexCount = 2;
 
@@ -54,6 +54,7 @@ struct SchoolSurface::Parts {
           eye{body.eye},
           reachBodyLengths{reachOf(points)},
           recorded{makeBuffer(points, "recorded control points")},
+          finTables{makeFinBuffer(body.fins)},
           programs{std::move(skins)} {
         for (int level = 0; level < kSurfaceLevels; ++level)
             levels.emplace_back(makeLimitTable(body, level));
@@ -78,7 +79,7 @@ struct SchoolSurface::Parts {
     float reachBodyLengths;
     std::size_t roomVertices = 0;
     std::vector<LevelBuffers> levels;
-    gl::Buffer recorded, school, surface;
+    gl::Buffer recorded, finTables, school, surface;
     std::shared_ptr<const SkinPrograms> programs;
 
     std::vector<VisibleFish> visible;
@@ -151,6 +152,7 @@ void SchoolSurface::Parts::evaluate(const Batch& batch) const {
     const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
     bind(batch, programs->surface.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecorded, recorded.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFins, finTables.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFirstEntries, level.firstEntries.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, level.entries.name());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // earlier draws have read what is overwritten

@@ -14,9 +14,11 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
+#include "common/motion/living_cage.h"
 #include "common/skin/limit_table.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/handle.h"
+#include "render_node/shaders/frame_uniforms.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace aquarama {
@@ -40,8 +42,16 @@ glm::quat anyRotation(std::mt19937& random) {
         glm::quat(normal(random), normal(random), normal(random), normal(random)));
 }
 
+constexpr float kSeconds = 3.7F;
+
 class SchoolSurfaceTest : public testing::Test {
   protected:
+    SchoolSurfaceTest() {
+        FrameUniforms uniforms{};
+        uniforms.eyeAndTime.w = kSeconds;
+        glNamedBufferStorage(frameBlock_.name(), sizeof(uniforms), &uniforms, 0);
+        glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());
+    }
     static void SetUpTestSuite() { context() = makeOffscreenContext("mesa", {64, 64}); }
     static void TearDownTestSuite() { context().reset(); }
     static std::unique_ptr<Context>& context() {
@@ -67,7 +77,7 @@ class SchoolSurfaceTest : public testing::Test {
     [[nodiscard]] std::vector<glm::vec3> expectedPositions(const PresentedFish& fish,
                                                            int level) const {
         std::vector<glm::vec3> cage(kControlPoints);
-        controlPoints(repertoire_, fish, cage);
+        livingCage(body_, repertoire_, fish, kSeconds, cage);
         const LimitTable table = makeLimitTable(body_, level);
         std::vector<glm::vec3> positions(table.vertices.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -88,6 +98,7 @@ class SchoolSurfaceTest : public testing::Test {
         return counts.perLevel[0] == 1 ? 0 : counts.perLevel[1] == 1 ? 1 : 2;
     }
 
+    const gl::Buffer frameBlock_;
     const FishBody body_ = test::scad();
     const Repertoire repertoire_ = test::swaying(body_, 0.12F);
     const glm::mat4 clip_ = clipFromCamera(1.0F, 1.5F);
@@ -101,6 +112,7 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
     for (int trial = 0; trial < 30; ++trial) {
         PresentedFish fish =
             test::fishAt({0, 0, -0.3F - 0.15F * static_cast<float>(trial)}, anyRotation(random));
+        fish.speed = 2 * unit(random);
         fish.phase = unit(random);
         fish.fromPhase = unit(random);
         fish.segment = static_cast<std::uint32_t>(trial % kActions);
