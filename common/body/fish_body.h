@@ -33,7 +33,8 @@ enum class CagePart : std::uint8_t {
     SecondDorsal,
     Anal,
     Pelvic,
-    Pectoral
+    Pectoral,
+    Eye  // no vertex of the cage: a ball that is set into the skin
 };
 
 // One vertex of the control cage. Rest coordinates in body lengths: s from nose (0) to caudal tip
@@ -58,6 +59,13 @@ struct ControlCage {
     std::vector<CageCrease> creases;
 };
 
+// Thinner than the cage can draw, in the middle plane of the body (species.proto, Thread).
+struct BodyThread {
+    std::vector<glm::vec2> at;  // (s, y) from its root to its tip
+    float rootWidth = 0.0F, tipWidth = 0.0F;
+    bool isOfFirstDorsal = false;
+};
+
 struct FishBody {
     std::string species;
     float typicalLengthMetres = 0.0F;
@@ -68,6 +76,8 @@ struct FishBody {
     std::vector<float> profileVentral;    // depth below the axis (positive)
     std::vector<float> profileHalfWidth;
     glm::vec3 eye{};  // (s, y, radius)
+    float eyeBulge = 0.0F;  // height over the skin, in radii
+    std::vector<BodyThread> threads;
     ControlCage cage;
     FinTable fins;
 };

@@ -51,6 +51,10 @@ FishBody makeBody(const Species& species) {
     body.profileVentral = species.profile.ventral;
     body.profileHalfWidth = species.profile.halfWidth;
     body.eye = {species.eye.s, species.eye.y, species.eye.radius};
+    body.eyeBulge = species.eye.bulge;
+    for (const Thread& thread : species.threads)
+        body.threads.push_back(
+            {thread.at, thread.rootWidth, thread.tipWidth, thread.isOfFirstDorsal});
     body.cage = makeCage(species);
     body.fins = makeFinTable(species, body.cage);
     return body;

@@ -115,6 +115,7 @@ Species parseSpecies(const std::string& text, const std::string& source) {
     species.fins = readFins(root.in("fins"), species.profile.stations.back());
     if (root.has("fin_motion")) species.finMotion = readFinMotion(root.in("fin_motion"));
     species.eye = readEye(root.in("eye"));
+    species.threads = readThreads(root);
     species.skeleton = readSkeleton(root.in("skeleton"));
     species.tissue = readTissue(root.in("tissue"));
     species.water = {.drag = root.in("water").number("drag", {0, 1e5}),
@@ -134,6 +135,8 @@ std::string motionText(const std::string& text, const std::string& source) {
     message.clear_habits();
     message.clear_palette();
     message.clear_fin_motion();
+    message.clear_threads();
+    message.clear_eye();
     std::string kept;
     google::protobuf::TextFormat::PrintToString(message, &kept);
     return kept;

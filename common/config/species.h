@@ -60,6 +60,14 @@ struct FishEye {
     float s = 0.0F;
     float y = 0.0F;
     float radius = 0.0F;
+    float bulge = 0.35F;  // height over the skin, in radii
+};
+
+// Thinner than the cage can draw, in the middle plane of the body.
+struct Thread {
+    std::vector<glm::vec2> at;  // (s, y) from its root to its tip
+    float rootWidth = 0.0F, tipWidth = 0.0F;  // seen from the side
+    bool isOfFirstDorsal = false;
 };
 
 struct SkeletonRing {
@@ -127,6 +135,7 @@ struct Species {
     Fins fins;
     FinMotion finMotion;
     FishEye eye;
+    std::vector<Thread> threads;
     Skeleton skeleton;
     Tissue tissue;
     Water water;

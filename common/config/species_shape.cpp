@@ -9,7 +9,7 @@ namespace aquarama {
 
 namespace {
 
-constexpr Range kStation{0, 1.2};
+constexpr Range kStation{0, 1.4};  // threads trail behind the tail
 constexpr float kHead = 0.05F;  // no fin stands before it
 constexpr Range kHeight{-1, 1};
 constexpr Range kExtent{0.0005, 0.5};  // body lengths; thinner would fold the skin
@@ -156,10 +156,24 @@ FinMotion readFinMotion(const TextPlace& at) {
     return motion;
 }
 
+std::vector<Thread> readThreads(const TextPlace& root) {
+    std::vector<Thread> threads;
+    for (int i = 0; i < root.count("threads"); ++i) {
+        const TextPlace at = root.in("threads", i);
+        threads.push_back({.at = readPolyline(at, "at"),
+                           .rootWidth = real(at, "root_width", {0.0005, 0.05}),
+                           .tipWidth = real(at, "tip_width", {0, 0.05}),
+                           .isOfFirstDorsal =
+                               at.has("of_first_dorsal") && at.truth("of_first_dorsal")});
+    }
+    return threads;
+}
+
 FishEye readEye(const TextPlace& at) {
     return {.s = real(at, "s", {0, 0.5}),
             .y = real(at, "y", {-0.4, 0.4}),
-            .radius = real(at, "radius", {0.001, 0.2})};
+            .radius = real(at, "radius", {0.001, 0.2}),
+            .bulge = static_cast<float>(at.numberOr("bulge", {0, 1}, 0.35))};
 }
 
 }  // namespace aquarama

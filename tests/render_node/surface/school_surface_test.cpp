@@ -19,6 +19,7 @@
 #include "render_node/context/context.h"
 #include "render_node/gl/handle.h"
 #include "render_node/shaders/frame_uniforms.h"
+#include "render_node/surface/skin_programs.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace aquarama {
