@@ -15,7 +15,7 @@ struct FinStyle {
     float featherAngle, trimAngle, rowHertz, alternateBelow;
     float foldAbove, pelvicFold, swimRipple, swimWaves;
     float hoverRipple, hoverWaves, hoverHertz, opposed;
-    float cupping, padding;
+    float cupping;
 };
 struct FinPoint {
     vec3 arm;

@@ -3,19 +3,34 @@
 #ifndef FISH_POSE_GLSL
 #define FISH_POSE_GLSL
 #include "frame_uniforms.h"
-#include "fish_data.glsl"
+#include "fish_school.glsl"
 #include "fish_fins.glsl"
 
 const uint kControlPoints = 426u;
 const uint kPhases = 64u;
-// 3 x 16 bits a point, body lengths; then its heading, half turns.
+const uint kActions = 8u;
+const uint kPoses = kActions * kPhases * kControlPoints;
+const uint kFinNumbers = 7u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
+// Species by species. First by segment and phase the points: 3 x 16 bits, body lengths, then a
+// heading, half turns; behind them, as OpenGL promises no more buffers, the fins.
 layout(std430, binding = 1) readonly buffer Recorded { uvec2 recorded[]; };
 
-struct FinTable {
-    FinStyle style;
-    FinPoint points[kControlPoints];
-};
-layout(std430, binding = 9) readonly buffer Fins { FinTable finTables[]; };
+vec4 finNumbers(uint species, uint vector) {
+    uint k = species * (kPoses + kFinNumbers) + kPoses + 2u * vector;
+    return uintBitsToFloat(uvec4(recorded[k], recorded[k + 1u]));
+}
+
+FinPoint finPointOf(uint species, uint i) {
+    vec4 arm = finNumbers(species, 7u + 2u * i), place = finNumbers(species, 8u + 2u * i);
+    return FinPoint(arm.xyz, arm.w, place.x, place.y, place.z, floatBitsToUint(place.w));
+}
+
+FinStyle finStyleOf(uint species) {
+    vec4 a = finNumbers(species, 0u), b = finNumbers(species, 1u), c = finNumbers(species, 2u);
+    vec4 d = finNumbers(species, 3u), e = finNumbers(species, 4u), f = finNumbers(species, 5u);
+    return FinStyle(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x,
+                    f.y, f.z, f.w, finNumbers(species, 6u).x);
+}
 
 struct Posed {
     vec3 place;
@@ -23,16 +38,17 @@ struct Posed {
     float drift;  // to the right, body lengths in a radian of the beat
 };
 
-vec4 recordedPoint(uint segment, uint phase, uint point) {
-    uvec2 bits = recorded[(segment * kPhases + phase) * kControlPoints + point];
+vec4 recordedPoint(uint species, uint segment, uint phase, uint point) {
+    uint pose = segment * kPhases + phase;
+    uvec2 bits = recorded[species * (kPoses + kFinNumbers) + pose * kControlPoints + point];
     return vec4(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y));
 }
 
-Posed posedAt(uint segment, float phase, uint point) {
+Posed posedAt(uint species, uint segment, float phase, uint point) {
     float sampled = phase * float(kPhases);
     uint before = uint(floor(sampled)) % kPhases;
-    vec4 from = recordedPoint(segment, before, point);
-    vec4 to = recordedPoint(segment, (before + 1u) % kPhases, point);
+    vec4 from = recordedPoint(species, segment, before, point);
+    vec4 to = recordedPoint(species, segment, (before + 1u) % kPhases, point);
     vec4 here = mix(from, to, fract(sampled));
     float heading = here.w * 0.5 * kWholeTurn;
     vec3 right = vec3(sin(heading), 0.0, cos(heading));
@@ -53,16 +69,16 @@ FinDrive finDriveOf(Fish self) {
 }
 
 vec3 controlPointOf(Fish self, uint i) {
-    Posed pose = posedAt(self.segment, self.phase, i);
+    Posed pose = posedAt(self.species, self.segment, self.phase, i);
     if (self.warpWeight < 1.0) {
-        Posed from = posedAt(self.fromSegment, self.fromPhase, i);
+        Posed from = posedAt(self.species, self.fromSegment, self.fromPhase, i);
         pose.place = mix(from.place, pose.place, self.warpWeight);
         pose.heading = mix(from.heading, pose.heading, self.warpWeight);
         pose.drift = mix(from.drift, pose.drift, self.warpWeight);
     }
-    FinPoint point = finTables[0].points[i];
+    FinPoint point = finPointOf(self.species, i);
     if (point.part == kBodyPart) return pose.place;
-    vec3 offset = finOffset(finTables[0].style, point, finDriveOf(self), pose.drift);
+    vec3 offset = finOffset(finStyleOf(self.species), point, finDriveOf(self), pose.drift);
     return pose.place + turnedBy(pose.heading, offset);
 }
 #endif

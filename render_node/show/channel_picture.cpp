@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include <glm/common.hpp>
@@ -12,6 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/units/error.h"
+#include "common/wall/wall.h"
 #include "render_node/show/presented.h"
 
 namespace aquarama {
@@ -46,13 +48,23 @@ std::vector<Label> helpLabels(float dot) {
     return labels;
 }
 
-std::vector<SceneSpecies> castOf(const Admission& admission) {
-    std::vector<SceneSpecies> cast;
+std::vector<SchoolSpecies> castOf(const Admission& admission) {
+    std::vector<SchoolSpecies> cast;
+    std::span<const FishTraits> rest = admission.welcome.school;
     for (const AdmittedSpecies& admitted : admission.cast) {
         const Species species = parseSpecies(admitted.text, "the master's species file");
-        cast.push_back({makeBody(species), skinOf(species), admitted.repertoire, admitted.fish});
+        const auto own = rest.first(std::min<std::size_t>(admitted.fish, rest.size()));
+        rest = rest.subspan(own.size());
+        cast.push_back({makeBody(species),
+                        skinOf(species),
+                        admitted.repertoire,
+                        {own.begin(), own.end()}});
     }
     return cast;
+}
+
+glm::mat4 clipOf(const View& view) {
+    return view.clipFromCamera * view.cameraFromWorld;
 }
 
 }  // namespace
@@ -65,7 +77,7 @@ std::size_t channelIndex(const Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
-ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
+ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
       school_{admission.welcome.school},
       frustum_{channelFrustum(admission.rig, channel, kMarginRadians)},
@@ -74,7 +86,11 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
       patternPass_{frustum_},
       projection_{map_, admission.rig.channels[channel].id} {
     if (pattern_ == Pattern::World) {
-        scene_.emplace(SceneOptions{.seed = admission.welcome.seed, .place = admission.scene.place},
+        const auto pixel = static_cast<float>(finestPixelRadians(admission.rig));
+        scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
+                                    .place = admission.scene.place,
+                                    .quality = quality,
+                                    .pixelRadians = pixel},
                        castOf(admission));
     } else {
         patternPicture_.emplace(GL_RGBA16F, sceneSize_);
@@ -91,22 +107,19 @@ void ChannelPicture::drawScene(const StateFrame& frame,
         drawPattern();
     glNamedFramebufferTexture(onScene_.name(), GL_COLOR_ATTACHMENT0, sceneTexture_, 0);
     if (overlays.warpGrid) patternPass_.addGrid(onScene_.name(), sceneSize_);
-    if (overlays.fishIds) drawFishIds();
-    if (mind) drawMind(*mind);
+    if (overlays.fishIds) drawFishIds(frame);
+    if (mind) drawMind(frame, *mind);
 }
 
 void ChannelPicture::drawWorld(const StateFrame& frame) {
-    fish_ = presentedFish(frame, school_);
-    food_ = presentedFood(frame);
-    const View view = viewOf(frame.eye);
-    clipFromWorld_ = view.clipFromCamera * view.cameraFromWorld;
+    presentFood(frame, food_);
     const SceneFrame scene{.timeSeconds = presentedSeconds(frame),
                            .eyePositionMetres = frame.eye.positionMetres,
-                           .fish = fish_,
+                           .fish = {frame.before, frame.after, frame.fraction},
                            .food = food_,
                            .daylight = frame.daylight};
     scene_->update(scene);
-    sceneTexture_ = scene_->draw(view);
+    sceneTexture_ = scene_->draw(viewOf(frame.eye));
 }
 
 void ChannelPicture::drawPattern() {
@@ -117,23 +130,25 @@ void ChannelPicture::drawPattern() {
         patternPass_.drawGrey(patternPicture_->framebuffer(), sceneSize_);
 }
 
-std::optional<FishPlace> ChannelPicture::placeOf(const PresentedFish& fish) const {
-    const glm::vec4 clip = clipFromWorld_ * glm::vec4(fish.positionMetres, 1);
+std::optional<FishPlace> ChannelPicture::placeOf(const PresentedFish& fish,
+                                                 const glm::mat4& clipFromWorld) const {
+    const glm::vec4 clip = clipFromWorld * glm::vec4(fish.positionMetres, 1);
     if (clip.w <= 0) return std::nullopt;
     const glm::vec2 size(sceneSize_);
     const glm::vec2 place = (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * size;
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) return std::nullopt;
-    const glm::vec3 across(clipFromWorld_[0].x, clipFromWorld_[1].x, clipFromWorld_[2].x);
+    const glm::vec3 across(clipFromWorld[0].x, clipFromWorld[1].x, clipFromWorld[2].x);
     const float pixelsAMetre = glm::length(across) / clip.w * 0.5F * size.x;
     return FishPlace{place, 0.5F * fish.lengthMetres * pixelsAMetre};
 }
 
 // Each number stands on its fish's body frame.
-void ChannelPicture::drawFishIds() {
+void ChannelPicture::drawFishIds(const StateFrame& frame) {
     const float dot = dotPixels(sceneSize_);
+    const glm::mat4 clipFromWorld = clipOf(viewOf(frame.eye));
     std::vector<Label> labels;
-    for (const PresentedFish& fish : fish_) {
-        const auto place = placeOf(fish);
+    for (const PresentedFish& fish : presentedFish(frame, school_)) {
+        const auto place = placeOf(fish, clipFromWorld);
         if (!place) continue;
         const std::string text = std::to_string(fish.id);
         labels.push_back({place->middle - extentInDots(text) * dot / 2.0F, text});
@@ -141,23 +156,27 @@ void ChannelPicture::drawFishIds() {
     text_.draw(labels, onScene_.name(), sceneSize_, dot);
 }
 
-void ChannelPicture::drawMind(const WatchedMind& mind) {
-    if (mind.fish >= fish_.size()) return;
-    const auto place = placeOf(fish_[mind.fish]);
+void ChannelPicture::drawMind(const StateFrame& frame, const WatchedMind& mind) {
+    const auto fish = presentedFish(frame, school_, mind.fish);
+    if (!fish) return;
+    const auto place = placeOf(*fish, clipOf(viewOf(frame.eye)));
     if (!place) return;
     const float dot = smallDotPixels(sceneSize_);
     text_.draw(mindLabels(*place, mind, sceneSize_, dot), onScene_.name(), sceneSize_, dot);
 }
 
-std::optional<std::uint32_t> ChannelPicture::fishNearest(glm::vec2 pixel) const {
+std::optional<std::uint32_t> ChannelPicture::fishNearest(const StateFrame& frame,
+                                                         glm::vec2 pixel) const {
     const glm::ivec2 texel = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
         map_.placeAndWeight[static_cast<std::size_t>(texel.y * map_.sizePixels.x + texel.x)];
     const glm::vec2 wanted = glm::vec2(lit.x, 1.0F - lit.y) * glm::vec2(sceneSize_);
+    const glm::mat4 clipFromWorld = clipOf(viewOf(frame.eye));
+    const std::vector<PresentedFish> fish = presentedFish(frame, school_);
     std::optional<std::uint32_t> nearest;
     float least = std::numeric_limits<float>::infinity();
-    for (std::uint32_t i = 0; i < fish_.size(); ++i) {
-        const auto place = placeOf(fish_[i]);
+    for (std::uint32_t i = 0; i < fish.size(); ++i) {
+        const auto place = placeOf(fish[i], clipFromWorld);
         if (!place) continue;
         const float distance = glm::distance(place->middle, wanted);
         if (distance >= least) continue;

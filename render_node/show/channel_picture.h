@@ -26,15 +26,16 @@ namespace aquarama {
 // Owns its GL objects; construct, use and destroy with the same context current.
 class ChannelPicture {
   public:
-    ChannelPicture(const Admission& admission, std::size_t channel);
+    ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality);
 
     // The picture of the channel's frustum, in linear light, with what belongs to the world.
     void drawScene(const StateFrame& frame,
                    const Overlays& overlays,
                    const std::optional<WatchedMind>& mind = std::nullopt);
-    // Of the fish that the last scene shows, the one that a pixel (from the top left corner) is
-    // nearest to; its place in the school.
-    [[nodiscard]] std::optional<std::uint32_t> fishNearest(glm::vec2 pixel) const;
+    // Of the fish of a frame, the one that a pixel (from the top left corner) is nearest to; its
+    // place in the school.
+    [[nodiscard]] std::optional<std::uint32_t> fishNearest(const StateFrame& frame,
+                                                           glm::vec2 pixel) const;
     // The projector's pixels of the scene that was drawn last, into the framebuffer's lower left
     // corner.
     void project(unsigned framebuffer, Encoding encoding, const Overlays& overlays);
@@ -43,11 +44,12 @@ class ChannelPicture {
   private:
     void drawWorld(const StateFrame& frame);
     void drawPattern();
-    void drawFishIds();
-    void drawMind(const WatchedMind& mind);
+    void drawFishIds(const StateFrame& frame);
+    void drawMind(const StateFrame& frame, const WatchedMind& mind);
     [[nodiscard]] View viewOf(const Eye& eye) const;
     // In the scene's pixels, from its top left corner; nothing for what it does not show.
-    [[nodiscard]] std::optional<FishPlace> placeOf(const PresentedFish& fish) const;
+    [[nodiscard]] std::optional<FishPlace> placeOf(const PresentedFish& fish,
+                                                   const glm::mat4& clipFromWorld) const;
 
     Pattern pattern_;
     std::vector<FishTraits> school_;
@@ -60,9 +62,7 @@ class ChannelPicture {
     Projection projection_;
     TextOverlay text_;
     gl::Framebuffer onScene_;  // to draw over the scene's texture
-    std::vector<PresentedFish> fish_;
     std::vector<FoodParticle> food_;
-    glm::mat4 clipFromWorld_{1.0F};
     unsigned sceneTexture_ = 0;
     Frame frame_;
 };

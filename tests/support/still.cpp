@@ -28,8 +28,8 @@ glm::mat3 worldFromCamera(const Camera& camera) {
 
 // Of one species after the other, as a scene takes them.
 struct Cast {
-    std::vector<SceneSpecies> species;
-    std::vector<PresentedFish> fish;
+    std::vector<SchoolSpecies> species;
+    std::vector<FishRecord> fish;
 };
 
 Cast castOf(const std::vector<StillFish>& fish) {
@@ -40,17 +40,17 @@ Cast castOf(const std::vector<StillFish>& fish) {
     for (const std::string& name : names) {
         const Species species = castMember(name);
         const FishBody body = makeBody(species);
-        std::size_t count = 0;
+        std::vector<FishTraits> traits;
         for (const StillFish& one : fish) {
             if (one.species != name) continue;
             PresentedFish shown = fishAt(one.placeMetres, one.worldFromBody, one.lengthMetres);
             shown.phase = one.phase;
             shown.speed = one.speedBodyLengths;
             shown.id = static_cast<std::uint32_t>(cast.fish.size());
-            cast.fish.push_back(shown);
-            ++count;
+            cast.fish.push_back(recordOf(shown));
+            traits.push_back(traitsOf(shown));
         }
-        cast.species.push_back({body, skinOf(species), swaying(body, kSway), count});
+        cast.species.push_back({body, skinOf(species), swaying(body, kSway), traits});
     }
     return cast;
 }
@@ -138,7 +138,7 @@ Picture pictureOf(const Still& still) {
     SceneFrame frame;
     frame.timeSeconds = still.timeSeconds;
     frame.eyePositionMetres = still.camera.eyeMetres;
-    frame.fish = cast.fish;
+    frame.fish.after = cast.fish;
     frame.daylight = still.daylight;
     scene.update(frame);
     return encoded(scene.draw(viewOf(still.camera)), still.camera.sizePixels);

@@ -75,8 +75,8 @@ class ChannelPictureTest : public testing::Test {
     struct Stage {
         std::unique_ptr<Context> context = makeOffscreenContext("auto", {480, 360});
         Admission admission = admissionToTheWorld();
-        ChannelPicture picture{admission, kMiddle};
-        ChannelPicture left{admission, kLeft};
+        ChannelPicture picture{admission, kMiddle, QualityTier::Low};
+        ChannelPicture left{admission, kLeft, QualityTier::Low};
         gl::Target target{GL_RGBA8, picture.sizePixels()};
         gl::Target deep{GL_RGBA16, picture.sizePixels()};
     };
@@ -165,11 +165,10 @@ TEST_F(ChannelPictureTest, theFishNearestToThePointerIsTheOneThatIsSeenThere) {
     two.welcome.school.push_back({.id = 18, .lengthMillimetres = 240});
     two.cast.front().fish = 2;
     two.welcome.pattern = Pattern::World;
-    ChannelPicture picture(two, kMiddle);
-    EXPECT_EQ(picture.fishNearest({240, 180}), std::nullopt);
-    picture.drawScene(frame, {});
-    EXPECT_EQ(picture.fishNearest(glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);
-    EXPECT_EQ(picture.fishNearest({5, 180}), 1U);
+    ChannelPicture picture(two, kMiddle, QualityTier::Low);
+    EXPECT_EQ(picture.fishNearest(emptySea(), {240, 180}), std::nullopt);
+    EXPECT_EQ(picture.fishNearest(frame, glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);
+    EXPECT_EQ(picture.fishNearest(frame, {5, 180}), 1U);
 }
 
 TEST_F(ChannelPictureTest, aMindIsWrittenBesideItsFish) {
