@@ -46,7 +46,7 @@ ShaderHandle compileShader(const std::string& file, const ReadShader& read) {
         std::array<char, 4096> log{};
         glGetShaderInfoLog(shader.name(), log.size(), nullptr, log.data());
         throw Error("render_node/shaders/" + file +
-                    " does not compile: " + trimmed(withFiles(log.data(), source.files)));
+                    " does not compile: " + trimmed(withFiles(log.data(), source)));
     }
     return shader;
 }

@@ -10,8 +10,12 @@
 namespace aquarama::gl {
 
 struct ShaderText {
-    std::string text;                // with its #version; #line says where each line came from
-    std::vector<std::string> files;  // by the numbers that #line gives them
+    struct Place {
+        std::string file;
+        int line = 0;  // from 1
+    };
+    std::string text;            // with its #version
+    std::vector<Place> sources;  // of each line, from the first
 };
 
 // The text of a file of this name; throws Error where there is none.
@@ -20,8 +24,9 @@ using ReadShader = std::function<std::string_view(std::string_view name)>;
 // "#version 450 core" and the file, its #include "name" lines expanded.
 [[nodiscard]] ShaderText expand(std::string_view name, const ReadShader& read);
 
-// A driver's log with files in place of their numbers, "water.glsl:12" for what Mesa writes as
-// 2:12, NVIDIA as 2(12) and others as ERROR: 2:12.
-[[nodiscard]] std::string withFiles(const std::string& log, const std::vector<std::string>& files);
+// A driver's log with places in files, "water.glsl:12", for the lines of the text that drivers
+// write as 0:40, NVIDIA's as 0(40). The text has no #line for them: Mesa loses its file where an
+// error is found after parsing.
+[[nodiscard]] std::string withFiles(const std::string& log, const ShaderText& shader);
 
 }  // namespace aquarama::gl

@@ -72,14 +72,16 @@ TEST(Shaders, aMistakeIsPlacedInItsFileAndLine) {
     EXPECT_THAT(logOfCompiling("worse.frag", brokenShader), testing::HasSubstr("wrong.glsl:3"));
 }
 
+// In the text that is compiled: the version, the third file's two lines, the second's first and
+// third, and so on.
 TEST(Shaders, theLogOfEveryDriverNamesFiles) {
-    const std::vector<std::string> files{"a.frag", "b.glsl"};
-    EXPECT_EQ(withFiles("1:12(5): error: no\n0:3(1): warning: yes\n", files),
-              "b.glsl:12(5): error: no\na.frag:3(1): warning: yes\n");
-    EXPECT_EQ(withFiles("1(12) : error C1008: no\n", files), "b.glsl:12 : error C1008: no\n");
-    EXPECT_EQ(withFiles("ERROR: 1:12: no\n", files), "ERROR: b.glsl:12: no\n");
-    EXPECT_EQ(withFiles("7:1(1): error: a file that is not ours", files),
-              "7:1(1): error: a file that is not ours");
+    const ShaderText shader = expand("worse.frag", brokenShader);
+    EXPECT_EQ(withFiles("0:8(5): error: no\n0:3(1): warning: yes\n", shader),
+              "wrong.glsl:3(5): error: no\ndeep.glsl:1(1): warning: yes\n");
+    EXPECT_EQ(withFiles("0(5) : error C1008: no\n", shader), "middle.glsl:3 : error C1008: no\n");
+    EXPECT_EQ(withFiles("ERROR: 0:9: no\n", shader), "ERROR: worse.frag:3: no\n");
+    EXPECT_EQ(withFiles("0:99(1): error: a line that is not ours", shader),
+              "0:99(1): error: a line that is not ours");
 }
 
 TEST(Target, isReadTopRowFirst) {
