@@ -34,8 +34,10 @@ std::string trimmed(std::string log) {
 
 }  // namespace
 
-ShaderHandle compileShader(const std::string& file, const ReadShader& read) {
-    const ShaderText source = expand(file, read);
+ShaderHandle compileShader(const std::string& file,
+                           std::span<const Replacement> replacements,
+                           const ReadShader& read) {
+    const ShaderText source = expand(file, read, replacements);
     const char* text = source.text.c_str();
     ShaderHandle shader{stageOf(file)};
     glShaderSource(shader.name(), 1, &text, nullptr);
@@ -61,10 +63,11 @@ std::vector<std::string_view> shaderNames() {
     return names;
 }
 
-ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles) {
+ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
+                          std::span<const Replacement> replacements) {
     ProgramHandle program;
     for (const std::string& file : shaderFiles) {
-        const auto shader = compileShader(file);
+        const auto shader = compileShader(file, replacements);
         glAttachShader(program.name(), shader.name());
     }
     glLinkProgram(program.name());

@@ -2,6 +2,7 @@
 // Shader programs from the files of render_node/shaders, which are embedded at build time.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,9 +25,11 @@ using ShaderHandle = Handle<ShaderTraits>;
 // The stage follows from the ending: .vert .frag .comp. Throws Error with the driver's log, which
 // names file and line of each mistake, also in an included file.
 [[nodiscard]] ShaderHandle compileShader(const std::string& file,
+                                         std::span<const Replacement> replacements = {},
                                          const ReadShader& read = shaderSource);
 
 // Compiles and links; the first name labels the program. Throws Error as above.
-[[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles);
+[[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
+                                        std::span<const Replacement> replacements = {});
 
 }  // namespace aquarama::gl

@@ -14,7 +14,15 @@ void addLine(ShaderText& shader, std::string_view line, std::string_view file, i
     shader.sources.push_back({std::string(file), number});
 }
 
-void addFile(ShaderText& shader, std::string_view name, const ReadShader& read) {
+std::string_view replaced(std::string_view file, std::span<const Replacement> replacements) {
+    const auto found = std::ranges::find(replacements, file, &Replacement::file);
+    return found == replacements.end() ? file : found->by;
+}
+
+void addFile(ShaderText& shader,
+             std::string_view name,
+             const ReadShader& read,
+             std::span<const Replacement> replacements) {
     constexpr std::string_view kInclude = "#include \"";
     std::string_view rest = read(name);
     for (int number = 1; !rest.empty(); ++number) {
@@ -22,7 +30,11 @@ void addFile(ShaderText& shader, std::string_view name, const ReadShader& read) 
         const std::string_view line = rest.substr(0, end);
         rest.remove_prefix(end);
         if (line.starts_with(kInclude))
-            addFile(shader, line.substr(kInclude.size(), line.rfind('"') - kInclude.size()), read);
+            addFile(shader,
+                    replaced(line.substr(kInclude.size(), line.rfind('"') - kInclude.size()),
+                             replacements),
+                    read,
+                    replacements);
         else
             addLine(shader, line, name, number);
     }
@@ -30,10 +42,12 @@ void addFile(ShaderText& shader, std::string_view name, const ReadShader& read) 
 
 }  // namespace
 
-ShaderText expand(std::string_view name, const ReadShader& read) {
+ShaderText expand(std::string_view name,
+                  const ReadShader& read,
+                  std::span<const Replacement> replacements) {
     ShaderText shader;
     addLine(shader, "#version 450 core", name, 0);
-    addFile(shader, name, read);
+    addFile(shader, name, read, replacements);
     return shader;
 }
 

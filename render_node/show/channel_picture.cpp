@@ -91,10 +91,11 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, 
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
     if (world)
-        scene_.emplace(
-            SceneOptions{
-                .seed = admission.welcome.seed, .place = admission.scene.place, .quality = quality},
-            castOf(admission));
+        scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
+                                    .place = admission.scene.place,
+                                    .water = admission.scene.water.jerlov,
+                                    .quality = quality},
+                       castOf(admission));
 }
 
 void ChannelPicture::drawScene(const StateFrame& frame,

@@ -21,7 +21,7 @@ bool isStage(std::string_view name) {
 // Compiled alone: neighbours in the pipeline are not needed.
 std::string logOfCompiling(const std::string& name, const ReadShader& read = shaderSource) {
     try {
-        (void)compileShader(name, read);
+        (void)compileShader(name, {}, read);
     } catch (const Error& error) {
         return error.what();
     }
