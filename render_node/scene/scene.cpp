@@ -23,9 +23,6 @@ namespace aquarama {
 
 namespace {
 
-// Undoes about the water above the eye, so that near things keep their colours and distance stays
-// blue.
-constexpr float kFilterDepthMetres = 4.9F;
 constexpr int kFlakes = 9000;
 
 // The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
@@ -38,11 +35,13 @@ glm::vec4 daylightOf(float daylight) {
 }
 
 // What is the same for all views of a frame.
-FrameUniforms frameUniforms(const SceneFrame& frame, float pixelRadians) {
+FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, float pixelRadians) {
     FrameUniforms uniforms{};
     uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, static_cast<float>(frame.timeSeconds));
     uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
-    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
+    uniforms.sunAndFilterDepth = glm::vec4(
+        sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
+    uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
     uniforms.daylight = daylightOf(frame.daylight);
     return uniforms;
 }
@@ -69,7 +68,7 @@ struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
-          light{chosen.seed, kFilterDepthMetres},
+          light{chosen.seed, chosen.water},
           picture{quality.samples},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
@@ -162,7 +161,7 @@ SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
-    parts.uniforms = frameUniforms(frame, parts.options.pixelRadians);
+    parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
     parts.fish.assign(frame.fish.begin(), frame.fish.end());
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();

@@ -146,8 +146,8 @@ TEST_F(Crossing, bothProjectorsShowTheSameFish) {
             }
     }
     RecordProperty("worst_codes", std::to_string(worst));
-    EXPECT_GT(blocks, 200);
-    EXPECT_LT(worst, 3.0);
+    EXPECT_GT(blocks, 100);
+    EXPECT_LT(worst, 2.0);
 }
 
 TEST_F(Crossing, aNodeThatHasJustStartedDrawsWhatAVeteranDraws) {
