@@ -81,10 +81,22 @@ struct FoodDrop {
     std::uint32_t pellets = 12;
 };
 
+// Where the submarine goes when nobody steers it: a closed path through all stops, in the open sea
+// without any round the middle of the water through the eye.
+struct TourStop {
+    glm::vec3 at{};
+    std::optional<glm::vec3> lookAt;  // without: where the school is drawn to
+    SourcePlace place = {};
+};
+struct SceneTour {
+    double metresPerSecond = 0.4;
+    std::vector<TourStop> stops;
+};
+
 struct Scene {
     std::string name = "reef";
     PlaceKind place = PlaceKind::Reef;
-    glm::vec3 eye{0.0F, -6.0F, 0.0F};  // where the submarine stands, looking along -z
+    glm::vec3 eye{0.0F, -6.0F, 0.0F};  // where the submarine begins, looking along -z
     SourcePlace eyePlace = {};
     SceneWater water;
     SourcePlace waterPlace = {};
@@ -93,6 +105,8 @@ struct Scene {
     Day day;
     std::vector<FoodDrop> drops;
     std::vector<CastMember> cast;  // at least one; the school first, which an open sea may lack
+    std::optional<SceneTour> tour;  // without: the submarine stays at the eye
+    double idleSeconds = 20;        // without a hand, until it steers itself
 };
 
 // Throws Error with file:line:column for what the schema does not allow, for water out of the sea

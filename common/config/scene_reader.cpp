@@ -19,6 +19,9 @@ constexpr Range kTurn{-180, 180};
 constexpr std::uint32_t kMostPelletsADrop = 256;
 constexpr int kMostDrops = 1000;
 constexpr int kMostMembers = 64;
+constexpr float kHighestStopMetres = -1;
+constexpr int kFewestStops = 3;
+constexpr int kMostStops = 64;
 
 glm::vec3 readPoint(const TextPlace& at) {
     return {at.number("x_m", kSideways), at.number("y_m", kHeight), at.number("z_m", kSideways)};
@@ -113,6 +116,29 @@ CastMember readMember(const TextPlace& at, const Scene& scene) {
     return member;
 }
 
+TourStop readStop(const TextPlace& at) {
+    TourStop stop{.at = readPoint(at.in("at")), .lookAt = {}, .place = at.place()};
+    if (at.has("look_at")) stop.lookAt = readPoint(at.in("look_at"));
+    if (stop.at.y > kHighestStopMetres)
+        at.refuse("at", "the stop is within a metre of the surface, y = 0: lower it");
+    return stop;
+}
+
+SceneTour readTour(const TextPlace& at, PlaceKind place) {
+    SceneTour tour{.metresPerSecond = at.numberOr("speed_m_s", {0.1, 0.6}, 0.4), .stops = {}};
+    const int count = at.count("stops");
+    if (count == 0 && place == PlaceKind::Reef)
+        at.refuse("a tour of a reef needs stops: add `stops { at { ... } }`, three at least");
+    if (count > 0 && count < kFewestStops)
+        at.refuse("stops", "a closed path needs three stops: add some", 0);
+    if (count > kMostStops)
+        at.refuse("stops",
+                  "more than " + std::to_string(kMostStops) + " stops: take fewer",
+                  kMostStops);
+    for (int i = 0; i < count; ++i) tour.stops.push_back(readStop(at.in("stops", i)));
+    return tour;
+}
+
 std::vector<CastMember> readCast(const TextPlace& root, const Scene& scene) {
     const int count = root.count("cast");
     if (count < 1)
@@ -161,6 +187,8 @@ Scene parseScene(const std::string& text, const std::string& source) {
         if (i > 0 && scene.drops.back().atSeconds < scene.drops[scene.drops.size() - 2].atSeconds)
             root.in("drops", i).refuse("at_s", "at_s is before that of the drop above: sort them");
     }
+    if (root.has("tour")) scene.tour = readTour(root.in("tour"), scene.place);
+    scene.idleSeconds = root.numberOr("idle_s", {1, 86400}, Scene{}.idleSeconds);
     scene.cast = readCast(root, scene);
     return scene;
 }

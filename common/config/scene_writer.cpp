@@ -56,6 +56,15 @@ void write(const CastMember& member, v1::CastMember& out) {
     if (member.start) write(*member.start, *out.mutable_start());
 }
 
+void write(const SceneTour& tour, v1::Tour& out) {
+    out.set_speed_m_s(tour.metresPerSecond);
+    for (const TourStop& stop : tour.stops) {
+        v1::TourStop& written = *out.add_stops();
+        write(stop.at, *written.mutable_at());
+        if (stop.lookAt) write(*stop.lookAt, *written.mutable_look_at());
+    }
+}
+
 }  // namespace
 
 std::string writeScene(const Scene& scene) {
@@ -69,6 +78,8 @@ std::string writeScene(const Scene& scene) {
     write(scene.day, *out.mutable_day());
     for (const FoodDrop& drop : scene.drops) write(drop, *out.add_drops());
     for (const CastMember& member : scene.cast) write(member, *out.add_cast());
+    if (scene.tour) write(*scene.tour, *out.mutable_tour());
+    out.set_idle_s(scene.idleSeconds);
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);
     return text;
