@@ -69,7 +69,7 @@ struct SceneRenderer::Parts {
         : options{chosen},
           quality{qualityOf(chosen.quality)},
           light{chosen.seed, chosen.water},
-          picture{quality.samples},
+          picture{quality},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {

@@ -16,7 +16,7 @@ namespace aquarama {
 
 namespace {
 
-constexpr int kRanges = 64, kDepths = 32, kRises = 32;
+constexpr int kRanges = 64, kDepths = 64, kRises = 32;
 constexpr int kSightRanges = 40, kSightRises = 32, kSightAzimuths = 9;  // as in water.glsl
 constexpr double kOpenWaterMetres = 60.0;
 // Eyes: closer near the surface, where the light changes most.
