@@ -19,7 +19,7 @@ void main() {
     vec3 own = textureLod(scene, uv, 0.0).rgb;
     float range = rangeOf(here.ahead, textureLod(depth, uv, 0.0).r);
     float share = shareSpread(range), sigma = sigmaAt(range);
-    float weights = share / (sigma * sigma);
+    float weights = share;
     vec3 sum = own * weights;
     for (int i = 0; i < kTaps; ++i) {
         float away = 2.0 * sigma * sqrt((float(i) + 0.5) / float(kTaps));
@@ -27,9 +27,8 @@ void main() {
         vec3 tap = beside(here, away * vec2(cos(turn), sin(turn)));
         vec2 place = uvOf(tap);
         float tapRange = rangeOf(tap, textureLod(depth, place, 0.0).r);
-        float tapSigma = sigmaAt(tapRange);
-        float x = away / tapSigma;
-        float weight = shareSpread(tapRange) * exp(-0.5 * x * x) / (tapSigma * tapSigma);
+        float x = away / sigmaAt(tapRange);
+        float weight = shareSpread(tapRange) * exp(-0.5 * x * x);
         sum += weight * textureLod(scene, place, 0.0).rgb;
         weights += weight;
     }
