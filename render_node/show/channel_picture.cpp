@@ -13,6 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/units/error.h"
+#include "render_node/shaders/post_radii.h"
 #include "render_node/show/presented.h"
 
 namespace aquarama {
@@ -21,6 +22,7 @@ namespace {
 
 // Beyond what the projector lights, so that filters which read neighbours have some: 1 degree.
 constexpr double kMarginRadians = 0.0175;
+static_assert(double{kPostReach} <= kMarginRadians);
 constexpr float kNearMetres = 0.05F;
 
 // Dots large enough to be read from the sweet spot.
