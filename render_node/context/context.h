@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "common/config/rig.h"
+#include "render_node/context/hands.h"
 
 namespace aquarama {
 
@@ -42,6 +43,8 @@ class Context {
     [[nodiscard]] virtual std::optional<glm::vec2> nextClick() = 0;
     // Where the mouse points, as above; nothing while it is outside the window.
     [[nodiscard]] virtual std::optional<glm::vec2> pointer() const = 0;
+    // What is held now; keys and mouse of this window only, gamepads of this machine.
+    [[nodiscard]] virtual Hands hands() const = 0;
 };
 
 inline constexpr char kEscapeKey = '\x1b';

@@ -158,6 +158,7 @@ class OffscreenContext final : public Context {
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
+    [[nodiscard]] Hands hands() const override { return {}; }
 
   private:
     glm::ivec2 sizePixels_;

@@ -40,7 +40,7 @@ class ChannelShow {
     void feed(const Eye& eye);
     // Where in the picture a place of the window lies; where there is none, its middle.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
-    [[nodiscard]] std::optional<WatchedMind> watchMind();
+    [[nodiscard]] std::optional<WatchedMind> watchMind(const StateFrame& frame);
     void film(Frame frame);
 
     Session& session_;

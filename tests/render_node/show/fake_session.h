@@ -90,6 +90,7 @@ class CountingContext : public Context {
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
+    [[nodiscard]] Hands hands() const override { return {}; }
 
     std::optional<long> lostAfterSwaps_;
 
