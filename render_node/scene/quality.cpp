@@ -5,12 +5,53 @@
 
 namespace aquarama {
 
+namespace {
+
+constexpr LightQuality kMediumLight{.waveTexels = 128,
+                                    .rippleTexels = 128,
+                                    .surfaceTaps = 2,
+                                    .causticLayers = 2,
+                                    .causticTexels = 512,
+                                    .causticCells = 120,
+                                    .shaftTexels = 256,
+                                    .shaftSteps = 32,
+                                    .shaftShadows = true,
+                                    .shadowTexels = 1024,
+                                    .fishShadowTexels = 512,
+                                    .flakes = 14000};
+constexpr LightQuality kHighLight{.waveTexels = 192,
+                                  .rippleTexels = 256,
+                                  .surfaceTaps = 4,
+                                  .causticLayers = 4,
+                                  .causticTexels = 512,
+                                  .causticCells = 160,
+                                  .shaftTexels = 512,
+                                  .shaftSteps = 48,
+                                  .shaftShadows = true,
+                                  .shadowTexels = 2048,
+                                  .fishShadowTexels = 1024,
+                                  .flakes = 20000};
+constexpr LightQuality kUltraLight{.waveTexels = 192,
+                                   .rippleTexels = 256,
+                                   .surfaceTaps = 8,
+                                   .causticLayers = 4,
+                                   .causticTexels = 1024,
+                                   .causticCells = 200,
+                                   .shaftTexels = 768,
+                                   .shaftSteps = 64,
+                                   .shaftShadows = true,
+                                   .shadowTexels = 2048,
+                                   .fishShadowTexels = 1024,
+                                   .flakes = 20000};
+
+}  // namespace
+
 Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{
-        Quality{.samples = 1},
-        Quality{.samples = 1},
-        Quality{.samples = 4},
-        Quality{.samples = 4},
+        Quality{.samples = 1, .light = {}},
+        Quality{.samples = 1, .light = kMediumLight},
+        Quality{.samples = 4, .light = kHighLight},
+        Quality{.samples = 4, .light = kUltraLight},
     };
     return kTiers.at(static_cast<std::size_t>(tier));
 }

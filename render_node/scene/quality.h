@@ -17,8 +17,25 @@ enum class QualityTier : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "high", "ultra"};
 
+// Of the sunlight in the sea: waves, caustics, shafts, shadows, snow. Texels are of one side.
+struct LightQuality {
+    int waveTexels = 96;
+    int rippleTexels = 96;
+    int surfaceTaps = 1;      // of the surface along a pixel's long side
+    int causticLayers = 1;    // depths at which the net of light is drawn
+    int causticTexels = 256;
+    int causticCells = 72;    // of the light front, a side
+    int shaftTexels = 128;    // of the map of all directions
+    int shaftSteps = 24;      // along a direction
+    bool shaftShadows = false;  // of rocks, in the shafts
+    int shadowTexels = 1024;  // of the place's shadows
+    int fishShadowTexels = 256;
+    int flakes = 9000;  // of marine snow
+};
+
 struct Quality {
     int samples = 1;  // of multisampling
+    LightQuality light;
 };
 
 [[nodiscard]] Quality qualityOf(QualityTier tier);

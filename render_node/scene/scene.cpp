@@ -27,7 +27,6 @@ namespace {
 // Undoes about the water above the eye, so that near things keep their colours and distance stays
 // blue.
 constexpr float kFilterDepthMetres = 4.9F;
-constexpr int kFlakes = 9000;
 
 // All channels of a wall are about as large, so neighbours agree.
 float detailOf(glm::ivec2 sizePixels) {
@@ -71,13 +70,19 @@ struct Bottom {
     Meadow meadow;
 };
 
+std::size_t fishOf(std::span<const SceneSpecies> cast) {
+    std::size_t sum = 0;
+    for (const SceneSpecies& species : cast) sum += species.fish;
+    return sum;
+}
+
 }  // namespace
 
 struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
-          light{chosen.seed, kFilterDepthMetres},
+          light{{chosen.seed, kFilterDepthMetres, quality.light, fishOf(cast)}},
           picture{quality.samples},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
@@ -94,9 +99,11 @@ struct SceneRenderer::Parts {
                 skins);
             fishOfSchool.push_back(species.fish);
         }
+        if (bottom) bakeShadows();
     }
 
     void setUniforms() const;
+    void bakeShadows();
     void cullFish();
     void drawSolids(const Viewpoint& viewpoint);
     void drawWater() const;
@@ -121,6 +128,20 @@ struct SceneRenderer::Parts {
 void SceneRenderer::Parts::setUniforms() const {
     glNamedBufferSubData(frameBlock.name(), 0, sizeof(uniforms), &uniforms);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock.name());
+}
+
+// Of the place as it stands, as rays of light see it.
+void SceneRenderer::Parts::bakeShadows() {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    light.shade().setPlace([&](const glm::mat4& clipFromWorld) {
+        uniforms.clipFromWorld = clipFromWorld;
+        setUniforms();
+        light.bind();
+        const Viewpoint everything{
+            Frustum{clipFromWorld}, kEyePosition, false, options.levelsOfDetail, 1.0F};
+        bottom->reef.draw(everything);
+        bottom->ground.draw(everything);
+    });
 }
 
 void SceneRenderer::Parts::cullFish() {
@@ -158,7 +179,7 @@ void SceneRenderer::Parts::drawSnow() const {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
     glEnable(GL_PROGRAM_POINT_SIZE);
-    glDrawArrays(GL_POINTS, 0, kFlakes);
+    glDrawArrays(GL_POINTS, 0, quality.light.flakes);
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
 }
@@ -174,7 +195,7 @@ void SceneRenderer::update(const SceneFrame& frame) {
     parts.fish.assign(frame.fish.begin(), frame.fish.end());
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
-    parts.light.update(frame.timeSeconds, frame.eyePositionMetres);
+    parts.light.update(frame.timeSeconds, frame.eyePositionMetres, parts.fish);
 }
 
 unsigned SceneRenderer::draw(const View& view) {

@@ -9,40 +9,52 @@
 #include <glm/vec3.hpp>
 
 #include "render_node/gl/handle.h"
+#include "render_node/scene/quality.h"
+#include "render_node/scene/sea_shade.h"
 #include "render_node/scene/water_tables.h"
 #include "render_node/scene/waves.h"
 
 namespace aquarama {
 
+struct SeaLightOptions {
+    std::uint32_t seed = 1;
+    float filterDepthMetres = 0.0F;  // how much of the way down the diver's filter undoes
+    LightQuality quality;
+    std::size_t mostFish = 0;  // that throw a shadow
+    bool calm = false;         // a surface without waves
+};
+
 class SeaLight {
   public:
-    // filterDepthMetres: how much of the way down the diver's filter undoes.
-    SeaLight(std::uint32_t seed, float filterDepthMetres);
+    explicit SeaLight(const SeaLightOptions& options);
 
     // What is the same for all views. Expects the frame's uniform block to be bound.
-    void update(double timeSeconds, glm::vec3 sharedEyeMetres);
+    void update(double timeSeconds, glm::vec3 sharedEyeMetres, std::span<const PresentedFish> fish);
     // Only where the view looks.
     void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
     void bind() const;  // to the units that water.glsl names
 
-    [[nodiscard]] const gl::Texture& causticTile() const { return causticTile_; }
+    [[nodiscard]] SeaShade& shade() { return shade_; }
+    [[nodiscard]] const gl::Texture& causticLayers() const { return causticLayers_; }
     [[nodiscard]] const gl::Texture& shaftMap() const { return shaftMap_; }
 
   private:
     void drawWaves();
     void drawCaustics();
 
+    LightQuality quality_;
     float filterDepthMetres_;
-    Waves waves_;
+    Sea sea_;
     Inscatter inscatter_;
     float tableDepthMetres_;
-    gl::Texture direct_, inscatterTable_, openWater_;
-    gl::Texture waveTile_, causticTile_, shaftMap_;
-    gl::Framebuffer waveTarget_, causticTarget_, shaftTarget_;
+    gl::Texture direct_, inscatterTable_, openWater_, cloudTile_;
+    gl::Texture waveTile_, rippleTile_, causticLayers_, shaftMap_;
+    gl::Framebuffer waveTarget_, rippleTarget_, causticTarget_, shaftTarget_;
     gl::ProgramHandle waveProgram_, causticProgram_, shaftProgram_;
     gl::Buffer seaBlock_, causticIndices_;
     gl::VertexArray empty_, causticGrid_;
     int causticIndexCount_ = 0;
+    SeaShade shade_;
 };
 
 }  // namespace aquarama

@@ -7,12 +7,6 @@
 // between a thing's depth and the filter's is undone with it.
 const vec3 kDownwellingKd = vec3(0.19, 0.062, 0.036);
 
-// How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
-struct Openness {
-    float sun;
-    float sky;
-};
-
 // The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
 // the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
 const float kLampPower = 8.0;
@@ -32,8 +26,9 @@ vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float
     float depth = max(-place.y, 0.1);
     float share = unscatteredShare(depth);
     float towardsSun = dot(normal, sunAndFilterDepth.xyz);
-    float sun = share * open.sun * caustic(place, lod) * daylight.x;
-    vec3 sky = (1.0 - share) * open.sky * daylight.yzw;
+    Openness school = pastFish(place);
+    vec3 sun = causticColour(place, lod) * (share * open.sun * school.sun * daylight.x);
+    vec3 sky = (1.0 - share) * open.sky * school.sky * daylight.yzw;
     vec3 sand = 0.6 * open.sky * (0.5 * (daylight.x + daylight.yzw));
     float up = 0.5 + 0.5 * normal.y;
     vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));

@@ -132,7 +132,10 @@ std::vector<StillFish> ballOf(const std::string& species,
 
 Picture pictureOf(const Still& still) {
     const Cast cast = castOf(still.fish);
-    SceneRenderer scene{still.options, cast.species};
+    SceneOptions options = still.options;
+    options.pixelRadians = glm::radians(still.camera.heightDegrees) /
+                           static_cast<float>(still.camera.sizePixels.y);
+    SceneRenderer scene{options, cast.species};
     SceneFrame frame;
     frame.timeSeconds = still.timeSeconds;
     frame.eyePositionMetres = still.camera.eyeMetres;
