@@ -8,7 +8,6 @@
 
 #include "common/place/place.h"
 #include "render_node/gl/program.h"
-#include "render_node/scene/shade.h"
 #include "render_node/scene/solid_array.h"
 #include "render_node/scene/texture.h"
 
@@ -21,8 +20,6 @@ constexpr int kPatchesASide = 14;
 constexpr std::array<int, 3> kCells{24, 10, 4};
 constexpr std::array<float, 2> kLevelMetres{13.0F, 26.0F};
 constexpr float kRimMetres = 0.35F;
-constexpr float kShadeMetres = 64.0F;  // side of the square round the origin, as in floor.frag
-constexpr int kShadeTexels = 320;
 
 glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     constexpr float kStep = 0.05F;
@@ -30,31 +27,6 @@ glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     const float slopeX = (floorHeight({seed}, {xz.x + kStep, xz.y}) - here) / kStep;
     const float slopeZ = (floorHeight({seed}, {xz.x, xz.y + kStep}) - here) / kStep;
     return glm::normalize(glm::vec3{-slopeX, 1.0F, -slopeZ});
-}
-
-gl::Texture bakeShade(std::uint32_t seed) {
-    const std::vector<Rock> rocks = rocksOf({seed});
-    std::vector<glm::u8vec2> texels;
-    for (int row = 0; row < kShadeTexels; ++row)
-        for (int column = 0; column < kShadeTexels; ++column) {
-            const glm::vec2 xz = (glm::vec2{column, row} + 0.5F) * (kShadeMetres / kShadeTexels) -
-                                 kShadeMetres / 2.0F;
-            const glm::vec3 place{xz.x, -kMeanFloorDepthMetres, xz.y};
-            const glm::vec3 up{0.0F, 1.0F, 0.0F};
-            texels.emplace_back(static_cast<glm::u8>(255.0F * sunOpenness(rocks, place)),
-                                static_cast<glm::u8>(255.0F * skyOpenness(rocks, place, up)));
-        }
-    gl::Texture texture = makeTexture(GL_RG8, glm::ivec2{kShadeTexels}, 1, Edge::Clamp);
-    glTextureSubImage2D(texture.name(),
-                        0,
-                        0,
-                        0,
-                        kShadeTexels,
-                        kShadeTexels,
-                        GL_RG,
-                        GL_UNSIGNED_BYTE,
-                        texels.data());
-    return texture;
 }
 
 }  // namespace
@@ -77,8 +49,7 @@ Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells)
 
 Ground::Ground(std::uint32_t seed)
     : program_{gl::makeProgram({"floor.vert", "floor.frag"})},
-      detail_{makeTexture(sandTile())},
-      shade_{bakeShade(seed)} {
+      detail_{makeTexture(sandTile())} {
     Mesh all;
     constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
     for (std::size_t level = 0; level < levels_.size(); ++level) {
@@ -107,7 +78,6 @@ Ground::Ground(std::uint32_t seed)
 void Ground::draw(const Viewpoint& viewpoint) const {
     glUseProgram(program_.name());
     glBindTextureUnit(14, detail_.name());
-    glBindTextureUnit(15, shade_.name());
     glBindVertexArray(array_.name());
     constexpr float kPatchRadius = kPatchMetres * 0.75F;
     for (const Patch& patch : patches_) {

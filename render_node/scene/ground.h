@@ -38,7 +38,7 @@ class Ground {
     gl::Buffer vertices_, indices_;
     gl::VertexArray array_;
     gl::ProgramHandle program_;
-    gl::Texture detail_, shade_;
+    gl::Texture detail_;
 };
 
 }  // namespace aquarama

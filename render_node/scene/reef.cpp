@@ -9,7 +9,6 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/coral_mesh.h"
 #include "render_node/scene/rock_mesh.h"
-#include "render_node/scene/shade.h"
 #include "render_node/scene/solid_array.h"
 #include "render_node/scene/solid_noise.h"
 
@@ -39,17 +38,10 @@ void addCorals(ReefMesh& mesh, const Rock& rock, int level) {
 
 }  // namespace
 
-ReefMesh growBoulder(const Rock& rock, std::span<const Rock> all, int level) {
+ReefMesh growBoulder(const Rock& rock, int level) {
     ReefMesh mesh;
     addBoulder(mesh.stone, rock, level);
     addCorals(mesh, rock, level);
-    std::vector<Rock> others;
-    for (const Rock& other : all)
-        if (other.seed != rock.seed &&
-            glm::distance(other.centre, rock.centre) < 8.0F * other.radiusMetres)
-            others.push_back(other);
-    shade(mesh.stone, others);
-    shade(mesh.growth, others);
     return mesh;
 }
 
@@ -74,7 +66,7 @@ Reef::Reef(std::uint32_t seed)
         boulder.radiusMetres = rock.radiusMetres * kGrowthShare;
         const std::size_t finest = finestLevelOf(rock.centre, kLevelMetres);
         for (std::size_t level = finest; level < kReefLevels; ++level) {
-            const ReefMesh mesh = growBoulder(rock, rocks, static_cast<int>(level));
+            const ReefMesh mesh = growBoulder(rock, static_cast<int>(level));
             boulder.stone[level] = append(all, mesh.stone);
             boulder.growth[level] = append(all, mesh.growth);
         }

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -17,8 +16,8 @@
 namespace aquarama {
 
 inline constexpr int kReefLevels = 5;
-// One boulder and its corals, shaded by all others.
-[[nodiscard]] ReefMesh growBoulder(const Rock& rock, std::span<const Rock> all, int level);
+// One boulder and its corals.
+[[nodiscard]] ReefMesh growBoulder(const Rock& rock, int level);
 
 class Reef {
   public:

@@ -15,7 +15,7 @@
 #include "render_node/scene/reef.h"
 #include "render_node/scene/scene_picture.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/shade.h"
+#include "render_node/scene/sun.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "render_node/surface/school_surface.h"
 #include "render_node/surface/skin_programs.h"
@@ -43,6 +43,17 @@ glm::vec4 daylightOf(float daylight) {
     return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
 }
 
+// Over the submarine's bow. Weak by day near the surface, where it would only flatten what the sun
+// models; strong where the sun does not reach.
+glm::vec4 lampOf(glm::vec3 eyeMetres, float daylight) {
+    constexpr float kByDay = 0.9F;
+    constexpr float kInTheDark = 14.0F;
+    const glm::vec3 fromEye{0.0F, 1.0F, 0.0F};
+    const float dark =
+        std::max(glm::smoothstep(9.0F, 24.0F, -eyeMetres.y), 0.6F * (1.0F - daylight));
+    return {eyeMetres + fromEye, glm::mix(kByDay, kInTheDark, dark)};
+}
+
 // What is the same for all views of a frame.
 FrameUniforms frameUniforms(const SceneFrame& frame, float pixelRadians) {
     FrameUniforms uniforms{};
@@ -50,6 +61,7 @@ FrameUniforms frameUniforms(const SceneFrame& frame, float pixelRadians) {
     uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
     uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
     uniforms.daylight = daylightOf(frame.daylight);
+    uniforms.lamp = lampOf(frame.eyePositionMetres, frame.daylight);
     return uniforms;
 }
 

@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_node/gl/program.h"
-#include "render_node/scene/shade.h"
+#include "render_node/scene/sun.h"
 #include "render_node/scene/texture.h"
 
 namespace aquarama {
@@ -79,7 +79,9 @@ void SeaShade::setPlace(const std::function<void(const glm::mat4&)>& drawPlace) 
         glClear(GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_GEQUAL);
+        glFrontFace(GL_CW);  // the map is laid out as seen from below
         drawPlace(alongRays(towardsLight));
+        glFrontFace(GL_CCW);
         glDisable(GL_DEPTH_TEST);
         takeMoments(depth, heights);
     };

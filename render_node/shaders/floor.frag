@@ -1,12 +1,10 @@
 #include "light.glsl"
 layout(binding = 14) uniform sampler2D detail;  // slopes, albedo, crest
-layout(binding = 15) uniform sampler2D shade;   // openness to the sun and to the light from above
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 radiance;
 const float kTile = 2.6;
-const float kShadeSide = 64.0;
-const vec3 kSand = vec3(0.50, 0.44, 0.35);
+const vec3 kSand = vec3(0.44, 0.39, 0.31);
 void main() {
     vec4 fine = texture(detail, place.xz / kTile);
     // A second look, larger and turned, so that the tile is not seen to repeat.
@@ -14,8 +12,8 @@ void main() {
     vec4 coarse = texture(detail, turned / (kTile * 5.3));
     vec2 slope = 2.0 * (fine.xy - 0.5) + 0.5 * (coarse.xy - 0.5);
     vec3 n = normalize(normal - vec3(slope.x, 0.0, slope.y));
-    vec2 open = texture(shade, place.xz / kShadeSide + 0.5).rg;
+    Openness open = openAt(place, normal);
     vec3 albedo = kSand * (2.0 * fine.z) * (0.55 + 0.9 * coarse.z);
-    Openness openness = Openness(open.r, open.g * (0.75 + 0.3 * fine.w));
-    radiance = vec4(seen(litUnder(openness, albedo, place, n, 0.0), place), 1.0);
+    open.sky *= 0.75 + 0.3 * fine.w;
+    radiance = vec4(seen(litUnder(open, albedo, place, n, 0.0), place), 1.0);
 }

@@ -26,7 +26,8 @@ void main() {
     // A leaf has two sides: the one that looks at us is lit.
     vec3 normal = normalize(turned(normalAndBlade.xyz));
     normal *= dot(normal, eyeAndTime.xyz - place) < 0.0 ? -1.0 : 1.0;
-    Openness open = Openness(albedo.a, albedo.a);
+    Openness open = openAt(place, normal);
+    open = Openness(open.sun * albedo.a, open.sky * albedo.a);
     light = seen(litAt(1.0, open, albedo.rgb * tintAndSway.rgb, place, normal, 0.75), place);
     gl_Position = clipFromWorld * vec4(place, 1.0);
 }

@@ -3,7 +3,7 @@ layout(binding = 14) uniform sampler2D detail;  // slopes, albedo, crest
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec4 normal;
 layout(location = 2) in vec4 albedo;
-layout(location = 3) in vec3 sunTranslucencyGlow;
+layout(location = 3) in vec2 translucencyAndGlow;
 layout(location = 0) out vec4 radiance;
 const float kTile = 1.1;
 const float kTexelsARadian = 256.0 / kTile;  // at 1 m
@@ -25,8 +25,10 @@ void main() {
     // Crusts of other colours on the knobs, turf in the pits.
     vec3 hue = mix(vec3(0.75, 1.05, 0.70), vec3(1.35, 0.92, 1.05), smoothstep(0.35, 0.6, relief.z));
     vec3 colour = albedo.rgb * mix(vec3(1.0), 2.0 * relief.z * hue, rough);
-    Openness open = Openness(sunTranslucencyGlow.x * mix(0.5, 1.0, albedo.w), albedo.w * crest);
-    vec3 light = litAt(0.3 + 0.5 * lod, open, colour, place, n, sunTranslucencyGlow.y);
-    light += fluorescent(colour, sunTranslucencyGlow.z * albedo.w);
+    Openness open = openAt(place, normalize(normal.xyz));
+    open.sun *= mix(0.5, 1.0, albedo.w);
+    open.sky *= albedo.w * crest;
+    vec3 light = litAt(0.3 + 0.5 * lod, open, colour, place, n, translucencyAndGlow.x);
+    light += fluorescent(colour, translucencyAndGlow.y * albedo.w);
     radiance = vec4(seen(light, place), 1.0);
 }

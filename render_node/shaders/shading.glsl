@@ -7,16 +7,14 @@
 // between a thing's depth and the filter's is undone with it.
 const vec3 kDownwellingKd = vec3(0.19, 0.062, 0.036);
 
-// The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
-// the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
-const float kLampPower = 8.0;
+// The submarine's own floodlight brings back the reds that the sea has taken from the sun. Falls off
+// with the square of the distance and by the water on its way; attenuation of the primaries, 1/m.
 const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045) * kRangeShare;
 vec3 lampLight(vec3 place, vec3 normal) {
-    vec3 way = eyeAndTime.xyz - place;
+    vec3 way = lamp.xyz - place;
     float range2 = dot(way, way), range = sqrt(range2);
     float facing = 0.15 + 0.85 * max(dot(normal, way) / range, 0.0);
-    return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) *
-           (kLampPower * facing / (range2 + 2.0));
+    return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) * (lamp.w * facing / (range2 + 1.0));
 }
 
 // Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the

@@ -48,9 +48,9 @@ float skyPast(vec3 place, vec3 normal) {
     float open = 0.0;
     for (int i = 0; i < 3; ++i) {
         float reach = 0.18 * exp2(1.6 * float(i));
-        vec3 from = place + normal * (0.5 * reach);
+        vec3 from = place + normal * (0.2 * reach + 0.03);
         vec2 moments = textureLod(topHeights, from.xz / kPlaceMetres + 0.5, placeLod(2.0 * reach)).xy;
-        open += shareNotAbove(moments, from.y + 0.15 * reach);
+        open += shareNotAbove(moments, from.y);
     }
     return open / 3.0;
 }
@@ -75,7 +75,7 @@ Openness pastFish(vec3 place) {
     vec2 uv = fishPlace(place);
     if (any(greaterThan(abs(uv - 0.5), vec2(0.49)))) return Openness(1.0, 1.0);
     float perMetre = fishWindow.z * float(textureSize(fishOnTheWay, 0).x);
-    float sun = pastFish(uv, place.y, log2(max(0.12 * perMetre, 1.0)));
+    float sun = pastFish(uv, place.y, log2(max(0.05 * perMetre, 1.0)));
     float sky = pastFish(uv, place.y, log2(max(0.9 * perMetre, 1.0)));
     return Openness(sun, sky);
 }

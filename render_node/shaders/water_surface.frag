@@ -42,7 +42,7 @@ float fresnel(float inward) {
 // What lies below, mirrored: the sea's floor as far as the water lets it through, then the water.
 // Water has coloured the latter on its way already: seen as if from where the filter takes nothing.
 vec3 mirroredSea(vec3 down, vec2 xz, float range) {
-    vec3 water = openWater(down, 0.6 * sunAndFilterDepth.w);
+    vec3 water = openWater(down, sunAndFilterDepth.w);
     float depth = 8.0;
     vec2 hit = xz;
     for (int i = 0; i < 2; ++i) {
@@ -54,7 +54,7 @@ vec3 mirroredSea(vec3 down, vec2 xz, float range) {
     vec3 sand = litAt(2.0, Openness(sunPast(bottom), 1.0), vec3(0.30, 0.27, 0.22), bottom,
                       vec3(0.0, 1.0, 0.0), 0.0);
     return direct(sand, range + further, depth) +
-           direct(water * (0.96 - 0.96 * exp(-0.11 * further)), range, sunAndFilterDepth.w);
+           direct(water * (0.9 - 0.9 * exp(-0.11 * further)), range, sunAndFilterDepth.w);
 }
 
 vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {

@@ -13,7 +13,6 @@
 #include "render_node/scene/plant_mesh.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/rock_mesh.h"
-#include "render_node/scene/shade.h"
 #include "render_node/scene/waves.h"
 #include "render_node/shaders/plant_bend.h"
 
@@ -63,7 +62,7 @@ TEST(Reef, coralsKeepToTheirBoulder) {
     for (const Rock& rock : rocks) {
         std::size_t triangles = ~std::size_t{0};
         for (int level = 1; level < kReefLevels; ++level) {
-            const ReefMesh mesh = growBoulder(rock, rocks, level);
+            const ReefMesh mesh = growBoulder(rock, level);
             ASSERT_TRUE(namesItsOwnVertices(mesh.stone));
             ASSERT_TRUE(namesItsOwnVertices(mesh.growth));
             const std::size_t count = mesh.stone.indices.size() + mesh.growth.indices.size();
@@ -106,15 +105,6 @@ TEST(Ground, theSandIsWhereTheMasterHasIt) {
         onSand += vertex.position.y == sand ? 1 : 0;
     }
     EXPECT_EQ(onSand, (kCells + 1) * (kCells + 1)) << "all but the rim that hangs down";
-}
-
-TEST(Shade, aBoulderShadesWhatLiesBehindIt) {
-    const std::array rocks{Rock{{0.0F, -8.0F, 0.0F}, 1.0F, 1}};
-    const glm::vec3 behind = rocks[0].centre - 2.0F * sunInWater();
-    EXPECT_LT(sunOpenness(rocks, behind), 0.05F);
-    EXPECT_EQ(sunOpenness(rocks, rocks[0].centre + 2.0F * sunInWater()), 1.0F);
-    EXPECT_LT(skyOpenness(rocks, {0.9F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.75F);
-    EXPECT_GT(skyOpenness(rocks, {7.0F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.95F);
 }
 
 void expectOnTile(const Waves& waves, float tileMetres) {

@@ -11,7 +11,7 @@
 #include "common/place/place.h"
 #include "render_node/context/context.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/shade.h"
+#include "render_node/scene/sun.h"
 #include "render_node/shaders/frame_uniforms.h"
 
 namespace aquarama {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the sea's light costs a frame, before anything is drawn with it: waves, caustics, the fish's
+// shadows, and the shafts of one channel of config/desk.txtpb. On software GL, CPU time of all
+// threads is what counts.
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <epoxy/gl.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "common/place/place.h"
+#include "render_node/context/context.h"
+#include "render_node/scene/sea_light.h"
+#include "render_node/scene/sun.h"
+#include "render_node/shaders/frame_uniforms.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::size_t kFish = 300;
+
+std::vector<PresentedFish> someFish() {
+    std::vector<PresentedFish> fish(kFish);
+    for (std::size_t i = 0; i < kFish; ++i) {
+        const auto n = static_cast<float>(i);
+        fish[i].positionMetres = kEyePosition + glm::vec3{std::fmod(0.37F * n, 8.0F) - 4.0F,
+                                                          std::fmod(0.23F * n, 3.0F) - 1.5F,
+                                                          -3.0F - std::fmod(0.71F * n, 5.0F)};
+        fish[i].lengthMetres = 0.24F;
+    }
+    return fish;
+}
+
+// 44 x 52 degrees, reversed depth with the far plane at infinity.
+glm::mat4 clipFromWorld() {
+    glm::mat4 clip{0.0F};
+    clip[0][0] = 1.0F / glm::tan(glm::radians(22.0F));
+    clip[1][1] = 1.0F / glm::tan(glm::radians(26.0F));
+    clip[2][3] = -1.0F;
+    clip[3][2] = 0.05F;
+    return clip * glm::translate(glm::mat4{1.0F}, -kEyePosition);
+}
+
+void light(benchmark::State& state) {
+    const auto context = makeOffscreenContext("auto", {16, 16});
+    FrameUniforms uniforms{};
+    uniforms.clipFromWorld = clipFromWorld();
+    uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
+    uniforms.eyeAndTime = glm::vec4(kEyePosition, 0.0F);
+    uniforms.sharedEyeAndPixel = glm::vec4(kEyePosition, 0.0016F);
+    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), 4.9F);
+    uniforms.daylight = glm::vec4(1.0F);
+    const gl::Buffer block;
+    glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
+    const auto tier = static_cast<QualityTier>(state.range(0));
+    state.SetLabel(std::string(kTierNames.at(static_cast<std::size_t>(state.range(0)))));
+    SeaLight sea{{.filterDepthMetres = 4.9F,
+                  .quality = qualityOf(tier).light,
+                  .mostFish = kFish}};
+    const std::vector<PresentedFish> fish = someFish();
+    double time = 0;
+    for (auto iteration : state) {
+        time += 1.0 / 60.0;
+        sea.update(time, kEyePosition, fish);
+        sea.drawShafts(kEyePosition, uniforms.worldFromClip);
+        glFinish();
+    }
+}
+BENCHMARK(light)
+    ->Name("frame_part/light")
+    ->ArgName("tier")
+    ->DenseRange(0, 3)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace aquarama
