@@ -110,6 +110,8 @@ void describeShow(CLI::App& run, ShowOptions& options) {
         "--trace", options.traceFolder, "folder for a line of times a frame and process");
     run.add_option("--pattern", options.pattern, "show this instead of the world")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
+    run.add_option("--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
+        ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
     run.add_flag("--live", options.live, "keep to the clock where lockstep would be implied");
 }
 

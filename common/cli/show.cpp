@@ -62,6 +62,7 @@ Process masterProcess(const ShowOptions& options) {
     append(arguments, "--scene", options.scenePath);
     if (options.fish) append(arguments, "--fish", std::to_string(*options.fish));
     append(arguments, "--pattern", options.pattern);
+    append(arguments, "--quality", options.quality);
     append(arguments, "--trace", options.traceFolder);
     append(arguments, "--replay", options.replayPath);
     Process master{

@@ -21,6 +21,7 @@ struct ShowOptions {
     std::optional<std::uint32_t> seed;
     std::optional<std::uint32_t> fish;
     std::string pattern;         // empty: the world
+    std::string quality;         // empty: the rig's
     std::string snapshotFolder;  // empty: no pictures
     bool deep = false;           // 16-bit pictures
     int filmEvery = 0;  // with a snapshot folder: also every so many frames, composed into a clip

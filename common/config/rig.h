@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/config/quality.h"
 #include "common/config/source_place.h"
 
 namespace aquarama {
@@ -70,6 +71,7 @@ struct Rig {
     Timing timing;
     std::string scene;  // path of the file of what is shown, relative to the rig's folder
     SourcePlace scenePlace;
+    std::optional<QualityTier> quality;  // nothing: measured at start
 };
 
 // Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind

@@ -90,6 +90,17 @@ Timing readTiming(const TextPlace& at) {
     return timing;
 }
 
+std::optional<QualityTier> readQuality(const TextPlace& at) {
+    if (!at.has("quality")) return std::nullopt;
+    std::string choice = at.choice("quality");
+    if (choice == "MEASURED") return std::nullopt;
+    std::ranges::transform(
+        choice, choice.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; });
+    const auto tier = tierNamed(choice);
+    if (!tier) at.refuse("quality", "write MEASURED, LOW, MEDIUM, HIGH or ULTRA");
+    return tier;
+}
+
 Projector readProjector(const TextPlace& at, glm::dvec2 sizePixels) {
     Projector projector;
     const TextPlace position = at.in("position");
@@ -203,6 +214,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
     if (root.has("timing")) rig.timing = readTiming(root.in("timing"));
     rig.scene = root.text("scene");
     rig.scenePlace = root.placeOf("scene");
+    rig.quality = readQuality(root);
     rig.channels = readChannels(root);
     return rig;
 }

@@ -69,6 +69,9 @@ std::string writeRig(const Rig& rig) {
     out.mutable_network()->set_state(rig.stateAddress);
     write(rig.timing, *out.mutable_timing());
     out.set_scene(rig.scene);
+    if (rig.quality)
+        out.set_quality(
+            static_cast<v1::Rig::Quality>(v1::Rig::LOW + static_cast<int>(*rig.quality)));
     for (const Channel& channel : rig.channels) write(channel, *out.add_channels());
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);

@@ -103,6 +103,12 @@ std::optional<std::vector<SpeciesBlobs>> castIn(const v1::Welcome& message, std:
     return cast;
 }
 
+template <class Message>
+std::optional<QualityTier> tierIn(const Message& message) {
+    if (!message.has_quality()) return std::nullopt;
+    return tierAt(message.quality());
+}
+
 std::optional<Message> read(const v1::Welcome& message) {
     const auto pace = paceIn(message.pace());
     const auto pattern = patternIn(message.pattern());
@@ -110,6 +116,8 @@ std::optional<Message> read(const v1::Welcome& message) {
     if (!pace || !pattern || !school) return std::nullopt;
     auto cast = castIn(message, school->size());
     if (!cast) return std::nullopt;
+    const auto quality = tierIn(message);
+    if (message.has_quality() && !quality) return std::nullopt;
     if (message.rig_text().size() > kMaxRigTextBytes ||
         message.scene_text().size() > kMaxSceneTextBytes || !message.has_seed() ||
         !isText(message.state_address(), kMaxReasonBytes)) {
@@ -122,7 +130,8 @@ std::optional<Message> read(const v1::Welcome& message) {
                    *pace,
                    *pattern,
                    std::move(*school),
-                   std::move(*cast)};
+                   std::move(*cast),
+                   quality};
 }
 
 std::optional<Message> read(const v1::BlobRequest& message) {
@@ -141,6 +150,12 @@ std::optional<Message> read(const v1::BlobChunk& message) {
     }
     const auto* first = reinterpret_cast<const std::byte*>(content.data());
     return BlobChunk{*digest, message.offset(), message.total(), {first, first + content.size()}};
+}
+
+std::optional<Message> read(const v1::Prepared& message) {
+    const auto quality = tierIn(message);
+    if (!quality) return std::nullopt;
+    return Prepared{*quality};
 }
 
 std::optional<Message> read(const v1::Joined& message) {
@@ -265,7 +280,7 @@ std::optional<Message> read(const v1::Envelope& envelope) {
         case v1::Envelope::kBlobChunk:
             return read(envelope.blob_chunk());
         case v1::Envelope::kPrepared:
-            return Prepared{};
+            return read(envelope.prepared());
         case v1::Envelope::kJoined:
             return read(envelope.joined());
         case v1::Envelope::kState:

@@ -74,6 +74,7 @@ void write(const Welcome& welcome, v1::Envelope& envelope) {
     message.set_seed(welcome.seed);
     message.set_pace(paceOf(welcome.pace));
     message.set_pattern(patternOf(welcome.pattern));
+    if (welcome.quality) message.set_quality(static_cast<std::uint32_t>(*welcome.quality));
     for (const FishTraits& fish : welcome.school) {
         message.add_fish_ids(fish.id);
         message.add_length_millimetres(fish.lengthMillimetres);
@@ -100,8 +101,8 @@ void write(const BlobChunk& chunk, v1::Envelope& envelope) {
     message.set_content(chunk.content.data(), chunk.content.size());
 }
 
-void write(const Prepared&, v1::Envelope& envelope) {
-    envelope.mutable_prepared();
+void write(const Prepared& prepared, v1::Envelope& envelope) {
+    envelope.mutable_prepared()->set_quality(static_cast<std::uint32_t>(prepared.quality));
 }
 
 void write(const Joined& joined, v1::Envelope& envelope) {

@@ -57,8 +57,11 @@ struct BlobChunk {
     std::vector<std::byte> content;
 };
 
-// The node has built all that it needs and hears the state channel.
-struct Prepared {};
+// The node has built all that it needs and hears the state channel. It would keep up with this
+// tier.
+struct Prepared {
+    QualityTier quality = QualityTier::Low;
+};
 
 // The answer to Prepared: from this frame on the node is waited for.
 struct Joined {

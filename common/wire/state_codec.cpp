@@ -75,7 +75,8 @@ bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_before() && message.has_after() &&
            message.has_food_before() && message.has_food_after() && message.has_daylight() &&
-           message.layout_version() == kLayoutVersion && message.stride() == kStride;
+           message.has_quality() && message.layout_version() == kLayoutVersion &&
+           message.stride() == kStride;
 }
 
 }  // namespace
@@ -100,6 +101,7 @@ void writeState(const StateFrame& state, v1::State& message) {
     writeRecords(state.foodBefore, *message.mutable_food_before());
     writeRecords(state.foodAfter, *message.mutable_food_after());
     message.set_daylight(state.daylight);
+    message.set_quality(static_cast<std::uint32_t>(state.quality));
 }
 
 std::optional<StateFrame> readState(const v1::State& message) {
@@ -112,8 +114,9 @@ std::optional<StateFrame> readState(const v1::State& message) {
     if (!eye || !before || !after || !foodBefore || !foodAfter) return std::nullopt;
     const float fraction = message.fraction();
     const float daylight = message.daylight();
+    const auto quality = tierAt(message.quality());
     const auto& origin = message.food_origin();
-    if (!isShare(fraction) || !isShare(daylight)) return std::nullopt;
+    if (!isShare(fraction) || !isShare(daylight) || !quality) return std::nullopt;
     if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
     if (!arePaired(*before, *after, fraction) || !arePaired(*foodBefore, *foodAfter, fraction))
         return std::nullopt;
@@ -127,7 +130,8 @@ std::optional<StateFrame> readState(const v1::State& message) {
                       {origin[0], origin[1], origin[2]},
                       std::move(*foodBefore),
                       std::move(*foodAfter),
-                      daylight};
+                      daylight,
+                      *quality};
 }
 
 }  // namespace aquarama

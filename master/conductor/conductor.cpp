@@ -81,6 +81,7 @@ Conductor::Conductor(const Rig& rig,
     welcome_.seed = options_.seed;
     welcome_.pace = options_.pace;
     welcome_.pattern = options_.pattern;
+    welcome_.quality = options_.quality;
 }
 
 void Conductor::stop() {
@@ -197,9 +198,10 @@ void Conductor::release(Instant now) {
 bool Conductor::publish(Frame frame, Instant now) {
     if (frame < unpublished_) return true;
     takeTicks();
-    const auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
-                                    : timeline_.showing(frame, nextRelease(now) - kShownAge);
+    auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
+                              : timeline_.showing(frame, nextRelease(now) - kShownAge);
     if (!state) return false;
+    state->quality = quality();
     const Packet& packet = published_[frame] = encodeState(session_, *state);
     channels_->publishState(packet);
     lastPublished_ = lastRepeat_ = monotonicNow();

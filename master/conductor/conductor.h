@@ -32,6 +32,7 @@ struct ConductorOptions {
     std::uint32_t seed = 1;                // of what the nodes draw by themselves
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
+    std::optional<QualityTier> quality;    // of the wall; nothing: the finest that every node bears
     Instant patience = std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
 };
 
@@ -66,6 +67,7 @@ class Conductor {
         std::string name;
         PeerId peer;  // empty: nobody
         bool prepared = false;
+        std::optional<QualityTier> bears;  // the finest tier that its node has kept up with
         Instant lastHeard{};
         std::uint64_t dropped = 0;
         Instant lastFed{};  // when a visitor last dropped food in its window
@@ -83,6 +85,7 @@ class Conductor {
     void ask(const PeerId& peer, const ExplainRequest& question);
     void answer();
     [[nodiscard]] StatusReply status() const;
+    [[nodiscard]] QualityTier quality() const;
 
     void takeTicks();
     void conduct(Instant now);

@@ -110,7 +110,8 @@ void Conductor::heed(std::size_t node, const Message& message, Instant now) {
         heed(node, *ready, now);
     } else if (const auto* request = std::get_if<BlobRequest>(&message)) {
         giveChunk(peer, *request);
-    } else if (std::holds_alternative<Prepared>(message)) {
+    } else if (const auto* prepared = std::get_if<Prepared>(&message)) {
+        seats_[node].bears = prepared->quality;
         admit(node);
     } else if (const auto* input = std::get_if<Input>(&message)) {
         obey(node, *input, now);
@@ -201,6 +202,15 @@ void Conductor::feed(std::size_t node, glm::vec3 positionMetres, Instant now) {
         lastFed = now;
     else
         ++report_.refusedPackets;
+}
+
+// A node that has left counts on: when it comes back, nothing changes.
+QualityTier Conductor::quality() const {
+    if (options_.quality) return *options_.quality;
+    std::optional<QualityTier> least;
+    for (const Seat& seat : seats_)
+        if (seat.bears) least = std::min(least.value_or(*seat.bears), *seat.bears);
+    return least.value_or(QualityTier::Low);
 }
 
 StatusReply Conductor::status() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/quality.h"
 
+#include <array>
 #include <cstddef>
 
 namespace aquarama {

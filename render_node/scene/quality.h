@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a frame may cost: what each tier of quality buys, in one place. All nodes of a wall draw
-// at the same tier, or their pictures would part where they overlap.
+// How much a frame may cost: what each tier of quality buys, in one place.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string_view>
+#include "common/config/quality.h"
 
 namespace aquarama {
-
-enum class QualityTier : std::uint8_t {
-    Low,     // software OpenGL on two cores, live
-    Medium,  // a small GPU; software OpenGL that may take its time
-    High,    // a GPU of today
-    Ultra,   // no expense spared: pictures, references
-};
-inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "high", "ultra"};
 
 // Of the sunlight in the sea: waves, caustics, shafts, shadows, snow. Texels are of one side.
 struct LightQuality {

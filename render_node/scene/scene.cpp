@@ -46,7 +46,7 @@ glm::vec4 daylightOf(float daylight) {
 // Over the submarine's bow. Weak by day near the surface, where it would only flatten what the sun
 // models; strong where the sun does not reach.
 glm::vec4 lampOf(glm::vec3 eyeMetres, float daylight) {
-    constexpr float kByDay = 0.9F;
+    constexpr float kByDay = 0.5F;
     constexpr float kInTheDark = 14.0F;
     const glm::vec3 fromEye{0.0F, 1.0F, 0.0F};
     const float dark =

@@ -56,7 +56,7 @@ class LinkSession final : public Session {
                          castOf(*admitted)};
     }
 
-    void prepared() override { link_.wish(Prepared{}); }
+    void prepared(QualityTier quality) override { link_.wish(Prepared{quality}); }
 
     std::optional<StateFrame> nextFrame() override {
         auto arrived = meeting_.takeState();

@@ -65,7 +65,7 @@ std::size_t channelIndex(const Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
-ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
+ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
       school_{admission.welcome.school},
       frustum_{channelFrustum(admission.rig, channel, kMarginRadians)},
@@ -74,8 +74,10 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
       patternPass_{frustum_},
       projection_{map_, admission.rig.channels[channel].id} {
     if (pattern_ == Pattern::World) {
-        scene_.emplace(SceneOptions{.seed = admission.welcome.seed, .place = admission.scene.place},
-                       castOf(admission));
+        scene_.emplace(
+            SceneOptions{
+                .seed = admission.welcome.seed, .place = admission.scene.place, .quality = quality},
+            castOf(admission));
     } else {
         patternPicture_.emplace(GL_RGBA16F, sceneSize_);
     }

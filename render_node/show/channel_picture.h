@@ -26,7 +26,7 @@ namespace aquarama {
 // Owns its GL objects; construct, use and destroy with the same context current.
 class ChannelPicture {
   public:
-    ChannelPicture(const Admission& admission, std::size_t channel);
+    ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality);
 
     // The picture of the channel's frustum, in linear light, with what belongs to the world.
     void drawScene(const StateFrame& frame,

@@ -27,7 +27,11 @@ class ChannelShow {
     void run(Admission admission);
 
   private:
-    void build(const Admission& admission);
+    void build(Admission admission);
+    void buildPicture(QualityTier quality);
+    // What the wall is to be drawn at, or as fine as this node keeps up with.
+    void chooseQuality();
+    [[nodiscard]] double secondsAFrame(QualityTier quality);
     [[nodiscard]] Release play();
     void draw(const StateFrame& frame);
     void feed(const Eye& eye);
@@ -41,7 +45,9 @@ class ChannelShow {
     Controls& controls_;
     NodeOptions options_;
     Trace trace_;
-    std::optional<Welcome> built_;  // what picture_ was built for
+    std::optional<Admission> built_;          // what picture_ was built for
+    QualityTier quality_ = QualityTier::Low;  // of picture_
+    QualityTier bears_ = QualityTier::Low;    // the finest that this node keeps up with
     std::optional<Pointing> pointing_;
     std::optional<ChannelPicture> picture_;
     std::optional<gl::Target> offscreen_;   // where there is no window of the channel's size

@@ -191,7 +191,7 @@ class StageNode {
         while (session_->join()) {
             ++joins_;
             std::this_thread::sleep_for(habits_.building);
-            session_->prepared();
+            session_->prepared(QualityTier::Low);
             if (show() == Release::Quit) return;
         }
     } catch (const Error& error) {

@@ -71,6 +71,7 @@ TEST(Envelope, aStateKeepsEveryBitOfEveryFish) {
     EXPECT_EQ(state.foodBefore, sent.foodBefore);
     EXPECT_EQ(state.foodAfter, sent.foodAfter);
     EXPECT_EQ(state.daylight, sent.daylight);
+    EXPECT_EQ(state.quality, sent.quality);
 }
 
 // An empty sea between two ticks, and a school before any food has come.
@@ -182,6 +183,7 @@ TEST(Envelope, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[1].bits = 5; }));  // nothing, somewhere
     EXPECT_TRUE(refused([&](StateFrame& s) { s.foodOriginMetres.z = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.quality = static_cast<QualityTier>(4); }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.daylight = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) {
         s.foodBefore.resize(kMostFood + 1);

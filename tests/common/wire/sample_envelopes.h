@@ -47,6 +47,7 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.foodBefore = sampleFood();
     state.foodAfter = sampleFood();
     state.daylight = 0.75F;
+    state.quality = QualityTier::Medium;
     return state;
 }
 
@@ -61,6 +62,7 @@ inline Welcome sampleWelcome() {
     welcome.school = {{7, 230}, {4000000000U, 65535}};
     welcome.cast = {{digestOf("species"), digestOf("repertoire"), 1},
                     {digestOf("other species"), digestOf("other repertoire"), 1}};
+    welcome.quality = QualityTier::Ultra;
     return welcome;
 }
 
@@ -80,7 +82,7 @@ inline std::vector<Envelope> sampleEnvelopes() {
                                      sampleWelcome(),
                                      BlobRequest{digestOf("x"), 1U << 18U},
                                      BlobChunk{digestOf("x"), 50, 200, chunk},
-                                     Prepared{},
+                                     Prepared{QualityTier::High},
                                      Joined{{65}},
                                      sampleState(5),
                                      Beacon{},

@@ -51,10 +51,10 @@ class Peer {
         return present ? std::optional{present->frame.value} : std::nullopt;
     }
     // Hello, welcome, prepared: a member.
-    bool join(const std::string& name) {
+    bool join(const std::string& name, QualityTier bears = QualityTier::Low) {
         say(Hello{name, kProtocolMajor, ""});
         if (!hear<Welcome>()) return false;
-        say(Prepared{});
+        say(Prepared{bears});
         return hear<Joined>().has_value();
     }
 
@@ -296,6 +296,33 @@ TEST_F(Reception, reportsReleaseSkewFromWhatNodesSay) {
     }
     EXPECT_FLOAT_EQ(status().skewMedianMs, 3.0F);
     EXPECT_FLOAT_EQ(status().skewP99Ms, 3.0F);
+}
+
+// All nodes draw at one tier: the finest that each of them bears, also those that have left.
+TEST_F(Reception, theSlowestNodeDecidesHowFineTheWallIsDrawn) {
+    StageMaster master(lockstepOf({"left", "right"}), net_.master());
+    Peer left(net_);
+    Peer right(net_);
+    ASSERT_TRUE(left.join("left", QualityTier::High));
+    ASSERT_TRUE(right.join("right", QualityTier::Medium));
+    const auto state = left.seeState();
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->quality, QualityTier::Medium);
+}
+
+TEST_F(Reception, aRigMaySayHowFineItsWallIsDrawn) {
+    ConductorOptions options = lockstepOf({"left"});
+    options.quality = QualityTier::Ultra;
+    StageMaster master(options, net_.master());
+    Peer left(net_);
+    left.say(Hello{"left", kProtocolMajor, ""});
+    const auto welcome = left.hear<Welcome>();
+    ASSERT_TRUE(welcome);
+    EXPECT_EQ(welcome->quality, QualityTier::Ultra);
+    left.say(Prepared{QualityTier::Low});
+    const auto state = left.seeState();
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->quality, QualityTier::Ultra);
 }
 
 TEST_F(Reception, writesWhenEachStateWentOut) {

@@ -33,7 +33,7 @@ class FakeSession : public Session {
         events_.emplace_back("join");
         return rejoin_;
     }
-    void prepared() override { events_.emplace_back("prepared"); }
+    void prepared(QualityTier /*quality*/) override { events_.emplace_back("prepared"); }
     std::optional<StateFrame> nextFrame() override {
         if (script_.empty()) return std::nullopt;
         return script_.front().first;
