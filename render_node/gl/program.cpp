@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "common/units/error.h"
 #include "render_node/gl/embedded_shaders.h"
@@ -11,6 +12,8 @@
 namespace aquarama::gl {
 
 namespace {
+
+thread_local std::string definitions;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 const EmbeddedShader& embedded(std::string_view name) {
     const auto shaders = embeddedShaders();
@@ -33,7 +36,7 @@ struct ShaderTraits {
 };
 
 Handle<ShaderTraits> compile(const std::string& file) {
-    const std::string source = "#version 450 core\n" + shaderSource(file);
+    const std::string source = "#version 450 core\n" + definitions + shaderSource(file);
     const char* text = source.c_str();
     Handle<ShaderTraits> shader{stageOf(file)};
     glShaderSource(shader.name(), 1, &text, nullptr);
@@ -49,6 +52,13 @@ Handle<ShaderTraits> compile(const std::string& file) {
 }
 
 }  // namespace
+
+Definitions::Definitions(std::string lines)
+    : outer_{std::exchange(definitions, std::move(lines))} {}
+
+Definitions::~Definitions() {
+    definitions = std::move(outer_);
+}
 
 std::string shaderSource(std::string_view name) {
     constexpr std::string_view kInclude = "#include \"";

@@ -15,6 +15,21 @@ namespace aquarama::gl {
 [[nodiscard]] std::string shaderSource(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> shaderNames();  // every embedded file
 
+// While it lives, every program that this thread makes begins with these lines of #define: what a
+// tier leaves out costs nothing, also where a driver runs both sides of every branch.
+class Definitions {
+  public:
+    explicit Definitions(std::string lines);
+    ~Definitions();
+    Definitions(const Definitions&) = delete;
+    Definitions& operator=(const Definitions&) = delete;
+    Definitions(Definitions&&) = delete;
+    Definitions& operator=(Definitions&&) = delete;
+
+  private:
+    std::string outer_;
+};
+
 // Compiles and links; the stage follows from the ending: .vert .frag .comp. "#version 450 core" is
 // put in front. Throws Error with the driver's log. The first name labels the program.
 [[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles);

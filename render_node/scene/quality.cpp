@@ -16,10 +16,10 @@ constexpr LightQuality kMediumLight{.waveTexels = 128,
                                     .causticCells = 120,
                                     .shaftTexels = 256,
                                     .shaftSteps = 32,
-                                    .shaftShadows = true,
                                     .shadowTexels = 1024,
                                     .fishShadowTexels = 512,
-                                    .flakes = 14000};
+                                    .flakes = 14000,
+                                    .isFine = true};
 constexpr LightQuality kHighLight{.waveTexels = 192,
                                   .rippleTexels = 256,
                                   .surfaceTaps = 4,
@@ -28,10 +28,10 @@ constexpr LightQuality kHighLight{.waveTexels = 192,
                                   .causticCells = 160,
                                   .shaftTexels = 512,
                                   .shaftSteps = 48,
-                                  .shaftShadows = true,
                                   .shadowTexels = 2048,
                                   .fishShadowTexels = 1024,
-                                  .flakes = 20000};
+                                  .flakes = 20000,
+                                  .isFine = true};
 constexpr LightQuality kUltraLight{.waveTexels = 192,
                                    .rippleTexels = 256,
                                    .surfaceTaps = 8,
@@ -40,12 +40,16 @@ constexpr LightQuality kUltraLight{.waveTexels = 192,
                                    .causticCells = 200,
                                    .shaftTexels = 768,
                                    .shaftSteps = 64,
-                                   .shaftShadows = true,
                                    .shadowTexels = 2048,
                                    .fishShadowTexels = 1024,
-                                   .flakes = 20000};
+                                   .flakes = 20000,
+                                   .isFine = true};
 
 }  // namespace
+
+std::string definitionsOf(const LightQuality& light) {
+    return light.isFine ? "#define FINE_LIGHT\n" : "";
+}
 
 Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{

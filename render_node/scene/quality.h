@@ -2,6 +2,8 @@
 // How much a frame may cost: what each tier of quality buys, in one place.
 #pragma once
 
+#include <string>
+
 #include "common/config/quality.h"
 
 namespace aquarama {
@@ -9,18 +11,22 @@ namespace aquarama {
 // Of the sunlight in the sea: waves, caustics, shafts, shadows, snow. Texels are of one side.
 struct LightQuality {
     int waveTexels = 96;
-    int rippleTexels = 96;
-    int surfaceTaps = 1;      // of the surface along a pixel's long side
-    int causticLayers = 1;    // depths at which the net of light is drawn
+    int rippleTexels = 64;
+    int surfaceTaps = 1;    // of the surface along a pixel's long side
+    int causticLayers = 1;  // depths at which the net of light is drawn
     int causticTexels = 256;
-    int causticCells = 72;    // of the light front, a side
-    int shaftTexels = 128;    // of the map of all directions
-    int shaftSteps = 24;      // along a direction
-    bool shaftShadows = false;  // of rocks, in the shafts
-    int shadowTexels = 1024;  // of the place's shadows
-    int fishShadowTexels = 256;
+    int causticCells = 72;   // of the light front, a side
+    int shaftTexels = 128;   // of the map of all directions
+    int shaftSteps = 24;     // along a direction
+    int shadowTexels = 512;  // of the place's shadows
+    int fishShadowTexels = 128;
     int flakes = 9000;  // of marine snow
+    // Soft shadows, of fish too; a mirrored reef, clouds, coloured rims of the net of light.
+    bool isFine = false;
 };
+
+// What shaders of the tier begin with: see gl::Definitions.
+[[nodiscard]] std::string definitionsOf(const LightQuality& light);
 
 struct Quality {
     int samples = 1;  // of multisampling

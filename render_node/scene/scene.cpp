@@ -196,8 +196,10 @@ void SceneRenderer::Parts::drawSnow() const {
     glDepthMask(GL_TRUE);
 }
 
-SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SceneSpecies> cast)
-    : parts_{std::make_unique<Parts>(options, cast)} {}
+SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SceneSpecies> cast) {
+    const gl::Definitions tier{definitionsOf(qualityOf(options.quality).light)};
+    parts_ = std::make_unique<Parts>(options, cast);
+}
 
 SceneRenderer::~SceneRenderer() = default;
 

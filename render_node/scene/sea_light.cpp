@@ -54,8 +54,7 @@ gl::Texture makeClouds(std::uint32_t seed) {
     constexpr int kCells = 6;
     const auto at = [&](glm::vec2 place, int cells) {
         const auto corner = [&](glm::ivec2 c) {
-            const auto index =
-                static_cast<std::uint32_t>((c.y % cells) * cells + c.x % cells);
+            const auto index = static_cast<std::uint32_t>((c.y % cells) * cells + c.x % cells);
             return unitOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(cells)), index));
         };
         const glm::vec2 p = place * static_cast<float>(cells);
@@ -74,10 +73,16 @@ gl::Texture makeClouds(std::uint32_t seed) {
                 sum += at(place, kCells << octave) * std::exp2(-1.0F - static_cast<float>(octave));
             texels.push_back(static_cast<glm::u8>(255.0F * sum / (1.0F - 1.0F / 32.0F)));
         }
-    gl::Texture texture =
-        makeTexture(GL_R8, glm::ivec2{kCloudTexels}, kTileLevels, Edge::Repeat);
-    glTextureSubImage2D(texture.name(), 0, 0, 0, kCloudTexels, kCloudTexels, GL_RED,
-                        GL_UNSIGNED_BYTE, texels.data());
+    gl::Texture texture = makeTexture(GL_R8, glm::ivec2{kCloudTexels}, kTileLevels, Edge::Repeat);
+    glTextureSubImage2D(texture.name(),
+                        0,
+                        0,
+                        0,
+                        kCloudTexels,
+                        kCloudTexels,
+                        GL_RED,
+                        GL_UNSIGNED_BYTE,
+                        texels.data());
     glGenerateTextureMipmap(texture.name());
     return texture;
 }
@@ -110,7 +115,7 @@ Box texelsInView(glm::vec3 eye, const glm::mat4& worldFromClip, int texels) {
                                           1.0F,
                                           1.0F);
             const glm::vec2 texel = shaftTexel(glm::normalize(glm::vec3(near) / near.w - eye),
-                                                static_cast<float>(texels));
+                                               static_cast<float>(texels));
             low = glm::min(low, texel);
             high = glm::max(high, texel);
         }
@@ -131,10 +136,10 @@ SeaLight::SeaLight(const SeaLightOptions& options)
           inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres_)))},
       openWater_{makeTexture(inscatter_.openWater())},
       cloudTile_{makeClouds(options.seed)},
-      waveTile_{makeTexture(
-          GL_RGBA16F, glm::ivec2{quality_.waveTexels}, kTileLevels, Edge::Repeat)},
-      rippleTile_{makeTexture(
-          GL_RGBA16F, glm::ivec2{quality_.rippleTexels}, kTileLevels, Edge::Repeat)},
+      waveTile_{
+          makeTexture(GL_RGBA16F, glm::ivec2{quality_.waveTexels}, kTileLevels, Edge::Repeat)},
+      rippleTile_{
+          makeTexture(GL_RGBA16F, glm::ivec2{quality_.rippleTexels}, kTileLevels, Edge::Repeat)},
       causticLayers_{makeLayers(quality_.causticTexels, quality_.causticLayers)},
       shaftMap_{makeTexture(GL_RGBA16F, glm::ivec2{quality_.shaftTexels}, 1, Edge::Clamp)},
       waveTarget_{makeTarget(waveTile_)},
@@ -168,7 +173,7 @@ void SeaLight::update(double timeSeconds,
                        quality_.causticLayers - 1,
                        std::log2(static_cast<float>(quality_.causticTexels) / 256.0F)};
     now.surfaceDetail = {quality_.surfaceTaps,
-                         quality_.causticLayers > 1 ? kDispersion : 0.0F,
+                         quality_.isFine ? kDispersion : 0.0F,
                          static_cast<float>(quality_.waveTexels) / kTileMetres,
                          static_cast<float>(quality_.rippleTexels) / kRippleTileMetres};
     now.fishWindow = shade_.fishWindow(sharedEyeMetres);
@@ -230,7 +235,6 @@ void SeaLight::drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
     glUseProgram(shaftProgram_.name());
     glUniform1i(0, quality_.shaftTexels);
     glUniform1i(1, quality_.shaftSteps);
-    glUniform1i(2, quality_.shaftShadows ? 1 : 0);
     glBindTextureUnit(11, causticLayers_.name());
     shade_.bind();
     glBindVertexArray(empty_.name());

@@ -16,11 +16,11 @@ namespace aquarama {
 
 namespace {
 
-constexpr float kPlaceMetres = 80.0F;      // as in shadow.glsl
-constexpr float kMapDepthMetres = 64.0F;    // depth 0 of the maps of the place, as in moments.frag
-constexpr float kFishMetres = 32.0F;       // side of the map of fish
+constexpr float kPlaceMetres = 80.0F;     // as in shadow.glsl
+constexpr float kMapDepthMetres = 64.0F;  // depth 0 of the maps of the place, as in moments.frag
+constexpr float kFishMetres = 32.0F;      // side of the map of fish
 constexpr int kPlaceLevels = 7;
-constexpr int kFishLevels = 6;
+constexpr int kFishLevels = 6;  // the finest alone where nobody reads the others
 constexpr unsigned kFishBinding = 8;
 
 // Parallel to the rays: a place goes to where its ray meets the surface; depth is its height.
@@ -41,12 +41,12 @@ glm::mat4 alongRays(glm::vec3 towardsLight) {
 
 SeaShade::SeaShade(const LightQuality& quality, std::size_t mostFish)
     : quality_{quality},
-      sunHeights_{makeTexture(
-          GL_RG32F, glm::ivec2{quality.shadowTexels}, kPlaceLevels, Edge::Clamp)},
-      topHeights_{makeTexture(
-          GL_RG32F, glm::ivec2{quality.shadowTexels}, kPlaceLevels, Edge::Clamp)},
-      fishOnTheWay_{makeTexture(
-          GL_RGBA32F, glm::ivec2{quality.fishShadowTexels}, kFishLevels, Edge::Clamp)},
+      sunHeights_{
+          makeTexture(GL_RG32F, glm::ivec2{quality.shadowTexels}, kPlaceLevels, Edge::Clamp)},
+      topHeights_{
+          makeTexture(GL_RG32F, glm::ivec2{quality.shadowTexels}, kPlaceLevels, Edge::Clamp)},
+      fishOnTheWay_{
+          makeTexture(GL_RGBA32F, glm::ivec2{quality.fishShadowTexels}, kFishLevels, Edge::Clamp)},
       sunTarget_{makeTarget(sunHeights_)},
       topTarget_{makeTarget(topHeights_)},
       fishTarget_{makeTarget(fishOnTheWay_)},
@@ -112,8 +112,7 @@ void SeaShade::updateFish(std::span<const PresentedFish> fish) {
     throwers_.clear();
     for (const PresentedFish& one : fish) {
         if (isAway(one)) continue;
-        const glm::quat turn{
-            one.rotation.w, one.rotation.x, one.rotation.y, one.rotation.z};
+        const glm::quat turn{one.rotation.w, one.rotation.x, one.rotation.y, one.rotation.z};
         throwers_.emplace_back(one.positionMetres, one.lengthMetres);
         throwers_.emplace_back(turn * glm::vec3{1.0F, 0.0F, 0.0F}, 0.0F);
     }
@@ -135,7 +134,7 @@ void SeaShade::updateFish(std::span<const PresentedFish> fish) {
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(throwers_.size() / 2));
         glDisable(GL_BLEND);
     }
-    glGenerateTextureMipmap(fishOnTheWay_.name());
+    if (quality_.isFine) glGenerateTextureMipmap(fishOnTheWay_.name());
 }
 
 void SeaShade::bind() const {

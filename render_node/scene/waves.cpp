@@ -44,8 +44,7 @@ WaveSet<Count> wavesOf(std::uint32_t seed, const Band& band, double tileMetres) 
         const auto unit = [&](std::uint32_t n) {
             return static_cast<double>(unitOf(hashOf(hashOf(seed ^ 0x7a5eU, i), n)));
         };
-        const double length =
-            band.longestMetres * std::pow(band.shortestShare, (i + 0.5) / Count);
+        const double length = band.longestMetres * std::pow(band.shortestShare, (i + 0.5) / Count);
         const double heading = kGoldenAngle * i + 0.6 * (unit(0) - 0.5);
         Wave& wave = waves[i];
         wave.number = glm::dvec2{std::cos(heading), std::sin(heading)} * (kTwoPi / length);
@@ -71,15 +70,13 @@ template <std::size_t Count>
 double meanSquareSlope(const WaveSet<Count>& waves) {
     double sum = 0;
     for (const Wave& wave : waves)
-        sum += 0.5 * glm::dot(wave.number, wave.number) * wave.amplitudeMetres *
-               wave.amplitudeMetres;
+        sum +=
+            0.5 * glm::dot(wave.number, wave.number) * wave.amplitudeMetres * wave.amplitudeMetres;
     return sum;
 }
 
 template <std::size_t Count>
-void setPhases(const WaveSet<Count>& waves,
-               double timeSeconds,
-               std::array<glm::vec4, Count>& now) {
+void setPhases(const WaveSet<Count>& waves, double timeSeconds, std::array<glm::vec4, Count>& now) {
     for (std::size_t i = 0; i < Count; ++i) {
         const Wave& wave = waves[i];
         const double phase = std::fmod(wave.phase - wave.frequency * timeSeconds, kTwoPi);
@@ -93,8 +90,7 @@ Sea seaOf(std::uint32_t seed, float focusDepthMetres) {
     Sea sea{wavesOf<kWaves>(seed, kWaveBand, static_cast<double>(kTileMetres)),
             wavesOf<kWaves>(hashOf(seed), kRippleBand, static_cast<double>(kRippleTileMetres)),
             wavesOf<kLongWaves>(hashOf(seed, 2), kLongBand, 0.0)};
-    scale(sea.waves,
-          kSharpestNet / focusNumber(sea.waves, static_cast<double>(focusDepthMetres)));
+    scale(sea.waves, kSharpestNet / focusNumber(sea.waves, static_cast<double>(focusDepthMetres)));
     scale(sea.ripples, kRippleSteepness / steepness(sea.ripples));
     scale(sea.longWaves, kLongSteepness / std::sqrt(meanSquareSlope(sea.longWaves)));
     return sea;

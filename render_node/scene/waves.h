@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The waves of the sea's surface: two sets of 32 sines, each of which repeats on its own tile, and a
-// few long ones that never do. The waves gather the sunlight; the ripples only break up what is seen
-// in the surface from below.
+// The waves of the sea's surface: two sets of 32 sines, each of which repeats on its own tile, and
+// a few long ones that never do. The waves gather the sunlight; the ripples only break up what is
+// seen in the surface from below.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ using WaveSet = std::array<Wave, Count>;
 using Waves = WaveSet<kWaves>;
 
 struct Sea {
-    Waves waves;    // 3.4 to 0.48 m, a whole number of them on the tile
-    Waves ripples;  // 0.45 to 0.05 m, a whole number of them on theirs
+    Waves waves;                    // 3.4 to 0.48 m, a whole number of them on the tile
+    Waves ripples;                  // 0.45 to 0.05 m, a whole number of them on theirs
     WaveSet<kLongWaves> longWaves;  // 6 to 15 m
 };
 // Waves as steep as makes the net of light sharpest on sand at this depth: see focusNumber. Calm:

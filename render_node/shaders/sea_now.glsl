@@ -11,6 +11,13 @@ layout(std140, binding = 1) uniform SeaNow {
     vec4 fishWindow;
 };
 
+// Tiers that can pay for it: soft shadows of several reaches, a mirrored reef, clouds, dispersion.
+#ifdef FINE_LIGHT
+const bool kFine = true;
+#else
+const bool kFine = false;
+#endif
+
 // How far the swell has carried the water at a place, metres: deep-water waves of 7 and 4.3 s,
 // whose orbits shrink with depth, and a flutter.
 vec2 surge(vec3 place) {

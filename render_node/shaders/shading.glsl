@@ -24,9 +24,8 @@ vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float
     float depth = max(-place.y, 0.1);
     float share = unscatteredShare(depth);
     float towardsSun = dot(normal, sunAndFilterDepth.xyz);
-    Openness school = pastFish(place);
-    vec3 sun = causticColour(place, lod) * (share * open.sun * school.sun * daylight.x);
-    vec3 sky = (1.0 - share) * open.sky * school.sky * daylight.yzw;
+    vec3 sun = causticColour(place, lod) * (share * open.sun * daylight.x);
+    vec3 sky = (1.0 - share) * open.sky * daylight.yzw;
     vec3 sand = 0.6 * open.sky * (0.5 * (daylight.x + daylight.yzw));
     float up = 0.5 + 0.5 * normal.y;
     vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));

@@ -39,12 +39,17 @@ float placeLod(float blurMetres) {
 float sunPast(vec3 place) {
     vec2 uv = surfacePoint(place) / kPlaceMetres + 0.5;
     float height = place.y + 0.06;
+    if (!kFine) return shareNotAbove(textureLod(sunHeights, uv, 0.0).xy, height);
     float throwerMetres = max(textureLod(sunHeights, uv, placeLod(0.5)).x - height, 0.0);
     return shareNotAbove(textureLod(sunHeights, uv, placeLod(0.05 + 0.05 * throwerMetres)).xy, height);
 }
 
 // Light from above past the same: how much of the surroundings stands higher, near and far.
 float skyPast(vec3 place, vec3 normal) {
+    if (!kFine) {
+        vec2 moments = textureLod(topHeights, place.xz / kPlaceMetres + 0.5, 3.0).xy;
+        return shareNotAbove(moments, place.y + 0.1);
+    }
     float open = 0.0;
     for (int i = 0; i < 3; ++i) {
         float reach = 0.18 * exp2(1.6 * float(i));
@@ -53,11 +58,6 @@ float skyPast(vec3 place, vec3 normal) {
         open += shareNotAbove(moments, from.y);
     }
     return open / 3.0;
-}
-
-// For things that stand or swim in the place; of their own hollows they know themselves.
-Openness openAt(vec3 place, vec3 normal) {
-    return Openness(sunPast(place + 0.05 * normal), mix(0.25, 1.0, skyPast(place, normal)));
 }
 
 // Light past the fish above, as if those on the way were spread like a bell about their mean height.
@@ -74,9 +74,21 @@ vec2 fishPlace(vec3 place) { return (surfacePoint(place) - fishWindow.xy) * fish
 Openness pastFish(vec3 place) {
     vec2 uv = fishPlace(place);
     if (any(greaterThan(abs(uv - 0.5), vec2(0.49)))) return Openness(1.0, 1.0);
+    if (!kFine) {
+        float both = pastFish(uv, place.y, 0.0);
+        return Openness(both, 0.4 + 0.6 * both);
+    }
     float perMetre = fishWindow.z * float(textureSize(fishOnTheWay, 0).x);
     float sun = pastFish(uv, place.y, log2(max(0.05 * perMetre, 1.0)));
     float sky = pastFish(uv, place.y, log2(max(0.9 * perMetre, 1.0)));
     return Openness(sun, sky);
+}
+
+// For what stands in the place, past all of it and the fish; of its own hollows it knows itself.
+Openness openAt(vec3 place, vec3 normal) {
+    Openness open = Openness(sunPast(place + 0.05 * normal), mix(0.25, 1.0, skyPast(place, normal)));
+    if (!kFine) return open;
+    Openness school = pastFish(place);
+    return Openness(open.sun * school.sun, open.sky * school.sky);
 }
 #endif

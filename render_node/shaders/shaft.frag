@@ -6,7 +6,6 @@ layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 upTo;
 layout(location = 0) uniform int texels;
 layout(location = 1) uniform int steps;
-layout(location = 2) uniform bool shades;  // by rocks
 
 const float kGain = 2.3;
 
@@ -27,9 +26,10 @@ float lightAt(vec3 place, float range) {
     float lod = 1.2 + log2(1.0 + range * (6.0 / float(texels)) * (256.0 / kTileMetres));
     float gathered = net(surfacePoint(place), depth, lod) - 1.0;
     float light = max(1.0 + kGain * gathered * exp(-0.022 * depth), 0.0);
+    if (!kFine) return light;
     vec2 fishUv = fishPlace(place);
     if (all(lessThan(abs(fishUv - 0.5), vec2(0.49)))) light *= pastFish(fishUv, place.y, 1.5);
-    return shades ? light * sunPast(place) : light;
+    return light * sunPast(place);
 }
 
 void main() {

@@ -2,6 +2,7 @@
 #ifndef SKY_GLSL
 #define SKY_GLSL
 #include "frame_uniforms.h"
+#include "sea_now.glsl"
 
 layout(binding = 20) uniform sampler2D cloudTile;  // cover of fair-weather clouds
 
@@ -23,11 +24,13 @@ float spreadLobe(float away, float sharpness, float height, float spread) {
 vec3 sky(vec3 direction, float spread) {
     float rise = max(direction.y, 0.04);
     vec3 blue = mix(vec3(0.046, 0.060, 0.078), vec3(0.014, 0.027, 0.054), smoothstep(0.0, 0.8, rise));
-    // A layer of clouds that drifts, denser towards the horizon.
-    vec2 layer = direction.xz / (rise + 0.12);
-    float lod = 2.0 + log2(1.0 + 40.0 * spread / (rise * rise));
-    float cover = textureLod(cloudTile, 0.11 * layer + 0.0006 * eyeAndTime.w, lod).r;
-    blue = mix(blue, vec3(0.085, 0.090, 0.095), smoothstep(0.42, 0.80, cover));
+    if (kFine) {
+        // A layer of clouds that drifts, denser towards the horizon.
+        vec2 layer = direction.xz / (rise + 0.12);
+        float lod = 2.0 + log2(1.0 + 40.0 * spread / (rise * rise));
+        float cover = textureLod(cloudTile, 0.11 * layer + 0.0006 * eyeAndTime.w, lod).r;
+        blue = mix(blue, vec3(0.085, 0.090, 0.095), smoothstep(0.42, 0.80, cover));
+    }
     float away = dot(direction, sunInAir()) - 1.0;
     float sun = spreadLobe(away, 2600.0, 70.0, spread) + spreadLobe(away, 260.0, 1.2, spread) +
                 0.045 * exp(14.0 * away);

@@ -37,6 +37,7 @@ float net(vec2 surfaceMetres, float depth, float lod) {
     float layer = log2(max(depth, 0.05) / causticAxis.x) * causticAxis.y;
     float last = causticAxis.z;
     float fine = max(lod + causticAxis.w, 0.0) + max(layer - last, 0.0);
+    if (!kFine) fine = round(fine);
     float below = clamp(floor(layer), 0.0, last);
     vec2 uv = surfaceMetres / kTileMetres;
     float light = textureLod(causticLayers, vec3(uv, below), fine).r;
@@ -44,10 +45,12 @@ float net(vec2 surfaceMetres, float depth, float lod) {
         float next = textureLod(causticLayers, vec3(uv, min(below + 1.0, last)), fine).r;
         light = mix(light, next, clamp(layer - below, 0.0, 1.0));
     }
+    float strength = min(depth / causticAxis.x, 1.0);
     // Groups of higher and lower waves, wider than the tile: no two stretches of sand are alike.
-    float groups = 0.94 + 0.16 * sin(dot(surfaceMetres, vec2(0.31, 0.17)) + swellPhases.x) +
-                   0.12 * sin(dot(surfaceMetres, vec2(-0.13, 0.27)) - swellPhases.y);
-    return max(1.0 + groups * min(depth / causticAxis.x, 1.0) * (light - 1.0), 0.0);
+    if (kFine)
+        strength *= 0.94 + 0.16 * sin(dot(surfaceMetres, vec2(0.31, 0.17)) + swellPhases.x) +
+                    0.12 * sin(dot(surfaceMetres, vec2(-0.13, 0.27)) - swellPhases.y);
+    return max(1.0 + strength * (light - 1.0), 0.0);
 }
 
 float caustic(vec3 place, float lod) { return net(surfacePoint(place), max(-place.y, 0.0), lod); }
@@ -58,7 +61,7 @@ vec3 causticColour(vec3 place, float lod) {
     vec2 at = surfacePoint(place);
     float depth = max(-place.y, 0.0);
     float green = net(at, depth, lod);
-    if (surfaceDetail.y == 0.0) return vec3(green);
+    if (!kFine) return vec3(green);
     vec3 sun = sunAndFilterDepth.xyz;
     vec2 moved = sun.xz / (sun.y * sun.y * sun.y) * (depth * surfaceDetail.y / 1.335);
     return vec3(net(at + 0.004 * moved, depth, lod), green, net(at - 0.006 * moved, depth, lod));

@@ -16,16 +16,21 @@ struct Facets {
     float variance;  // of the slopes that a pixel cannot show, along one axis
 };
 
+float levelOf(float texels) {
+    float level = log2(max(texels, 1.0));
+    return kFine ? level : round(level);
+}
+
 Facets facetsAt(vec2 xz, float footprint) {
-    vec4 wave = textureLod(waveTile, xz / kTileMetres, log2(max(footprint * surfaceDetail.z, 1.0)));
+    vec4 wave = textureLod(waveTile, xz / kTileMetres, levelOf(footprint * surfaceDetail.z));
     // Turned, so that the two tiles never meet in step.
     const mat2 turn = mat2(0.83, 0.558, -0.558, 0.83);
     vec4 ripple = textureLod(rippleTile, (turn * xz) / kRippleTileMetres,
-                             log2(max(footprint * surfaceDetail.w, 1.0)));
+                             levelOf(footprint * surfaceDetail.w));
     vec2 slope = kSteeper * wave.xy + ripple.xy * turn;
     float lost = kSteeper * kSteeper * max(wave.w - dot(wave.xy, wave.xy), 0.0) +
                  max(ripple.w - dot(ripple.xy, ripple.xy), 0.0);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < (kFine ? 4 : 1); ++i) {
         vec4 wide = longWaves[i];
         slope += wide.z * wide.xy * cos(dot(wide.xy, xz) + wide.w);
     }
@@ -74,6 +79,9 @@ vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
                  (kBrightening * enters);
     vec3 down = reflect(w, -normal);
     down = normalize(vec3(down.x, -max(abs(down.y), 0.03), down.z));
+    if (!kFine)
+        return direct(above + (1.0 - enters) * 0.9 * openWater(down, sunAndFilterDepth.w), range,
+                      sunAndFilterDepth.w);
     // The diver's filter undoes a way down that this light has not come: most of it is left out.
     return direct(above, range, 0.75 * sunAndFilterDepth.w) + (1.0 - enters) * mirroredSea(down, xz, range);
 }

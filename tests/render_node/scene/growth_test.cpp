@@ -129,8 +129,8 @@ TEST(Waves, fitTheirTilesAndFocusOnTheSand) {
     EXPECT_LT(focus, 0.70);
 }
 
-// As they are seen from below (waves 1.5 times steeper, as in water_surface.frag): Cox and Munk 1954
-// measured 0.003 + 0.00512 U, U the wind in m/s.
+// As they are seen from below (waves 1.5 times steeper, as in water_surface.frag): Cox and Munk
+// 1954 measured 0.003 + 0.00512 U, U the wind in m/s.
 TEST(Waves, areAsSteepAsInALightBreeze) {
     const Sea sea = seaOf(kSeed, kMeanFloorDepthMetres);
     const double square =

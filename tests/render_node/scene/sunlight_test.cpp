@@ -33,8 +33,7 @@ class Sunlight : public testing::Test {
         uniforms_.sharedEyeAndPixel = glm::vec4(kEyePosition, 0.002F);
         uniforms_.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
         uniforms_.daylight = glm::vec4(1.0F);
-        glNamedBufferStorage(
-            block_.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
+        glNamedBufferStorage(block_.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         setUniforms();
     }
     void setUniforms() const {
