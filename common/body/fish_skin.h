@@ -3,28 +3,15 @@
 // the colours of its file.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <string>
 
 #include <glm/vec3.hpp>
 
 namespace aquarama {
 
-// render_node/shaders/fish_skin.glsl paints the scad, reef_skins.glsl the others.
-enum class SkinPattern : std::uint32_t {
-    BigeyeScad,
-    Plain,
-    Clownfish,
-    MoorishIdol,
-    BlueTang,
-    Parrotfish,
-    Trumpetfish,
-    BlacktipReefShark
-};
-
 struct FishSkin {
-    SkinPattern pattern = SkinPattern::BigeyeScad;
-    // Of a plain skin: linear Rec. 709.
+    std::string species;  // whose painter is render_node/shaders/skin_SPECIES.glsl
+    // Linear Rec. 709.
     glm::vec3 back{}, flank{}, belly{};
 };
 

@@ -35,8 +35,9 @@ struct ShaderTraits {
     static void destroy(unsigned name) { glDeleteShader(name); }
 };
 
-Handle<ShaderTraits> compile(const std::string& file) {
-    const std::string source = "#version 450 core\n" + definitions + shaderSource(file);
+Handle<ShaderTraits> compile(const std::string& file, std::span<const Replacement> replacements) {
+    const std::string source =
+        "#version 450 core\n" + definitions + shaderSource(file, replacements);
     const char* text = source.c_str();
     Handle<ShaderTraits> shader{stageOf(file)};
     glShaderSource(shader.name(), 1, &text, nullptr);
@@ -60,7 +61,7 @@ Definitions::~Definitions() {
     definitions = std::move(outer_);
 }
 
-std::string shaderSource(std::string_view name) {
+std::string shaderSource(std::string_view name, std::span<const Replacement> replacements) {
     constexpr std::string_view kInclude = "#include \"";
     std::string expanded;
     std::string_view rest = embedded(name).text;
@@ -71,7 +72,9 @@ std::string shaderSource(std::string_view name) {
         if (line.starts_with(kInclude)) {
             const std::string_view file =
                 line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
-            expanded += shaderSource(file);
+            const auto replaced = std::ranges::find(replacements, file, &Replacement::file);
+            expanded +=
+                shaderSource(replaced == replacements.end() ? file : replaced->by, replacements);
         } else {
             expanded += line;
         }
@@ -85,10 +88,11 @@ std::vector<std::string_view> shaderNames() {
     return names;
 }
 
-ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles) {
+ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
+                          std::span<const Replacement> replacements) {
     ProgramHandle program;
     for (const std::string& file : shaderFiles) {
-        const auto shader = compile(file);
+        const auto shader = compile(file, replacements);
         glAttachShader(program.name(), shader.name());
     }
     glLinkProgram(program.name());

@@ -53,10 +53,22 @@ std::string definitionsOf(const LightQuality& light) {
 
 Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{
-        Quality{.samples = 1, .light = {}},
-        Quality{.samples = 1, .light = kMediumLight},
-        Quality{.samples = 4, .light = kHighLight},
-        Quality{.samples = 4, .light = kUltraLight},
+        Quality{.samples = 1, .light = {}, .placeDetail = 0.5F},
+        Quality{.samples = 1,
+                .light = kMediumLight,
+                .placeDetail = 0.9F,
+                .rockScales = 2,
+                .growthAtPixels = true},
+        Quality{.samples = 4,
+                .light = kHighLight,
+                .placeDetail = 1.4F,
+                .rockScales = 3,
+                .growthAtPixels = true},
+        Quality{.samples = 4,
+                .light = kUltraLight,
+                .placeDetail = 2.5F,
+                .rockScales = 3,
+                .growthAtPixels = true},
     };
     return kTiers.at(static_cast<std::size_t>(tier));
 }

@@ -15,10 +15,10 @@ struct LightQuality {
     int surfaceTaps = 1;    // of the surface along a pixel's long side
     int causticLayers = 1;  // depths at which the net of light is drawn
     int causticTexels = 256;
-    int causticCells = 72;   // of the light front, a side
-    int shaftTexels = 128;   // of the map of all directions
-    int shaftSteps = 24;     // along a direction
-    int shadowTexels = 512;  // of the place's shadows
+    int causticCells = 72;  // of the light front, a side
+    int shaftTexels = 128;  // of the map of all directions
+    int shaftSteps = 24;    // along a direction
+    int shadowTexels = 64;  // of the place's shadows; drawn where isFine
     int fishShadowTexels = 128;
     int flakes = 9000;  // of marine snow
     // Soft shadows, of fish too; a mirrored reef, clouds, coloured rims of the net of light.
@@ -31,6 +31,11 @@ struct LightQuality {
 struct Quality {
     int samples = 1;  // of multisampling
     LightQuality light;
+    // How finely the place is cut: at 1 a facet of a coral fills some 7 of the wall's finest
+    // pixels.
+    float placeDetail = 1.0F;
+    int rockScales = 1;           // of the grit on rock, 1 to 3; above 1 laid on from three sides
+    bool growthAtPixels = false;  // near corals are lit at pixels, not at corners
 };
 
 [[nodiscard]] Quality qualityOf(QualityTier tier);

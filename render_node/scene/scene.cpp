@@ -11,11 +11,10 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/frustum.h"
 #include "render_node/scene/ground.h"
-#include "render_node/scene/meadow.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/scene_picture.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/sun.h"
+#include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "render_node/surface/school_surface.h"
 #include "render_node/surface/skin_programs.h"
@@ -23,16 +22,6 @@
 namespace aquarama {
 
 namespace {
-
-// Undoes about the water above the eye, so that near things keep their colours and distance stays
-// blue.
-constexpr float kFilterDepthMetres = 4.9F;
-
-// All channels of a wall are about as large, so neighbours agree.
-float detailOf(glm::ivec2 sizePixels) {
-    constexpr int kSmallWindow = 640;
-    return sizePixels.y < kSmallWindow ? 0.5F : 1.0F;
-}
 
 // The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
 // sun is mirrored away; what is left then comes from above, and is bluer. Never nothing: a wall
@@ -55,11 +44,13 @@ glm::vec4 lampOf(glm::vec3 eyeMetres, float daylight) {
 }
 
 // What is the same for all views of a frame.
-FrameUniforms frameUniforms(const SceneFrame& frame, float pixelRadians) {
+FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, float pixelRadians) {
     FrameUniforms uniforms{};
     uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, static_cast<float>(frame.timeSeconds));
     uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
-    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
+    uniforms.sunAndFilterDepth = glm::vec4(
+        sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
+    uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
     uniforms.daylight = daylightOf(frame.daylight);
     uniforms.lamp = lampOf(frame.eyePositionMetres, frame.daylight);
     return uniforms;
@@ -76,10 +67,9 @@ void setView(FrameUniforms& uniforms, const View& view) {
 
 // All that stands on the sea floor. In the open sea it lies too deep to be seen.
 struct Bottom {
-    explicit Bottom(std::uint32_t seed) : ground{seed}, reef{seed}, meadow{seed} {}
+    Bottom(std::uint32_t seed, const Quality& quality) : ground{seed}, reef{{seed}, quality} {}
     Ground ground;
     Reef reef;
-    Meadow meadow;
 };
 
 std::size_t fishOf(std::span<const SceneSpecies> cast) {
@@ -94,12 +84,12 @@ struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
-          light{{chosen.seed, kFilterDepthMetres, quality.light, fishOf(cast)}},
+          light{{chosen.seed, chosen.water, quality.light, fishOf(cast)}},
           picture{quality.samples},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
-        if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed);
+        if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed, quality);
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         const auto skins = makeSkinPrograms();
@@ -111,7 +101,7 @@ struct SceneRenderer::Parts {
                 skins);
             fishOfSchool.push_back(species.fish);
         }
-        if (bottom) bakeShadows();
+        if (bottom && quality.light.isFine) bakeShadows();
     }
 
     void setUniforms() const;
@@ -142,17 +132,19 @@ void SceneRenderer::Parts::setUniforms() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock.name());
 }
 
-// Of the place as it stands, as rays of light see it.
+// Of the place as it stands, as rays of light see it; as fine as the maps' texels.
 void SceneRenderer::Parts::bakeShadows() {
+    constexpr glm::vec4 kFarAboveWithCoarsePixels{0.0F, 30.0F, 0.0F, 0.002F};
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    uniforms.sharedEyeAndPixel = kFarAboveWithCoarsePixels;
     light.shade().setPlace([&](const glm::mat4& clipFromWorld) {
         uniforms.clipFromWorld = clipFromWorld;
         setUniforms();
         light.bind();
-        const Viewpoint everything{
-            Frustum{clipFromWorld}, kEyePosition, false, options.levelsOfDetail, 1.0F};
-        bottom->reef.draw(everything);
-        bottom->ground.draw(everything);
+        bottom->reef.cull({.culling = false, .levelsOfDetail = options.levelsOfDetail});
+        bottom->reef.draw();
+        bottom->ground.draw(
+            Viewpoint{Frustum{clipFromWorld}, kEyePosition, false, options.levelsOfDetail});
     });
 }
 
@@ -171,8 +163,8 @@ void SceneRenderer::Parts::cullFish() {
 // Near things first, so that what they hide is never shaded.
 void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
     if (!bottom) return;
-    bottom->meadow.draw(viewpoint);
-    bottom->reef.draw(viewpoint);
+    bottom->reef.cull({viewpoint.culling, viewpoint.levelsOfDetail});
+    bottom->reef.draw();
     bottom->ground.draw(viewpoint);
 }
 
@@ -205,7 +197,7 @@ SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
-    parts.uniforms = frameUniforms(frame, parts.options.pixelRadians);
+    parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
     parts.fish.assign(frame.fish.begin(), frame.fish.end());
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
@@ -226,7 +218,7 @@ unsigned SceneRenderer::draw(const View& view) {
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,
-                              detailOf(view.sizePixels)};
+                              parts.quality.placeDetail};
     parts.drawSolids(viewpoint);
     parts.drawWater();
     for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water

@@ -127,14 +127,15 @@ Box texelsInView(glm::vec3 eye, const glm::mat4& worldFromClip, int texels) {
 
 SeaLight::SeaLight(const SeaLightOptions& options)
     : quality_{options.quality},
-      filterDepthMetres_{options.filterDepthMetres},
       sea_{options.calm ? calmSea() : seaOf(options.seed, kMeanFloorDepthMetres)},
-      inscatter_{oceanWater()},
+      water_{seaWater(options.water)},
+      inscatter_{water_},
       tableDepthMetres_{-kEyePosition.y},
-      direct_{makeTexture(bakeDirect(oceanWater()))},
-      inscatterTable_{makeTexture(
-          inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres_)))},
-      openWater_{makeTexture(inscatter_.openWater())},
+      atEye_{inscatter_.atDepth(double{tableDepthMetres_})},
+      primariesKd_{primariesDownwelling(water_)},
+      direct_{makeTexture(bakeDirect(water_))},
+      inscatterTable_{makeVolume(atEye_)},
+      openWater_{makeTexture(bakeOpenWater(water_))},
       cloudTile_{makeClouds(options.seed)},
       waveTile_{
           makeTexture(GL_RGBA16F, glm::ivec2{quality_.waveTexels}, kTileLevels, Edge::Repeat)},
@@ -149,7 +150,8 @@ SeaLight::SeaLight(const SeaLightOptions& options)
       causticProgram_{gl::makeProgram({"caustic.vert", "caustic.frag"})},
       shaftProgram_{gl::makeProgram({"quad.vert", "shaft.frag"})},
       shade_{options.quality, options.mostFish} {
-    glNamedBufferStorage(seaBlock_.name(), sizeof(SeaNow), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    const SeaNow start = seaAt(sea_, 0.0);
+    glNamedBufferStorage(seaBlock_.name(), sizeof(SeaNow), &start, GL_DYNAMIC_STORAGE_BIT);
     const auto indices = gridIndices(quality_.causticCells);
     causticIndexCount_ = static_cast<int>(indices.size());
     glNamedBufferStorage(causticIndices_.name(),
@@ -164,8 +166,8 @@ void SeaLight::update(double timeSeconds,
                       std::span<const PresentedFish> fish) {
     if (tableDepthMetres_ != -sharedEyeMetres.y) {
         tableDepthMetres_ = -sharedEyeMetres.y;
-        refill(inscatterTable_,
-               inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres_)));
+        inscatter_.mixAtDepth(double{tableDepthMetres_}, atEye_);
+        refill(inscatterTable_, atEye_);
     }
     SeaNow now = seaAt(sea_, timeSeconds);
     now.causticAxis = {layerDepth(0, quality_.causticLayers),
@@ -183,6 +185,10 @@ void SeaLight::update(double timeSeconds,
     drawWaves();
     drawCaustics();
     shade_.updateFish(fish);
+}
+
+glm::vec4 SeaLight::kdAndExposure(glm::vec3 sharedEyeMetres) const {
+    return {primariesKd_, inscatter_.exposureAt(-double{sharedEyeMetres.y})};
 }
 
 void SeaLight::drawWaves() {
@@ -243,6 +249,7 @@ void SeaLight::drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
 }
 
 void SeaLight::bind() const {
+    glBindBufferBase(GL_UNIFORM_BUFFER, 1, seaBlock_.name());
     glBindTextureUnit(8, direct_.name());
     glBindTextureUnit(9, inscatterTable_.name());
     glBindTextureUnit(10, openWater_.name());

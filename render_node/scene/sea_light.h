@@ -7,6 +7,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "render_node/gl/handle.h"
 #include "render_node/scene/quality.h"
@@ -18,7 +19,7 @@ namespace aquarama {
 
 struct SeaLightOptions {
     std::uint32_t seed = 1;
-    float filterDepthMetres = 0.0F;  // how much of the way down the diver's filter undoes
+    WaterType water = WaterType::IB;
     LightQuality quality;
     std::size_t mostFish = 0;  // that throw a shadow
     bool calm = false;         // a surface without waves
@@ -27,6 +28,9 @@ struct SeaLightOptions {
 class SeaLight {
   public:
     explicit SeaLight(const SeaLightOptions& options);
+
+    // For the frame's uniforms: Kd of the primaries, and the exposure of an eye there.
+    [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
 
     // What is the same for all views. Expects the frame's uniform block to be bound.
     void update(double timeSeconds, glm::vec3 sharedEyeMetres, std::span<const PresentedFish> fish);
@@ -43,10 +47,12 @@ class SeaLight {
     void drawCaustics();
 
     LightQuality quality_;
-    float filterDepthMetres_;
     Sea sea_;
+    WaterSpectra water_;
     Inscatter inscatter_;
     float tableDepthMetres_;
+    Table atEye_;
+    glm::vec3 primariesKd_;
     gl::Texture direct_, inscatterTable_, openWater_, cloudTile_;
     gl::Texture waveTile_, rippleTile_, causticLayers_, shaftMap_;
     gl::Framebuffer waveTarget_, rippleTarget_, causticTarget_, shaftTarget_;

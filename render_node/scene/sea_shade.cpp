@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_node/gl/program.h"
-#include "render_node/scene/sun.h"
+#include "render_node/scene/shade.h"
 #include "render_node/scene/texture.h"
 
 namespace aquarama {
@@ -21,7 +21,7 @@ constexpr float kMapDepthMetres = 64.0F;  // depth 0 of the maps of the place, a
 constexpr float kFishMetres = 32.0F;      // side of the map of fish
 constexpr int kPlaceLevels = 7;
 constexpr int kFishLevels = 6;  // the finest alone where nobody reads the others
-constexpr unsigned kFishBinding = 8;
+constexpr unsigned kFishBinding = 12;
 
 // Parallel to the rays: a place goes to where its ray meets the surface; depth is its height.
 glm::mat4 alongRays(glm::vec3 towardsLight) {
@@ -138,8 +138,8 @@ void SeaShade::updateFish(std::span<const PresentedFish> fish) {
 }
 
 void SeaShade::bind() const {
-    glBindTextureUnit(16, sunHeights_.name());
-    glBindTextureUnit(17, topHeights_.name());
+    glBindTextureUnit(21, sunHeights_.name());
+    glBindTextureUnit(22, topHeights_.name());
     glBindTextureUnit(18, fishOnTheWay_.name());
 }
 

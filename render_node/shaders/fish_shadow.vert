@@ -1,6 +1,6 @@
 // A fish as the sun sees it: an ellipse along its body, where its shadow's rays meet the surface.
 #include "shadow.glsl"
-layout(std430, binding = 8) readonly buffer Throwers { vec4 throwers[]; };  // place, length; heading
+layout(std430, binding = 12) readonly buffer Throwers { vec4 throwers[]; };  // place, length; heading
 layout(location = 0) out vec2 across;
 layout(location = 1) flat out vec2 heightAndShare;
 const float kSlender = 0.15;  // half the body's height and breadth, of its length

@@ -25,6 +25,8 @@ layout(std140, binding = 0) uniform FrameUniforms {
                              // red, green and blue (yzw)
     vec4 lamp;               // the submarine's floodlight in world metres; w: its power at 1 m, the
                              // sun's at the surface being 1
+    vec4 kdAndExposure;      // Kd of the three primaries where the filter looks, 1/m; w: what light
+                             // is multiplied by before the tone
 #ifdef __cplusplus
 };
 }  // namespace aquarama

@@ -6,8 +6,8 @@
 #include "frame_uniforms.h"
 #include "sea_now.glsl"
 
-layout(binding = 16) uniform sampler2D sunHeights;  // topmost height along the sun's ray, and its square
-layout(binding = 17) uniform sampler2D topHeights;  // the same straight from above
+layout(binding = 21) uniform sampler2D sunHeights;  // topmost height along the sun's ray, and its square
+layout(binding = 22) uniform sampler2D topHeights;  // the same straight from above
 layout(binding = 18) uniform sampler2D fishOnTheWay;  // optical depth along the sun's ray; times height; times its square
 
 // How much of the sun and of the light from above reaches a place (1: nothing stands in the way).

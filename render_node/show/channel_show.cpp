@@ -70,7 +70,9 @@ ChannelShow::ChannelShow(Session& session,
       context_{context},
       controls_{controls},
       options_{options},
-      trace_{options.traceFolder, options.channel} {}
+      trace_{options.traceFolder, options.channel} {
+    if (!options.filmPipe.empty()) film_.emplace(options.filmPipe);
+}
 
 void ChannelShow::run(Admission first) {
     std::optional<Admission> admission = std::move(first);
@@ -160,9 +162,18 @@ Release ChannelShow::play() {
 void ChannelShow::draw(const StateFrame& frame) {
     const Overlays overlays = controls_.overlays();
     picture_->drawScene(frame, overlays, overlays.mind ? watchMind() : std::nullopt);
+    if (!context_.quadBuffered()) return project(overlays, Shown::Display);
+    const bool swapped = picture_->stereo().swapEyes;
+    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_RIGHT : GL_BACK_LEFT);
+    project(overlays, Shown::LeftEye);
+    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_LEFT : GL_BACK_RIGHT);
+    project(overlays, Shown::RightEye);
+}
+
+void ChannelShow::project(const Overlays& overlays, Shown shown) {
     const glm::ivec2 window = context_.framebufferPixels();
     const bool fits = context_.hasWindow() && window == picture_->sizePixels();
-    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays);
+    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays, shown);
     if (context_.hasWindow() && !fits) show(*offscreen_, window);
 }
 
@@ -197,12 +208,8 @@ std::optional<WatchedMind> ChannelShow::watchMind() {
 }
 
 void ChannelShow::film(Frame frame) {
-    if (options_.filmEvery <= 0 || options_.snapshotFolder.empty()) return;
-    if (frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
-    writeSnapshot(filmFolder(options_.snapshotFolder, frame),
-                  options_.channel,
-                  *picture_,
-                  PictureBits::Dithered8);
+    if (!film_ || frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
+    film_->write(frame.value, takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
 }
 
 }  // namespace aquarama

@@ -51,7 +51,7 @@ struct SchoolSurface::Parts {
           const SurfaceOptions& surfaceOptions,
           std::shared_ptr<const SkinPrograms> skins)
         : options{surfaceOptions},
-          eye{body.eye},
+          painter{surfaceOptions.skin, body.eye},
           reachBodyLengths{reachOf(points)},
           recorded{makeBuffer(points, "recorded control points")},
           programs{std::move(skins)} {
@@ -74,7 +74,7 @@ struct SchoolSurface::Parts {
     void drawBatch(const Batch& batch) const;
 
     SurfaceOptions options;
-    glm::vec3 eye;
+    SkinPainter painter;
     float reachBodyLengths;
     std::size_t roomVertices = 0;
     std::vector<LevelBuffers> levels;
@@ -164,14 +164,10 @@ void SchoolSurface::Parts::drawBatch(const Batch& batch) const {
     glBindVertexArray(level.vertexArray.name());
     glEnable(GL_CULL_FACE);
 
-    const unsigned body = programs->bodyOf(options.skin.pattern, batch.level);
-    bind(batch, body);
-    programs->dress(body, options.skin, eye);
+    bind(batch, painter.bodyOf(batch.level));
     glDrawElementsInstanced(GL_TRIANGLES, level.bodyIndices, GL_UNSIGNED_INT, nullptr, instances);
 
-    const unsigned fins = programs->finsOf(options.skin.pattern);
-    bind(batch, fins);
-    programs->dress(fins, options.skin, eye);
+    bind(batch, painter.fins.name());
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);

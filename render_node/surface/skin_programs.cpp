@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/surface/skin_programs.h"
 
+#include <algorithm>
 #include <array>
+#include <string>
+#include <string_view>
 
 #include "render_node/gl/program.h"
 
@@ -9,38 +12,37 @@ namespace aquarama {
 
 namespace {
 
-// Uniforms of reef_skins.glsl.
-constexpr GLint kPattern = 3, kEyeOfSpecies = 4, kGroundColours = 5;
+constexpr std::string_view kPlain = "skin_plain.glsl";
+
+std::string painterOf(const FishSkin& skin) {
+    std::string file = "skin_" + skin.species + ".glsl";
+    const auto files = gl::shaderNames();
+    return std::ranges::find(files, file) == files.end() ? std::string(kPlain) : file;
+}
+
+gl::ProgramHandle painting(const std::string& fragments, const FishSkin& skin, glm::vec3 eye) {
+    const std::string painter = painterOf(skin);
+    const std::array replaced{gl::Replacement{kPlain, painter}};
+    gl::ProgramHandle program = gl::makeProgram({"fish.vert", fragments}, replaced);
+    const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
+    // Which of them a painter does not look at, has no location.
+    const auto at = [&](const char* name) { return glGetUniformLocation(program.name(), name); };
+    glProgramUniform3fv(program.name(), at("eyeOfSpecies"), 1, &eye.x);
+    glProgramUniform3fv(program.name(), at("groundColours"), 3, &colours[0].x);
+    return program;
+}
 
 }  // namespace
 
-SkinPrograms::SkinPrograms()
-    : surface{gl::makeProgram({"fish.comp"})},
-      nearScad{gl::makeProgram({"fish.vert", "fish.frag"})},
-      farScad{gl::makeProgram({"fish.vert", "fish_far.frag"})},
-      scadFins{gl::makeProgram({"fish.vert", "fish_fin.frag"})},
-      reefFish{gl::makeProgram({"fish.vert", "reef_fish.frag"})},
-      reefFins{gl::makeProgram({"fish.vert", "reef_fish_fin.frag"})} {}
-
-unsigned SkinPrograms::bodyOf(SkinPattern pattern, int level) const {
-    if (pattern != SkinPattern::BigeyeScad) return reefFish.name();
-    return level == 0 ? farScad.name() : nearScad.name();
-}
-
-unsigned SkinPrograms::finsOf(SkinPattern pattern) const {
-    return pattern == SkinPattern::BigeyeScad ? scadFins.name() : reefFins.name();
-}
-
-void SkinPrograms::dress(unsigned program, const FishSkin& skin, glm::vec3 eye) const {
-    if (program != reefFish.name() && program != reefFins.name()) return;
-    const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
-    glUniform1ui(kPattern, static_cast<GLuint>(skin.pattern));
-    glUniform3fv(kEyeOfSpecies, 1, &eye.x);
-    glUniform3fv(kGroundColours, 3, &colours[0].x);
-}
+SkinPrograms::SkinPrograms() : surface{gl::makeProgram({"fish.comp"})} {}
 
 std::shared_ptr<const SkinPrograms> makeSkinPrograms() {
     return std::make_shared<const SkinPrograms>();
 }
+
+SkinPainter::SkinPainter(const FishSkin& skin, glm::vec3 eye)
+    : nearBody{painting("fish_body.frag", skin, eye)},
+      farBody{painting("fish_far.frag", skin, eye)},
+      fins{painting("fish_fin.frag", skin, eye)} {}
 
 }  // namespace aquarama

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders that pose, paint and light fish, which the species of a cast share.
+// The shaders that pose fish, which the species of a cast share, and those that paint and light a
+// species.
 #pragma once
 
 #include <memory>
@@ -15,15 +16,21 @@ struct SkinPrograms {
     SkinPrograms();
 
     gl::ProgramHandle surface;  // fish.comp
-    gl::ProgramHandle nearScad, farScad, scadFins, reefFish, reefFins;
-
-    // The program for the bodies of a species at a level of detail, and for its fins.
-    [[nodiscard]] unsigned bodyOf(SkinPattern pattern, int level) const;
-    [[nodiscard]] unsigned finsOf(SkinPattern pattern) const;
-    // Gives the program in use what it needs to know of the species. eye: s, y and radius, body
-    // lengths.
-    void dress(unsigned program, const FishSkin& skin, glm::vec3 eye) const;
 };
 [[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms();
+
+// What draws the skin of one species: fish_body.frag near, fish_far.frag far and fish_fin.frag with
+// its painter, shaders/skin_SPECIES.glsl, or plainly where there is none.
+struct SkinPainter {
+    // eye: s, y and radius, body lengths.
+    SkinPainter(const FishSkin& skin, glm::vec3 eye);
+
+    gl::ProgramHandle nearBody, farBody, fins;
+
+    // Far bodies have no level finer than 0.
+    [[nodiscard]] unsigned bodyOf(int level) const {
+        return level == 0 ? farBody.name() : nearBody.name();
+    }
+};
 
 }  // namespace aquarama

@@ -12,7 +12,7 @@
 #include "common/place/place.h"
 #include "render_node/context/context.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/sun.h"
+#include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
 
 namespace aquarama {
@@ -56,7 +56,7 @@ void light(benchmark::State& state) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
     const auto tier = static_cast<QualityTier>(state.range(0));
     state.SetLabel(std::string(kTierNames.at(static_cast<std::size_t>(state.range(0)))));
-    SeaLight sea{{.filterDepthMetres = 4.9F, .quality = qualityOf(tier).light, .mostFish = kFish}};
+    SeaLight sea{{.quality = qualityOf(tier).light, .mostFish = kFish}};
     const std::vector<PresentedFish> fish = someFish();
     double time = 0;
     for (auto iteration : state) {

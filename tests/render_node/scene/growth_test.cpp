@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -13,7 +12,7 @@
 #include "render_node/scene/plant_mesh.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/rock_mesh.h"
-#include "render_node/scene/waves.h"
+#include "render_node/scene/shade.h"
 #include "render_node/shaders/plant_bend.h"
 
 namespace aquarama {
@@ -62,7 +61,7 @@ TEST(Reef, coralsKeepToTheirBoulder) {
     for (const Rock& rock : rocks) {
         std::size_t triangles = ~std::size_t{0};
         for (int level = 1; level < kReefLevels; ++level) {
-            const ReefMesh mesh = growBoulder(rock, level);
+            const ReefMesh mesh = growBoulder(rock, rocks, level);
             ASSERT_TRUE(namesItsOwnVertices(mesh.stone));
             ASSERT_TRUE(namesItsOwnVertices(mesh.growth));
             const std::size_t count = mesh.stone.indices.size() + mesh.growth.indices.size();
@@ -107,52 +106,13 @@ TEST(Ground, theSandIsWhereTheMasterHasIt) {
     EXPECT_EQ(onSand, (kCells + 1) * (kCells + 1)) << "all but the rim that hangs down";
 }
 
-void expectOnTile(const Waves& waves, float tileMetres) {
-    for (const Wave& wave : waves) {
-        const glm::dvec2 onTile =
-            wave.number * (static_cast<double>(tileMetres) / (2.0 * std::numbers::pi));
-        EXPECT_NEAR(onTile.x, std::round(onTile.x), 1e-9);
-        EXPECT_NEAR(onTile.y, std::round(onTile.y), 1e-9);
-        const double number = glm::length(wave.number);
-        EXPECT_NEAR(wave.frequency * wave.frequency,
-                    number * (9.81 + 7.4e-5 * number * number),
-                    1e-9 * number);
-    }
-}
-
-TEST(Waves, fitTheirTilesAndFocusOnTheSand) {
-    const Sea sea = seaOf(kSeed, kMeanFloorDepthMetres);
-    expectOnTile(sea.waves, kTileMetres);
-    expectOnTile(sea.ripples, kRippleTileMetres);
-    const double focus = focusNumber(sea.waves, static_cast<double>(kMeanFloorDepthMetres));
-    EXPECT_GT(focus, 0.45);
-    EXPECT_LT(focus, 0.70);
-}
-
-// As they are seen from below (waves 1.5 times steeper, as in water_surface.frag): Cox and Munk
-// 1954 measured 0.003 + 0.00512 U, U the wind in m/s.
-TEST(Waves, areAsSteepAsInALightBreeze) {
-    const Sea sea = seaOf(kSeed, kMeanFloorDepthMetres);
-    const double square =
-        std::pow(1.5 * steepness(sea.waves), 2) + std::pow(steepness(sea.ripples), 2);
-    EXPECT_GT(square, 0.003 + 0.00512 * 2.0);
-    EXPECT_LT(square, 0.003 + 0.00512 * 7.0);
-}
-
-TEST(Waves, keepTheirPhaseForMonths) {
-    const Sea sea = seaOf(kSeed, kMeanFloorDepthMetres);
-    constexpr double kMonth = 30.0 * 86400.0;
-    const auto expectPhase = [](const Wave& wave, float phase) {
-        const double exact =
-            std::remainder(wave.phase - wave.frequency * kMonth - static_cast<double>(phase),
-                           2.0 * std::numbers::pi);
-        EXPECT_NEAR(exact, 0.0, 1e-5);
-    };
-    const SeaNow now = seaAt(sea, kMonth);
-    for (std::size_t i = 0; i < kWaves; ++i) {
-        expectPhase(sea.waves[i], now.waves[i].w);
-        expectPhase(sea.ripples[i], now.ripples[i].w);
-    }
+TEST(Shade, aBoulderShadesWhatLiesBehindIt) {
+    const std::array rocks{Rock{{0.0F, -8.0F, 0.0F}, 1.0F, 1}};
+    const glm::vec3 behind = rocks[0].centre - 2.0F * sunInWater();
+    EXPECT_LT(sunOpenness(rocks, behind), 0.05F);
+    EXPECT_EQ(sunOpenness(rocks, rocks[0].centre + 2.0F * sunInWater()), 1.0F);
+    EXPECT_LT(skyOpenness(rocks, {0.9F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.75F);
+    EXPECT_GT(skyOpenness(rocks, {7.0F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.95F);
 }
 
 TEST(Tiles, reliefIsLevelOnTheWhole) {

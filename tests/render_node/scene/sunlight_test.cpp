@@ -11,7 +11,7 @@
 #include "common/place/place.h"
 #include "render_node/context/context.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/sun.h"
+#include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
 
 namespace aquarama {
@@ -65,7 +65,7 @@ double meanOf(std::span<const float> values) {
 // At every depth at which it is drawn.
 TEST_F(Sunlight, wavesGatherLightAndMakeNone) {
     const LightQuality quality{.causticLayers = 4, .causticTexels = 256, .causticCells = 120};
-    SeaLight light{{.filterDepthMetres = kFilterDepthMetres, .quality = quality}};
+    SeaLight light{{.quality = quality}};
     for (const double time : {0.0, 2.7, 1000.3}) {
         light.update(time, kEyePosition, {});
         const int texels = quality.causticTexels * quality.causticTexels;

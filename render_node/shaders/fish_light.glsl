@@ -1,0 +1,64 @@
+// What light does on and in the skin of a fish.
+#ifndef FISH_LIGHT_GLSL
+#define FISH_LIGHT_GLSL
+#include "light.glsl"
+#include "skin.glsl"
+
+// Light goes a little way through skin, so that the border of its shadow is soft: the sun's
+// cosine c becomes (c + w) / |n + w s|.
+vec3 litSkin(Skin skin, vec3 place, vec3 n) {
+    vec3 wrapped = normalize(n + 0.35 * skin.soft * sunAndFilterDepth.xyz);
+    return lit(skin.albedo, place, wrapped, 0.10 * skin.soft);
+}
+
+// Stacks of guanine platelets hang upright whatever the curve of the skin (Denton 1970), so that a
+// flank shows the level water around it: it vanishes, and flashes when the fish rolls. A platelet
+// that would face away is seen by its other side.
+const float kUpright = 0.74;
+vec3 plateletNormal(vec3 skinNormal, vec3 dorsal, vec3 toEye) {
+    vec3 plate = skinNormal - kUpright * dot(skinNormal, dorsal) * dorsal;
+    float behind = min(dot(plate, toEye), 0.0);
+    return normalize(plate - 2.0 * behind * toEye);
+}
+
+// Thin films colour the mirror faintly; more would be soap.
+vec3 filmTint(float facing) {
+    return 0.91 + 0.07 * cos(6.2831853 * (vec3(0.0, 0.33, 0.67) + 1.35 * facing));
+}
+
+// Structural colour: the albedo's hue turns with the angle of view.
+vec3 iridescent(vec3 albedo, float amount, float facing) {
+    vec3 phase = 6.2831853 * (1.1 * facing + vec3(0.0, 0.33, 0.67));
+    return albedo * (1.0 + 0.9 * amount * cos(phase));
+}
+
+// A platelet that faces the lamp gives its light back at once. They stand at all angles about the
+// upright axis, so some do.
+vec3 lampFlash(vec3 plate, vec3 place) {
+    vec3 toLamp = normalize(eyeAndTime.xyz - place);
+    float c = max(dot(plate, toLamp), 0.0);
+    c *= c; c *= c; c *= c; c *= c;
+    return lampLight(place, toLamp) * (0.10 * c * c);
+}
+
+// What a mirror of platelets sends to the eye. shown: what lies where it points.
+vec3 silvered(vec3 shown, vec3 plate, vec3 albedo, vec3 place, float facing) {
+    return (shown + lampFlash(plate, place)) * filmTint(facing) * mix(vec3(1.0), albedo, 0.35);
+}
+
+// Mucus over the skin: a weak mirror, most at grazing angles and on what faces upwards, less where
+// the outline is narrower than a pixel.
+vec3 sheenOf(vec3 shown, float gloss, float facing, float up, float pixel) {
+    float resolved = clamp(0.003 / pixel, 0.0, 1.0);
+    float grazing = (1.0 - facing) * (1.0 - facing) * resolved;
+    float wet = gloss * (0.025 + 0.25 * grazing * grazing);
+    return min(shown * (wet * (0.6 + 0.4 * up)), vec3(0.10 * resolved));
+}
+
+// The cornea mirrors the bright window above and the sun: more than that of a real eye, which is
+// nearly as dense as water, but eyes without a catch light look dead.
+vec3 cornea(vec3 shown, float facing) {
+    float grazing = 1.0 - facing;
+    return min(shown * (0.10 + 0.5 * grazing * grazing * grazing), vec3(0.25));
+}
+#endif
