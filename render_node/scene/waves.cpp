@@ -24,13 +24,14 @@ constexpr double kSharpestNet = 0.56;
 constexpr double kRippleSteepness = 0.125;
 constexpr double kLongSteepness = 0.055;
 
-// A band of wavelengths and how slopes grow with them.
+// A band of wavelengths, how slopes grow with them, and how fast they run, of the sea's own pace.
 struct Band {
-    double longestMetres, shortestShare, steepening;
+    double longestMetres, shortestShare, steepening, pace;
 };
-constexpr Band kWaveBand{3.4, 0.14, 0.40};
-constexpr Band kRippleBand{0.45, 0.11, 0.25};
-constexpr Band kLongBand{15.0, 0.4, 0.0};
+// At the sea's own pace the net of light would flicker: it is another within a tenth of a second.
+constexpr Band kWaveBand{3.8, 0.14, 0.45, 0.55};
+constexpr Band kRippleBand{0.5, 0.10, 0.25, 1.0};
+constexpr Band kLongBand{15.0, 0.4, 0.0, 1.0};
 
 double frequencyOf(double number) {
     return std::sqrt(kGravity * number + kTension * number * number * number);
@@ -56,7 +57,7 @@ WaveSet<Count> wavesOf(std::uint32_t seed, const Band& band, double tileMetres) 
         const double number = glm::length(wave.number);
         wave.amplitudeMetres = std::pow(kTwoPi / number / 2.0, band.steepening) / number;
         wave.phase = kTwoPi * unit(1);
-        wave.frequency = frequencyOf(number);
+        wave.frequency = band.pace * frequencyOf(number);
     }
     return waves;
 }

@@ -21,15 +21,15 @@ struct Wave {
     glm::dvec2 number{};  // 1/m
     double amplitudeMetres = 0;
     double phase = 0;
-    double frequency = 0;  // rad/s, deep water with surface tension: sqrt(g k + 7.4e-5 k^3)
+    double frequency = 0;  // rad/s: a share of that of deep water, sqrt(g k + 7.4e-5 k^3)
 };
 template <std::size_t Count>
 using WaveSet = std::array<Wave, Count>;
 using Waves = WaveSet<kWaves>;
 
 struct Sea {
-    Waves waves;                    // 3.4 to 0.48 m, a whole number of them on the tile
-    Waves ripples;                  // 0.45 to 0.05 m, a whole number of them on theirs
+    Waves waves;                    // 3.8 to 0.55 m, a whole number of them on the tile
+    Waves ripples;                  // 0.5 to 0.05 m, a whole number of them on theirs
     WaveSet<kLongWaves> longWaves;  // 6 to 15 m
 };
 // Waves as steep as makes the net of light sharpest on sand at this depth: see focusNumber. Calm:
