@@ -149,7 +149,7 @@ SeaLight::SeaLight(const SeaLightOptions& options)
       waveProgram_{gl::makeProgram({"quad.vert", "waves.frag"})},
       causticProgram_{gl::makeProgram({"caustic.vert", "caustic.frag"})},
       shaftProgram_{gl::makeProgram({"quad.vert", "shaft.frag"})},
-      shade_{options.quality, options.mostFish} {
+      shade_{options.quality} {
     const SeaNow start = seaAt(sea_, 0.0);
     glNamedBufferStorage(seaBlock_.name(), sizeof(SeaNow), &start, GL_DYNAMIC_STORAGE_BIT);
     const auto indices = gridIndices(quality_.causticCells);
@@ -161,9 +161,7 @@ SeaLight::SeaLight(const SeaLightOptions& options)
     glVertexArrayElementBuffer(causticGrid_.name(), causticIndices_.name());
 }
 
-void SeaLight::update(double timeSeconds,
-                      glm::vec3 sharedEyeMetres,
-                      std::span<const PresentedFish> fish) {
+void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
     if (tableDepthMetres_ != -sharedEyeMetres.y) {
         tableDepthMetres_ = -sharedEyeMetres.y;
         inscatter_.mixAtDepth(double{tableDepthMetres_}, atEye_);
@@ -184,7 +182,6 @@ void SeaLight::update(double timeSeconds,
     glDisable(GL_DEPTH_TEST);
     drawWaves();
     drawCaustics();
-    shade_.updateFish(fish);
 }
 
 glm::vec4 SeaLight::kdAndExposure(glm::vec3 sharedEyeMetres) const {

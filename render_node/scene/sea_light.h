@@ -21,8 +21,7 @@ struct SeaLightOptions {
     std::uint32_t seed = 1;
     WaterType water = WaterType::IB;
     LightQuality quality;
-    std::size_t mostFish = 0;  // that throw a shadow
-    bool calm = false;         // a surface without waves
+    bool calm = false;  // a surface without waves
 };
 
 class SeaLight {
@@ -33,7 +32,7 @@ class SeaLight {
     [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
 
     // What is the same for all views. Expects the frame's uniform block to be bound.
-    void update(double timeSeconds, glm::vec3 sharedEyeMetres, std::span<const PresentedFish> fish);
+    void update(double timeSeconds, glm::vec3 sharedEyeMetres);
     // Only where the view looks.
     void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
     void bind() const;  // to the units that water.glsl names

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <glm/common.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 
 #include "render_node/gl/program.h"
@@ -21,7 +20,6 @@ constexpr float kMapDepthMetres = 64.0F;  // depth 0 of the maps of the place, a
 constexpr float kFishMetres = 32.0F;      // side of the map of fish
 constexpr int kPlaceLevels = 7;
 constexpr int kFishLevels = 6;  // the finest alone where nobody reads the others
-constexpr unsigned kFishBinding = 12;
 
 // Parallel to the rays: a place goes to where its ray meets the surface; depth is its height.
 glm::mat4 alongRays(glm::vec3 towardsLight) {
@@ -39,7 +37,7 @@ glm::mat4 alongRays(glm::vec3 towardsLight) {
 
 }  // namespace
 
-SeaShade::SeaShade(const LightQuality& quality, std::size_t mostFish)
+SeaShade::SeaShade(const LightQuality& quality)
     : quality_{quality},
       sunHeights_{
           makeTexture(GL_RG32F, glm::ivec2{quality.shadowTexels}, kPlaceLevels, Edge::Clamp)},
@@ -52,18 +50,16 @@ SeaShade::SeaShade(const LightQuality& quality, std::size_t mostFish)
       fishTarget_{makeTarget(fishOnTheWay_)},
       moments_{gl::makeProgram({"quad.vert", "moments.frag"})},
       fishProgram_{gl::makeProgram({"fish_shadow.vert", "fish_shadow.frag"})} {
-    throwers_.reserve(2 * mostFish);
-    const std::size_t bytes = std::max<std::size_t>(2 * mostFish, 1) * sizeof(glm::vec4);
-    glNamedBufferStorage(
-        fish_.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    clearPlace();
+    clear();
 }
 
-void SeaShade::clearPlace() {
+void SeaShade::clear() {
     const glm::vec2 nothing{-kMapDepthMetres, kMapDepthMetres * kMapDepthMetres};
     for (int level = 0; level < kPlaceLevels; ++level)
         for (const gl::Texture* heights : {&sunHeights_, &topHeights_})
             glClearTexImage(heights->name(), level, GL_RG, GL_FLOAT, &nothing);
+    for (int level = 0; level < kFishLevels; ++level)
+        glClearTexImage(fishOnTheWay_.name(), level, GL_RGBA, GL_FLOAT, nullptr);
 }
 
 void SeaShade::setPlace(const std::function<void(const glm::mat4&)>& drawPlace) {
@@ -108,30 +104,21 @@ glm::vec4 SeaShade::fishWindow(glm::vec3 sharedEyeMetres) const {
     return {glm::round(middle / coarsest) * coarsest, 1.0F / kFishMetres, 0.0F};
 }
 
-void SeaShade::updateFish(std::span<const PresentedFish> fish) {
-    throwers_.clear();
-    for (const PresentedFish& one : fish) {
-        if (isAway(one)) continue;
-        const glm::quat turn{one.rotation.w, one.rotation.x, one.rotation.y, one.rotation.z};
-        throwers_.emplace_back(one.positionMetres, one.lengthMetres);
-        throwers_.emplace_back(turn * glm::vec3{1.0F, 0.0F, 0.0F}, 0.0F);
-    }
+void SeaShade::updateFish(const SchoolSurface& school) {
     glBindFramebuffer(GL_FRAMEBUFFER, fishTarget_.name());
     glViewport(0, 0, quality_.fishShadowTexels, quality_.fishShadowTexels);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);
-    if (!throwers_.empty()) {
-        glNamedBufferSubData(fish_.name(),
-                             0,
-                             static_cast<GLsizeiptr>(throwers_.size() * sizeof(glm::vec4)),
-                             throwers_.data());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFishBinding, fish_.name());
+    if (school.fishInRecords() > 0) {
+        school.bindRecords();
         glDisable(GL_DEPTH_TEST);
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_ONE);
         glUseProgram(fishProgram_.name());
+        glUniform1f(0, school.fraction());
         glBindVertexArray(empty_.name());
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(throwers_.size() / 2));
+        glDrawArraysInstanced(
+            GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(school.fishInRecords()));
         glDisable(GL_BLEND);
     }
     if (quality_.isFine) glGenerateTextureMipmap(fishOnTheWay_.name());

@@ -4,22 +4,20 @@
 #pragma once
 
 #include <functional>
-#include <span>
-#include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "common/motion/reconstruct.h"
 #include "render_node/gl/handle.h"
 #include "render_node/scene/quality.h"
+#include "render_node/surface/school_surface.h"
 
 namespace aquarama {
 
 class SeaShade {
   public:
-    SeaShade(const LightQuality& quality, std::size_t mostFish);
+    explicit SeaShade(const LightQuality& quality);
 
     // Draws the place straight from above and along the sun's rays. drawPlace draws all of it with
     // the matrix it is given as clipFromWorld, into the depth buffer that is bound. Never called:
@@ -28,20 +26,18 @@ class SeaShade {
 
     // Expects the frame's uniform block to be bound, and the sea's with fishWindow(): so the map of
     // fish lies about the shared eye, in whole texels of the world.
-    void updateFish(std::span<const PresentedFish> fish);
+    void updateFish(const SchoolSurface& school);
     [[nodiscard]] glm::vec4 fishWindow(glm::vec3 sharedEyeMetres) const;  // of SeaNow
     void bind() const;  // to the units that shadow.glsl names
 
   private:
-    void clearPlace();
+    void clear();
     void takeMoments(const gl::Texture& depth, const gl::Framebuffer& heights);
 
     LightQuality quality_;
     gl::Texture sunHeights_, topHeights_, fishOnTheWay_;
     gl::Framebuffer sunTarget_, topTarget_, fishTarget_;
     gl::ProgramHandle moments_, fishProgram_;
-    gl::Buffer fish_;
-    std::vector<glm::vec4> throwers_;  // of the frame: place, length; direction
     gl::VertexArray empty_;
 };
 

@@ -67,7 +67,7 @@ float pastFish(vec2 uv, float height, float lod) {
     if (sums.x < 1.0e-3) return 1.0;
     float mean = sums.y / sums.x;
     float spread = sqrt(max(sums.z / sums.x - mean * mean, 0.0) + 0.01);
-    float above = 1.0 / (1.0 + exp(-1.7 * (mean - height - 0.10) / spread));
+    float above = 1.0 / (1.0 + exp(-1.7 * (mean - height - 0.18) / spread));
     return exp(-sums.x * above);
 }
 vec2 fishPlace(vec3 place) { return (surfacePoint(place) - fishWindow.xy) * fishWindow.z + 0.5; }

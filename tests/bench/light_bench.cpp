@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the sea's light costs a frame, before anything is drawn with it: waves, caustics, the fish's
-// shadows, and the shafts of one channel of config/desk.txtpb. On software GL, CPU time of all
+// What the sea's light costs a frame, before anything is drawn with it: waves, caustics and the
+// shafts of one channel of config/desk.txtpb. On software GL, CPU time of all
 // threads is what counts.
-#include <vector>
+#include <string>
 
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
@@ -17,20 +17,6 @@
 
 namespace aquarama {
 namespace {
-
-constexpr std::size_t kFish = 300;
-
-std::vector<PresentedFish> someFish() {
-    std::vector<PresentedFish> fish(kFish);
-    for (std::size_t i = 0; i < kFish; ++i) {
-        const auto n = static_cast<float>(i);
-        fish[i].positionMetres = kEyePosition + glm::vec3{std::fmod(0.37F * n, 8.0F) - 4.0F,
-                                                          std::fmod(0.23F * n, 3.0F) - 1.5F,
-                                                          -3.0F - std::fmod(0.71F * n, 5.0F)};
-        fish[i].lengthMetres = 0.24F;
-    }
-    return fish;
-}
 
 // 44 x 52 degrees, reversed depth with the far plane at infinity.
 glm::mat4 clipFromWorld() {
@@ -56,12 +42,11 @@ void light(benchmark::State& state) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
     const auto tier = static_cast<QualityTier>(state.range(0));
     state.SetLabel(std::string(kTierNames.at(static_cast<std::size_t>(state.range(0)))));
-    SeaLight sea{{.quality = qualityOf(tier).light, .mostFish = kFish}};
-    const std::vector<PresentedFish> fish = someFish();
+    SeaLight sea{{.quality = qualityOf(tier).light}};
     double time = 0;
     for (auto iteration : state) {
         time += 1.0 / 60.0;
-        sea.update(time, kEyePosition, fish);
+        sea.update(time, kEyePosition);
         sea.drawShafts(kEyePosition, uniforms.worldFromClip);
         glFinish();
     }

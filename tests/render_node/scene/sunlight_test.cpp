@@ -108,7 +108,7 @@ TEST_F(Sunlight, wavesGatherLightAndMakeNone) {
     const LightQuality quality{.causticLayers = 4, .causticTexels = 256, .causticCells = 120};
     SeaLight light{{.quality = quality}};
     for (const double time : {0.0, 2.7, 1000.3}) {
-        light.update(time, kEyePosition, {});
+        light.update(time, kEyePosition);
         const int texels = quality.causticTexels * quality.causticTexels;
         const std::vector<float> all =
             texelsOf(light.causticLayers(), GL_RED, texels * quality.causticLayers);
@@ -127,7 +127,7 @@ TEST_F(Sunlight, theNetOfLightMovesWithinASecond) {
     const LightQuality quality;
     SeaLight light{{.quality = quality}};
     const auto netAt = [&](double time) {
-        light.update(time, kEyePosition, {});
+        light.update(time, kEyePosition);
         const int side = quality.causticTexels >> kLevel;
         std::vector<float> net = texelsOf(light.causticLayers(), GL_RED, side * side, kLevel);
         for (float& value : net) value -= 1.0F;
@@ -175,7 +175,7 @@ TEST_F(Sunlight, shaftsMakeNoLight) {
         const glm::vec3 eye = kEyePosition + glm::vec3{3.7F, 0.0F, 2.3F} * static_cast<float>(i);
         uniforms_.eyeAndTime = glm::vec4(eye, 0.0F);
         setUniforms();
-        light.update(1.7 * i, eye, {});
+        light.update(1.7 * i, eye);
         for (const glm::vec3 axis : {glm::vec3{1, 0, 0}, glm::vec3{0, 1, 0}, glm::vec3{0, 0, 1}})
             for (const float side : {-1.0F, 1.0F})
                 light.drawShafts(
@@ -201,7 +201,7 @@ TEST_F(Sunlight, theWindowOfACalmSeaEndsAtTheCriticalAngle) {
     uniforms_.daylight.x = 0.0F;  // the sky alone
     setUniforms();
     SeaLight light{{.quality = {}, .calm = true}};
-    light.update(0.0, eye, {});
+    light.update(0.0, eye);
     light.bind();
     const Canvas canvas{kSide};
     canvas.begin();
@@ -226,7 +226,7 @@ TEST_F(Sunlight, theWindowOfACalmSeaEndsAtTheCriticalAngle) {
 TEST_F(Sunlight, snowComesAndGoesWithoutPopping) {
     const Canvas canvas{128};
     SeaLight light{{}};
-    light.update(3.0, kEyePosition, {});
+    light.update(3.0, kEyePosition);
     const gl::ProgramHandle snow = gl::makeProgram({"snow.vert", "snow.frag"});
     const auto lightFrom = [&](glm::vec3 eye) {
         uniforms_.clipFromWorld =
