@@ -106,7 +106,7 @@ double eyePlace(double depth) {
 
 // Straight between a mean of near sand and the water beyond it, in their logarithms.
 double exposureOf(const WaterSpectra& water, double eyeDepth) {
-    constexpr double kKey = 0.165, kWater = 0.6;
+    constexpr double kKey = 0.128, kWater = 0.6;
     constexpr double kDusk = 0.018;  // the deep is darker, 1/m
     constexpr double kSandAway = 5.0, kSandBelow = 2.0, kSandAlbedo = 0.4;
     const double lit = eyeDepth - filterDepthMetres(eyeDepth);
@@ -124,7 +124,7 @@ double exposureOf(const WaterSpectra& water, double eyeDepth) {
 }  // namespace
 
 double filterDepthMetres(double eyeDepthMetres) {
-    constexpr double kMost = 22.0, kGrowth = 23.0;
+    constexpr double kMost = 22.0, kGrowth = 19.0;
     return kMost * (1.0 - std::exp(-std::max(eyeDepthMetres, 0.0) / kGrowth));
 }
 

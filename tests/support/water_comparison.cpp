@@ -70,7 +70,8 @@ std::vector<double> differences(const ForwardPhase& phase,
     const Inscatter inscatter{water};
     const double clear = std::min(0.13 / beamAttenuation(water, 10), 1.0);
     std::vector<double> all;
-    for (const double depth : comparison.depths) {
+    for (const double inClear : comparison.depths) {
+        const double depth = inClear * std::sqrt(clear);
         std::vector<double> irradiances;
         for (std::size_t band = 0; band < kBands; band += kEvery) {
             const Band at = bandOf(phase, water, band);
