@@ -85,11 +85,13 @@ std::vector<double> differences(const ForwardPhase& phase,
         }
         const double exposure = inscatter.exposureAt(depth);
         for (const Way& way : kWays)
-            for (const double range : comparison.ranges) {
+            for (const double inClearWater : comparison.ranges) {
                 const Sight sight{depth, way.rise, way.azimuthDegrees};
+                const double surface = way.rise > 0 ? depth / way.rise : 1e9;
+                const double range = std::min(inClearWater * clear, surface);
                 const glm::dvec3 truth =
-                    traced(phase, water, sight, range * clear, irradiances, comparison);
-                const glm::dvec3 table = tabled(water, sight, range * clear);
+                    traced(phase, water, sight, range, irradiances, comparison);
+                const glm::dvec3 table = tabled(water, sight, range);
                 all.push_back(ciede2000(labOf(truth * exposure), labOf(table * exposure)));
             }
     }
