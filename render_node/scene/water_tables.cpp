@@ -124,8 +124,9 @@ double exposureOf(const WaterSpectra& water, double eyeDepth) {
 }  // namespace
 
 double filterDepthMetres(double eyeDepthMetres) {
-    constexpr double kMost = 22.0, kGrowth = 19.0;
-    return kMost * (1.0 - std::exp(-std::max(eyeDepthMetres, 0.0) / kGrowth));
+    constexpr double kMost = 21.0;
+    const double depth = std::max(eyeDepthMetres, 0.0);
+    return depth / std::hypot(1.0, depth / kMost);
 }
 
 Table bakeDirect(const WaterSpectra& water) {
