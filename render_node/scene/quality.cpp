@@ -8,7 +8,7 @@ namespace aquarama {
 
 Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{
-        Quality{.samples = 1, .placeDetail = 0.5F},
+        Quality{.samples = 1, .placeDetail = 0.42F},
         Quality{.samples = 1, .placeDetail = 0.9F, .rockScales = 2, .growthAtPixels = true},
         Quality{.samples = 4, .placeDetail = 1.4F, .rockScales = 3, .growthAtPixels = true},
         Quality{.samples = 4, .placeDetail = 2.5F, .rockScales = 3, .growthAtPixels = true},

@@ -37,7 +37,7 @@ struct Prototype {
 };
 static_assert(sizeof(Prototype) == 32);
 
-// Commands in the order of drawing: rock before what grows on it, fine levels before coarse ones.
+// In one run for rock and one for what grows; fine levels, which are near, before coarse ones.
 std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
     if (prototype < kRockShapes) return static_cast<std::uint32_t>(level * kRockShapes + prototype);
     return static_cast<std::uint32_t>(kLevels * kRockShapes + level * kGrowths + prototype -
@@ -46,7 +46,7 @@ std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
 
 // A facet fills some 7 pixels, one of rock, which is large and smooth, some 12.
 std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
-    if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 1.5F};
+    if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 4.0F};
     if (prototype >= prototypeOf(Form::Seagrass, 0)) return {150.0F, 60.0F, 24.0F, 3.0F};
     if (prototype >= prototypeOf(Form::Kelp, 0)) return {900.0F, 420.0F, 190.0F, 6.0F};
     if (prototype >= prototypeOf(Form::Turf, 0)) return {60.0F, 26.0F, 11.0F, 3.0F};
@@ -100,7 +100,8 @@ Library growLibrary() {
 Reef::Reef(const PlaceKey& place, const Quality& quality)
     : quality_{quality},
       cull_{gl::makeProgram({"place_cull.comp"})},
-      stone_{gl::makeProgram({"rock.vert", "rock.frag"})},
+      stone_{quality.rockScales > 1 ? gl::makeProgram({"rock.vert", "rock.frag"})
+                                    : gl::makeProgram({"rock_plain.vert", "rock_plain.frag"})},
       growth_{gl::makeProgram({"coral.vert", "coral.frag"})},
       farGrowth_{gl::makeProgram({"coral_far.vert", "lit.frag"})},
       detail_{makeTexture(rockTile())} {
@@ -178,11 +179,6 @@ void Reef::draw() const {
         glMultiDrawElementsIndirect(
             GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(Command)), count, 0);
     };
-    glEnable(GL_CULL_FACE);
-    glUseProgram(stone_.name());
-    glUniform1i(0, quality_.rockScales);
-    drawFrom(0, commandCount(kRockShapes, kLevels));
-    glDisable(GL_CULL_FACE);
     constexpr unsigned kFine = 2;  // levels that are shaded at each pixel
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
@@ -193,6 +189,13 @@ void Reef::draw() const {
     glUseProgram(farGrowth_.name());
     glUniform1f(0, quality_.placeDetail);
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
+    // What grows hides much of the rock, and is cheaper.
+    glEnable(GL_CULL_FACE);
+    glUseProgram(stone_.name());
+    glUniform1f(0, quality_.placeDetail);
+    if (quality_.rockScales > 1) glUniform1i(1, quality_.rockScales);
+    drawFrom(0, commandCount(kRockShapes, kLevels));
+    glDisable(GL_CULL_FACE);
 }
 
 }  // namespace aquarama

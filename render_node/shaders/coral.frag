@@ -35,7 +35,8 @@ void main() {
         vec2 uv = (side.y > max(side.x, side.z) ? rest.xz : side.x > side.z ? rest.zy : rest.xy) / kPolypTile;
         float lod = log2(max(range * (512.0 / kPolypTile) / pixelsARadian(), 1.0));
         vec4 fine = textureLod(relief, uv, lod);
-        colour *= mix(1.0, 2.0 * fine.z * (0.6 + 0.7 * fine.w), 0.6 * normal.w + 0.3);
+        colour *= mix(1.0, 2.0 * fine.z * (0.35 + 1.1 * fine.w), 0.7 * normal.w + 0.3);
+        sky *= mix(1.0, 0.4 + fine.w, normal.w);
         vec3 slope = vec3(fine.x - 0.5, 0.0, fine.y - 0.5);
         n = normalize(n - 1.2 * normal.w * (slope - n * dot(slope, n)));
     }
