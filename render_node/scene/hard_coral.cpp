@@ -226,8 +226,8 @@ void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
              .rings = kRings.at(level),
              .around = kAround.at(level),
              .seed = dice.seed(),
-             .lumps = 0.13F,
-             .cells = 1.6F},
+             .lumps = 0.24F,
+             .cells = 2.0F},
             tissue(1.0F, 1.0F));
 }
 

@@ -100,7 +100,7 @@ glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice) {
     if (form == Form::Turf) return oneOf(kTurf, dice) * bright;
     if (form == Form::Anemone) return glm::vec3{0.58F, 0.46F, 0.24F} * bright;
     const bool soft = isSoft(form);
-    if (dice.unit() < (soft ? 0.14F : 0.03F)) return oneOf(kAccents, dice) * bright;
+    if (soft && dice.unit() < 0.16F) return oneOf(kAccents, dice) * bright;
     return oneOf((soft ? kSoft : kHard).at(patch % kHard.size()), dice) * bright;
 }
 

@@ -179,7 +179,7 @@ void Reef::draw() const {
         glMultiDrawElementsIndirect(
             GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(Command)), count, 0);
     };
-    constexpr unsigned kFine = 2;  // levels that are shaded at each pixel
+    constexpr unsigned kFine = 3;  // levels that are lit at each pixel
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
         glUniform1f(0, quality_.placeDetail);
