@@ -49,14 +49,15 @@ float luminance(glm::vec3 c) {
 // The fish swims to the left, so the eye sees its left side.
 Picture portrait(const Species& species) {
     const FishBody body = makeBody(species);
-    const std::vector<SceneSpecies> cast{{.body = body,
-                                          .skin = skinOf(species),
-                                          .repertoire = test::swaying(body, 0.0F),
-                                          .fish = 1}};
-    SceneRenderer scene{{.seed = 1, .quality = QualityTier::High}, cast};
     const PresentedFish fish = test::fishAt(kEyePosition + glm::vec3{0, 0, -kAway},
                                             glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0}),
                                             kLength);
+    const test::RecordedSchool school{{&fish, 1}};
+    const std::vector<SchoolSpecies> cast{{.body = body,
+                                           .skin = skinOf(species),
+                                           .repertoire = test::swaying(body, 0.0F),
+                                           .fish = school.traits}};
+    SceneRenderer scene{{.seed = 1, .quality = QualityTier::High}, cast};
     View view;
     view.sizePixels = kSize;
     view.cameraFromWorld = glm::translate(glm::mat4{1.0F}, -kEyePosition);
@@ -67,7 +68,7 @@ Picture portrait(const Species& species) {
     view.clipFromCamera[3][2] = 0.05F;
     SceneFrame frame;
     frame.eyePositionMetres = kEyePosition;
-    frame.fish = {&fish, 1};
+    frame.fish = school.moment();
     scene.update(frame);
     const unsigned texture = scene.draw(view);
     Picture picture;
