@@ -14,6 +14,7 @@ Quality qualityOf(QualityTier tier) {
                 .bloom = true,
                 .placeDetail = 0.9F,
                 .rockScales = 2,
+                .plantsGiveWay = true,
                 .growthAtPixels = true},
         Quality{.samples = 4,
                 .softening = true,
@@ -22,6 +23,7 @@ Quality qualityOf(QualityTier tier) {
                 .fishFineness = 1.25F,
                 .placeDetail = 1.4F,
                 .rockScales = 3,
+                .plantsGiveWay = true,
                 .growthAtPixels = true},
         Quality{.samples = 4,
                 .softening = true,
@@ -30,6 +32,7 @@ Quality qualityOf(QualityTier tier) {
                 .fishFineness = 1.6F,
                 .placeDetail = 2.5F,
                 .rockScales = 3,
+                .plantsGiveWay = true,
                 .growthAtPixels = true},
     };
     return kTiers.at(static_cast<std::size_t>(tier));

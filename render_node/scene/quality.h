@@ -16,6 +16,7 @@ struct Quality {
     // pixels.
     float placeDetail = 1.0F;
     int rockScales = 1;           // of the grit on rock, 1 to 3; 1 is lit at corners
+    bool plantsGiveWay = false;   // to fish that pass
     bool growthAtPixels = false;  // near corals are lit at pixels, not at corners
 };
 

@@ -14,7 +14,8 @@ namespace aquarama {
 
 namespace {
 
-constexpr unsigned kGroupSize = 64;  // as in place_cull.comp
+constexpr unsigned kGroupSize = 64;                                  // as in place_cull.comp
+constexpr GLsizeiptr kWakeBytes = GLsizeiptr{40} * 16 * 40 * 3 * 4;  // as in wake.glsl
 constexpr unsigned kGrowths = kPrototypes - kRockShapes;
 
 // As glMultiDrawElementsIndirect reads it.
@@ -104,7 +105,9 @@ Reef::Reef(const PlaceKey& place, const Quality& quality)
                                     : gl::makeProgram({"rock_plain.vert", "rock_plain.frag"})},
       growth_{gl::makeProgram({"coral.vert", "coral.frag"})},
       farGrowth_{gl::makeProgram({"coral_far.vert", "lit.frag"})},
+      stir_{gl::makeProgram({"wake.comp"})},
       detail_{makeTexture(rockTile())} {
+    glNamedBufferStorage(wake_.name(), kWakeBytes, nullptr, 0);
     const Library library = growLibrary();
     std::array<Levels, kRockShapes> rocks;
     std::copy_n(library.begin(), rocks.size(), rocks.begin());
@@ -152,6 +155,21 @@ void Reef::fillLibrary(const Library& library, const std::vector<Instance>& inst
     glVertexArrayAttribBinding(array_.name(), kChosen, kChosen);
 }
 
+void Reef::stir(std::size_t fish, float fraction) const {
+    if (!quality_.plantsGiveWay) return;
+    constexpr std::int32_t kStill = 0;
+    glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 12, wake_.name());
+    const auto count = static_cast<unsigned>(fish);
+    if (count == 0) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(stir_.name());
+    glUniform1f(0, fraction);
+    glUniform1ui(1, count);
+    glDispatchCompute((count + kGroupSize - 1) / kGroupSize, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void Reef::cull(const ReefRule& rule) const {
     glCopyNamedBufferSubData(none_.name(),
                              commands_.name(),
@@ -174,6 +192,7 @@ void Reef::draw() const {
     glBindTextureUnit(14, detail_.name());
     glBindVertexArray(array_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 12, wake_.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     const auto drawFrom = [](std::size_t command, GLsizei count) {
         glMultiDrawElementsIndirect(
@@ -183,11 +202,13 @@ void Reef::draw() const {
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
         glUniform1f(0, quality_.placeDetail);
+        glUniform1i(1, quality_.plantsGiveWay ? 1 : 0);
         drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
     }
     const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
     glUseProgram(farGrowth_.name());
     glUniform1f(0, quality_.placeDetail);
+    glUniform1i(1, 0);  // too far off to be seen to give way
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
     // What grows hides much of the rock, and is cheaper.
     glEnable(GL_CULL_FACE);
