@@ -50,7 +50,7 @@ Grown grown() {
         it.place += bentStem(share, scale, push) - vec3(0.0, scale * share, 0.0);
     }
     it.normal = turned(one.turn, normalAndRoughness.xyz);
-    it.albedo = min(2.0 * albedoAndSky.rgb * one.tintAndSway.rgb, vec3(0.92));
+    it.albedo = min(1.75 * albedoAndSky.rgb * one.tintAndSway.rgb, vec3(0.80));
     // A leaf has two sides: the one that looks at us is lit.
     if (response.y > 0.3 && dot(it.normal, eyeAndTime.xyz - it.place) < 0.0) it.normal = -it.normal;
     // The sand takes light from what stands close above it.

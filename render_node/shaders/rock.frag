@@ -35,7 +35,7 @@ void main() {
     Relief middle = reliefAt(place + 0.9, weight, 1.1, pixelMetres);
     Relief fine = Relief(vec3(0.0), vec2(0.5));
     if (scales > 2) fine = reliefAt(place, weight, 0.31, pixelMetres);
-    vec3 slope = 1.6 * broad.slope + 2.0 * middle.slope + 1.1 * fine.slope;
+    vec3 slope = 1.3 * broad.slope + 1.5 * middle.slope + 0.9 * fine.slope;
     n = normalize(n - (slope - n * dot(slope, n)));
     float tone = 2.0 * middle.tone.x * mix(1.0, 2.0 * fine.tone.x, 0.6);
     float pits = mix(0.30, 1.0, smoothstep(0.15, 0.75, middle.tone.y)) * mix(0.6, 1.0, smoothstep(0.1, 0.6, fine.tone.y)) *
