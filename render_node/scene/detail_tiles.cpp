@@ -85,8 +85,8 @@ Relief rockAt(glm::vec2 uv) {
                     0.0025F * grain + 0.0006F * grit;
     relief.crest =
         glm::clamp(0.16F * lumps + 0.50F * knob + 0.30F * pit + 0.24F * crack - 0.16F, 0.0F, 1.0F);
-    relief.albedo = 0.62F + 0.30F * knob + 0.16F * pit + 0.14F * crack + 0.16F * grain +
-                    0.10F * grit + 0.16F * tiled(16, uv, 26);
+    relief.albedo = 0.30F + 0.42F * knob + 0.26F * pit + 0.20F * crack + 0.30F * grain +
+                    0.12F * grit + 0.26F * tiled(16, uv, 26);
     return relief;
 }
 
