@@ -95,7 +95,7 @@ glm::vec3 oneOf(const Colours& colours, Dice& dice) {
 
 glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice) {
     const float bright = dice.between(0.82F, 1.15F);
-    if (form == Form::Kelp) return glm::vec3{0.50F, 0.34F, 0.055F} * bright;
+    if (form == Form::Kelp) return glm::vec3{0.74F, 0.40F, 0.045F} * bright;
     if (form == Form::Seagrass) return glm::vec3{0.19F, 0.26F, 0.055F} * bright;
     if (form == Form::Turf) return oneOf(kTurf, dice) * bright;
     if (form == Form::Anemone) return glm::vec3{0.58F, 0.46F, 0.24F} * bright;

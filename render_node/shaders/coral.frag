@@ -1,12 +1,13 @@
 // Coral, sponge and leaf near by: polyps as a fine relief, or the meanders of a brain coral.
 #include "light.glsl"
+// Centroids: beyond the edge of a thin leaf there is nothing to be guessed.
 layout(binding = 14) uniform sampler2D relief;  // slopes, albedo, crest
-layout(location = 0) in vec3 place;
-layout(location = 1) in vec3 rest;
-layout(location = 2) in vec4 normal;
-layout(location = 3) in vec3 albedo;
-layout(location = 4) in vec2 open;
-layout(location = 5) in vec3 matter;  // translucency, fluorescence, relief
+layout(location = 0) centroid in vec3 place;
+layout(location = 1) centroid in vec3 rest;
+layout(location = 2) centroid in vec4 normal;
+layout(location = 3) centroid in vec3 albedo;
+layout(location = 4) centroid in vec2 open;
+layout(location = 5) centroid in vec3 matter;  // translucency, fluorescence, relief
 layout(location = 0) out vec4 radiance;
 const float kPolypTile = 0.16;
 // Height of a ridge between grooves, 0 to 1.

@@ -1,13 +1,14 @@
 // Rock: grit, pits and knobs at two or three scales, laid on from three sides; turf on what looks
 // up, pink crusts of algae in the shade, sponges in patches.
 #include "light.glsl"
+// Centroids: beyond the edge of a thin leaf there is nothing to be guessed.
 layout(binding = 14) uniform sampler2D grit;  // slopes, albedo, crest
 layout(location = 1) uniform int scales;        // 2 or 3
-layout(location = 0) in vec3 place;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 mottle;  // lightness, turf, crust
-layout(location = 3) in vec2 open;
-layout(location = 4) in vec3 tint;
+layout(location = 0) centroid in vec3 place;
+layout(location = 1) centroid in vec3 normal;
+layout(location = 2) centroid in vec3 mottle;  // lightness, turf, crust
+layout(location = 3) centroid in vec2 open;
+layout(location = 4) centroid in vec3 tint;
 layout(location = 0) out vec4 radiance;
 const float kTexels = 512.0;
 

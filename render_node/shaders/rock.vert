@@ -5,11 +5,11 @@ layout(location = 1) in vec4 normalAndRoughness;
 layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; openness
 layout(location = 4) in uint chosen;
 layout(location = 0) uniform float detail;
-layout(location = 0) out vec3 place;
-layout(location = 1) out vec3 normal;
-layout(location = 2) out vec3 mottle;
-layout(location = 3) out vec2 open;
-layout(location = 4) out vec3 tint;
+layout(location = 0) centroid out vec3 place;
+layout(location = 1) centroid out vec3 normal;
+layout(location = 2) centroid out vec3 mottle;
+layout(location = 3) centroid out vec2 open;
+layout(location = 4) centroid out vec3 tint;
 #include "rock_corner.glsl"
 void main() {
     RockCorner it = rockCorner();
