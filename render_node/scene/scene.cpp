@@ -177,6 +177,9 @@ void SceneRenderer::update(const SceneFrame& frame) {
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
     parts.school.update(frame.fish);
+    parts.school.bindRecords();
+    if (parts.bottom)
+        parts.bottom->reef.stir(parts.school.fishInRecords(), parts.school.fraction());
     parts.light.update(frame.timeSeconds, frame.eyePositionMetres);
     parts.light.shade().updateFish(parts.school);
 }
