@@ -179,7 +179,7 @@ float dorsalRayOf(const FishBody& body, glm::vec2 root) {
 }
 
 void addThread(const FishBody& body, const BodyThread& thread, Attachments& attachments) {
-    const std::size_t steps = 3 * (thread.at.size() - 1) / (thread.at.size() > 3 ? 2 : 1);
+    const std::size_t steps = threadSteps(thread);
     const std::size_t first = attachments.vertices.size();
     const float ray = dorsalRayOf(body, thread.at.front());
     for (std::size_t i = 0; i <= steps; ++i) {
@@ -221,6 +221,12 @@ void addThread(const FishBody& body, const BodyThread& thread, Attachments& atta
 }
 
 }  // namespace
+
+std::size_t threadSteps(const BodyThread& thread) {
+    constexpr std::size_t kShort = 3;  // points; a spine, which is drawn by few and thick
+    const std::size_t pieces = thread.at.size() - 1;
+    return thread.at.size() <= kShort ? 2 * pieces : 3 * pieces / 2;
+}
 
 Attachments makeAttachments(const FishBody& body, std::span<const RestTriangle> head) {
     Attachments attachments;

@@ -69,6 +69,9 @@ Fin finOf(FinPoint fin, Skin root) {
     }
     colour = mix(colour, kInk, smoothstep(tip - 0.035, tip + 0.035, q));
     colour = mix(root.albedo, colour, smoothstep(0.0, 0.25, q));
-    return Fin(colour, 1.0, 0.0, 0.0, 0.0);
+    // A notch parts the tip of the upper lobe from the rest of the tail.
+    float notch = q - 0.87 - 2.6 * abs(p - 0.27);
+    float opacity = fin.part == kCaudal ? falling(-0.015, 0.015, notch) : 1.0;
+    return Fin(colour, opacity, 0.0, 0.0, 0.0);
 }
 #endif
