@@ -11,6 +11,7 @@
 #include "common/config/angle.h"
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
+#include "common/config/stereo_names.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
 
@@ -61,6 +62,10 @@ void inspect(const std::string& path) {
                 rig.screen.arcRadians * rig.screen.radiusMetres,
                 rig.screen.heightMetres);
     std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
+    if (rig.stereo.mode != StereoMode::Mono)
+        std::printf("stereo: %s, eyes %.0f mm apart\n",
+                    std::string(nameOf(rig.stereo.mode)).c_str(),
+                    1000 * rig.stereo.eyeSeparationMetres);
     std::printf(
         "addresses: control %s, state %s\n", rig.controlAddress.c_str(), rig.stateAddress.c_str());
     std::printf("timing: %g Hz, present deadline %g s, membership %g s\n",
@@ -105,11 +110,17 @@ int run(int argc, char** argv) {
     composeCommand->add_flag("--deep", deep, "Write 16 bits instead of 8");
     composeCommand->callback([&] { composeSnapshot(checkedRig(path), folder, deep ? 16 : 8); });
 
-    CLI::App* filmCommand =
-        app.add_subcommand("film", "Make DIR/clip.webp of the frames in DIR/film");
-    filmCommand->add_option("RIG", path, "Rig file that was filmed")->required();
-    filmCommand->add_option("DIR", folder, "Folder of the pictures")->required();
-    filmCommand->callback([&] { composeFilm(checkedRig(path), folder); });
+    Filming filming;
+    CLI::App* clipCommand = app.add_subcommand(
+        "clip", "Make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
+    clipCommand->add_option("RIG", path, "Rig file that is shown")->required();
+    clipCommand->add_option("FILE", filming.clipPath, "The clip")->required();
+    clipCommand->add_option("--pipes", filming.pipes, "Folder of the nodes' named pipes")
+        ->required();
+    clipCommand->add_option("--of", filming.of, "panorama, hall or a channel's name");
+    clipCommand->add_option("--every", filming.ticksBetween, "Frames of the show to one picture")
+        ->check(CLI::Range(1, 10000));
+    clipCommand->callback([&] { film(checkedRig(path), filming); });
 
     CLI::App* inspectCommand = app.add_subcommand("inspect", "Say what a rig file holds");
     inspectCommand->add_option("FILE", path, "Rig file")->required();

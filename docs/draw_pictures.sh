@@ -8,6 +8,7 @@ trap 'rm -rf "$drawn"' EXIT
 build/show/bin/aquarama run config/theatre.txtpb --headless --frames 150 --snapshot "$drawn/theatre"
 build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
 
+build/show/bin/aquarama run config/desk_stereo.txtpb --headless --frames 150 --snapshot "$drawn/stereo"
 cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
@@ -15,8 +16,7 @@ mkdir -p docs/pictures
 # The routines as they are seen on the wall.
 while read -r scene frames every; do
     build/show/bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$scene.txtpb" --headless \
-        --frames "$frames" --film-every "$every" --snapshot "$drawn/$scene" </dev/null
-    cp "$drawn/$scene/clip.webp" "docs/pictures/$scene.webp"
+        --frames "$frames" --film-every "$every" --clip "docs/pictures/$scene.webp" --snapshot "$drawn/$scene" </dev/null
 done <<'SCENES'
 submarine 680 17
 chase 490 14
@@ -28,6 +28,7 @@ cp "$drawn/chase/panorama.png" docs/pictures/chase.png
 
 build/show/bin/aquarama-capture controllers --out docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
+cp "$drawn/stereo/panorama.png" docs/pictures/stereo.png
 for figure in forward_medium turn_right_sharp midlines_forward_medium; do
     sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"
 done

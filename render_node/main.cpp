@@ -13,8 +13,8 @@
 namespace {
 
 constexpr const char* kFooter =
-    "Keys in its window: q or Escape ends the show, p or space pauses it, f fullscreen, w grid on "
-    "the wall,\nb blend mask, i fish ids, h lists them.\n"
+    "Keys in its window: w a s d, arrows and page up and down steer the submarine, q or Escape ends "
+    "the show,\np or space pauses it, h lists them all.\n"
     "Software OpenGL draws with as many threads as LP_NUM_THREADS says; where several nodes share "
     "a "
     "machine,\nits cores divided by the nodes is best.";
@@ -36,10 +36,10 @@ void describe(CLI::App& app, aquarama::NodeOptions& options) {
                    "folder for channel-NAME.png, the last frame that was shown");
     app.add_flag("--deep", options.deep, "16 bits in the snapshot instead of 8 dithered ones")
         ->needs("--snapshot");
-    app.add_option("--film-every",
-                   options.filmEvery,
-                   "also a snapshot every so many frames, each in a folder of its own below film/")
-        ->needs("--snapshot")
+    CLI::Option* film = app.add_option(
+        "--film", options.filmPipe, "named pipe to aquarama-calibrate clip, for every frame");
+    app.add_option("--film-every", options.filmEvery, "with --film: for every so many frames")
+        ->needs(film)
         ->check(CLI::Range(1, 10000));
     app.add_option("--trace", options.traceFolder, "folder for NAME.csv, a line of times a frame");
     app.footer(kFooter);

@@ -61,12 +61,6 @@ bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {
     return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
 }
 
-std::optional<Eye> readEye(const v1::State& message) {
-    const auto& e = message.eye();
-    if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
-    return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
-}
-
 bool isShare(float number) {
     return number >= 0.0F && number <= 1.0F;
 }
@@ -81,17 +75,25 @@ bool hasAllScalars(const v1::State& message) {
 
 }  // namespace
 
+void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers) {
+    const auto& position = eye.positionMetres;
+    const auto& rotation = eye.worldFromWall;
+    for (const float number : {position.x, position.y, position.z}) numbers.Add(number);
+    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z})
+        numbers.Add(number);
+}
+
+std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& e) {
+    if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
+    return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
+}
+
 void writeState(const StateFrame& state, v1::State& message) {
     message.set_frame(state.frame.value);
     message.set_tick(state.tick.value);
     message.set_fraction(state.fraction);
     message.set_world_hash(state.worldHash);
-    const auto& position = state.eye.positionMetres;
-    const auto& rotation = state.eye.worldFromWall;
-    for (const float number : {position.x, position.y, position.z}) message.add_eye(number);
-    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z}) {
-        message.add_eye(number);
-    }
+    writeEye(state.eye, *message.mutable_eye());
     message.set_layout_version(kLayoutVersion);
     message.set_stride(kStride);
     writeRecords(state.before, *message.mutable_before());
@@ -106,7 +108,7 @@ void writeState(const StateFrame& state, v1::State& message) {
 
 std::optional<StateFrame> readState(const v1::State& message) {
     if (!hasAllScalars(message)) return std::nullopt;
-    const auto eye = readEye(message);
+    const auto eye = readEye(message.eye());
     auto before = readFish(message.before());
     auto after = readFish(message.after());
     auto foodBefore = readFood(message.food_before());

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <spdlog/spdlog.h>
 
 #include "common/units/error.h"
@@ -208,10 +209,19 @@ bool Conductor::publish(Frame frame, Instant now) {
     if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
-    eye_ = state->eye;
+    noteEye(*state);
     report_.tick = state->tick;
     report_.worldHash = state->worldHash;
     return true;
+}
+
+void Conductor::noteEye(const StateFrame& state) {
+    const double ticks =
+        static_cast<double>(state.tick.value) - 1 + static_cast<double>(state.fraction);
+    const double seconds = (ticks - std::exchange(eyeTicks_, ticks)) / kTicksPerSecond;
+    const float metres = glm::distance(state.eye.positionMetres, eye_.positionMetres);
+    speedMetresPerSecond_ = seconds > 0 ? metres / static_cast<float>(seconds) : 0.0F;
+    eye_ = state.eye;
 }
 
 // Lockstep passes nobody over, so a state that was lost on its way must come again.

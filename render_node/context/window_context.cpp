@@ -5,6 +5,7 @@
 #include <deque>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -13,7 +14,8 @@
 
 #include "common/units/error.h"
 #include "render_node/context/context.h"
-#include "render_node/context/opengl_version.h"
+#include "render_node/context/driver.h"
+#include "render_node/context/gamepads.h"
 
 namespace aquarama {
 
@@ -103,8 +105,11 @@ struct DestroyWindow {
 
 class WindowContext : public Context {
   public:
-    WindowContext(const Display& display, const std::string& title, glm::ivec2 sizePixels)
-        : display_{display}, size_{sizePixels} {
+    WindowContext(const Display& display,
+                  const std::string& title,
+                  glm::ivec2 sizePixels,
+                  bool quadBuffered)
+        : display_{display}, size_{sizePixels}, quadBuffered_{quadBuffered} {
         open(title);
         GLFWwindow* window = window_.get();
         glfwSetWindowUserPointer(window, this);
@@ -115,6 +120,7 @@ class WindowContext : public Context {
                                    [](GLFWwindow* source) { of(source).onKey(GLFW_KEY_ESCAPE); });
         glfwSetMouseButtonCallback(window, [](GLFWwindow* source, int button, int action, int) {
             if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) of(source).onClick();
+            if (button == GLFW_MOUSE_BUTTON_RIGHT) of(source).onDrag(action == GLFW_PRESS);
         });
         glfwSetFramebufferSizeCallback(window, [](GLFWwindow* source, int width, int height) {
             of(source).framebuffer_ = glm::ivec2(width, height);
@@ -124,15 +130,17 @@ class WindowContext : public Context {
     void makeCurrent() override {
         glfwMakeContextCurrent(window_.get());
         glfwSwapInterval(1);
-        requireOpenGl45("window");
+        requireDriver("window");
     }
     void release() override { glfwMakeContextCurrent(nullptr); }
     void swap() override { glfwSwapBuffers(window_.get()); }
     [[nodiscard]] glm::ivec2 framebufferPixels() const override { return framebuffer_; }
     [[nodiscard]] bool hasWindow() const override { return true; }
+    [[nodiscard]] bool quadBuffered() const override { return quadBuffered_; }
     [[nodiscard]] std::string description() const override {
         return rendererAndVersion() + ", in a window";
     }
+    [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     void pumpEvents(std::chrono::milliseconds atMost) override {
         glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
     }
@@ -153,6 +161,7 @@ class WindowContext : public Context {
         if (glfwGetWindowAttrib(window_.get(), GLFW_HOVERED) == GLFW_FALSE) return std::nullopt;
         return cursor();
     }
+    [[nodiscard]] Hands hands() const override;
 
   private:
     static WindowContext& of(GLFWwindow* source) {
@@ -162,24 +171,28 @@ class WindowContext : public Context {
     void check();
     void onKey(int key);
     void onClick();
+    void onDrag(bool begins);
     [[nodiscard]] glm::vec2 cursor() const;
     void toggleFullscreen();
 
     GlfwLibrary library_;
     Display display_;
     glm::ivec2 size_;
+    bool quadBuffered_;
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
     std::deque<char> keys_;
     std::deque<glm::vec2> clicks_;
+    std::optional<glm::vec2> dragFrom_;
 };
 
 void WindowContext::open(const std::string& title) {
-    constexpr std::array<std::array<int, 2>, 9> kHints{{
+    constexpr std::array<std::array<int, 2>, 10> kHints{{
         {GLFW_CONTEXT_VERSION_MAJOR, 4},
         {GLFW_CONTEXT_VERSION_MINOR, 5},
         {GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE},
-        {GLFW_DECORATED, GLFW_FALSE},  // windows side by side are one wall
+        {GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET},  // where the driver can tell
+        {GLFW_DECORATED, GLFW_FALSE},                           // windows side by side are one wall
         {GLFW_RESIZABLE, GLFW_FALSE},
         {GLFW_AUTO_ICONIFY, GLFW_FALSE},  // one projector keeps showing when another is clicked
         {GLFW_VISIBLE, GLFW_FALSE},       // until it is in its place
@@ -187,12 +200,18 @@ void WindowContext::open(const std::string& title) {
         {GLFW_STENCIL_BITS, 0},
     }};
     for (const auto& [hint, value] : kHints) glfwWindowHint(hint, value);
+    glfwWindowHint(GLFW_STEREO, quadBuffered_ ? GLFW_TRUE : GLFW_FALSE);
     GLFWmonitor* monitor = nullptr;
     if (display_.mode == DisplayMode::Fullscreen) {
         monitor = monitorAt(display_.monitor);
         glfwWindowHint(GLFW_REFRESH_RATE, modeFor(display_, size_, monitor).refreshRate);
     }
     window_.reset(glfwCreateWindow(size_.x, size_.y, title.c_str(), monitor, nullptr));
+    if (!window_ && quadBuffered_) {
+        throw Error("no window with left and right buffers (" + lastGlfwError() +
+                    "); switch quad-buffered stereo on in the graphics driver, or choose another "
+                    "stereo mode in the rig");
+    }
     if (!window_) {
         throw Error("no window with OpenGL 4.5 core (" + lastGlfwError() +
                     "); update the graphics driver, or use --headless");
@@ -241,6 +260,38 @@ void WindowContext::onClick() {
     if (clicks_.size() < kMostClicks) clicks_.push_back(cursor());
 }
 
+void WindowContext::onDrag(bool begins) {
+    dragFrom_ = begins ? std::optional(cursor()) : std::nullopt;
+}
+
+// A window that is left by the keyboard holds no key any more: GLFW lets go of all.
+Hands WindowContext::hands() const {
+    constexpr std::array<std::pair<int, HeldKey>, static_cast<std::size_t>(HeldKey::kCount)> kKeys{{
+        {GLFW_KEY_W, HeldKey::W},
+        {GLFW_KEY_A, HeldKey::A},
+        {GLFW_KEY_S, HeldKey::S},
+        {GLFW_KEY_D, HeldKey::D},
+        {GLFW_KEY_UP, HeldKey::Up},
+        {GLFW_KEY_DOWN, HeldKey::Down},
+        {GLFW_KEY_LEFT, HeldKey::Left},
+        {GLFW_KEY_RIGHT, HeldKey::Right},
+        {GLFW_KEY_PAGE_UP, HeldKey::PageUp},
+        {GLFW_KEY_PAGE_DOWN, HeldKey::PageDown},
+        {GLFW_KEY_HOME, HeldKey::Home},
+        {GLFW_KEY_END, HeldKey::End},
+    }};
+    Hands hands;
+    hands.pad = movedPad();
+    for (const auto& [key, held] : kKeys)
+        if (glfwGetKey(window_.get(), key) == GLFW_PRESS) hands.hold(held);
+    if (dragFrom_) {
+        const glm::vec2 drag = cursor() - *dragFrom_;
+        const auto height = static_cast<float>(glm::max(framebuffer_.load().y, 1));
+        hands.drag = glm::vec2(drag.x, -drag.y) / height;
+    }
+    return hands;
+}
+
 // GLFW tells it in the units of the desktop, of which a scaled one has fewer than pixels.
 glm::vec2 WindowContext::cursor() const {
     glm::dvec2 place{};
@@ -268,8 +319,9 @@ void WindowContext::toggleFullscreen() {
 
 std::unique_ptr<Context> makeWindowContext(const Display& display,
                                            const std::string& title,
-                                           glm::ivec2 sizePixels) {
-    return std::make_unique<WindowContext>(display, title, sizePixels);
+                                           glm::ivec2 sizePixels,
+                                           bool quadBuffered) {
+    return std::make_unique<WindowContext>(display, title, sizePixels, quadBuffered);
 }
 
 }  // namespace aquarama

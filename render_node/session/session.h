@@ -65,6 +65,8 @@ class Session {
     virtual Release readyThenWait(Frame frame) = 0;
     virtual void send(NodeInput input) = 0;
     virtual void dropFood(glm::vec3 positionMetres) = 0;  // world frame
+    // What hands ask of the submarine; holds until the next, half a second at most.
+    virtual void steer(const Steering& steering) = 0;
     // Asks what goes on in the mind of a fish; the answer comes when it comes.
     virtual void askMind(std::uint32_t fish) = 0;
     [[nodiscard]] virtual std::optional<Explanation> latestMind() const = 0;

@@ -3,10 +3,6 @@
 #define SHADING_GLSL
 #include "water.glsl"
 
-// Effective Kd of the three primaries near the filter's depth, 1/m: only the small difference
-// between a thing's depth and the filter's is undone with it.
-const vec3 kDownwellingKd = vec3(0.19, 0.062, 0.036);
-
 // How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
 struct Openness {
     float sun;
@@ -16,7 +12,7 @@ struct Openness {
 // The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
 // the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
 const float kLampPower = 8.0;
-const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045) * kRangeShare;
+const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045);
 vec3 lampLight(vec3 place, vec3 normal) {
     vec3 way = eyeAndTime.xyz - place;
     float range2 = dot(way, way), range = sqrt(range2);
@@ -39,7 +35,11 @@ vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float
     vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
     vec3 bounce = 0.34 * (1.0 - up) * (sky + sand);
     vec3 back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
-    return albedo * (front + bounce + back + lampLight(place, normal)) / kPi;
+    // The lamp's light has not come down from the surface: what `seen` takes for that is undone. Of
+    // the diver's filter 2.5 m are left on it: with all of it the nearest reds would burn.
+    vec3 lamplit = lampLight(place, normal) *
+                   exp(kdAndExposure.xyz * (depth - sunAndFilterDepth.w + 2.5));
+    return albedo * (front + bounce + back + lamplit) / kPi;
 }
 
 // Many corals turn the blue that is left into their own colour.
@@ -54,7 +54,7 @@ vec3 mirrored(vec3 direction, vec3 worldPosition) {
     vec3 window = 0.11 * smoothstep(0.55, 0.85, direction.y) * daylight.yzw;
     float sun = (6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun)) * daylight.x;
     vec3 fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
-    vec3 undone = exp(kDownwellingKd * (depth - sunAndFilterDepth.w));
+    vec3 undone = exp(kdAndExposure.xyz * (depth - sunAndFilterDepth.w));
     return water * undone + fromSurface;
 }
 

@@ -13,7 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/units/error.h"
-#include "common/wall/wall.h"
+#include "render_node/shaders/post_radii.h"
 #include "render_node/show/presented.h"
 
 namespace aquarama {
@@ -22,6 +22,7 @@ namespace {
 
 // Beyond what the projector lights, so that filters which read neighbours have some: 1 degree.
 constexpr double kMarginRadians = 0.0175;
+static_assert(double{kPostReach} <= kMarginRadians);
 constexpr float kNearMetres = 0.05F;
 
 // Dots large enough to be read from the sweet spot.
@@ -77,38 +78,53 @@ std::size_t channelIndex(const Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
+ChannelPicture::Viewing::Viewing(const ChannelFrustum& from,
+                                 const WarpMap& warp,
+                                 const Screen& screen,
+                                 std::uint32_t channelId)
+    : frustum{from}, pattern{from, screen}, projection{projectionMap(warp, from), channelId} {}
+
 ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
-      school_{admission.welcome.school},
-      frustum_{channelFrustum(admission.rig, channel, kMarginRadians)},
-      map_{projectionMap(warpMap(admission.rig, channel), frustum_)},
-      sceneSize_{scenePictureSize(map_)},
-      patternPass_{frustum_},
-      projection_{map_, admission.rig.channels[channel].id} {
-    if (pattern_ == Pattern::World) {
-        const auto pixel = static_cast<float>(finestPixelRadians(admission.rig));
+      stereo_{stereoOf(admission.rig, channel)},
+      school_{admission.welcome.school} {
+    const Rig& rig = admission.rig;
+    const std::uint32_t id = rig.channels[channel].id;
+    const WarpMap warp = warpMap(rig, channel);
+    map_ = projectionMap(warp, channelFrustum(rig, channel, kMarginRadians));
+    sceneSize_ = scenePictureSize(map_);
+    const bool two = stereo_.mode != StereoMode::Mono;
+    for (const EyeSide side :
+         two ? std::vector{EyeSide::Left, EyeSide::Right} : std::vector{EyeSide::Between})
+        eyes_.emplace_back(
+            channelFrustum(rig, channel, kMarginRadians, side), warp, rig.screen, id);
+    if (two && stereo_.mode != StereoMode::QuadBuffer)
+        together_.emplace(map_.sizePixels, id, stereo_.mode);
+    const bool world = pattern_ == Pattern::World;
+    for (Viewing& eye : eyes_)
+        if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
+    if (world)
         scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
                                     .place = admission.scene.place,
+                                    .water = admission.scene.water.jerlov,
                                     .quality = quality,
-                                    .pixelRadians = pixel},
+                                    .pixelRadians =
+                                        static_cast<float>(finestPixelRadians(admission.rig))},
                        castOf(admission));
-    } else {
-        patternPicture_.emplace(GL_RGBA16F, sceneSize_);
-    }
 }
 
 void ChannelPicture::drawScene(const StateFrame& frame,
                                const Overlays& overlays,
                                const std::optional<WatchedMind>& mind) {
     frame_ = frame.frame;
-    if (scene_)
-        drawWorld(frame);
-    else
-        drawPattern();
-    glNamedFramebufferTexture(onScene_.name(), GL_COLOR_ATTACHMENT0, sceneTexture_, 0);
-    if (overlays.warpGrid) patternPass_.addGrid(onScene_.name(), sceneSize_);
-    if (overlays.fishIds) drawFishIds(frame);
-    if (mind) drawMind(frame, *mind);
+    if (scene_) drawWorld(frame);
+    for (Viewing& eye : eyes_) {
+        if (!scene_) drawPattern(eye);
+        glNamedFramebufferTexture(eye.onScene.name(), GL_COLOR_ATTACHMENT0, eye.sceneTexture, 0);
+        if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sceneSize_);
+        if (overlays.fishIds) drawFishIds(eye, frame);
+        if (mind) drawMind(eye, frame, *mind);
+    }
 }
 
 void ChannelPicture::drawWorld(const StateFrame& frame) {
@@ -119,19 +135,40 @@ void ChannelPicture::drawWorld(const StateFrame& frame) {
                            .food = food_,
                            .daylight = frame.daylight};
     scene_->update(scene);
-    sceneTexture_ = scene_->draw(viewOf(frame.eye));
+    for (Viewing& eye : eyes_) {
+        const View view = viewOf(eye, frame.eye);
+        eye.clipFromWorld = clipOf(view);
+        eye.sceneTexture = scene_->draw(view);
+        if (!eye.kept) continue;
+        glCopyImageSubData(eye.sceneTexture,
+                           GL_TEXTURE_2D,
+                           0,
+                           0,
+                           0,
+                           0,
+                           eye.kept->texture(),
+                           GL_TEXTURE_2D,
+                           0,
+                           0,
+                           0,
+                           0,
+                           sceneSize_.x,
+                           sceneSize_.y,
+                           1);
+        eye.sceneTexture = eye.kept->texture();
+    }
 }
 
-void ChannelPicture::drawPattern() {
-    sceneTexture_ = patternPicture_->texture();
+void ChannelPicture::drawPattern(Viewing& eye) const {
+    eye.sceneTexture = eye.kept->texture();
     if (pattern_ == Pattern::Grid)
-        patternPass_.drawGrid(patternPicture_->framebuffer(), sceneSize_);
+        eye.pattern.drawGrid(eye.kept->framebuffer(), sceneSize_);
     else
-        patternPass_.drawGrey(patternPicture_->framebuffer(), sceneSize_);
+        eye.pattern.drawGrey(eye.kept->framebuffer(), sceneSize_);
 }
 
-std::optional<FishPlace> ChannelPicture::placeOf(const PresentedFish& fish,
-                                                 const glm::mat4& clipFromWorld) const {
+std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
+                                                 const PresentedFish& fish) const {
     const glm::vec4 clip = clipFromWorld * glm::vec4(fish.positionMetres, 1);
     if (clip.w <= 0) return std::nullopt;
     const glm::vec2 size(sceneSize_);
@@ -143,40 +180,42 @@ std::optional<FishPlace> ChannelPicture::placeOf(const PresentedFish& fish,
 }
 
 // Each number stands on its fish's body frame.
-void ChannelPicture::drawFishIds(const StateFrame& frame) {
+void ChannelPicture::drawFishIds(const Viewing& eye, const StateFrame& frame) {
     const float dot = dotPixels(sceneSize_);
-    const glm::mat4 clipFromWorld = clipOf(viewOf(frame.eye));
     std::vector<Label> labels;
     for (const PresentedFish& fish : presentedFish(frame, school_)) {
-        const auto place = placeOf(fish, clipFromWorld);
+        const auto place = placeOf(eye.clipFromWorld, fish);
         if (!place) continue;
         const std::string text = std::to_string(fish.id);
         labels.push_back({place->middle - extentInDots(text) * dot / 2.0F, text});
     }
-    text_.draw(labels, onScene_.name(), sceneSize_, dot);
+    text_.draw(labels, eye.onScene.name(), sceneSize_, dot);
 }
 
-void ChannelPicture::drawMind(const StateFrame& frame, const WatchedMind& mind) {
+void ChannelPicture::drawMind(const Viewing& eye,
+                              const StateFrame& frame,
+                              const WatchedMind& mind) {
     const auto fish = presentedFish(frame, school_, mind.fish);
     if (!fish) return;
-    const auto place = placeOf(*fish, clipOf(viewOf(frame.eye)));
+    const auto place = placeOf(eye.clipFromWorld, *fish);
     if (!place) return;
     const float dot = smallDotPixels(sceneSize_);
-    text_.draw(mindLabels(*place, mind, sceneSize_, dot), onScene_.name(), sceneSize_, dot);
+    text_.draw(mindLabels(*place, mind, sceneSize_, dot), eye.onScene.name(), sceneSize_, dot);
 }
 
 std::optional<std::uint32_t> ChannelPicture::fishNearest(const StateFrame& frame,
                                                          glm::vec2 pixel) const {
-    const glm::ivec2 texel = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), map_.sizePixels - 1);
+    const glm::vec2 own = pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
+    const glm::ivec2 texel = glm::clamp(glm::ivec2(own), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
         map_.placeAndWeight[static_cast<std::size_t>(texel.y * map_.sizePixels.x + texel.x)];
     const glm::vec2 wanted = glm::vec2(lit.x, 1.0F - lit.y) * glm::vec2(sceneSize_);
-    const glm::mat4 clipFromWorld = clipOf(viewOf(frame.eye));
-    const std::vector<PresentedFish> fish = presentedFish(frame, school_);
     std::optional<std::uint32_t> nearest;
     float least = std::numeric_limits<float>::infinity();
+    const glm::mat4 clipFromWorld = clipOf(viewOf(eyes_.front(), frame.eye));
+    const std::vector<PresentedFish> fish = presentedFish(frame, school_);
     for (std::uint32_t i = 0; i < fish.size(); ++i) {
-        const auto place = placeOf(fish[i], clipFromWorld);
+        const auto place = placeOf(clipFromWorld, fish[i]);
         if (!place) continue;
         const float distance = glm::distance(place->middle, wanted);
         if (distance >= least) continue;
@@ -186,20 +225,34 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(const StateFrame& frame
     return nearest;
 }
 
-void ChannelPicture::project(unsigned framebuffer, Encoding encoding, const Overlays& overlays) {
-    projection_.draw({.sceneTexture = sceneTexture_,
-                      .framebuffer = framebuffer,
-                      .frame = frame_,
-                      .encoding = encoding,
-                      .blendMask = overlays.blendMask});
+void ChannelPicture::project(unsigned framebuffer,
+                             Encoding encoding,
+                             const Overlays& overlays,
+                             Shown shown) {
+    Projection::Draw draw{.framebuffer = framebuffer,
+                          .frame = frame_,
+                          .encoding = encoding,
+                          .blendMask = overlays.blendMask};
+    const auto sceneAndMap = [](const Viewing& eye) {
+        return PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
+    };
+    if (shown == Shown::Display && together_) {
+        const Viewing& first = stereo_.swapEyes ? eyes_.back() : eyes_.front();
+        const Viewing& second = stereo_.swapEyes ? eyes_.front() : eyes_.back();
+        together_->draw(sceneAndMap(first), sceneAndMap(second), draw);
+    } else {
+        const Viewing& eye = shown == Shown::RightEye ? eyes_.back() : eyes_.front();
+        draw.sceneTexture = eye.sceneTexture;
+        eye.projection.draw(draw);
+    }
     if (!overlays.help) return;
     const float dot = dotPixels(sizePixels());
     text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
 }
 
-View ChannelPicture::viewOf(const Eye& eye) const {
-    return {.clipFromCamera = clipFromCamera(frustum_, kNearMetres),
-            .cameraFromWorld = glm::mat4(frustum_.cameraFromWall * wallFromWorld(eye)),
+View ChannelPicture::viewOf(const Viewing& viewing, const Eye& submarine) const {
+    return {.clipFromCamera = clipFromCamera(viewing.frustum, kNearMetres),
+            .cameraFromWorld = glm::mat4(viewing.frustum.cameraFromWall * wallFromWorld(submarine)),
             .sizePixels = sceneSize_};
 }
 

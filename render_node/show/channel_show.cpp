@@ -70,7 +70,9 @@ ChannelShow::ChannelShow(Session& session,
       context_{context},
       controls_{controls},
       options_{options},
-      trace_{options.traceFolder, options.channel} {}
+      trace_{options.traceFolder, options.channel} {
+    if (!options.filmPipe.empty()) film_.emplace(options.filmPipe);
+}
 
 void ChannelShow::run(Admission first) {
     std::optional<Admission> admission = std::move(first);
@@ -144,6 +146,7 @@ Release ChannelShow::play() {
         if (state->quality != quality_) buildPicture(state->quality);
         draw(*state);
         waitForGpu();
+        refuseLoss();
         times.ready = now();
         const Release release = session_.readyThenWait(state->frame);
         if (release == Release::Rejoin || release == Release::Quit) return release;
@@ -157,12 +160,28 @@ Release ChannelShow::play() {
     return session_.interruption();
 }
 
+// All textures and programs went with it: a new process has them again in a second or two.
+void ChannelShow::refuseLoss() const {
+    if (const auto loss = context_.loss())
+        throw Error("the graphics driver took its context away (" + *loss +
+                    "); this node ends, and is to be started again");
+}
+
 void ChannelShow::draw(const StateFrame& frame) {
     const Overlays overlays = controls_.overlays();
     picture_->drawScene(frame, overlays, overlays.mind ? watchMind(frame) : std::nullopt);
+    if (!context_.quadBuffered()) return project(overlays, Shown::Display);
+    const bool swapped = picture_->stereo().swapEyes;
+    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_RIGHT : GL_BACK_LEFT);
+    project(overlays, Shown::LeftEye);
+    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_LEFT : GL_BACK_RIGHT);
+    project(overlays, Shown::RightEye);
+}
+
+void ChannelShow::project(const Overlays& overlays, Shown shown) {
     const glm::ivec2 window = context_.framebufferPixels();
     const bool fits = context_.hasWindow() && window == picture_->sizePixels();
-    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays);
+    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays, shown);
     if (context_.hasWindow() && !fits) show(*offscreen_, window);
 }
 
@@ -197,12 +216,8 @@ std::optional<WatchedMind> ChannelShow::watchMind(const StateFrame& frame) {
 }
 
 void ChannelShow::film(Frame frame) {
-    if (options_.filmEvery <= 0 || options_.snapshotFolder.empty()) return;
-    if (frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
-    writeSnapshot(filmFolder(options_.snapshotFolder, frame),
-                  options_.channel,
-                  *picture_,
-                  PictureBits::Dithered8);
+    if (!film_ || frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
+    film_->write(frame.value, takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
 }
 
 }  // namespace aquarama

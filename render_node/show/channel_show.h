@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/wall/frame_pipe.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/target.h"
 #include "render_node/session/session.h"
@@ -34,6 +35,8 @@ class ChannelShow {
     [[nodiscard]] double secondsAFrame(QualityTier quality);
     [[nodiscard]] Release play();
     void draw(const StateFrame& frame);
+    void project(const Overlays& overlays, Shown shown);
+    void refuseLoss() const;
     void feed(const Eye& eye);
     // Where in the picture a place of the window lies; where there is none, its middle.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
@@ -45,6 +48,7 @@ class ChannelShow {
     Controls& controls_;
     NodeOptions options_;
     Trace trace_;
+    std::optional<FramePipeWriter> film_;
     std::optional<Admission> built_;          // what picture_ was built for
     QualityTier quality_ = QualityTier::Low;  // of picture_
     QualityTier bears_ = QualityTier::Low;    // the finest that this node keeps up with

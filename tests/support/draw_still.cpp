@@ -24,7 +24,7 @@ struct Wish {
           speed = 0.8F;
     int ball = 0;
     float ballMetres = 6.0F;
-    std::string tier = "ultra", out = "still.png";
+    std::string tier = "ultra", water = "IA", out = "still.png";
     bool openSea = false;
 };
 
@@ -33,6 +33,8 @@ test::Still stillOf(const Wish& wish, test::Still still) {
     if (wish.openSea) still.options.place = PlaceKind::OpenSea;
     const auto tier = std::ranges::find(kTierNames, wish.tier);
     still.options.quality = static_cast<QualityTier>(tier - kTierNames.begin());
+    const auto water = std::ranges::find(kWaterTypeNames, wish.water);
+    still.options.water = static_cast<WaterType>(water - kWaterTypeNames.begin());
     // Side by side, the first in the middle.
     test::Camera camera = still.camera;
     for (const std::string& species : wish.portraits) {
@@ -68,6 +70,8 @@ int main(int argc, char** argv) try {
     app.add_option("--seed", still.options.seed, "of the place");
     app.add_option("--quality", wish.tier, "tier")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
+    app.add_option("--water", wish.water, "Jerlov's type")
+        ->check(CLI::IsMember({"I", "IA", "IB", "II", "III", "1C", "3C"}));
     app.add_option("--portrait", wish.portraits, "species before the camera");
     app.add_option("--away", wish.metresAway, "of the portraits, metres");
     app.add_option("--turn", wish.turnDegrees, "0 left side, 90 face, 180 right side");
@@ -76,6 +80,8 @@ int main(int argc, char** argv) try {
     app.add_option("--speed", wish.speed, "of the portraits, body lengths a second");
     app.add_option("--ball", wish.ball, "so many scad in a ball");
     app.add_option("--ball-away", wish.ballMetres, "metres");
+    app.add_flag_callback(
+        "--no-lod", [&] { still.options.levelsOfDetail = false; }, "all fish are heroes");
     app.add_flag("--open-sea", wish.openSea, "no floor");
     app.add_option("--out", wish.out, "PNG file");
     CLI11_PARSE(app, argc, argv);

@@ -76,6 +76,11 @@ Picture encoded(unsigned texture, glm::ivec2 size) {
 
 }  // namespace
 
+float pixelRadiansOf(const Camera& camera) {
+    const float tangent = std::tan(glm::radians(camera.heightDegrees) / 2);
+    return 2.0F * tangent / static_cast<float>(camera.sizePixels.y);
+}
+
 View viewOf(const Camera& camera) {
     constexpr float kNear = 0.05F;
     const glm::vec2 size(camera.sizePixels);
@@ -134,7 +139,9 @@ std::vector<StillFish> ballOf(const std::string& species,
 
 Picture pictureOf(const Still& still) {
     const Cast cast = castOf(still.fish);
-    SceneRenderer scene{still.options, cast.species};
+    SceneOptions options = still.options;
+    options.pixelRadians = pixelRadiansOf(still.camera);
+    SceneRenderer scene{options, cast.species};
     SceneFrame frame;
     frame.timeSeconds = still.timeSeconds;
     frame.eyePositionMetres = still.camera.eyeMetres;

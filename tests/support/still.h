@@ -25,6 +25,8 @@ struct Camera {
 };
 // Reversed depth, zero to one, far plane at infinity.
 [[nodiscard]] View viewOf(const Camera& camera);
+// The angle of the pixel in the middle: a still is the whole wall.
+[[nodiscard]] float pixelRadiansOf(const Camera& camera);
 
 struct StillFish {
     std::string species;  // of config/species
@@ -51,7 +53,7 @@ struct Still {
     Camera camera;
     std::vector<StillFish> fish;
     double timeSeconds = 12.0;
-    SceneOptions options;  // quality, place, seed
+    SceneOptions options;  // quality, place, seed; not pixelRadians
     float daylight = 1.0F;
 };
 // Needs a current context. Bodies sway; they are not captured. sRGB, 8 bits, without dither.

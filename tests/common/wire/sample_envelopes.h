@@ -76,6 +76,9 @@ inline std::vector<Envelope> sampleEnvelopes() {
     reply.frameMedianMs = 16.5F;
     reply.skewP99Ms = 0.75F;
     reply.refusedPackets = 3;
+    reply.eye = {{1, -6, 2.5F}, {0.5F, 0.5F, 0.5F, -0.5F}};
+    reply.speedMetresPerSecond = 0.375F;
+    reply.pilot = "middle";
     reply.nodes = {{"left", NodeCondition::Late, 4, 1}, {"right", NodeCondition::Absent, 0, 2}};
     std::vector<Message> messages = {Hello{"left", 3, "0.1.0"},
                                      Refusal{"no"},
@@ -93,8 +96,9 @@ inline std::vector<Envelope> sampleEnvelopes() {
                                      Farewell{},
                                      Ping{-1},
                                      Pong{-1, 77},
-                                     Input{InputKind::TogglePause, {}},
-                                     Input{InputKind::DropFood, {0.5F, -6.25F, -2.5F}},
+                                     Input{InputKind::TogglePause, {}, {}},
+                                     Input{InputKind::DropFood, {0.5F, -6.25F, -2.5F}, {}},
+                                     Input{InputKind::Steer, {}, {127, -127, 0, 1, -64}},
                                      StatusRequest{},
                                      reply,
                                      ExplainRequest{59},

@@ -87,7 +87,7 @@ class Place : public testing::Test {
         context().reset();
     }
     static std::unique_ptr<SceneRenderer> fresh(const SceneOptions& options) {
-        return std::make_unique<SceneRenderer>(options, std::span<const SceneSpecies>{});
+        return std::make_unique<SceneRenderer>(options, std::span<const SchoolSpecies>{});
     }
     static std::unique_ptr<Context>& context() {
         static std::unique_ptr<Context> instance;
@@ -270,7 +270,7 @@ TEST_F(Place, neighboursAgreeWhereTheyOverlap) {
 }
 
 TEST_F(Place, wavesGatherLightAndMakeNone) {
-    SeaLight light{1, 5.0F};
+    SeaLight light{1, WaterType::IB};
     FrameUniforms uniforms{};
     uniforms.eyeAndTime = glm::vec4(kEyePosition, 0.0F);
     uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), 5.0F);

@@ -2,6 +2,7 @@
 // A master that follows a script, and a context that counts, for tests of a node's frame loop.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <fstream>
 #include <iterator>
@@ -52,12 +53,14 @@ class FakeSession : public Session {
         events_.emplace_back(input == NodeInput::Quit ? "send quit" : "send pause");
     }
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
+    void steer(const Steering& steering) override { steerings_.push_back(steering); }
     void askMind(std::uint32_t fish) override { events_.push_back("ask " + std::to_string(fish)); }
     [[nodiscard]] std::optional<Explanation> latestMind() const override { return mind_; }
     void stop() override { events_.emplace_back("stop"); }
 
     std::optional<Admission> rejoin_;
     std::vector<glm::vec3> drops_;
+    std::vector<Steering> steerings_;
     std::optional<Explanation> mind_;
 
   private:
@@ -78,10 +81,18 @@ class CountingContext : public Context {
     }
     [[nodiscard]] bool hasWindow() const override { return false; }
     [[nodiscard]] std::string description() const override { return context_->description(); }
+    [[nodiscard]] std::optional<std::string> loss() const override {
+        return lostAfterSwaps_ && std::ranges::count(events_, "swap") >= *lostAfterSwaps_
+                   ? std::optional<std::string>("a reset")
+                   : context_->loss();
+    }
     void pumpEvents(std::chrono::milliseconds) override {}
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
+    [[nodiscard]] Hands hands() const override { return {}; }
+
+    std::optional<long> lostAfterSwaps_;
 
   private:
     Events& events_;
