@@ -53,6 +53,11 @@ std::vector<std::array<std::uint32_t, 2>> coarserParents(const FishBody& body,
     for (std::size_t face = 0; face < body.cage.faces.size(); ++face)
         for (int j = 0; j <= n; ++j)
             for (int i = 0; i <= n; ++i) parents[fine.at(face, i, j)] = parentsAt(face, i, j);
+    // Attachments are the same at every level.
+    for (std::size_t k = coarser.skinVertices; k < coarser.vertices.size(); ++k) {
+        const auto own = static_cast<std::uint32_t>(parents.size());
+        parents.push_back({own, own});
+    }
     return parents;
 }
 

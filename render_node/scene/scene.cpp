@@ -69,7 +69,7 @@ struct SceneRenderer::Parts {
         : options{chosen},
           quality{qualityOf(chosen.quality)},
           light{chosen.seed, chosen.water},
-          picture{quality.samples},
+          picture{quality},
           school{cast,
                  {.culling = chosen.culling,
                   .levelsOfDetail = chosen.levelsOfDetail,

@@ -18,7 +18,8 @@ struct Fish {
     uint detail;   // DetailLevel of render_node/surface/visibility.h
     float blend;   // how far it is from the next coarser level: 0 looks as that does
     uint firstVertex;  // in the surface buffer, less the first vertex of its mesh
-    uint padding0, padding1;
+    float speed;  // body lengths a second
+    uint padding;
 };
 
 vec3 rotate(vec4 rotation, vec3 v) {

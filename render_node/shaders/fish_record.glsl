@@ -17,6 +17,13 @@ const int kAwayBelow = -8192 * 65536;
 
 float lengthMetresOf(uint i) { return float(traits[i].y) * 0.001; }
 
+// Body lengths a second; backwards is negative.
+float speedOf(uint i) {
+    const float kUnitsPerBodyLength = 262144.0;
+    return mix(float(int(before[2u * i + 1u].w)), float(int(after[2u * i + 1u].w)), fraction) /
+           kUnitsPerBodyLength;
+}
+
 // Not in the water at one of the ticks: nobody draws it.
 bool isAway(uint i) {
     return int(before[2u * i].y) < kAwayBelow || int(after[2u * i].y) < kAwayBelow;

@@ -46,7 +46,8 @@ void main() {
     self.species = species;
     self.detail = level;
     self.blend = detailAt(self.positionMetres, self.lengthMetres).blend;
-    self.firstVertex = self.padding0 = self.padding1 = 0u;
+    self.speed = speedOf(i);
+    self.firstVertex = self.padding = 0u;
     if (level >= kControlMesh &&
         !findSurface(species, level - kControlMesh, slot, self.firstVertex)) {
         self.detail = kFewTriangles;

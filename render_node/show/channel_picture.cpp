@@ -13,6 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/units/error.h"
+#include "render_node/shaders/post_radii.h"
 #include "render_node/show/presented.h"
 
 namespace aquarama {
@@ -21,6 +22,7 @@ namespace {
 
 // Beyond what the projector lights, so that filters which read neighbours have some: 1 degree.
 constexpr double kMarginRadians = 0.0175;
+static_assert(double{kPostReach} <= kMarginRadians);
 constexpr float kNearMetres = 0.05F;
 
 // Dots large enough to be read from the sweet spot.
@@ -76,25 +78,28 @@ std::size_t channelIndex(const Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
-ChannelPicture::Viewing::Viewing(const Rig& rig, std::size_t channel, const ChannelFrustum& from)
-    : frustum{from},
-      pattern{from, rig.screen},
-      projection{projectionMap(warpMap(rig, channel), from), rig.channels[channel].id} {}
+ChannelPicture::Viewing::Viewing(const ChannelFrustum& from,
+                                 const WarpMap& warp,
+                                 const Screen& screen,
+                                 std::uint32_t channelId)
+    : frustum{from}, pattern{from, screen}, projection{projectionMap(warp, from), channelId} {}
 
 ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
       stereo_{stereoOf(admission.rig, channel)},
-      school_{admission.welcome.school},
-      map_{projectionMap(warpMap(admission.rig, channel),
-                         channelFrustum(admission.rig, channel, kMarginRadians))},
-      sceneSize_{scenePictureSize(map_)} {
+      school_{admission.welcome.school} {
     const Rig& rig = admission.rig;
+    const std::uint32_t id = rig.channels[channel].id;
+    const WarpMap warp = warpMap(rig, channel);
+    map_ = projectionMap(warp, channelFrustum(rig, channel, kMarginRadians));
+    sceneSize_ = scenePictureSize(map_);
     const bool two = stereo_.mode != StereoMode::Mono;
     for (const EyeSide side :
          two ? std::vector{EyeSide::Left, EyeSide::Right} : std::vector{EyeSide::Between})
-        eyes_.emplace_back(rig, channel, channelFrustum(rig, channel, kMarginRadians, side));
+        eyes_.emplace_back(
+            channelFrustum(rig, channel, kMarginRadians, side), warp, rig.screen, id);
     if (two && stereo_.mode != StereoMode::QuadBuffer)
-        together_.emplace(map_.sizePixels, rig.channels[channel].id, stereo_.mode);
+        together_.emplace(map_.sizePixels, id, stereo_.mode);
     const bool world = pattern_ == Pattern::World;
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);

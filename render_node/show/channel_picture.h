@@ -54,7 +54,10 @@ class ChannelPicture {
   private:
     // A viewer's eye, or the place between both where one picture serves them.
     struct Viewing {
-        Viewing(const Rig& rig, std::size_t channel, const ChannelFrustum& from);
+        Viewing(const ChannelFrustum& from,
+                const WarpMap& warp,
+                const Screen& screen,
+                std::uint32_t channelId);
 
         ChannelFrustum frustum;
         PatternPass pattern;
@@ -78,7 +81,7 @@ class ChannelPicture {
     Stereo stereo_;
     std::vector<FishTraits> school_;
     ProjectionMap map_;  // from between the eyes
-    glm::ivec2 sceneSize_;
+    glm::ivec2 sceneSize_{};
     std::deque<Viewing> eyes_;                // one, or left and right
     std::optional<PairProjection> together_;  // where one picture holds both
     std::optional<SceneRenderer> scene_;      // of the world

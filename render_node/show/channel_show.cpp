@@ -146,6 +146,7 @@ Release ChannelShow::play() {
         if (state->quality != quality_) buildPicture(state->quality);
         draw(*state);
         waitForGpu();
+        refuseLoss();
         times.ready = now();
         const Release release = session_.readyThenWait(state->frame);
         if (release == Release::Rejoin || release == Release::Quit) return release;
@@ -157,6 +158,13 @@ Release ChannelShow::play() {
         if (!std::exchange(shown_, true)) spdlog::info("showing");
     }
     return session_.interruption();
+}
+
+// All textures and programs went with it: a new process has them again in a second or two.
+void ChannelShow::refuseLoss() const {
+    if (const auto loss = context_.loss())
+        throw Error("the graphics driver took its context away (" + *loss +
+                    "); this node ends, and is to be started again");
 }
 
 void ChannelShow::draw(const StateFrame& frame) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
+#include <numbers>
 #include <string>
 
 #include <glm/common.hpp>
@@ -11,6 +13,7 @@
 #include <glm/packing.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/fin_motion.h"
 #include "common/skin/coarser_level.h"
 #include "common/units/error.h"
 
@@ -29,13 +32,38 @@ RecordedPoint quantised(glm::vec3 point) {
     return recorded;
 }
 
-void addPosed(const FishBody& body, const NodalPose& pose, std::vector<RecordedPoint>& points) {
+NodalPoints nodesOf(const NodalPose& pose) {
     NodalPoints nodes{};
     for (std::size_t n = 0; n < nodes.size(); ++n)
         nodes.at(n) = glm::vec3(pose.at(n)[0], pose.at(n)[1], pose.at(n)[2]) * kPoseUnit;
+    return nodes;
+}
+
+void addPosed(const FishBody& body, const NodalPoints& nodes, std::vector<RecordedPoint>& points) {
     std::vector<glm::vec3> cage(kControlPoints);
     poseCage(body, nodes, cage);
     std::ranges::transform(cage, std::back_inserter(points), quantised);
+}
+
+// To the last points, one pose's.
+void addHeadings(const FishBody& body, const NodalPoints& nodes, std::vector<RecordedPoint>& points) {
+    std::array<float, kControlPoints> headings{};
+    headingsOf(body, nodes, headings);
+    const std::size_t first = points.size() - headings.size();
+    for (std::size_t i = 0; i < headings.size(); ++i)
+        points[first + i][3] = static_cast<std::int16_t>(
+            std::lround(headings.at(i) / std::numbers::pi_v<float> * 32767.0F));
+}
+
+// As fish_pose.glsl reads them, behind the points of a species.
+void addFins(const FinTable& fins, std::vector<RecordedPoint>& points) {
+    const auto add = [&](std::span<const std::byte> bytes) {
+        const std::size_t first = points.size();
+        points.resize(first + bytes.size() / sizeof(RecordedPoint));
+        std::memcpy(&points[first], bytes.data(), bytes.size());
+    };
+    add(std::as_bytes(std::span(&fins.style, 1)));
+    add(std::as_bytes(std::span(fins.points)));
 }
 
 }  // namespace
@@ -44,11 +72,15 @@ std::vector<RecordedPoint> recordedPoints(const FishBody& body, const Repertoire
     std::vector<RecordedPoint> points;
     points.reserve(std::size_t{kActions} * kPhases * kControlPoints);
     for (const ActionSegment& segment : repertoire.segments) {
-        if (segment.controlPoints.size() == kPhases) {
-            for (const ControlPointPose& pose : segment.controlPoints)
-                for (const auto& [x, y, z] : pose) points.push_back({x, y, z, 0});
-        } else {
-            for (const NodalPose& pose : segment.nodes) addPosed(body, pose, points);
+        for (std::size_t phase = 0; phase < kPhases; ++phase) {
+            const NodalPoints nodes = nodesOf(segment.nodes.at(phase));
+            if (segment.controlPoints.empty()) {
+                addPosed(body, nodes, points);
+            } else {
+                for (const auto& [x, y, z] : segment.controlPoints[phase])
+                    points.push_back({x, y, z, 0});
+            }
+            addHeadings(body, nodes, points);
         }
     }
     return points;
@@ -102,7 +134,11 @@ void measure(const LimitTable& mesh, std::span<const RecordedPoint> pose, Specie
         moment += own.z * (a + b + c) / 3.0F;
         side += own.z;
     }
-    tables.area = glm::vec4{area, tables.area.w};
+    // A whip reaches further than the fish, and swings.
+    float reach = tables.area.w;
+    for (std::size_t i = mesh.skinVertices; i < places.size(); ++i)
+        reach = std::max(reach, 1.1F * glm::length(places[i]));
+    tables.area = glm::vec4{area, reach};
     tables.middle = glm::vec4{moment / side, 0.0F};
 }
 
@@ -113,6 +149,7 @@ class Gatherer {
         SpeciesTables tables;
         const std::vector<RecordedPoint> points = recordedPoints(species.body, species.repertoire);
         append<RecordedPoint>(recorded, points);
+        addFins(species.body.fins, recorded);
         tables.area.w = reachOf(points);
         LimitTable coarser = makeLimitTable(species.body, 0);
         const FewTriangles few = makeFewTriangles(species.body, coarser);

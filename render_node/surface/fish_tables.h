@@ -30,7 +30,7 @@ struct SchoolSpecies {
     std::vector<FishTraits> fish;
 };
 
-// Four 16-bit numbers, of which the last is unused.
+// A place, body lengths, and a heading (headingsOf()), half turns: 16 bits each.
 using RecordedPoint = std::array<std::int16_t, 4>;
 
 // By segment, phase and control point. Of segments that were captured without control points they

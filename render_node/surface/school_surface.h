@@ -49,7 +49,8 @@ struct DrawnFish {
     DetailLevel level = DetailLevel::Point;
     float blend = 0;
     std::uint32_t firstVertex = 0;
-    std::uint32_t padding[2] = {0, 0};
+    float speed = 0;  // body lengths a second
+    std::uint32_t padding = 0;
 };
 static_assert(sizeof(DrawnFish) == 80);
 

@@ -45,6 +45,7 @@ Cast castOf(const std::vector<StillFish>& fish) {
             if (one.species != name) continue;
             PresentedFish shown = fishAt(one.placeMetres, one.worldFromBody, one.lengthMetres);
             shown.phase = one.phase;
+            shown.speed = one.speedBodyLengths;
             shown.id = static_cast<std::uint32_t>(cast.fish.size());
             cast.fish.push_back(recordOf(shown));
             traits.push_back(traitsOf(shown));
@@ -109,7 +110,8 @@ StillFish portraitOf(const std::string& species,
             camera.eyeMetres + metresAway * ahead,
             glm::angleAxis(glm::radians(turn), kUp),
             lengthMetres,
-            0.1F};
+            0.1F,
+            0.8F};
 }
 
 std::vector<StillFish> ballOf(const std::string& species,
@@ -130,7 +132,7 @@ std::vector<StillFish> ballOf(const std::string& species,
         const float wobble = 0.25F * std::sin(12.9898F * static_cast<float>(i));
         const glm::quat heading = glm::angleAxis(angle + wobble, kUp);
         const float length = 0.24F * (1.0F + 0.1F * std::sin(7.0F * static_cast<float>(i)));
-        ball.push_back({species, centreMetres + r * from, heading, length, depth});
+        ball.push_back({species, centreMetres + r * from, heading, length, depth, 1.5F});
     }
     return ball;
 }

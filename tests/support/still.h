@@ -34,6 +34,7 @@ struct StillFish {
     glm::quat worldFromBody{1, 0, 0, 0};
     float lengthMetres = 0.24F;
     float phase = 0.0F;
+    float speedBodyLengths = 0.0F;  // a second; its fins go by it
 };
 // So far before the camera and turned so that it shows its left side (0), its face (90), its right
 // side (180).

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/motion/living_cage.h"
 #include "tests/render_node/surface/surface_fixture.h"
 
 namespace aquarama {
@@ -22,7 +23,7 @@ class SchoolSurfaceTest : public test::SurfaceTest {
     [[nodiscard]] std::vector<glm::vec3> expectedPositions(const PresentedFish& fish,
                                                            DetailLevel level) const {
         std::vector<glm::vec3> cage(kControlPoints);
-        controlPoints(repertoire_, fish, cage);
+        livingCage(body_, repertoire_, fish, test::kSeconds, cage);
         const LimitTable table =
             makeLimitTable(body_, static_cast<int>(level) - static_cast<int>(DetailLevel::ControlMesh));
         std::vector<glm::vec3> positions(table.vertices.size());
@@ -55,6 +56,7 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
         record.phase = static_cast<std::uint16_t>(bits(random));
         record.fromPhase = static_cast<std::uint16_t>(bits(random));
         record.segment = static_cast<std::uint8_t>(trial % kActions);
+        record.speed = static_cast<std::int32_t>(bits(random) % 500000U);
         record.fromSegment = static_cast<std::uint8_t>(trial % 3);
         record.warpLength = trial % 2 == 0 ? 0 : 9;
         record.warpFrame = static_cast<std::uint8_t>(trial % (record.warpLength + 1));

@@ -16,6 +16,7 @@
 #include "common/skin/limit_table.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/handle.h"
+#include "render_node/shaders/frame_uniforms.h"
 #include "render_node/surface/school_surface.h"
 #include "render_node/surface/skin_programs.h"
 #include "tests/render_node/surface/test_fish.h"
@@ -40,8 +41,16 @@ inline glm::quat anyRotation(std::mt19937& random) {
         glm::quat(normal(random), normal(random), normal(random), normal(random)));
 }
 
+inline constexpr float kSeconds = 3.7F;  // of the show
+
 class SurfaceTest : public testing::Test {
   protected:
+    SurfaceTest() {
+        FrameUniforms uniforms{};
+        uniforms.eyeAndTime.w = kSeconds;
+        glNamedBufferStorage(frameBlock_.name(), sizeof(uniforms), &uniforms, 0);
+        glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());
+    }
     static void SetUpTestSuite() {
         context() = makeOffscreenContext("mesa", {64, 64});
         programs() = makeSkinPrograms();
@@ -101,6 +110,7 @@ class SurfaceTest : public testing::Test {
         return {cast, options, programs()};
     }
 
+    const gl::Buffer frameBlock_;
     const FishBody body_ = scad();
     const Repertoire repertoire_ = swaying(body_, 0.12F);
     const glm::mat4 clip_ = clipFromCamera(1.0F, 1.5F);

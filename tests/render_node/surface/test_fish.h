@@ -92,6 +92,7 @@ inline FishRecord recordOf(const PresentedFish& fish) {
     record.fromPhase = cycle(fish.fromPhase);
     record.segment = static_cast<std::uint8_t>(fish.segment);
     record.fromSegment = static_cast<std::uint8_t>(fish.fromSegment);
+    record.speed = static_cast<std::int32_t>(std::lround(fish.speed * kSpeedUnitsPerBodyLength));
     if (fish.warpWeight >= 1.0F) return record;
     record.warpLength = 254;
     const long weight = std::lround(fish.warpWeight * 255.0F);
