@@ -27,22 +27,22 @@ void main() {
     float outline = smoothstep(0.05, 0.40, look.z);
     skin.tilt *= outline;
     skin.flicker *= outline;
-    float eye = paintEye(skin, at, kIris, look);
     skin.albedo = min(skin.albedo * tintOf(id), vec3(1.0));
+    float eye = paintEye(skin, at, kIris, look);
 
     vec3 n = normalize(skinNormal + skin.tilt.x * tailwards + skin.tilt.y * upwards);
     float facing = clamp(dot(n, toEye), 0.0, 1.0);
     skin.albedo = iridescent(skin.albedo, skin.iridescence, facing);
     vec3 radiance = litSkin(skin, place, n);
 
-    vec3 flickering = skinNormal + (0.35 * skin.tilt.x + 0.10 * skin.flicker.x) * tailwards +
-                      (0.35 * skin.tilt.y + 0.10 * skin.flicker.y) * upwards;
+    vec3 flickering = skinNormal + (0.35 * skin.tilt.x + 0.16 * skin.flicker.x) * tailwards +
+                      (0.35 * skin.tilt.y + 0.36 * skin.flicker.y) * upwards;
     vec3 plate = plateletNormal(normalize(flickering), dorsal, toEye);
     // One look into the mirror serves platelets where there are some, and the wet skin elsewhere.
     vec3 facet = normalize(mix(n, plate, skin.silver));
     vec3 shown = max(mirrored(reflect(-toEye, facet), place), 0.0);
-    float silver = skin.silver * smoothstep(0.0, 0.25, look.z);
-    radiance = mix(radiance, silvered(shown, facet, skin.albedo, place, facing), silver);
-    radiance += sheenOf(shown, skin.gloss, facing, n.y, pixel) + eye * cornea(shown, facing);
+    float silver = skin.silver * smoothstep(0.0, 0.06, look.z);
+    radiance = underSilver(radiance, silvered(shown, facet, skin.albedo, place, facing), silver);
+    radiance += sheenOf(shown, skin.gloss, facing, n.y, pixel) + eye * cornea(reflect(-toEye, n), facing);
     colour = vec4(seen(radiance, place), 1.0);
 }

@@ -25,11 +25,11 @@ void main() {
     vec3 n = normalize(normal);
     float facing = clamp(dot(n, toEye), 0.0, 1.0);
     vec3 radiance = litSkin(skin, place, n);
-    float silver = skin.silver * smoothstep(0.0, 0.25, facing);
+    float silver = skin.silver * smoothstep(0.0, 0.06, facing);
     if (silver > 0.0) {
         vec3 plate = plateletNormal(n, dorsal, toEye);
         vec3 shown = max(mirrored(reflect(-toEye, plate), place), 0.0);
-        radiance = mix(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
+        radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
     colour = vec4(seen(radiance, place), 1.0);
 }

@@ -14,7 +14,7 @@ Skin groundOf(SkinPoint at) {
     float along = smoothstep(0.36, 0.42, at.s) * falling(0.74, 0.80, at.s) * falling(0.6, 0.95, abs(at.v));
     float bar = line(fract(at.s / 0.042) * 0.042 - 0.021, 0.0050, at.pixel);
     colour = mix(colour, kPale, 0.60 * along * bar * ownBetween(at.id, 5u, 0.4, 1.0));
-    colour = mix(colour, 0.75 * kDeep, 0.55 * band(at.v - 0.16, 0.05, 0.04) * smoothstep(0.30, 0.35, at.s) *
+    colour = mix(colour, 0.75 * kDeep, 0.55 * band(at.v - 0.16, 0.05, 0.04) * smoothstep(0.40, 0.46, at.s) *
                                            falling(0.88, 0.92, at.s));
     // The dark stripe of the jaw; the spot where the pelvic fins are rooted.
     float jaw = band(at.v + 0.25, 0.20, 0.08) * smoothstep(0.015, 0.03, at.s) * falling(0.08, 0.11, at.s);

@@ -17,6 +17,7 @@
 #include "common/skin/limit_table.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/handle.h"
+#include "render_node/surface/skin_programs.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace aquarama {
