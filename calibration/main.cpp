@@ -105,11 +105,17 @@ int run(int argc, char** argv) {
     composeCommand->add_flag("--deep", deep, "Write 16 bits instead of 8");
     composeCommand->callback([&] { composeSnapshot(checkedRig(path), folder, deep ? 16 : 8); });
 
-    CLI::App* filmCommand =
-        app.add_subcommand("film", "Make DIR/clip.webp of the frames in DIR/film");
-    filmCommand->add_option("RIG", path, "Rig file that was filmed")->required();
-    filmCommand->add_option("DIR", folder, "Folder of the pictures")->required();
-    filmCommand->callback([&] { composeFilm(checkedRig(path), folder); });
+    Filming filming;
+    CLI::App* clipCommand = app.add_subcommand(
+        "clip", "Make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
+    clipCommand->add_option("RIG", path, "Rig file that is shown")->required();
+    clipCommand->add_option("FILE", filming.clipPath, "The clip")->required();
+    clipCommand->add_option("--pipes", filming.pipes, "Folder of the nodes' named pipes")
+        ->required();
+    clipCommand->add_option("--of", filming.of, "panorama, hall or a channel's name");
+    clipCommand->add_option("--every", filming.ticksBetween, "Frames of the show to one picture")
+        ->check(CLI::Range(1, 10000));
+    clipCommand->callback([&] { film(checkedRig(path), filming); });
 
     CLI::App* inspectCommand = app.add_subcommand("inspect", "Say what a rig file holds");
     inspectCommand->add_option("FILE", path, "Rig file")->required();

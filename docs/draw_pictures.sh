@@ -15,8 +15,7 @@ mkdir -p docs/pictures
 # The routines as they are seen on the wall.
 while read -r scene frames every; do
     build/show/bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$scene.txtpb" --headless \
-        --frames "$frames" --film-every "$every" --snapshot "$drawn/$scene" </dev/null
-    cp "$drawn/$scene/clip.webp" "docs/pictures/$scene.webp"
+        --frames "$frames" --film-every "$every" --clip "docs/pictures/$scene.webp" --snapshot "$drawn/$scene" </dev/null
 done <<'SCENES'
 submarine 680 17
 chase 490 14

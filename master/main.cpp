@@ -41,13 +41,23 @@ struct MasterOptions {
     std::uint32_t seed = 1;
     std::optional<std::uint32_t> fish;
     std::string pattern = "world";
+    std::string quality;  // empty: the rig's
     std::string traceFolder;
     std::string recordPath;  // empty: the show is not recorded
     std::string replayPath;  // of the recording that is shown; empty: a new world
 };
 
-ConductorOptions conductorOptions(const MasterOptions& options) {
+// No clock is read in lockstep: its tier cannot be measured.
+std::optional<QualityTier> qualityOf(const Rig& rig, const MasterOptions& options) {
+    constexpr QualityTier kOfLockstep = QualityTier::Low;
+    if (!options.quality.empty()) return tierNamed(options.quality);
+    if (!rig.quality && options.lockstep) return kOfLockstep;
+    return rig.quality;
+}
+
+ConductorOptions conductorOptions(const Rig& rig, const MasterOptions& options) {
     ConductorOptions conductor;
+    conductor.quality = qualityOf(rig, options);
     conductor.pace = options.lockstep ? Pace::Lockstep : Pace::Live;
     conductor.pattern = options.pattern == "grid"   ? Pattern::Grid
                         : options.pattern == "grey" ? Pattern::Grey
@@ -104,7 +114,7 @@ void showNew(const Rig& rig,
         options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
         {.seed = options.seed, .fish = options.fish});
     LivingWorld world(worldOptionsOf(production));
-    const ConductorOptions conducting = conductorOptions(options);
+    const ConductorOptions conducting = conductorOptions(rig, options);
     if (options.recordPath.empty())
         return show(rig, conducting, {production, world, world}, std::move(channels));
     RecordingFile file(options.recordPath, production);
@@ -119,7 +129,7 @@ void showAgain(const Rig& rig,
     for (const std::string& doubt : doubtsAbout(recording))
         spdlog::warn("{}: {}", options.replayPath, doubt);
     LivingWorld world(worldOptionsOf(recording.production));
-    ConductorOptions conducting = conductorOptions(options);
+    ConductorOptions conducting = conductorOptions(rig, options);
     conducting.seed = recording.production.seed;
     // In lockstep the world runs ahead of the frames: there these are counted.
     Conductor* running = nullptr;
@@ -155,6 +165,8 @@ int dispatch(int count, char** arguments) {
         ->check(CLI::Range(0U, kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
+    app.add_option("--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
+        ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
     app.add_option(
         "--trace", options.traceFolder, "folder for master.csv: a line of times a frame");
 

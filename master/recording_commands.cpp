@@ -59,6 +59,13 @@ std::string wordsFor(const RecordedInput& input) {
                            food->position.x,
                            food->position.y,
                            food->position.z);
+    if (const auto* s = std::get_if<Steering>(&input.input))
+        return fmt::format("steering ahead {} aside {} up {} turn {} tilt {}",
+                           s->ahead,
+                           s->aside,
+                           s->up,
+                           s->turn,
+                           s->tilt);
     const auto& moved = std::get<RecordedSubmarine>(input.input);
     return fmt::format("submarine at {:.2f} {:.2f} {:.2f} m",
                        moved.position.x,

@@ -36,10 +36,10 @@ void describe(CLI::App& app, aquarama::NodeOptions& options) {
                    "folder for channel-NAME.png, the last frame that was shown");
     app.add_flag("--deep", options.deep, "16 bits in the snapshot instead of 8 dithered ones")
         ->needs("--snapshot");
-    app.add_option("--film-every",
-                   options.filmEvery,
-                   "also a snapshot every so many frames, each in a folder of its own below film/")
-        ->needs("--snapshot")
+    CLI::Option* film = app.add_option(
+        "--film", options.filmPipe, "named pipe to aquarama-calibrate clip, for every frame");
+    app.add_option("--film-every", options.filmEvery, "with --film: for every so many frames")
+        ->needs(film)
         ->check(CLI::Range(1, 10000));
     app.add_option("--trace", options.traceFolder, "folder for NAME.csv, a line of times a frame");
     app.footer(kFooter);

@@ -2,116 +2,89 @@
 #include "calibration/theatre/film.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <memory>
+#include <deque>
 #include <optional>
 #include <vector>
 
-#include <webp/encode.h>
-#include <webp/mux.h>
-
+#include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
-#include "calibration/theatre/snapshot.h"
+#include "common/cli/signals.h"
 #include "common/units/error.h"
-#include "common/units/ids.h"
+#include "common/wall/frame_pipe.h"
 
 namespace aquarama {
 
 namespace {
 
-namespace fs = std::filesystem;
+// The channels that make the picture: all, or the one of this name.
+std::vector<Channel> filmedChannels(const Rig& rig, const std::string& of) {
+    if (of == kPanorama || of == kHall) return rig.channels;
+    const auto named = std::ranges::find(rig.channels, of, &Channel::name);
+    if (named == rig.channels.end())
+        throw Error("rig \"" + rig.name + "\" has no channel \"" + of + "\"; film " + kPanorama +
+                    ", " + kHall + " or one of its channels");
+    return {*named};
+}
 
-constexpr float kQuality = 80.0F;  // of 100: no block is seen at the size of a window
-constexpr int kEffort = 3;         // of 6
-
-// An animated WebP, written when it is whole.
-class Clip {
+class Camera {
   public:
-    explicit Clip(glm::ivec2 sizePixels) : size_{sizePixels} {
-        WebPAnimEncoderOptions options;
-        WebPAnimEncoderOptionsInit(&options);
-        options.minimize_size = 0;
-        encoder_.reset(WebPAnimEncoderNew(size_.x, size_.y, &options));
-        if (!encoder_)
-            throw Error("a clip cannot be made: no memory, or its pictures are too large");
+    Camera(const Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
+        if (of_ == kPanorama || of_ == kHall) map_.emplace(rig);
     }
-
-    void add(const Picture& picture, int atMilliseconds) {
-        std::vector<std::uint8_t> rgb(picture.rgb.begin(), picture.rgb.end());
-        WebPConfig config;
-        WebPConfigInit(&config);
-        config.quality = kQuality;
-        config.method = kEffort;
-        WebPPicture frame;
-        WebPPictureInit(&frame);
-        frame.use_argb = 1;
-        frame.width = size_.x;
-        frame.height = size_.y;
-        const bool added = WebPPictureImportRGB(&frame, rgb.data(), 3 * size_.x) != 0 &&
-                           WebPAnimEncoderAdd(encoder_.get(), &frame, atMilliseconds, &config) != 0;
-        WebPPictureFree(&frame);
-        if (!added)
-            throw Error(std::string("a clip cannot be made: ") +
-                        WebPAnimEncoderGetError(encoder_.get()));
+    [[nodiscard]] glm::ivec2 sizePixels(const std::vector<Channel>& filmed) const {
+        if (!map_) return filmed.front().sizePixels;
+        return of_ == kHall ? kHallPixels : rig_.panoramaPixels;
     }
-
-    void write(const std::string& path, int endMilliseconds) {
-        WebPAnimEncoderAdd(encoder_.get(), nullptr, endMilliseconds, nullptr);
-        WebPData data;
-        WebPDataInit(&data);
-        const bool assembled = WebPAnimEncoderAssemble(encoder_.get(), &data) != 0;
-        std::ofstream file(path, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(data.bytes),
-                   static_cast<std::streamsize>(data.size));
-        WebPDataClear(&data);
-        if (!assembled || !file)
-            throw Error(path + " cannot be written; is there room on the disk?");
+    [[nodiscard]] Picture pictureOf(const std::vector<PipedFrame>& frames) const {
+        if (!map_) return frames.front().picture;
+        std::vector<Light> channels;
+        for (const PipedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
+        const Light panorama = map_->compose(channels);
+        const auto seed = static_cast<std::uint32_t>(frames.front().frame);
+        return aquarama::pictureOf(
+            of_ == kHall ? composeHall(rig_, panorama, kHallPixels) : panorama, 8, seed);
     }
 
   private:
-    struct Delete {
-        void operator()(WebPAnimEncoder* encoder) const { WebPAnimEncoderDelete(encoder); }
-    };
-    glm::ivec2 size_;
-    std::unique_ptr<WebPAnimEncoder, Delete> encoder_;
+    const Rig& rig_;
+    std::string of_;
+    std::optional<PanoramaMap> map_;  // unless a channel is shown as it is
 };
 
-// The folders of the filmed frames, by frame number.
-std::vector<std::pair<std::uint64_t, fs::path>> filmedFrames(const fs::path& film) {
-    std::vector<std::pair<std::uint64_t, fs::path>> frames;
-    if (!fs::is_directory(film))
-        throw Error(film.string() + " is missing; run the show with --film-every");
-    for (const auto& entry : fs::directory_iterator(film)) {
-        const std::string name = entry.path().filename().string();
-        const bool numbered = name.find_first_not_of("0123456789") == std::string::npos;
-        if (numbered) frames.emplace_back(std::stoull(name), entry.path());
+// The next frame of every channel; nothing as soon as one has ended.
+std::optional<std::vector<PipedFrame>> nextFrame(std::deque<FramePipeReader>& pipes,
+                                                 const std::vector<Channel>& channels) {
+    std::vector<PipedFrame> frames;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        auto frame = pipes[i].read(channels[i].sizePixels);
+        if (!frame) return std::nullopt;
+        if (!frames.empty() && frame->frame != frames.front().frame)
+            throw Error("channel \"" + channels[i].name + "\" sent frame " +
+                        std::to_string(frame->frame) + " where others sent " +
+                        std::to_string(frames.front().frame) + "; film in lockstep");
+        frames.push_back(std::move(*frame));
     }
-    if (frames.empty())
-        throw Error(film.string() + " holds no frames; run the show for more of them");
-    std::ranges::sort(frames);
     return frames;
-}
-
-int millisecondsOf(std::uint64_t frame) {
-    return static_cast<int>(1000.0 * static_cast<double>(frame) / kTicksPerSecond);
 }
 
 }  // namespace
 
-void composeFilm(const Rig& rig, const std::string& folder) {
-    const fs::path film = fs::path(folder) / "film";
-    const auto frames = filmedFrames(film);
-    const std::uint64_t first = frames.front().first;
-    const std::uint64_t step = frames.size() > 1 ? frames[1].first - first : 1;
-    Clip clip(rig.panoramaPixels);
-    for (const auto& [frame, path] : frames) {
-        const Light panorama = composePanorama(rig, readChannels(rig, path.string()));
-        clip.add(pictureOf(panorama, 8, static_cast<std::uint32_t>(frame)),
-                 millisecondsOf(frame - first));
+void film(const Rig& rig, const Filming& filming) {
+    const std::vector<Channel> channels = filmedChannels(rig, filming.of);
+    std::deque<FramePipeReader> pipes;
+    for (const Channel& channel : channels)
+        pipes.emplace_back(framePipe(filming.pipes, channel.name));
+    holdSignals();  // the end of the nodes is the clip's: what was shown until then is kept
+    const Camera camera(rig, filming.of);
+    const auto clip =
+        makeClip({filming.clipPath, camera.sizePixels(channels), filming.ticksBetween});
+    bool any = false;
+    while (const auto frames = nextFrame(pipes, channels)) {
+        clip->add(camera.pictureOf(*frames), frames->front().frame);
+        any = true;
     }
-    clip.write(folder + "/clip.webp", millisecondsOf(frames.back().first - first + step));
-    fs::remove_all(film);
+    if (!any) throw Error(filming.clipPath + ": no frame was shown; let the show run for more");
+    clip->finish();
 }
 
 }  // namespace aquarama

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clip of the wall from the pictures that nodes wrote every few frames.
+// A clip of the wall, composed while nodes draw it.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "common/config/rig.h"
 
 namespace aquarama {
 
-// Composes every folder/film/FRAME/ (channel-NAME.png of every channel) to a panorama and writes
-// them, in the order of their frames, as the looping folder/clip.webp at the speed of the world;
-// then removes folder/film. Throws Error when a picture is missing or the clip cannot be written.
-void composeFilm(const Rig& rig, const std::string& folder);
+// What a clip shows beside channels by their names.
+inline constexpr const char* kPanorama = "panorama";
+inline constexpr const char* kHall = "hall";
+
+struct Filming {
+    std::string of = kPanorama;   // or kHall, or a channel's name
+    std::filesystem::path pipes;  // folder with a named pipe for each channel that is filmed
+    std::string clipPath;         // .mp4 or .webp
+    int ticksBetween = 1;
+};
+
+// Until the nodes close their pipes. Throws Error: frames that are not the rig's or not the same
+// ones of all channels, no frame at all, a clip that cannot be written.
+void film(const Rig& rig, const Filming& filming);
 
 }  // namespace aquarama

@@ -7,21 +7,39 @@
 
 namespace aquarama {
 
-Light composePanorama(const Rig& rig, std::span<const Light> channels) {
-    std::vector<Pinhole> projectors;
-    for (const Channel& channel : rig.channels) projectors.emplace_back(channel);
-    Light panorama = darkness(rig.panoramaPixels);
+namespace {
+
+std::vector<PanoramaMap::Sample> samplesOf(const Rig& rig, const Channel& channel) {
+    const Pinhole projector(channel);
+    std::vector<PanoramaMap::Sample> samples;
     for (int y = 0; y < rig.panoramaPixels.y; ++y)
         for (int x = 0; x < rig.panoramaPixels.x; ++x) {
             const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(rig.panoramaPixels);
             const glm::dvec3 point = screenPointAt(rig.screen, at);
-            for (std::size_t i = 0; i < projectors.size(); ++i) {
-                const auto pixel = projectors[i].pixelOf(point);
-                if (pixel && lightsInside(projectors[i], point))
-                    panorama.at(x, y) += bilinear(channels[i], *pixel);
-            }
+            const auto pixel = projector.pixelOf(point);
+            if (pixel && lightsInside(projector, point))
+                samples.push_back({static_cast<std::uint32_t>(y * rig.panoramaPixels.x + x),
+                                   glm::vec2(*pixel)});
         }
+    return samples;
+}
+
+}  // namespace
+
+PanoramaMap::PanoramaMap(const Rig& rig) : sizePixels_{rig.panoramaPixels} {
+    for (const Channel& channel : rig.channels) samples_.push_back(samplesOf(rig, channel));
+}
+
+Light PanoramaMap::compose(std::span<const Light> channels) const {
+    Light panorama = darkness(sizePixels_);
+    for (std::size_t i = 0; i < samples_.size(); ++i)
+        for (const Sample& sample : samples_[i])
+            panorama.rgb[sample.place] += bilinear(channels[i], glm::dvec2(sample.pixel));
     return panorama;
+}
+
+Light composePanorama(const Rig& rig, std::span<const Light> channels) {
+    return PanoramaMap(rig).compose(channels);
 }
 
 }  // namespace aquarama

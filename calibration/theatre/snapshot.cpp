@@ -11,8 +11,6 @@ namespace aquarama {
 
 namespace {
 
-constexpr glm::ivec2 kHallPixels(1600, 900);
-
 std::string sizeText(glm::ivec2 size) {
     return std::to_string(size.x) + " x " + std::to_string(size.y);
 }

@@ -103,14 +103,21 @@ void describeShow(CLI::App& run, ShowOptions& options) {
                    options.snapshotFolder,
                    "folder for pictures of the last frame; implies lockstep");
     run.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones");
-    run.add_option(
-           "--film-every", options.filmEvery, "with --snapshot: a picture every so many frames too")
+    CLI::Option* clip =
+        run.add_option("--clip", options.clipPath, "FILE.mp4 or FILE.webp; implies lockstep");
+    run.add_option("--clip-of", options.clipOf, "panorama (by default), hall or a channel's name")
+        ->needs(clip);
+    run.add_option("--film-every", options.filmEvery, "the clip has every so many frames only")
+        ->needs(clip)
         ->check(CLI::Range(1, 10000));
     run.add_option(
         "--trace", options.traceFolder, "folder for a line of times a frame and process");
     run.add_option("--pattern", options.pattern, "show this instead of the world")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
-    run.add_flag("--live", options.live, "keep to the clock where lockstep would be implied");
+    run.add_option("--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
+        ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
+    run.add_flag("--live", options.live, "keep to the clock where lockstep would be implied")
+        ->excludes(clip);
 }
 
 void describeRun(CLI::App& run, ShowOptions& options) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <signal.h>
 
 #include "common/cli/children.h"
+#include "common/cli/clip.h"
 #include "common/cli/siblings.h"
 #include "common/units/error.h"
 
@@ -62,6 +64,7 @@ Process masterProcess(const ShowOptions& options) {
     append(arguments, "--scene", options.scenePath);
     if (options.fish) append(arguments, "--fish", std::to_string(*options.fish));
     append(arguments, "--pattern", options.pattern);
+    append(arguments, "--quality", options.quality);
     append(arguments, "--trace", options.traceFolder);
     append(arguments, "--replay", options.replayPath);
     Process master{
@@ -71,12 +74,32 @@ Process masterProcess(const ShowOptions& options) {
     return master;
 }
 
-Process nodeProcess(const ShowOptions& options, const Rig& rig, const Channel& channel) {
+// Composes and encodes while the nodes draw.
+Process clipProcess(const ShowOptions& options, const std::string& pipes) {
+    return {.name = "clip",
+            .command = {siblingProgram("calibrate"),
+                        {"clip",
+                         options.rigPath,
+                         options.clipPath,
+                         "--pipes",
+                         pipes,
+                         "--of",
+                         options.clipOf,
+                         "--every",
+                         std::to_string(options.filmEvery)}},
+            .started = {}};
+}
+
+Process nodeProcess(const ShowOptions& options,
+                    const Rig& rig,
+                    const Channel& channel,
+                    const std::string& filmPipe) {
     std::vector<std::string> arguments{channel.name, "--master", rig.controlAddress};
     if (options.headless) arguments.emplace_back("--headless");
     append(arguments, "--snapshot", options.snapshotFolder);
     if (options.deep) arguments.emplace_back("--deep");
-    if (options.filmEvery > 0) append(arguments, "--film-every", std::to_string(options.filmEvery));
+    append(arguments, "--film", filmPipe);
+    if (!filmPipe.empty()) append(arguments, "--film-every", std::to_string(options.filmEvery));
     append(arguments, "--trace", options.traceFolder);
     return {.name = "node " + channel.name,
             .command = {siblingProgram("node"), arguments},
@@ -181,12 +204,12 @@ Outcome watch(const ShowOptions& options, std::vector<Process>& processes) {
     return Outcome::Finished;
 }
 
-// Lets aquarama-calibrate make one thing of the nodes' pictures.
-bool compose(const ShowOptions& options, const std::string& what) {
-    std::vector<std::string> arguments{what, options.rigPath, options.snapshotFolder};
-    if (options.deep && what == "compose") arguments.emplace_back("--deep");
+// Lets aquarama-calibrate make a whole of the nodes' pictures.
+bool compose(const ShowOptions& options) {
+    std::vector<std::string> arguments{"compose", options.rigPath, options.snapshotFolder};
+    if (options.deep) arguments.emplace_back("--deep");
     Process composer{
-        .name = what, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+        .name = "compose", .command = {siblingProgram("calibrate"), arguments}, .started = {}};
     composer.launch();
     while (true) {
         for (const Ending& ending : waitForChildren(1s).endings) {
@@ -202,17 +225,42 @@ void makeFolder(const std::string& folder) {
     if (failure) throw Error("cannot make the folder " + folder + ": " + failure.message());
 }
 
+void sayWhatWasMade(const ShowOptions& options, const Rig& rig) {
+    if (!options.clipPath.empty()) std::cout << "clip of the " << options.clipOf << " in "
+                                             << options.clipPath << '\n';
+    if (options.snapshotFolder.empty()) return;
+    std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
+    for (const Channel& channel : rig.channels) std::cout << ", channel-" << channel.name << ".png";
+    std::cout << '\n';
+}
+
+// The master, the nodes and, first, who waits for their frames.
+std::vector<Process> processesOf(const ShowOptions& options,
+                                 const Rig& rig,
+                                 const std::optional<ClipPipes>& pipes) {
+    std::vector<Process> processes;
+    if (pipes) processes.push_back(clipProcess(options, pipes->folder()));
+    processes.push_back(masterProcess(options));
+    for (const Channel& channel : rig.channels)
+        processes.push_back(
+            nodeProcess(options, rig, channel, pipes ? pipes->pipeOf(channel.name) : ""));
+    return processes;
+}
+
 }  // namespace
 
 int runShow(const ShowOptions& options, const Rig& rig) {
+    std::optional<ClipPipes> pipes;
+    if (!options.clipPath.empty()) {
+        requireClipPath(options.clipPath);
+        pipes.emplace(channelsFor(rig, options.clipOf));
+    }
     makeFolder(options.snapshotFolder);
     makeFolder(options.traceFolder);
     shareCores(rig);
     listenForSignals();
 
-    std::vector<Process> processes{masterProcess(options)};
-    for (const Channel& channel : rig.channels)
-        processes.push_back(nodeProcess(options, rig, channel));
+    std::vector<Process> processes = processesOf(options, rig, pipes);
     std::cerr << "aquarama: starting the master and " << rig.channels.size() << " nodes of "
               << options.rigPath << '\n';
     for (Process& process : processes) process.launch();
@@ -222,13 +270,8 @@ int runShow(const ShowOptions& options, const Rig& rig) {
     // A live show runs until somebody ends it; one that was to finish by itself has not done its
     // work.
     if (outcome == Outcome::Interrupted) return options.lockstep() ? kInterrupted : 0;
-    if (options.snapshotFolder.empty()) return 0;
-    if (!compose(options, "compose")) return 1;
-    if (options.filmEvery > 0 && !compose(options, "film")) return 1;
-    std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
-    if (options.filmEvery > 0) std::cout << ", clip.webp";
-    for (const Channel& channel : rig.channels) std::cout << ", channel-" << channel.name << ".png";
-    std::cout << '\n';
+    if (!options.snapshotFolder.empty() && !compose(options)) return 1;
+    sayWhatWasMade(options, rig);
     return 0;
 }
 

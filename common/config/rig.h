@@ -11,13 +11,14 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/config/quality.h"
 #include "common/config/source_place.h"
 
 namespace aquarama {
 
-// A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin at
-// the sweet spot, which is on the cylinder's axis at the screen's mid-height; the screen's middle
-// is at (0, 0, -radius).
+// A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin on
+// the cylinder's axis at the screen's mid-height, where the sweet spot is unless a rig moves it;
+// the screen's middle is at (0, 0, -radius).
 struct Screen {
     double radiusMetres = 0;
     double arcRadians = 0;
@@ -36,12 +37,30 @@ struct Projector {
 
 enum class DisplayMode : std::uint8_t { Window, Fullscreen };
 
+// How the pictures of two eyes share what one display takes.
+enum class StereoMode : std::uint8_t {
+    Mono,
+    QuadBuffer,  // the driver's left and right buffers
+    SideBySide,  // halves, squeezed
+    TopBottom,   // left above
+    Interlaced,  // left in the first row
+    Anaglyph     // red and cyan
+};
+
+struct Stereo {
+    StereoMode mode = StereoMode::Mono;
+    double eyeSeparationMetres = 0.063;
+    bool swapEyes = false;
+};
+
 struct Display {
     DisplayMode mode = DisplayMode::Window;
     int monitor = 0;                     // index of the monitor, for fullscreen
     glm::ivec2 windowPosition{};         // top left corner on the desktop, for a window
     std::string device = "auto";         // auto | nvidia | mesa | surfaceless | device:N
     std::optional<double> refreshHertz;  // refused where the monitor's differs
+    std::optional<StereoMode> stereo;    // instead of the rig's
+    std::optional<bool> swapEyes;        // instead of the rig's
 };
 
 struct Channel {
@@ -70,6 +89,10 @@ struct Rig {
     Timing timing;
     std::string scene;  // path of the file of what is shown, relative to the rig's folder
     SourcePlace scenePlace;
+    Stereo stereo;
+    glm::dvec3 sweetSpotMetres{};  // wall frame: between the viewer's eyes
+    SourcePlace sweetSpotPlace;
+    std::optional<QualityTier> quality;  // nothing: measured at start
 };
 
 // Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind

@@ -6,6 +6,7 @@
 #include "common/config/angle.h"
 #include "common/config/rig.h"
 #include "common/config/rig.pb.h"
+#include "common/config/stereo_names.h"
 #include "common/config/text_reader.h"
 
 namespace aquarama {
@@ -90,12 +91,52 @@ Timing readTiming(const TextPlace& at) {
     return timing;
 }
 
+glm::dvec3 readPosition(const TextPlace& position) {
+    return {position.number("x_m", kMetres),
+            position.number("y_m", kMetres),
+            position.number("z_m", kMetres)};
+}
+
+StereoMode readStereoMode(const TextPlace& at, const std::string& field) {
+    for (const auto& [name, mode] : kStereoModes)
+        if (at.choice(field) == name) return mode;
+    at.refuse(field,
+              field + " is " + at.choice(field) +
+                  ": write MONO, QUAD_BUFFER, SIDE_BY_SIDE, TOP_BOTTOM, INTERLACED or ANAGLYPH");
+}
+
+Stereo readStereo(const TextPlace& at) {
+    Stereo stereo;
+    stereo.mode = readStereoMode(at, "mode");
+    stereo.eyeSeparationMetres =
+        at.numberOr("eye_separation_m", {0, 1}, stereo.eyeSeparationMetres);
+    if (at.has("swap_eyes")) stereo.swapEyes = at.truth("swap_eyes");
+    return stereo;
+}
+
+// Both eyes must get as many pixels.
+void refuseOddHalves(const TextPlace& at, const Rig& rig, const Channel& channel) {
+    const StereoMode mode = channel.display.stereo.value_or(rig.stereo.mode);
+    if (mode == StereoMode::SideBySide && channel.sizePixels.x % 2 != 0)
+        at.refuse("width_px", "width_px is odd: SIDE_BY_SIDE gives each eye half of it");
+    if (mode == StereoMode::TopBottom && channel.sizePixels.y % 2 != 0)
+        at.refuse("height_px", "height_px is odd: TOP_BOTTOM gives each eye half of it");
+}
+
+std::optional<QualityTier> readQuality(const TextPlace& at) {
+    if (!at.has("quality")) return std::nullopt;
+    std::string choice = at.choice("quality");
+    if (choice == "MEASURED") return std::nullopt;
+    std::ranges::transform(
+        choice, choice.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; });
+    const auto tier = tierNamed(choice);
+    if (!tier) at.refuse("quality", "write MEASURED, LOW, MEDIUM, HIGH or ULTRA");
+    return tier;
+}
+
 Projector readProjector(const TextPlace& at, glm::dvec2 sizePixels) {
     Projector projector;
-    const TextPlace position = at.in("position");
-    projector.positionMetres = {position.number("x_m", kMetres),
-                                position.number("y_m", kMetres),
-                                position.number("z_m", kMetres)};
+    projector.positionMetres = readPosition(at.in("position"));
     projector.yawPitchRollRadians = {radiansOf(at.numberOr("yaw_deg", kTurn, 0)),
                                      radiansOf(at.numberOr("pitch_deg", kTurn, 0)),
                                      radiansOf(at.numberOr("roll_deg", kTurn, 0))};
@@ -132,6 +173,8 @@ Display readDisplay(const TextPlace& at) {
                               static_cast<int>(at.numberOr("window_y_px", kShift, 0))};
     display.device = readDevice(at);
     if (at.has("refresh_hz")) display.refreshHertz = at.number("refresh_hz", kHertz);
+    if (at.has("stereo")) display.stereo = readStereoMode(at, "stereo");
+    if (at.has("swap_eyes")) display.swapEyes = at.truth("swap_eyes");
     return display;
 }
 
@@ -203,7 +246,15 @@ Rig parseRig(const std::string& text, const std::string& source) {
     if (root.has("timing")) rig.timing = readTiming(root.in("timing"));
     rig.scene = root.text("scene");
     rig.scenePlace = root.placeOf("scene");
+    if (root.has("stereo")) rig.stereo = readStereo(root.in("stereo"));
+    if (root.has("sweet_spot")) {
+        rig.sweetSpotMetres = readPosition(root.in("sweet_spot"));
+        rig.sweetSpotPlace = root.placeOf("sweet_spot");
+    }
+    rig.quality = readQuality(root);
     rig.channels = readChannels(root);
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        refuseOddHalves(root.in("channels", static_cast<int>(i)), rig, rig.channels[i]);
     return rig;
 }
 

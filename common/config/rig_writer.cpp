@@ -25,10 +25,24 @@ void write(const Timing& timing, v1::Timing& out) {
     out.set_membership_s(timing.membershipSeconds);
 }
 
+void write(const glm::dvec3& position, v1::Position& out) {
+    out.set_x_m(position.x);
+    out.set_y_m(position.y);
+    out.set_z_m(position.z);
+}
+
+v1::Stereo::Mode modeOf(StereoMode mode) {
+    return static_cast<v1::Stereo::Mode>(static_cast<int>(mode) + 1);
+}
+
+void write(const Stereo& stereo, v1::Stereo& out) {
+    out.set_mode(modeOf(stereo.mode));
+    out.set_eye_separation_m(stereo.eyeSeparationMetres);
+    out.set_swap_eyes(stereo.swapEyes);
+}
+
 void write(const Projector& projector, v1::Projector& out) {
-    out.mutable_position()->set_x_m(projector.positionMetres.x);
-    out.mutable_position()->set_y_m(projector.positionMetres.y);
-    out.mutable_position()->set_z_m(projector.positionMetres.z);
+    write(projector.positionMetres, *out.mutable_position());
     out.set_yaw_deg(degreesOf(projector.yawPitchRollRadians.x));
     out.set_pitch_deg(degreesOf(projector.yawPitchRollRadians.y));
     out.set_roll_deg(degreesOf(projector.yawPitchRollRadians.z));
@@ -46,6 +60,8 @@ void write(const Display& display, v1::Display& out) {
     out.set_window_y_px(display.windowPosition.y);
     out.set_device(display.device);
     if (display.refreshHertz) out.set_refresh_hz(*display.refreshHertz);
+    if (display.stereo) out.set_stereo(modeOf(*display.stereo));
+    if (display.swapEyes) out.set_swap_eyes(*display.swapEyes);
 }
 
 void write(const Channel& channel, v1::Channel& out) {
@@ -69,6 +85,11 @@ std::string writeRig(const Rig& rig) {
     out.mutable_network()->set_state(rig.stateAddress);
     write(rig.timing, *out.mutable_timing());
     out.set_scene(rig.scene);
+    write(rig.stereo, *out.mutable_stereo());
+    write(rig.sweetSpotMetres, *out.mutable_sweet_spot());
+    if (rig.quality)
+        out.set_quality(
+            static_cast<v1::Rig::Quality>(v1::Rig::LOW + static_cast<int>(*rig.quality)));
     for (const Channel& channel : rig.channels) write(channel, *out.add_channels());
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);

@@ -3,9 +3,11 @@
 // metres, Y up, the surface is y = 0.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -21,6 +23,12 @@ enum class PlaceKind : std::uint8_t {
     Reef,     // sand, rocks and plants about the wall
     OpenSea,  // nothing but water
 };
+
+// Jerlov's optical types of sea water, the clearest first: I to III of the oceans, 1C and 3C of
+// coasts.
+enum class WaterType : std::uint8_t { I, IA, IB, II, III, C1, C3 };
+inline constexpr std::array<std::string_view, 7> kWaterTypeNames{
+    "I", "IA", "IB", "II", "III", "1C", "3C"};
 
 // What a school is drawn to.
 enum class Gathering : std::uint8_t {
@@ -56,6 +64,7 @@ struct SceneWater {
     double leastLengthsCubed = 4;
     double clarityMetres = 12;                            // no fish sees farther
     double surfaceCelsius = 28, celsiusPerMetre = -0.15;  // with depth
+    WaterType jerlov = WaterType::IA;                     // what light does in it
 };
 
 // Brightness over a day: 1 at noon, `night` at midnight. Length 0: always as at the start.
@@ -72,10 +81,22 @@ struct FoodDrop {
     std::uint32_t pellets = 12;
 };
 
+// Where the submarine goes when nobody steers it: a closed path through all stops, in the open sea
+// without any round the middle of the water through the eye.
+struct TourStop {
+    glm::vec3 at{};
+    std::optional<glm::vec3> lookAt;  // without: where the school is drawn to
+    SourcePlace place = {};
+};
+struct SceneTour {
+    double metresPerSecond = 0.4;
+    std::vector<TourStop> stops;
+};
+
 struct Scene {
     std::string name = "reef";
     PlaceKind place = PlaceKind::Reef;
-    glm::vec3 eye{0.0F, -6.0F, 0.0F};  // where the submarine stands, looking along -z
+    glm::vec3 eye{0.0F, -6.0F, 0.0F};  // where the submarine begins, looking along -z
     SourcePlace eyePlace = {};
     SceneWater water;
     SourcePlace waterPlace = {};
@@ -84,6 +105,8 @@ struct Scene {
     Day day;
     std::vector<FoodDrop> drops;
     std::vector<CastMember> cast;  // at least one; the school first, which an open sea may lack
+    std::optional<SceneTour> tour;  // without: the submarine stays at the eye
+    double idleSeconds = 20;        // without a hand, until it steers itself
 };
 
 // Throws Error with file:line:column for what the schema does not allow, for water out of the sea

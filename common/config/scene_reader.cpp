@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "common/config/angle.h"
@@ -18,6 +19,9 @@ constexpr Range kTurn{-180, 180};
 constexpr std::uint32_t kMostPelletsADrop = 256;
 constexpr int kMostDrops = 1000;
 constexpr int kMostMembers = 64;
+constexpr float kHighestStopMetres = -1;
+constexpr int kFewestStops = 3;
+constexpr int kMostStops = 64;
 
 glm::vec3 readPoint(const TextPlace& at) {
     return {at.number("x_m", kSideways), at.number("y_m", kHeight), at.number("z_m", kSideways)};
@@ -39,6 +43,17 @@ Gathering readGathering(const TextPlace& root) {
     return Gathering::Mill;
 }
 
+WaterType readWaterType(const TextPlace& at) {
+    if (!at.has("jerlov")) return SceneWater{}.jerlov;
+    const std::string type = at.text("jerlov");
+    const auto found = std::ranges::find(kWaterTypeNames, type);
+    if (found == kWaterTypeNames.end())
+        at.refuse(
+            "jerlov",
+            "jerlov is \"" + type + "\", no type of water: write I, IA, IB, II, III, 1C or 3C");
+    return static_cast<WaterType>(found - kWaterTypeNames.begin());
+}
+
 SceneWater readWater(const TextPlace& at) {
     SceneWater water;
     water.centre = readPoint(at.in("centre"));
@@ -52,6 +67,7 @@ SceneWater readWater(const TextPlace& at) {
     water.clarityMetres = at.numberOr("clarity_m", {0.5, 100}, water.clarityMetres);
     water.surfaceCelsius = at.numberOr("surface_c", {-2, 45}, water.surfaceCelsius);
     water.celsiusPerMetre = at.numberOr("celsius_per_metre", {-5, 5}, water.celsiusPerMetre);
+    water.jerlov = readWaterType(at);
     return water;
 }
 
@@ -98,6 +114,29 @@ CastMember readMember(const TextPlace& at, const Scene& scene) {
         at.refuse("fish", "fish is 0: only an open sea may be without; remove the member");
     if (at.has("start")) member.start = readStart(at.in("start"), scene.water);
     return member;
+}
+
+TourStop readStop(const TextPlace& at) {
+    TourStop stop{.at = readPoint(at.in("at")), .lookAt = {}, .place = at.place()};
+    if (at.has("look_at")) stop.lookAt = readPoint(at.in("look_at"));
+    if (stop.at.y > kHighestStopMetres)
+        at.refuse("at", "the stop is within a metre of the surface, y = 0: lower it");
+    return stop;
+}
+
+SceneTour readTour(const TextPlace& at, PlaceKind place) {
+    SceneTour tour{.metresPerSecond = at.numberOr("speed_m_s", {0.1, 0.6}, 0.4), .stops = {}};
+    const int count = at.count("stops");
+    if (count == 0 && place == PlaceKind::Reef)
+        at.refuse("a tour of a reef needs stops: add `stops { at { ... } }`, three at least");
+    if (count > 0 && count < kFewestStops)
+        at.refuse("stops", "a closed path needs three stops: add some", 0);
+    if (count > kMostStops)
+        at.refuse("stops",
+                  "more than " + std::to_string(kMostStops) + " stops: take fewer",
+                  kMostStops);
+    for (int i = 0; i < count; ++i) tour.stops.push_back(readStop(at.in("stops", i)));
+    return tour;
 }
 
 std::vector<CastMember> readCast(const TextPlace& root, const Scene& scene) {
@@ -148,6 +187,8 @@ Scene parseScene(const std::string& text, const std::string& source) {
         if (i > 0 && scene.drops.back().atSeconds < scene.drops[scene.drops.size() - 2].atSeconds)
             root.in("drops", i).refuse("at_s", "at_s is before that of the drop above: sort them");
     }
+    if (root.has("tour")) scene.tour = readTour(root.in("tour"), scene.place);
+    scene.idleSeconds = root.numberOr("idle_s", {1, 86400}, Scene{}.idleSeconds);
     scene.cast = readCast(root, scene);
     return scene;
 }

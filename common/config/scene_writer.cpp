@@ -27,6 +27,7 @@ void write(const SceneWater& water, v1::SceneWater& out) {
     out.set_clarity_m(water.clarityMetres);
     out.set_surface_c(water.surfaceCelsius);
     out.set_celsius_per_metre(water.celsiusPerMetre);
+    out.set_jerlov(std::string(kWaterTypeNames.at(static_cast<std::size_t>(water.jerlov))));
 }
 
 void write(const Day& day, v1::Day& out) {
@@ -55,6 +56,15 @@ void write(const CastMember& member, v1::CastMember& out) {
     if (member.start) write(*member.start, *out.mutable_start());
 }
 
+void write(const SceneTour& tour, v1::Tour& out) {
+    out.set_speed_m_s(tour.metresPerSecond);
+    for (const TourStop& stop : tour.stops) {
+        v1::TourStop& written = *out.add_stops();
+        write(stop.at, *written.mutable_at());
+        if (stop.lookAt) write(*stop.lookAt, *written.mutable_look_at());
+    }
+}
+
 }  // namespace
 
 std::string writeScene(const Scene& scene) {
@@ -68,6 +78,8 @@ std::string writeScene(const Scene& scene) {
     write(scene.day, *out.mutable_day());
     for (const FoodDrop& drop : scene.drops) write(drop, *out.add_drops());
     for (const CastMember& member : scene.cast) write(member, *out.add_cast());
+    if (scene.tour) write(*scene.tour, *out.mutable_tour());
+    out.set_idle_s(scene.idleSeconds);
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);
     return text;

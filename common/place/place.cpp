@@ -10,34 +10,73 @@ namespace aquarama {
 namespace {
 
 // Streams of one seed, so that adding a rock never moves the sand.
-enum Stream : std::uint32_t { Dunes = 1, Hummocks, Rocks, Kelp, Meadow };
+enum Stream : std::uint32_t { Dunes = 1, Hummocks, Rocks, Kelp, Meadow, Arch, Ring };
 
-// The composition: what stands where is planned for the wall's 120 degrees (left third, middle,
-// right third); a seed only moves it a little.
+// The composition: what stands where is planned for the wall's 120 degrees, with low heads before,
+// high reefs at both sides and a gap between them into the blue; a seed only moves it a little.
 struct RockGroup {
     glm::vec2 xz;
     float radiusMetres;
     int satellites;
+    int storeys = 0;  // boulders piled upon the first
 };
 constexpr std::array kRockGroups{
-    // Left: a reef that rises from the corner of the wall.
+    // Left: a reef that climbs from the corner of the wall to near the surface.
     RockGroup{{-4.6F, -3.5F}, 1.05F, 4},
     RockGroup{{-7.3F, -6.2F}, 2.35F, 5},
-    RockGroup{{-11.6F, -10.2F}, 2.9F, 3},
-    // Middle: low heads on open sand, a ridge far behind.
+    RockGroup{{-9.4F, -7.6F}, 2.3F, 3, 3},
+    RockGroup{{-11.6F, -9.6F}, 2.9F, 4, 3},
+    RockGroup{{-9.2F, -12.6F}, 1.5F, 4, 1},
+    RockGroup{{-14.6F, -7.0F}, 2.6F, 3, 2},
+    // Middle: low heads on open sand, the great head behind the fishes' water, a ridge far behind.
     RockGroup{{-1.4F, -6.5F}, 0.60F, 4},
-    RockGroup{{1.9F, -11.4F}, 1.45F, 4},
-    RockGroup{{-4.6F, -15.5F}, 2.7F, 3},
-    RockGroup{{3.6F, -22.0F}, 3.4F, 3},
-    // Right: a head before the kelp, a wall behind it.
+    RockGroup{{1.9F, -11.4F}, 1.45F, 5, 1},
+    RockGroup{{0.7F, -12.4F}, 1.05F, 3},
+    RockGroup{{-5.0F, -16.5F}, 1.9F, 5, 1},
+    RockGroup{{4.2F, -23.5F}, 3.2F, 4, 2},
+    RockGroup{{0.2F, -28.0F}, 3.4F, 3, 1},
+    // Right: a head before the kelp, a reef behind it.
     RockGroup{{4.7F, -4.1F}, 0.95F, 4},
-    RockGroup{{7.2F, -7.6F}, 1.75F, 4},
-    RockGroup{{12.6F, -14.4F}, 3.1F, 3},
+    RockGroup{{7.2F, -7.6F}, 1.75F, 4, 1},
+    RockGroup{{10.2F, -6.0F}, 1.9F, 4, 2},
+    RockGroup{{14.4F, -11.0F}, 2.9F, 4, 3},
+    RockGroup{{16.5F, -8.0F}, 2.6F, 3, 2},
     // What is but a shape in the blue.
-    RockGroup{{-16.0F, -21.0F}, 4.4F, 2},
-    RockGroup{{-7.0F, -31.0F}, 4.8F, 2},
-    RockGroup{{14.0F, -29.0F}, 5.0F, 2},
+    RockGroup{{-19.0F, -15.0F}, 3.8F, 3, 3},
+    RockGroup{{-14.5F, -23.0F}, 3.4F, 2, 3},
+    RockGroup{{13.0F, -25.0F}, 3.8F, 3, 3},
+    RockGroup{{20.5F, -17.5F}, 3.9F, 2, 3},
+    RockGroup{{-24.0F, -6.0F}, 3.6F, 3, 2},
+    RockGroup{{25.0F, -5.0F}, 3.6F, 3, 2},
 };
+
+// An arch beyond the great head, its stones by their place and height above the sand.
+struct ArchStone {
+    glm::vec2 offset;
+    float heightMetres;
+    float radiusMetres;
+};
+constexpr glm::vec2 kArch{8.4F, -16.2F};
+constexpr std::array kArchStones{
+    ArchStone{{-3.6F, 0.5F}, 0.25F, 1.45F},
+    ArchStone{{-3.4F, 0.3F}, 1.5F, 1.15F},
+    ArchStone{{-2.8F, 0.1F}, 2.6F, 1.05F},
+    ArchStone{{-1.7F, 0.0F}, 3.50F, 0.95F},
+    ArchStone{{-0.5F, -0.1F}, 3.95F, 0.90F},
+    ArchStone{{0.7F, -0.1F}, 4.05F, 0.90F},
+    ArchStone{{1.9F, -0.2F}, 3.65F, 1.00F},
+    ArchStone{{2.9F, -0.3F}, 2.7F, 1.15F},
+    ArchStone{{3.4F, -0.5F}, 1.4F, 1.4F},
+    ArchStone{{3.9F, -0.6F}, 0.2F, 1.9F},
+    ArchStone{{-4.7F, 0.9F}, 0.1F, 0.9F},
+};
+
+constexpr float kDropMetres = 10.0F;
+
+// Beside and behind the eye chance places the reefs, in a ring with room to pass between them.
+constexpr int kRingGroups = 22;
+constexpr float kRingInnerMetres = 7.5F;
+constexpr float kRingOuterMetres = 30.0F;
 
 struct Stand {
     glm::vec2 xz;
@@ -46,19 +85,22 @@ struct Stand {
     float heightMetres;
 };
 constexpr std::array kKelpStands{
-    Stand{{8.6F, -6.6F}, 1.9F, 24, 7.0F},
-    Stand{{12.5F, -9.8F}, 3.0F, 26, 7.4F},
-    Stand{{-11.2F, -8.2F}, 1.9F, 16, 6.8F},
-    Stand{{-8.5F, -21.5F}, 3.2F, 16, 7.0F},
-    Stand{{9.5F, -22.0F}, 3.0F, 14, 7.0F},
+    Stand{{8.2F, -11.4F}, 1.7F, 22, 7.0F},
+    Stand{{11.6F, -14.2F}, 2.4F, 28, 7.3F},
+    Stand{{18.5F, -12.0F}, 3.0F, 20, 7.2F},
+    Stand{{-18.5F, -9.5F}, 2.2F, 12, 6.9F},
+    Stand{{10.0F, 9.0F}, 3.2F, 26, 7.2F},
+    Stand{{-6.0F, 15.0F}, 3.0F, 18, 7.0F},
 };
 constexpr std::array kMeadows{
-    Stand{{-3.4F, -8.4F}, 1.8F, 70, 0.46F},
-    Stand{{3.6F, -7.0F}, 1.5F, 50, 0.40F},
-    Stand{{2.3F, -5.2F}, 0.9F, 24, 0.34F},
-    Stand{{-6.2F, -3.2F}, 1.2F, 34, 0.44F},
-    Stand{{-1.5F, -13.5F}, 3.0F, 90, 0.52F},
-    Stand{{6.5F, -13.0F}, 2.6F, 60, 0.50F},
+    Stand{{-3.4F, -8.4F}, 1.8F, 110, 0.42F},
+    Stand{{3.6F, -7.0F}, 1.5F, 90, 0.36F},
+    Stand{{2.3F, -5.2F}, 0.9F, 40, 0.30F},
+    Stand{{-6.2F, -3.2F}, 1.2F, 50, 0.40F},
+    Stand{{-1.8F, -14.0F}, 3.0F, 140, 0.46F},
+    Stand{{6.0F, -11.5F}, 2.2F, 90, 0.44F},
+    Stand{{4.0F, 6.0F}, 3.0F, 150, 0.42F},
+    Stand{{-7.0F, 7.0F}, 3.4F, 150, 0.44F},
 };
 
 // A point of the disc by rejection: no square root, no angle, evenly spread.
@@ -72,9 +114,107 @@ glm::vec2 inDisc(std::uint32_t seed, std::uint32_t index) {
     return glm::vec2{0.0F};  // once in 10^11
 }
 
+// Between the two reefs, ahead and to the left, the sand slopes down into the blue. 0 about the
+// fishes' water.
+float dropAt(glm::vec2 xz) {
+    constexpr glm::vec2 kTowards{-0.5F, -0.8660254F};
+    constexpr float kBeginsMetres = 14.0F;
+    constexpr float kOverMetres = 22.0F;
+    const float along = (xz.x * kTowards.x + xz.y * kTowards.y - kBeginsMetres) / kOverMetres;
+    const float share = along < 0.0F ? 0.0F : along > 1.0F ? 1.0F : along;
+    return kDropMetres * share * share * (3.0F - 2.0F * share);
+}
+
 Rock rockAt(const PlaceKey& place, glm::vec2 xz, float radiusMetres, std::uint32_t rockSeed) {
     constexpr float kSunk = 0.12F;  // of the radius: a boulder lies in the sand, not on it
     return {{xz.x, floorHeight(place, xz) + kSunk * radiusMetres, xz.y}, radiusMetres, rockSeed};
+}
+
+// A reef that climbs: each boulder sits on the one below, a little aside, and leans on another.
+void pile(std::vector<Rock>& rocks, const RockGroup& group, Rock below, std::uint32_t seed) {
+    constexpr float kHighestMetres = -1.2F;  // the sea wears off what comes near its surface
+    for (int storey = 0; storey < group.storeys; ++storey) {
+        const std::uint32_t next = hashOf(seed, 100 + static_cast<std::uint32_t>(storey));
+        const glm::vec2 aside = inDisc(next, 0);
+        const float radius = below.radiusMetres * (0.74F + 0.20F * unitOf(hashOf(next, 1)));
+        const Rock buttress{below.centre + glm::vec3{-1.1F * radius * aside.x,
+                                                     0.10F * below.radiusMetres,
+                                                     -1.1F * radius * aside.y},
+                            0.8F * radius,
+                            hashOf(next, 2)};
+        below.centre += glm::vec3{0.6F * radius * aside.x,
+                                  0.50F * below.radiusMetres + 0.20F * radius,
+                                  0.6F * radius * aside.y};
+        if (below.centre.y + radius > kHighestMetres) return;
+        below.radiusMetres = radius;
+        below.seed = next;
+        rocks.push_back(below);
+        rocks.push_back(buttress);
+    }
+}
+
+void addGroup(std::vector<Rock>& rocks,
+              const PlaceKey& place,
+              const RockGroup& group,
+              std::uint32_t& next) {
+    next = hashOf(next);
+    const glm::vec2 shift = inDisc(next, 0);
+    const glm::vec2 main{group.xz.x + 0.3F * shift.x, group.xz.y + 0.3F * shift.y};
+    const float radius = group.radiusMetres * (0.92F + 0.16F * unitOf(hashOf(next, 1)));
+    rocks.push_back(rockAt(place, main, radius, next));
+    pile(rocks, group, rocks.back(), next);
+    for (int i = 0; i < group.satellites; ++i) {
+        next = hashOf(next);
+        const glm::vec2 away = inDisc(next, 0);
+        const glm::vec2 xz{main.x + away.x * radius * 1.5F, main.y + away.y * radius * 1.5F};
+        const float share = 0.25F + 0.4F * unitOf(hashOf(next, 1));
+        rocks.push_back(rockAt(place, xz, radius * share, next));
+    }
+}
+
+void addArch(std::vector<Rock>& rocks, const PlaceKey& place) {
+    const float sand = floorHeight(place, kArch);
+    for (std::uint32_t i = 0; i < kArchStones.size(); ++i) {
+        const ArchStone& stone = kArchStones[i];
+        const std::uint32_t seed = hashOf(hashOf(place.seed, Arch), i);
+        rocks.push_back(
+            {{kArch.x + stone.offset.x, sand + stone.heightMetres, kArch.y + stone.offset.y},
+             stone.radiusMetres,
+             seed});
+    }
+}
+
+// In front of the wall all is planned; elsewhere groups keep their distance from each other.
+bool isFree(const std::vector<Rock>& rocks, glm::vec2 xz, float radius) {
+    const float range2 = xz.x * xz.x + xz.y * xz.y;
+    const float least = kRingInnerMetres + radius;
+    const float sideways = xz.x < 0.0F ? -xz.x : xz.x;
+    if (range2 < least * least || xz.y < 2.0F - 0.25F * sideways) return false;
+    for (const Rock& rock : rocks) {
+        const float dx = rock.centre.x - xz.x;
+        const float dz = rock.centre.z - xz.y;
+        const float gap = rock.radiusMetres + radius + 1.2F;
+        if (dx * dx + dz * dz < gap * gap) return false;
+    }
+    return true;
+}
+
+void addRing(std::vector<Rock>& rocks, const PlaceKey& place) {
+    std::uint32_t next = hashOf(place.seed, Ring);
+    constexpr std::uint32_t kTries = 220;
+    int groups = 0;
+    for (std::uint32_t attempt = 0; attempt < kTries && groups < kRingGroups; ++attempt) {
+        const glm::vec2 spot = inDisc(hashOf(place.seed, Ring), attempt);
+        const glm::vec2 xz{spot.x * kRingOuterMetres, spot.y * kRingOuterMetres};
+        const float share = unitOf(hashOf(hashOf(place.seed, Ring), 5000 + attempt));
+        const float radius = 0.9F + 2.4F * share;
+        if (!isFree(rocks, xz, radius)) continue;
+        addGroup(rocks,
+                 place,
+                 {xz, radius, 3, share > 0.3F ? 1 + static_cast<int>(share * 3.0F) : 0},
+                 next);
+        ++groups;
+    }
 }
 
 bool standsInRock(const std::vector<Rock>& rocks, glm::vec3 root) {
@@ -120,27 +260,16 @@ float floorHeight(const PlaceKey& place, glm::vec2 xz) {
     const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
     const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
     return -kMeanFloorDepthMetres + 0.22F * fractalNoise(hashOf(place.seed, Dunes), dunes, 2) +
-           0.07F * fractalNoise(hashOf(place.seed, Hummocks), hummocks, 2);
+           0.07F * fractalNoise(hashOf(place.seed, Hummocks), hummocks, 2) - dropAt(xz);
 }
 
 std::vector<Rock> rocksOf(const PlaceKey& place) {
     std::vector<Rock> rocks;
     if (place.kind == PlaceKind::OpenSea) return rocks;
     std::uint32_t next = hashOf(place.seed, Rocks);
-    for (const RockGroup& group : kRockGroups) {
-        next = hashOf(next);
-        const glm::vec2 shift = inDisc(next, 0);
-        const glm::vec2 main{group.xz.x + 0.3F * shift.x, group.xz.y + 0.3F * shift.y};
-        const float radius = group.radiusMetres * (0.92F + 0.16F * unitOf(hashOf(next, 1)));
-        rocks.push_back(rockAt(place, main, radius, next));
-        for (int i = 0; i < group.satellites; ++i) {
-            next = hashOf(next);
-            const glm::vec2 away = inDisc(next, 0);
-            const glm::vec2 xz{main.x + away.x * radius * 1.5F, main.y + away.y * radius * 1.5F};
-            const float share = 0.25F + 0.4F * unitOf(hashOf(next, 1));
-            rocks.push_back(rockAt(place, xz, radius * share, next));
-        }
-    }
+    for (const RockGroup& group : kRockGroups) addGroup(rocks, place, group, next);
+    addArch(rocks, place);
+    addRing(rocks, place);
     return rocks;
 }
 

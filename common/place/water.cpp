@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 #include "common/units/error.h"
 
 namespace aquarama {
@@ -13,6 +15,9 @@ namespace {
 constexpr double kReefHalfWidthMetres = 30;  // beyond, there is but bare sand
 constexpr double kSeaBottomMetres = -55;     // above the floor of the open sea by a margin
 constexpr float kFloorBumpsMetres = 0.6F;    // of the reef's sand
+constexpr float kRoamMetres = 4;
+constexpr float kHighestHullMetres = -0.75F;  // of the submarine's middle
+constexpr float kLowestStopMetres = 0.8F;     // above the floor: the hull and what it keeps off
 
 double volumeOf(const SceneWater& water) {
     const glm::dvec3 half = water.halfExtent;
@@ -26,6 +31,18 @@ double roomOf(const Scene& scene, double meanLengthMetres) {
 float floorOf(const Scene& scene) {
     return scene.place == PlaceKind::Reef ? -kMeanFloorDepthMetres + kFloorBumpsMetres
                                           : -kOpenSeaFloorDepthMetres;
+}
+
+// Where the tour cannot lead.
+std::string wrongWith(const Scene& scene, const Region& roaming, const TourStop& stop) {
+    const glm::vec3 from = stop.at - roaming.centre;
+    const glm::vec3 half = roaming.halfExtent;
+    if (std::abs(from.x) > half.x || std::abs(from.y) > half.y || std::abs(from.z) > half.z)
+        return "the stop is out of where the submarine may go, 4 m about the water and the eye: "
+               "move it in";
+    if (stop.at.y <= floorOf(scene) + kLowestStopMetres)
+        return "the stop is too near to the sand: raise it";
+    return {};
 }
 
 // What the box grows by, as factors: sideways and away, and downwards.
@@ -59,6 +76,14 @@ Region waterFor(const Scene& scene, std::size_t fish, float meanLengthMetres) {
     return {box.centre - glm::vec3{0, grown.y, grown.z}, half};
 }
 
+Region roamingRegion(const Region& fishWater, glm::vec3 eye) {
+    const glm::vec3 roam{kRoamMetres};
+    const glm::vec3 least = glm::min(fishWater.centre - fishWater.halfExtent, eye) - roam;
+    glm::vec3 most = glm::max(fishWater.centre + fishWater.halfExtent, eye) + roam;
+    most.y = std::min(most.y, kHighestHullMetres);
+    return {(least + most) * 0.5F, (most - least) * 0.5F};
+}
+
 std::uint32_t mostFishIn(const Scene& scene, float meanLengthMetres) {
     if (scene.place == PlaceKind::OpenSea) return kMostFish;
     const double wider =
@@ -86,6 +111,13 @@ void checkRoom(const Scene& scene,
     if (scene.water.centre.y - scene.water.halfExtent.y <= floorOf(scene) - 2 * kFloorBumpsMetres)
         throw Error(
             placed(scenePath, scene.waterPlace, "the water reaches into the sand: raise it"));
+    if (!scene.tour) return;
+    const Region roaming =
+        roamingRegion({scene.water.centre, scene.water.halfExtent}, scene.eye);
+    for (const TourStop& stop : scene.tour->stops) {
+        const std::string wrong = wrongWith(scene, roaming, stop);
+        if (!wrong.empty()) throw Error(placed(scenePath, stop.place, wrong));
+    }
 }
 
 }  // namespace aquarama

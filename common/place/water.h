@@ -16,11 +16,16 @@ namespace aquarama {
 // sea downwards, too. The face towards the eye and the top stay.
 [[nodiscard]] Region waterFor(const Scene& scene, std::size_t fish, float meanLengthMetres);
 
+// Where the submarine may go: the fish's water and the eye with four metres about them, below the
+// surface. The sand is not asked.
+[[nodiscard]] Region roamingRegion(const Region& fishWater, glm::vec3 eye);
+
 // So many have room: a reef ends where its rocks do, an open sea only at its floor.
 [[nodiscard]] std::uint32_t mostFishIn(const Scene& scene, float meanLengthMetres);
 
 // Throws Error at the first member's place in the scene's file where `fish`, of all members, are
-// more than have room; and where the box or the eye is below the floor.
+// more than have room; and where the box, the eye or a stop of the tour is below the floor, or a
+// stop out of where the submarine may go.
 void checkRoom(const Scene& scene,
                const std::string& scenePath,
                std::size_t fish,

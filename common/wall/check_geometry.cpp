@@ -102,11 +102,22 @@ void checkCovered(const Rig& rig, const std::string& source) {
                ": aim one there, shorten its focal length, or make the screen smaller");
 }
 
+// The eyes must be before the screen, not beside or behind a part of it.
+void checkEyes(const Rig& rig, const std::string& source) {
+    for (std::size_t channel = 0; channel < rig.channels.size(); ++channel)
+        for (const EyeSide eye : {EyeSide::Left, EyeSide::Right}) try {
+                (void)channelFrustum(rig, channel, 0, eye);
+            } catch (const Error& error) {
+                refuse(source, rig.sweetSpotPlace, error.what());
+            }
+}
+
 }  // namespace
 
 void checkGeometry(const Rig& rig, const std::string& source) {
     for (const Channel& channel : rig.channels) checkProjector(rig, channel, source);
     checkCovered(rig, source);
+    checkEyes(rig, source);
 }
 
 }  // namespace aquarama

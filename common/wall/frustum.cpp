@@ -3,6 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "common/units/error.h"
 #include "common/wall/outline.h"
 #include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
@@ -11,12 +14,20 @@ namespace aquarama {
 
 namespace {
 
-// Level, towards azimuth (right positive): upright things stay upright in every channel.
-glm::dmat4 levelCamera(double azimuth) {
+// From `eye`, level, towards azimuth (right positive): upright things stay upright in every
+// channel.
+glm::dmat4 levelCamera(glm::dvec3 eye, double azimuth) {
     const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
     const glm::dvec3 back(-std::sin(azimuth), 0, std::cos(azimuth));
     const glm::dmat3 wallFromCamera(right, glm::dvec3(0, 1, 0), back);
-    return glm::dmat4(glm::transpose(wallFromCamera));
+    return glm::translate(glm::dmat4(glm::transpose(wallFromCamera)), -eye);
+}
+
+// The middle of what is lit, seen from between the eyes.
+double azimuthOfMiddle(const std::vector<glm::dvec3>& lit, glm::dvec3 between) {
+    const auto [leftmost, rightmost] =
+        std::ranges::minmax(lit, {}, [&](glm::dvec3 point) { return azimuthOf(point - between); });
+    return (azimuthOf(leftmost - between) + azimuthOf(rightmost - between)) / 2;
 }
 
 double widened(double tangent, double byRadians) {
@@ -25,18 +36,24 @@ double widened(double tangent, double byRadians) {
 
 }  // namespace
 
-ChannelFrustum channelFrustum(const Rig& rig, std::size_t channel, double marginRadians) {
+ChannelFrustum channelFrustum(const Rig& rig,
+                              std::size_t channel,
+                              double marginRadians,
+                              EyeSide eye) {
+    constexpr double kLeastAheadMetres = 0.1;
     const std::vector<glm::dvec3> lit =
         litOutline(rig.screen, Pinhole(rig.channels[channel]), kSpillMetres);
-    const auto [leftmost, rightmost] =
-        std::ranges::minmax(lit, {}, [](glm::dvec3 point) { return azimuthOf(point); });
+    const double ahead = azimuthOfMiddle(lit, rig.sweetSpotMetres);
     ChannelFrustum frustum;
-    frustum.cameraFromWall = levelCamera((azimuthOf(leftmost) + azimuthOf(rightmost)) / 2);
+    frustum.cameraFromWall = levelCamera(eyePosition(rig, eye), ahead);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     glm::dvec2 low(kInfinity);
     glm::dvec2 high(-kInfinity);
     for (const glm::dvec3& point : lit) {
         const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(point, 1);
+        if (-seen.z < kLeastAheadMetres)
+            throw Error("channel \"" + rig.channels[channel].name +
+                        "\" lights what is beside or behind the eyes; move sweet_spot back");
         const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
         low = glm::min(low, tangent);
         high = glm::max(high, tangent);

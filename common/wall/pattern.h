@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test patterns of the world as pure functions of the direction from the sweet spot: the render
+// Test patterns of the world as pure functions of the direction from the wall's origin: the render
 // node's shader computes the same formulas.
 #pragma once
 

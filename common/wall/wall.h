@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/config/rig.h"
+#include "common/wall/eyes.h"
 
 namespace aquarama {
 
@@ -47,16 +48,18 @@ struct WarpMap {
 };
 [[nodiscard]] WarpMap warpMap(const Rig& rig, std::size_t channel);
 
-// An off-axis frustum from the sweet spot that just holds what the channel lights, enlarged by
-// `marginRadians`. Camera frame: x right, y up, looking along -Z; extents are tangents at distance
-// one.
+// An off-axis frustum from an eye that just holds what the channel lights, enlarged by
+// `marginRadians`. Both eyes and the place between them look the same way. Camera frame: x right, y
+// up, looking along -Z; extents are tangents at distance one.
 struct ChannelFrustum {
     glm::dmat4 cameraFromWall{1.0};
     double left = 0, right = 0, bottom = 0, top = 0;
 };
+// Throws Error where the channel lights something beside or behind the eye.
 [[nodiscard]] ChannelFrustum channelFrustum(const Rig& rig,
                                             std::size_t channel,
-                                            double marginRadians);
+                                            double marginRadians,
+                                            EyeSide eye = EyeSide::Between);
 // Reversed depth, zero to one, infinite far plane.
 [[nodiscard]] glm::mat4 clipFromCamera(const ChannelFrustum& frustum, float nearMetres);
 

@@ -103,6 +103,12 @@ std::optional<std::vector<SpeciesBlobs>> castIn(const v1::Welcome& message, std:
     return cast;
 }
 
+template <class Message>
+std::optional<QualityTier> tierIn(const Message& message) {
+    if (!message.has_quality()) return std::nullopt;
+    return tierAt(message.quality());
+}
+
 std::optional<Message> read(const v1::Welcome& message) {
     const auto pace = paceIn(message.pace());
     const auto pattern = patternIn(message.pattern());
@@ -110,6 +116,8 @@ std::optional<Message> read(const v1::Welcome& message) {
     if (!pace || !pattern || !school) return std::nullopt;
     auto cast = castIn(message, school->size());
     if (!cast) return std::nullopt;
+    const auto quality = tierIn(message);
+    if (message.has_quality() && !quality) return std::nullopt;
     if (message.rig_text().size() > kMaxRigTextBytes ||
         message.scene_text().size() > kMaxSceneTextBytes || !message.has_seed() ||
         !isText(message.state_address(), kMaxReasonBytes)) {
@@ -122,7 +130,8 @@ std::optional<Message> read(const v1::Welcome& message) {
                    *pace,
                    *pattern,
                    std::move(*school),
-                   std::move(*cast)};
+                   std::move(*cast),
+                   quality};
 }
 
 std::optional<Message> read(const v1::BlobRequest& message) {
@@ -141,6 +150,12 @@ std::optional<Message> read(const v1::BlobChunk& message) {
     }
     const auto* first = reinterpret_cast<const std::byte*>(content.data());
     return BlobChunk{*digest, message.offset(), message.total(), {first, first + content.size()}};
+}
+
+std::optional<Message> read(const v1::Prepared& message) {
+    const auto quality = tierIn(message);
+    if (!quality) return std::nullopt;
+    return Prepared{*quality};
 }
 
 std::optional<Message> read(const v1::Joined& message) {
@@ -183,16 +198,30 @@ std::optional<Message> read(const v1::Pong& message) {
     return Pong{message.sent_ns(), message.master_ns()};
 }
 
+std::optional<Message> steeringIn(const v1::Input& message) {
+    constexpr int kAxes = 5;
+    const auto& axes = message.steering();
+    const auto isShare = [](std::int32_t axis) {
+        return axis >= -kFullSteering && axis <= kFullSteering;
+    };
+    if (axes.size() != kAxes || !std::ranges::all_of(axes, isShare) || !message.position().empty())
+        return std::nullopt;
+    const auto axis = [&](int i) { return static_cast<std::int8_t>(axes[i]); };
+    return Input{InputKind::Steer, {}, {axis(0), axis(1), axis(2), axis(3), axis(4)}};
+}
+
 std::optional<Message> read(const v1::Input& message) {
     const auto& at = message.position();
+    if (message.kind() == v1::INPUT_STEER) return steeringIn(message);
+    if (!message.steering().empty()) return std::nullopt;
     const auto isNear = [](float number) { return std::abs(number) <= kMaxInputMetres; };
     if (message.kind() == v1::INPUT_DROP_FOOD) {  // a number that is none is not near
         if (at.size() != 3 || !std::ranges::all_of(at, isNear)) return std::nullopt;
-        return Input{InputKind::DropFood, {at[0], at[1], at[2]}};
+        return Input{InputKind::DropFood, {at[0], at[1], at[2]}, {}};
     }
     if (!at.empty()) return std::nullopt;
-    if (message.kind() == v1::INPUT_QUIT) return Input{InputKind::Quit, {}};
-    if (message.kind() == v1::INPUT_TOGGLE_PAUSE) return Input{InputKind::TogglePause, {}};
+    if (message.kind() == v1::INPUT_QUIT) return Input{};
+    if (message.kind() == v1::INPUT_TOGGLE_PAUSE) return Input{InputKind::TogglePause, {}, {}};
     return std::nullopt;
 }
 
@@ -208,9 +237,12 @@ std::optional<Message> read(const v1::StatusReply& message) {
     for (const float ms : {message.frame_median_ms(),
                            message.frame_p99_ms(),
                            message.skew_median_ms(),
-                           message.skew_p99_ms()}) {
+                           message.skew_p99_ms(),
+                           message.speed_m_s()}) {
         if (!std::isfinite(ms)) return std::nullopt;
     }
+    const auto eye = readEye(message.eye());
+    if (!eye || !isText(message.pilot(), kMaxNameBytes)) return std::nullopt;
     StatusReply reply{*pace,
                       message.paused(),
                       {message.frame()},
@@ -220,7 +252,10 @@ std::optional<Message> read(const v1::StatusReply& message) {
                       message.skew_median_ms(),
                       message.skew_p99_ms(),
                       message.refused_packets(),
-                      {}};
+                      {},
+                      *eye,
+                      message.speed_m_s(),
+                      message.pilot()};
     for (const auto& node : message.nodes()) {
         auto status = nodeIn(node);
         if (!status) return std::nullopt;
@@ -265,7 +300,7 @@ std::optional<Message> read(const v1::Envelope& envelope) {
         case v1::Envelope::kBlobChunk:
             return read(envelope.blob_chunk());
         case v1::Envelope::kPrepared:
-            return Prepared{};
+            return read(envelope.prepared());
         case v1::Envelope::kJoined:
             return read(envelope.joined());
         case v1::Envelope::kState:

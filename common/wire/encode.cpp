@@ -35,9 +35,11 @@ v1::InputKind inputKindOf(InputKind kind) {
         case InputKind::TogglePause:
             return v1::INPUT_TOGGLE_PAUSE;
         case InputKind::DropFood:
+            return v1::INPUT_DROP_FOOD;
+        case InputKind::Steer:
             break;
     }
-    return v1::INPUT_DROP_FOOD;
+    return v1::INPUT_STEER;
 }
 
 v1::NodeCondition conditionOf(NodeCondition condition) {
@@ -74,6 +76,7 @@ void write(const Welcome& welcome, v1::Envelope& envelope) {
     message.set_seed(welcome.seed);
     message.set_pace(paceOf(welcome.pace));
     message.set_pattern(patternOf(welcome.pattern));
+    if (welcome.quality) message.set_quality(static_cast<std::uint32_t>(*welcome.quality));
     for (const FishTraits& fish : welcome.school) {
         message.add_fish_ids(fish.id);
         message.add_length_millimetres(fish.lengthMillimetres);
@@ -100,8 +103,8 @@ void write(const BlobChunk& chunk, v1::Envelope& envelope) {
     message.set_content(chunk.content.data(), chunk.content.size());
 }
 
-void write(const Prepared&, v1::Envelope& envelope) {
-    envelope.mutable_prepared();
+void write(const Prepared& prepared, v1::Envelope& envelope) {
+    envelope.mutable_prepared()->set_quality(static_cast<std::uint32_t>(prepared.quality));
 }
 
 void write(const Joined& joined, v1::Envelope& envelope) {
@@ -151,9 +154,14 @@ void write(const Pong& pong, v1::Envelope& envelope) {
 void write(const Input& input, v1::Envelope& envelope) {
     auto& message = *envelope.mutable_input();
     message.set_kind(inputKindOf(input.kind));
-    if (input.kind != InputKind::DropFood) return;
-    const glm::vec3& at = input.positionMetres;
-    for (const float number : {at.x, at.y, at.z}) message.add_position(number);
+    if (input.kind == InputKind::DropFood) {
+        const glm::vec3& at = input.positionMetres;
+        for (const float number : {at.x, at.y, at.z}) message.add_position(number);
+    } else if (input.kind == InputKind::Steer) {
+        const Steering& s = input.steering;
+        for (const std::int8_t axis : {s.ahead, s.aside, s.up, s.turn, s.tilt})
+            message.add_steering(axis);
+    }
 }
 
 void write(const StatusRequest&, v1::Envelope& envelope) {
@@ -171,6 +179,9 @@ void write(const StatusReply& reply, v1::Envelope& envelope) {
     message.set_skew_median_ms(reply.skewMedianMs);
     message.set_skew_p99_ms(reply.skewP99Ms);
     message.set_refused_packets(reply.refusedPackets);
+    writeEye(reply.eye, *message.mutable_eye());
+    message.set_speed_m_s(reply.speedMetresPerSecond);
+    message.set_pilot(reply.pilot);
     for (const NodeStatus& status : reply.nodes) {
         auto& node = *message.add_nodes();
         node.set_name(status.name);

@@ -12,6 +12,7 @@
 
 #include "common/units/digest.h"
 #include "common/units/ids.h"
+#include "common/units/steering.h"
 #include "common/wire/messages.h"
 
 namespace aquarama {
@@ -57,8 +58,11 @@ struct BlobChunk {
     std::vector<std::byte> content;
 };
 
-// The node has built all that it needs and hears the state channel.
-struct Prepared {};
+// The node has built all that it needs and hears the state channel. It would keep up with this
+// tier.
+struct Prepared {
+    QualityTier quality = QualityTier::Low;
+};
 
 // The answer to Prepared: from this frame on the node is waited for.
 struct Joined {
@@ -101,10 +105,11 @@ struct Pong {
     std::int64_t masterNs = 0;  // in the master's
 };
 
-enum class InputKind : std::uint8_t { Quit, TogglePause, DropFood };
+enum class InputKind : std::uint8_t { Quit, TogglePause, DropFood, Steer };
 struct Input {
     InputKind kind = InputKind::Quit;
     glm::vec3 positionMetres{};  // of the food, world frame
+    Steering steering = {};      // of the submarine
 };
 
 struct StatusRequest {};
@@ -126,6 +131,9 @@ struct StatusReply {
     float skewMedianMs = 0, skewP99Ms = 0;    // latest minus earliest release of one frame
     std::uint64_t refusedPackets = 0;         // noise, strangers, other versions
     std::vector<NodeStatus> nodes;
+    Eye eye;  // of the last state
+    float speedMetresPerSecond = 0;
+    std::string pilot;  // the window whose hand steers; empty: nobody's
 };
 
 // Asks what goes on in the mind of a fish; anybody may.

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/config/quality.h"
 #include "common/motion/motion_state.h"
 #include "common/units/digest.h"
 #include "common/units/ids.h"
@@ -38,6 +40,7 @@ struct StateFrame {
     std::vector<FoodRecord> foodBefore;
     std::vector<FoodRecord> foodAfter;
     float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
+    QualityTier quality = QualityTier::Low;  // of the whole wall
 };
 
 enum class Pace : std::uint8_t { Live, Lockstep };
@@ -62,6 +65,8 @@ struct Welcome {
     Pattern pattern = Pattern::World;
     std::vector<FishTraits> school;
     std::vector<SpeciesBlobs> cast;  // of all fish of the school, in its order
+    std::optional<QualityTier> quality =
+        {};  // of the whole wall; nothing: the node measures its own
 };
 
 }  // namespace aquarama

@@ -70,6 +70,15 @@ void write(const RecordedSubmarine& submarine, v1::RecordedInput& message) {
     written.set_velocity_z(submarine.velocityMetresPerSecond.z);
 }
 
+void write(const Steering& steering, v1::RecordedInput& message) {
+    auto& written = *message.mutable_steering();
+    written.set_ahead(steering.ahead);
+    written.set_aside(steering.aside);
+    written.set_up(steering.up);
+    written.set_turn(steering.turn);
+    written.set_tilt(steering.tilt);
+}
+
 void write(const RecordedHash& hash, v1::RecordedHash& message) {
     message.set_tick(hash.tick.value);
     message.set_hash(hash.hash);
@@ -196,6 +205,14 @@ class Reader {
         return {numbers[0], numbers[1], numbers[2]};
     }
 
+    Steering steeringIn(const std::array<std::int32_t, 5>& axes) const {
+        if (!std::ranges::all_of(
+                axes, [](std::int32_t a) { return a >= -kFullSteering && a <= kFullSteering; }))
+            fail("has a steering beyond full");
+        const auto axis = [&](std::size_t i) { return static_cast<std::int8_t>(axes[i]); };
+        return {axis(0), axis(1), axis(2), axis(3), axis(4)};
+    }
+
     RecordedInput inputIn(const v1::RecordedInput& message) {
         RecordedInput input{tickIn(message.has_tick(), message.tick()), {}};
         if (message.has_food()) {
@@ -207,6 +224,9 @@ class Reader {
             input.input = RecordedSubmarine{
                 vectorIn({moved.x(), moved.y(), moved.z()}),
                 vectorIn({moved.velocity_x(), moved.velocity_y(), moved.velocity_z()})};
+        } else if (message.has_steering()) {
+            const v1::RecordedSteering& s = message.steering();
+            input.input = steeringIn({s.ahead(), s.aside(), s.up(), s.turn(), s.tilt()});
         } else {
             fail("has an input that this program does not know");
         }

@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/units/ids.h"
+#include "common/units/steering.h"
 #include "common/wire/envelope.h"
 
 namespace aquarama {
@@ -52,7 +53,7 @@ struct RecordedSubmarine {
 // Reached the world after `tick` and before the next.
 struct RecordedInput {
     Tick tick;
-    std::variant<RecordedFood, RecordedSubmarine> input;
+    std::variant<RecordedFood, RecordedSubmarine, Steering> input;
 };
 
 // Of the world at the tick, before any input that reaches it then.

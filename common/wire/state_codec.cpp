@@ -61,12 +61,6 @@ bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {
     return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
 }
 
-std::optional<Eye> readEye(const v1::State& message) {
-    const auto& e = message.eye();
-    if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
-    return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
-}
-
 bool isShare(float number) {
     return number >= 0.0F && number <= 1.0F;
 }
@@ -75,22 +69,31 @@ bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_before() && message.has_after() &&
            message.has_food_before() && message.has_food_after() && message.has_daylight() &&
-           message.layout_version() == kLayoutVersion && message.stride() == kStride;
+           message.has_quality() && message.layout_version() == kLayoutVersion &&
+           message.stride() == kStride;
 }
 
 }  // namespace
+
+void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers) {
+    const auto& position = eye.positionMetres;
+    const auto& rotation = eye.worldFromWall;
+    for (const float number : {position.x, position.y, position.z}) numbers.Add(number);
+    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z})
+        numbers.Add(number);
+}
+
+std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& e) {
+    if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
+    return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
+}
 
 void writeState(const StateFrame& state, v1::State& message) {
     message.set_frame(state.frame.value);
     message.set_tick(state.tick.value);
     message.set_fraction(state.fraction);
     message.set_world_hash(state.worldHash);
-    const auto& position = state.eye.positionMetres;
-    const auto& rotation = state.eye.worldFromWall;
-    for (const float number : {position.x, position.y, position.z}) message.add_eye(number);
-    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z}) {
-        message.add_eye(number);
-    }
+    writeEye(state.eye, *message.mutable_eye());
     message.set_layout_version(kLayoutVersion);
     message.set_stride(kStride);
     writeRecords(state.before, *message.mutable_before());
@@ -100,11 +103,12 @@ void writeState(const StateFrame& state, v1::State& message) {
     writeRecords(state.foodBefore, *message.mutable_food_before());
     writeRecords(state.foodAfter, *message.mutable_food_after());
     message.set_daylight(state.daylight);
+    message.set_quality(static_cast<std::uint32_t>(state.quality));
 }
 
 std::optional<StateFrame> readState(const v1::State& message) {
     if (!hasAllScalars(message)) return std::nullopt;
-    const auto eye = readEye(message);
+    const auto eye = readEye(message.eye());
     auto before = readFish(message.before());
     auto after = readFish(message.after());
     auto foodBefore = readFood(message.food_before());
@@ -112,8 +116,9 @@ std::optional<StateFrame> readState(const v1::State& message) {
     if (!eye || !before || !after || !foodBefore || !foodAfter) return std::nullopt;
     const float fraction = message.fraction();
     const float daylight = message.daylight();
+    const auto quality = tierAt(message.quality());
     const auto& origin = message.food_origin();
-    if (!isShare(fraction) || !isShare(daylight)) return std::nullopt;
+    if (!isShare(fraction) || !isShare(daylight) || !quality) return std::nullopt;
     if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
     if (!arePaired(*before, *after, fraction) || !arePaired(*foodBefore, *foodAfter, fraction))
         return std::nullopt;
@@ -127,7 +132,8 @@ std::optional<StateFrame> readState(const v1::State& message) {
                       {origin[0], origin[1], origin[2]},
                       std::move(*foodBefore),
                       std::move(*foodAfter),
-                      daylight};
+                      daylight,
+                      *quality};
 }
 
 }  // namespace aquarama

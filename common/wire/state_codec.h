@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include <google/protobuf/repeated_field.h>
+
 #include "common/wire/messages.h"
 
 namespace aquarama {
@@ -11,6 +13,10 @@ namespace aquarama {
 namespace v1 {
 class State;  // generated; its header stays inside the .cpp files
 }
+
+// x y z in metres, then w x y z of worldFromWall.
+void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
+[[nodiscard]] std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& numbers);
 
 void writeState(const StateFrame& state, v1::State& message);
 [[nodiscard]] std::optional<StateFrame> readState(const v1::State& message);

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <spdlog/spdlog.h>
 
 #include "common/units/error.h"
@@ -81,6 +82,7 @@ Conductor::Conductor(const Rig& rig,
     welcome_.seed = options_.seed;
     welcome_.pace = options_.pace;
     welcome_.pattern = options_.pattern;
+    welcome_.quality = options_.quality;
 }
 
 void Conductor::stop() {
@@ -197,19 +199,29 @@ void Conductor::release(Instant now) {
 bool Conductor::publish(Frame frame, Instant now) {
     if (frame < unpublished_) return true;
     takeTicks();
-    const auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
-                                    : timeline_.showing(frame, nextRelease(now) - kShownAge);
+    auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
+                              : timeline_.showing(frame, nextRelease(now) - kShownAge);
     if (!state) return false;
+    state->quality = quality();
     const Packet& packet = published_[frame] = encodeState(session_, *state);
     channels_->publishState(packet);
     lastPublished_ = lastRepeat_ = monotonicNow();
     if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
-    eye_ = state->eye;
+    noteEye(*state);
     report_.tick = state->tick;
     report_.worldHash = state->worldHash;
     return true;
+}
+
+void Conductor::noteEye(const StateFrame& state) {
+    const double ticks =
+        static_cast<double>(state.tick.value) - 1 + static_cast<double>(state.fraction);
+    const double seconds = (ticks - std::exchange(eyeTicks_, ticks)) / kTicksPerSecond;
+    const float metres = glm::distance(state.eye.positionMetres, eye_.positionMetres);
+    speedMetresPerSecond_ = seconds > 0 ? metres / static_cast<float>(seconds) : 0.0F;
+    eye_ = state.eye;
 }
 
 // Lockstep passes nobody over, so a state that was lost on its way must come again.

@@ -18,6 +18,7 @@
 #include "common/net/channels.h"
 #include "common/net/present_barrier.h"
 #include "common/wire/envelope.h"
+#include "master/conductor/helm.h"
 #include "master/conductor/meters.h"
 #include "master/conductor/simulation.h"
 #include "master/conductor/ticker.h"
@@ -32,6 +33,7 @@ struct ConductorOptions {
     std::uint32_t seed = 1;                // of what the nodes draw by themselves
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
+    std::optional<QualityTier> quality;    // of the wall; nothing: the finest that every node bears
     Instant patience = std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
 };
 
@@ -66,6 +68,7 @@ class Conductor {
         std::string name;
         PeerId peer;  // empty: nobody
         bool prepared = false;
+        std::optional<QualityTier> bears;  // the finest tier that its node has kept up with
         Instant lastHeard{};
         std::uint64_t dropped = 0;
         Instant lastFed{};  // when a visitor last dropped food in its window
@@ -80,10 +83,14 @@ class Conductor {
     void vacate(std::size_t node, const std::string& why);
     void obey(std::size_t node, const Input& input, Instant now);
     void feed(std::size_t node, glm::vec3 positionMetres, Instant now);
+    void steer(const PeerId& peer, const Steering& steering, Instant now);
     void ask(const PeerId& peer, const ExplainRequest& question);
     void answer();
-    [[nodiscard]] StatusReply status() const;
+    [[nodiscard]] StatusReply status(Instant now) const;
+    [[nodiscard]] std::string pilotName(Instant now) const;
+    [[nodiscard]] QualityTier quality() const;
 
+    void noteEye(const StateFrame& state);
     void takeTicks();
     void conduct(Instant now);
     void beginNext(Instant now);
@@ -124,7 +131,10 @@ class Conductor {
     std::map<Frame, Packet> published_;  // the last two: sent again to whoever may lack them
     Instant lastPublished_{};            // of anything, also of a beacon
     Instant lastRepeat_{};
-    Eye eye_;  // of the last state that was published
+    Helm helm_;
+    Eye eye_;             // of the last state that was published
+    double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
+    float speedMetresPerSecond_ = 0;
     std::optional<Present> lastPresent_;
     Instant lastRelease_{};
     ShowReport report_;

@@ -57,9 +57,12 @@ void Conductor::hear(Instant now) {
         } else if (const auto* hello = std::get_if<Hello>(&envelope->message)) {
             greet(from->peer, *hello, now);
         } else if (std::holds_alternative<StatusRequest>(envelope->message)) {
-            say(from->peer, status());
+            say(from->peer, status(now));
         } else if (const auto* question = std::get_if<ExplainRequest>(&envelope->message)) {
             ask(from->peer, *question);
+        } else if (const auto* input = std::get_if<Input>(&envelope->message);
+                   input && input->kind == InputKind::Steer && !seatOf(from->peer)) {
+            steer(from->peer, input->steering, now);
         } else if (const auto node = seatOf(from->peer); node && envelope->session == session_) {
             seats_[*node].lastHeard = now;
             barrier_.heard(*node, now);
@@ -110,7 +113,8 @@ void Conductor::heed(std::size_t node, const Message& message, Instant now) {
         heed(node, *ready, now);
     } else if (const auto* request = std::get_if<BlobRequest>(&message)) {
         giveChunk(peer, *request);
-    } else if (std::holds_alternative<Prepared>(message)) {
+    } else if (const auto* prepared = std::get_if<Prepared>(&message)) {
+        seats_[node].bears = prepared->quality;
         admit(node);
     } else if (const auto* input = std::get_if<Input>(&message)) {
         obey(node, *input, now);
@@ -183,6 +187,8 @@ void Conductor::obey(std::size_t node, const Input& input, Instant now) {
         over_ = true;
     } else if (input.kind == InputKind::DropFood) {
         feed(node, input.positionMetres, now);
+    } else if (input.kind == InputKind::Steer) {
+        steer(seats_[node].peer, input.steering, now);
     } else if (!isLockstep() && ticker_) {  // there is none any more while farewells are said
         ticker_->togglePause();
     }
@@ -203,7 +209,30 @@ void Conductor::feed(std::size_t node, glm::vec3 positionMetres, Instant now) {
         ++report_.refusedPackets;
 }
 
-StatusReply Conductor::status() const {
+// A node that has left counts on: when it comes back, nothing changes.
+QualityTier Conductor::quality() const {
+    if (options_.quality) return *options_.quality;
+    std::optional<QualityTier> least;
+    for (const Seat& seat : seats_)
+        if (seat.bears) least = std::min(least.value_or(*seat.bears), *seat.bears);
+    return least.value_or(QualityTier::Low);
+}
+
+// Anybody may steer who can reach the control address, as anybody may ask.
+void Conductor::steer(const PeerId& peer, const Steering& steering, Instant now) {
+    if (!ticker_ || !helm_.heeds(peer, steering, now)) return;
+    const auto hold = [steering](Simulation& simulation) { simulation.apply(steering); };
+    if (!ticker_->betweenTicks(hold)) ++report_.refusedPackets;
+}
+
+std::string Conductor::pilotName(Instant now) const {
+    const auto pilot = helm_.pilot(now);
+    if (!pilot) return {};
+    const auto seat = seatOf(*pilot);
+    return seat ? seats_[*seat].name : "pilot";
+}
+
+StatusReply Conductor::status(Instant now) const {
     StatusReply reply;
     reply.pace = options_.pace;
     reply.paused = ticker_ && ticker_->paused();
@@ -214,6 +243,9 @@ StatusReply Conductor::status() const {
     reply.skewMedianMs = skew_.skews().quantileMs(0.5);
     reply.skewP99Ms = skew_.skews().quantileMs(0.99);
     reply.refusedPackets = report_.refusedPackets;
+    reply.eye = eye_;
+    reply.speedMetresPerSecond = speedMetresPerSecond_;
+    reply.pilot = pilotName(now);
     for (std::size_t node = 0; node < seats_.size(); ++node) {
         const Seat& seat = seats_[node];
         reply.nodes.push_back(

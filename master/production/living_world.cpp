@@ -38,7 +38,9 @@ void LivingWorld::food(FoodCloud& cloud) const {
 }
 
 Eye LivingWorld::eye() const {
-    return {.positionMetres = world_.surroundings().submarine.position};
+    const Vessel& vessel = world_.pilot().vessel;
+    const Quaternion q = worldFromBody(vessel.attitude);
+    return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
 }
 
 Explanation LivingWorld::explain(std::uint32_t fish) const {

@@ -11,11 +11,17 @@ RecordedFood recordedOne(const DropFood& food) {
 RecordedSubmarine recordedOne(const MoveSubmarine& moved) {
     return {moved.position, moved.velocityMetresPerSecond};
 }
+Steering recordedOne(const Steering& steering) {
+    return steering;
+}
 DropFood inputOfOne(const RecordedFood& food) {
     return {food.position, food.pellets};
 }
 MoveSubmarine inputOfOne(const RecordedSubmarine& moved) {
     return {moved.position, moved.velocityMetresPerSecond};
+}
+Steering inputOfOne(const Steering& steering) {
+    return steering;
 }
 
 }  // namespace

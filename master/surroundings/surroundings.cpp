@@ -54,9 +54,6 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     hash = folded(hash, food.taken);
     hash = folded(hash, food.generation);
     hash = folded(hash, food.absentUntil);
-    const Submarine& submarine = surroundings.submarine;
-    for (const glm::vec3 vector : {submarine.position, submarine.velocityMetresPerSecond})
-        for (const float number : {vector.x, vector.y, vector.z}) hash = foldedOne(hash, number);
     return hash;
 }
 

@@ -8,6 +8,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/units/steering.h"
+
 namespace aquarama {
 
 // A visitor feeds the fish.
@@ -16,12 +18,12 @@ struct DropFood {
     std::uint32_t pellets = 12;
 };
 
-// Where the submarine is from now on.
+// Puts the submarine somewhere else: on a stage, not by hand (that is a Steering).
 struct MoveSubmarine {
     glm::vec3 position{};
     glm::vec3 velocityMetresPerSecond{};
 };
 
-using WorldInput = std::variant<DropFood, MoveSubmarine>;
+using WorldInput = std::variant<DropFood, MoveSubmarine, Steering>;
 
 }  // namespace aquarama

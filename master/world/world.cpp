@@ -59,6 +59,8 @@ World::World(const WorldOptions& options)
       traits_(traitsOf(options)),
       surroundings_(
           makeSurroundings(options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
+      voyage_(voyageOf(options.scene, options.seed, surroundings_.obstacles.water)),
+      pilot_(pilotOf(voyage_, options.scene.eye)),
       grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
       pool_(options.threads) {
     if (options.cast.size() > kMostKinds)
@@ -128,9 +130,23 @@ void World::apply(const WorldInput& input) {
                     food->pellets,
                     tick_);
     if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
-        surroundings_.submarine.position = moved->position;
-        surroundings_.submarine.velocityMetresPerSecond = moved->velocityMetresPerSecond;
+        pilot_.vessel.position = moved->position;
+        pilot_.vessel.velocity = moved->velocityMetresPerSecond;
+        showSubmarine();
     }
+    if (const auto* steered = std::get_if<Steering>(&input))
+        steer(pilot_, voyage_, *steered, tick_);
+}
+
+void World::moveSubmarine() {
+    advancePilot(pilot_, voyage_, goal_.position, tick_);
+    showSubmarine();
+}
+
+// To the fish.
+void World::showSubmarine() {
+    surroundings_.submarine.position = pilot_.vessel.position;
+    surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
 }
 
 Goal World::goal() const {
@@ -143,6 +159,7 @@ Goal World::goal() const {
 void World::advance() {
     goal_ = goal();
     receive();
+    moveSubmarine();
     beginTick();
     advanceMeals(meals_, view_, surroundings_.food, tick_);
     thinkAll();
@@ -270,7 +287,7 @@ std::uint64_t World::hash() const {
     for (const Meals::Swallow& swallow : meals_.swallows)
         hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
                          swallow.ticksLeft);
-    return foldedSurroundings(hash, surroundings_);
+    return foldedPilot(foldedSurroundings(hash, surroundings_), pilot_);
 }
 
 std::size_t World::bytes() const {

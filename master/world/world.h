@@ -23,6 +23,7 @@
 #include "master/fish/minds.h"
 #include "master/motor/gaits.h"
 #include "master/motor/secondary_controller.h"
+#include "master/pilot/pilot.h"
 #include "master/world/input.h"
 #include "master/world/meals.h"
 #include "master/world/population.h"
@@ -70,6 +71,7 @@ class World {
     [[nodiscard]] const Minds& minds() const { return minds_; }
     [[nodiscard]] const Courses& courses() const { return courses_; }
     [[nodiscard]] const Surroundings& surroundings() const { return surroundings_; }
+    [[nodiscard]] const Pilot& pilot() const { return pilot_; }
     [[nodiscard]] std::span<const Nature> natures() const { return natures_; }
     [[nodiscard]] const FishView& view() const { return view_; }  // as the last tick began
     // As the fish saw it that thought in the last tick.
@@ -109,6 +111,8 @@ class World {
     void receive();
     void arrive(std::uint32_t fish);
     [[nodiscard]] Goal goal() const;
+    void moveSubmarine();
+    void showSubmarine();
 
     std::uint32_t seed_;
     Tick tick_;
@@ -122,6 +126,8 @@ class World {
     Deeds deeds_;  // of all slices
     std::vector<FishTraits> traits_;
     Surroundings surroundings_;
+    Voyage voyage_;
+    Pilot pilot_;
     MotionStates states_;
     MotorCommands commands_;
     Minds minds_;

@@ -25,6 +25,8 @@ class Context {
     [[nodiscard]] virtual glm::ivec2 framebufferPixels() const = 0;
     // True where framebuffer 0 is a window's; false where there is none.
     [[nodiscard]] virtual bool hasWindow() const = 0;
+    // True where framebuffer 0 has a left and a right back buffer.
+    [[nodiscard]] virtual bool quadBuffered() const { return false; }
     [[nodiscard]] virtual std::string description() const = 0;  // renderer and version, for the log
 
     // On the main thread: waits for window events no longer than this, and handles them.
@@ -48,10 +50,11 @@ inline constexpr char kFullscreenKey = 'f';  // handled by the window itself
                                                             glm::ivec2 sizePixels);
 
 // OpenGL 4.5 core in a window, current on no thread; the display's own GPU draws, whatever device
-// the channel names. Throws Error: no display, no such monitor, a
-// framebuffer or refresh rate that is not the channel's, no GL 4.5.
+// the channel names. Throws Error: no display, no such monitor, a framebuffer or refresh rate that
+// is not the channel's, no GL 4.5, no left and right buffers where they are asked for.
 [[nodiscard]] std::unique_ptr<Context> makeWindowContext(const Display& display,
                                                          const std::string& title,
-                                                         glm::ivec2 sizePixels);
+                                                         glm::ivec2 sizePixels,
+                                                         bool quadBuffered = false);
 
 }  // namespace aquarama

@@ -103,8 +103,11 @@ struct DestroyWindow {
 
 class WindowContext : public Context {
   public:
-    WindowContext(const Display& display, const std::string& title, glm::ivec2 sizePixels)
-        : display_{display}, size_{sizePixels} {
+    WindowContext(const Display& display,
+                  const std::string& title,
+                  glm::ivec2 sizePixels,
+                  bool quadBuffered)
+        : display_{display}, size_{sizePixels}, quadBuffered_{quadBuffered} {
         open(title);
         GLFWwindow* window = window_.get();
         glfwSetWindowUserPointer(window, this);
@@ -130,6 +133,7 @@ class WindowContext : public Context {
     void swap() override { glfwSwapBuffers(window_.get()); }
     [[nodiscard]] glm::ivec2 framebufferPixels() const override { return framebuffer_; }
     [[nodiscard]] bool hasWindow() const override { return true; }
+    [[nodiscard]] bool quadBuffered() const override { return quadBuffered_; }
     [[nodiscard]] std::string description() const override {
         return rendererAndVersion() + ", in a window";
     }
@@ -168,6 +172,7 @@ class WindowContext : public Context {
     GlfwLibrary library_;
     Display display_;
     glm::ivec2 size_;
+    bool quadBuffered_;
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
     std::deque<char> keys_;
@@ -187,12 +192,18 @@ void WindowContext::open(const std::string& title) {
         {GLFW_STENCIL_BITS, 0},
     }};
     for (const auto& [hint, value] : kHints) glfwWindowHint(hint, value);
+    glfwWindowHint(GLFW_STEREO, quadBuffered_ ? GLFW_TRUE : GLFW_FALSE);
     GLFWmonitor* monitor = nullptr;
     if (display_.mode == DisplayMode::Fullscreen) {
         monitor = monitorAt(display_.monitor);
         glfwWindowHint(GLFW_REFRESH_RATE, modeFor(display_, size_, monitor).refreshRate);
     }
     window_.reset(glfwCreateWindow(size_.x, size_.y, title.c_str(), monitor, nullptr));
+    if (!window_ && quadBuffered_) {
+        throw Error("no window with left and right buffers (" + lastGlfwError() +
+                    "); switch quad-buffered stereo on in the graphics driver, or choose another "
+                    "stereo mode in the rig");
+    }
     if (!window_) {
         throw Error("no window with OpenGL 4.5 core (" + lastGlfwError() +
                     "); update the graphics driver, or use --headless");
@@ -268,8 +279,9 @@ void WindowContext::toggleFullscreen() {
 
 std::unique_ptr<Context> makeWindowContext(const Display& display,
                                            const std::string& title,
-                                           glm::ivec2 sizePixels) {
-    return std::make_unique<WindowContext>(display, title, sizePixels);
+                                           glm::ivec2 sizePixels,
+                                           bool quadBuffered) {
+    return std::make_unique<WindowContext>(display, title, sizePixels, quadBuffered);
 }
 
 }  // namespace aquarama

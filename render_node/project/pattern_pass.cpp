@@ -17,13 +17,16 @@ constexpr GLint kWallFromCamera = 0;
 constexpr GLint kExtents = 3;
 constexpr GLint kGreyLightPlace = 4;
 constexpr GLint kGridLines = 5;
+constexpr GLint kEyeAndRadius = 6;
 
 constexpr float kNoGrey = -1;  // the grid instead
 
 }  // namespace
 
-PatternPass::PatternPass(const ChannelFrustum& frustum)
-    : frustum_{frustum}, program_{gl::makeProgram({"quad.vert", "pattern.frag"})} {}
+PatternPass::PatternPass(const ChannelFrustum& frustum, const Screen& screen)
+    : frustum_{frustum},
+      eyeAndRadius_{glm::dvec3(glm::inverse(frustum.cameraFromWall)[3]), screen.radiusMetres},
+      program_{gl::makeProgram({"quad.vert", "pattern.frag"})} {}
 
 void PatternPass::drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
     draw(framebuffer, sizePixels, kNoGrey);
@@ -53,6 +56,7 @@ void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLi
     glUniform4fv(kExtents, 1, glm::value_ptr(extents));
     glUniform1f(kGreyLightPlace, greyLight);
     glUniform4fv(kGridLines, 1, glm::value_ptr(gridLines));
+    glUniform4fv(kEyeAndRadius, 1, glm::value_ptr(eyeAndRadius_));
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test patterns of the world in the picture of a channel's frustum.
+// Test patterns that lie on the screen, in the picture of a channel's frustum.
 #pragma once
+
+#include <glm/vec4.hpp>
 
 #include "common/wall/wall.h"
 #include "render_node/gl/handle.h"
@@ -10,7 +12,7 @@ namespace aquarama {
 // Owns its GL objects; construct, use and destroy with the same context current.
 class PatternPass {
   public:
-    explicit PatternPass(const ChannelFrustum& frustum);
+    PatternPass(const ChannelFrustum& frustum, const Screen& screen);
 
     void drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const;
     void drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const;
@@ -21,6 +23,7 @@ class PatternPass {
     void draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const;
 
     ChannelFrustum frustum_;
+    glm::vec4 eyeAndRadius_;  // wall frame
     gl::ProgramHandle program_;
     gl::VertexArray noVertices_;
 };

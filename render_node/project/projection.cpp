@@ -7,13 +7,41 @@ namespace aquarama {
 
 namespace {
 
-// Places in project.frag.
+// Places in project.frag and project_pair.frag.
 constexpr GLuint kSceneUnit = 0;
 constexpr GLuint kMapUnit = 1;
-constexpr GLint kHeight = 0;
+constexpr GLuint kRightSceneUnit = 2;
+constexpr GLuint kRightMapUnit = 3;
+// Places in project.glsl, and one in project_pair.frag.
+constexpr GLint kSize = 0;
 constexpr GLint kSeed = 1;
 constexpr GLint kDither = 2;
 constexpr GLint kBlendMask = 3;
+constexpr GLint kMode = 4;
+
+void beginPass(const Projection::Draw& what,
+               const gl::ProgramHandle& program,
+               glm::ivec2 size,
+               std::uint32_t channelId) {
+    glBindFramebuffer(GL_FRAMEBUFFER, what.framebuffer);
+    glViewport(0, 0, size.x, size.y);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDisable(GL_DITHER);
+    glUseProgram(program.name());
+    glUniform2i(kSize, size.x, size.y);
+    glUniform1ui(kSeed, channelId * 2U + static_cast<GLuint>(what.frame.value % 2));
+    glUniform1i(kDither, what.encoding == Encoding::Dithered8 ? 1 : 0);
+    glUniform1i(kBlendMask, what.blendMask ? 1 : 0);
+}
+
+void makeBilinear(const gl::Sampler& sampler) {
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
 
 }  // namespace
 
@@ -26,30 +54,49 @@ Projection::Projection(const ProjectionMap& map, std::uint32_t channelId)
     glTextureSubImage2D(
         map_.name(), 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, map.placeAndWeight.data());
     glObjectLabel(GL_TEXTURE, map_.name(), -1, "projection map");
-    glSamplerParameteri(bilinear_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glSamplerParameteri(bilinear_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glSamplerParameteri(bilinear_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glSamplerParameteri(bilinear_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    makeBilinear(bilinear_);
 }
 
 void Projection::draw(const Draw& what) const {
-    glBindFramebuffer(GL_FRAMEBUFFER, what.framebuffer);
-    glViewport(0, 0, size_.x, size_.y);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glDisable(GL_DITHER);
-    glUseProgram(program_.name());
+    beginPass(what, program_, size_, channelId_);
     glBindTextureUnit(kSceneUnit, what.sceneTexture);
     glBindSampler(kSceneUnit, bilinear_.name());
     glBindTextureUnit(kMapUnit, map_.name());
-    glUniform1i(kHeight, size_.y);
-    glUniform1ui(kSeed, channelId_ * 2U + static_cast<GLuint>(what.frame.value % 2));
-    glUniform1i(kDither, what.encoding == Encoding::Dithered8 ? 1 : 0);
-    glUniform1i(kBlendMask, what.blendMask ? 1 : 0);
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindSampler(kSceneUnit, 0);
+}
+
+PairProjection::PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, StereoMode mode)
+    : size_{sizePixels},
+      channelId_{channelId},
+      mode_{mode},
+      program_{gl::makeProgram({"quad.vert", "project_pair.frag"})} {
+    makeBilinear(bilinear_);
+}
+
+void PairProjection::draw(const Eye& left, const Eye& right, const Projection::Draw& both) const {
+    beginPass(both, program_, size_, channelId_);
+    glUniform1i(kMode, static_cast<GLint>(mode_));
+    glBindTextureUnit(kSceneUnit, left.sceneTexture);
+    glBindTextureUnit(kMapUnit, left.mapTexture);
+    glBindTextureUnit(kRightSceneUnit, right.sceneTexture);
+    glBindTextureUnit(kRightMapUnit, right.mapTexture);
+    glBindSampler(kSceneUnit, bilinear_.name());
+    glBindSampler(kRightSceneUnit, bilinear_.name());
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindSampler(kSceneUnit, 0);
+    glBindSampler(kRightSceneUnit, 0);
+}
+
+glm::vec2 pixelOfEye(StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel) {
+    const glm::vec2 half = glm::vec2(sizePixels) / 2.0F;
+    if (mode == StereoMode::SideBySide)
+        pixel.x = 2 * (pixel.x < half.x ? pixel.x : pixel.x - half.x);
+    if (mode == StereoMode::TopBottom)
+        pixel.y = 2 * (pixel.y < half.y ? pixel.y : pixel.y - half.y);
+    return pixel;
 }
 
 }  // namespace aquarama

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "common/config/rig.h"
 #include "common/units/ids.h"
 #include "render_node/gl/handle.h"
 #include "render_node/project/projection_map.h"
@@ -28,6 +29,7 @@ class Projection {
         bool blendMask = false;  // white instead of the scene: only the blend is seen
     };
     void draw(const Draw& what) const;
+    [[nodiscard]] unsigned mapTexture() const { return map_.name(); }
 
   private:
     glm::ivec2 size_;
@@ -37,5 +39,31 @@ class Projection {
     gl::Sampler bilinear_;
     gl::VertexArray noVertices_;
 };
+
+// Both eyes in one picture, for a display that parts them again (docs/stereo.md).
+class PairProjection {
+  public:
+    // Any mode but mono and quad-buffer.
+    PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, StereoMode mode);
+
+    // The maps are those of the eyes' own projections.
+    struct Eye {
+        unsigned sceneTexture = 0, mapTexture = 0;
+    };
+    // `both.sceneTexture` is left unread.
+    void draw(const Eye& left, const Eye& right, const Projection::Draw& both) const;
+
+  private:
+    glm::ivec2 size_;
+    std::uint32_t channelId_;
+    StereoMode mode_;
+    gl::ProgramHandle program_;
+    gl::Sampler bilinear_;
+    gl::VertexArray noVertices_;
+};
+
+// In the picture of an eye, the pixel that is seen at a pixel (continuous, from the top left
+// corner) of what the display takes.
+[[nodiscard]] glm::vec2 pixelOfEye(StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel);
 
 }  // namespace aquarama

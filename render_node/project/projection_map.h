@@ -18,7 +18,7 @@ struct ProjectionMap {
     std::vector<glm::vec4> placeAndWeight;
 };
 
-// The eye is at the sweet spot, the origin of the wall's frame.
+// The eye is the frustum's.
 [[nodiscard]] ProjectionMap projectionMap(const WarpMap& warp, const ChannelFrustum& frustum);
 
 // The size at which the frustum's picture is as fine as the projector's pixels are in the middle of

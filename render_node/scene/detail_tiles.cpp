@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/detail_tiles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "common/place/noise.h"
@@ -53,17 +55,38 @@ Relief sandAt(glm::vec2 uv) {
     return relief;
 }
 
-// Pits, knobs and cracks at three scales.
+// Distance to the nearest of points scattered one to a cell, in cells; uv in tiles.
+float toNearest(std::uint32_t seed, glm::vec2 uv, int cells) {
+    const glm::vec2 place = uv * static_cast<float>(cells);
+    const glm::ivec2 cell{glm::floor(place)};
+    float nearest2 = 4.0F;
+    for (int i = 0; i < 9; ++i) {
+        const glm::ivec2 at = cell + glm::ivec2{i % 3 - 1, i / 3 - 1};
+        const glm::ivec2 on = (at % cells + cells) % cells;
+        const std::uint32_t hash = hashOf(hashOf(seed, static_cast<std::uint32_t>(on.x)),
+                                          static_cast<std::uint32_t>(on.y));
+        const glm::vec2 way = glm::vec2(at) + glm::vec2{unitOf(hash), unitOf(hashOf(hash))} - place;
+        nearest2 = std::min(nearest2, glm::dot(way, way));
+    }
+    return std::sqrt(nearest2);
+}
+
+// Limestone that corals built and worms bored: knobs with pits between them, cracks, grit.
 Relief rockAt(glm::vec2 uv) {
-    const glm::vec2 bent = uv + 0.03F * glm::vec2{tiled(11, uv, 5), tiled(12, uv, 5)};
-    const float crags = 1.0F - 2.0F * std::abs(tiled(13, bent, 6));
-    const float knobs = 1.0F - 2.0F * std::abs(tiled(14, bent, 15));
-    const float grit = tiled(15, uv, 44);
+    const glm::vec2 bent = uv + 0.02F * glm::vec2{tiled(11, uv, 7), tiled(12, uv, 7)};
+    const float lumps = tiled(13, bent, 5);
+    const float crack = glm::smoothstep(0.0F, 0.16F, std::abs(tiled(14, bent, 8)));
+    const float knob = 1.0F - toNearest(17, bent, 17);
+    const float pit = glm::smoothstep(0.12F, 0.42F, toNearest(18, bent, 31));
+    const float grain = 1.0F - toNearest(19, uv, 84);
+    const float grit = tiled(15, uv, 128);
     Relief relief;
-    relief.height = 0.040F * crags + 0.020F * knobs + 0.005F * grit;
-    const float crest = 0.5F + 0.32F * crags + 0.22F * knobs;
-    relief.albedo = 0.85F + 0.32F * knobs + 0.24F * grit + 0.26F * tiled(16, uv, 26);
-    relief.crest = glm::clamp(crest, 0.0F, 1.0F);
+    relief.height = 0.022F * lumps + 0.020F * knob + 0.014F * pit + 0.016F * crack +
+                    0.004F * grain + 0.0012F * grit;
+    relief.crest =
+        glm::clamp(0.16F * lumps + 0.50F * knob + 0.30F * pit + 0.24F * crack - 0.16F, 0.0F, 1.0F);
+    relief.albedo = 0.62F + 0.30F * knob + 0.16F * pit + 0.14F * crack + 0.16F * grain +
+                    0.10F * grit + 0.16F * tiled(16, uv, 26);
     return relief;
 }
 
@@ -106,7 +129,7 @@ Tile sandTile() {
     return tileOf(512, kSandTileMetres, sandAt);
 }
 Tile rockTile() {
-    return tileOf(256, kRockTileMetres, rockAt);
+    return tileOf(512, kRockTileMetres, rockAt);
 }
 
 }  // namespace aquarama

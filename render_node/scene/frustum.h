@@ -11,8 +11,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "common/place/place.h"
-
 namespace aquarama {
 
 class Frustum {
@@ -40,21 +38,13 @@ template <std::size_t Limits>
     return level;
 }
 
-// The finest level that a thing is ever drawn at: the eye keeps to the middle of the place. Should
-// it stray, the thing is only coarser than it might be.
-template <std::size_t Limits>
-[[nodiscard]] std::size_t finestLevelOf(glm::vec3 place, const std::array<float, Limits>& limits) {
-    constexpr float kEyeStraysMetres = 4.0F;
-    return levelAt(glm::distance(place, kEyePosition) - kEyeStraysMetres, limits);
-}
-
 // How a frame is drawn: the same choice on every node, as it depends on the shared eye alone.
 struct Viewpoint {
     Frustum frustum;
     glm::vec3 eyeMetres{};
     bool culling = true;
     bool levelsOfDetail = true;
-    float detail = 1.0F;  // of the picture: 1 for a projector, less for a small window
+    float detail = 1.0F;  // of the tier of quality
 
     [[nodiscard]] bool sees(glm::vec3 centre, float radius) const {
         return !culling || frustum.sees(centre, radius);

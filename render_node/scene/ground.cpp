@@ -2,6 +2,7 @@
 #include "render_node/scene/ground.h"
 
 #include <algorithm>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,8 +22,8 @@ constexpr int kPatchesASide = 14;
 constexpr std::array<int, 3> kCells{24, 10, 4};
 constexpr std::array<float, 2> kLevelMetres{13.0F, 26.0F};
 constexpr float kRimMetres = 0.35F;
-constexpr float kShadeMetres = 64.0F;  // side of the square round the origin, as in floor.frag
-constexpr int kShadeTexels = 320;
+constexpr float kShadeMetres = 72.0F;  // side of the square round the origin, as in floor.frag
+constexpr int kShadeTexels = 360;
 
 glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     constexpr float kStep = 0.05F;
@@ -32,26 +33,56 @@ glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     return glm::normalize(glm::vec3{-slopeX, 1.0F, -slopeZ});
 }
 
-gl::Texture bakeShade(std::uint32_t seed) {
-    const std::vector<Rock> rocks = rocksOf({seed});
-    std::vector<glm::u8vec2> texels;
-    for (int row = 0; row < kShadeTexels; ++row)
-        for (int column = 0; column < kShadeTexels; ++column) {
-            const glm::vec2 xz = (glm::vec2{column, row} + 0.5F) * (kShadeMetres / kShadeTexels) -
-                                 kShadeMetres / 2.0F;
-            const glm::vec3 place{xz.x, -kMeanFloorDepthMetres, xz.y};
-            const glm::vec3 up{0.0F, 1.0F, 0.0F};
-            texels.emplace_back(static_cast<glm::u8>(255.0F * sunOpenness(rocks, place)),
-                                static_cast<glm::u8>(255.0F * skyOpenness(rocks, place, up)));
+using ShadeTexel = glm::u8vec4;  // openness to the sun and from above, rubble
+
+glm::vec2 middleOfTexel(int column, int row) {
+    return (glm::vec2{column, row} + 0.5F) * (kShadeMetres / kShadeTexels) - kShadeMetres / 2.0F;
+}
+
+int texelAt(float metres) {
+    const float texel = (metres + kShadeMetres / 2.0F) * (kShadeTexels / kShadeMetres);
+    return std::clamp(static_cast<int>(texel), 0, kShadeTexels - 1);
+}
+
+void darken(glm::u8& value, float share) {
+    value = static_cast<glm::u8>(static_cast<float>(value) * share);
+}
+
+// One rock's part in the shade and the rubble round it; a shadow reaches as far as the rock is
+// high.
+void shadeSand(std::vector<ShadeTexel>& texels, const Rock& rock, float sand) {
+    const float reach = 4.0F * rock.radiusMetres + std::max(rock.centre.y - sand, 0.0F);
+    const std::span<const Rock> own{&rock, 1};
+    const float above = std::max(rock.centre.y - rock.radiusMetres - sand, 0.0F);
+    for (int row = texelAt(rock.centre.z - reach); row <= texelAt(rock.centre.z + reach); ++row)
+        for (int column = texelAt(rock.centre.x - reach); column <= texelAt(rock.centre.x + reach);
+             ++column) {
+            const glm::vec2 xz = middleOfTexel(column, row);
+            const glm::vec3 place{xz.x, sand, xz.y};
+            ShadeTexel& texel = texels[static_cast<std::size_t>(row) * kShadeTexels +
+                                       static_cast<std::size_t>(column)];
+            darken(texel.r, sunOpenness(own, place));
+            darken(texel.g, skyOpenness(own, place, {0.0F, 1.0F, 0.0F}));
+            const float away = glm::distance(xz, glm::vec2{rock.centre.x, rock.centre.z});
+            const float heap = glm::smoothstep(1.9F, 0.75F, away / rock.radiusMetres) *
+                               glm::smoothstep(0.5F, 0.0F, above);
+            texel.b = std::max(texel.b, static_cast<glm::u8>(255.0F * heap));
         }
-    gl::Texture texture = makeTexture(GL_RG8, glm::ivec2{kShadeTexels}, 1, Edge::Clamp);
+}
+
+gl::Texture bakeShade(std::uint32_t seed) {
+    std::vector<ShadeTexel> texels(static_cast<std::size_t>(kShadeTexels) * kShadeTexels,
+                                   {255, 255, 0, 255});
+    for (const Rock& rock : rocksOf({seed}))
+        shadeSand(texels, rock, floorHeight({seed}, {rock.centre.x, rock.centre.z}));
+    gl::Texture texture = makeTexture(GL_RGBA8, glm::ivec2{kShadeTexels}, 1, Edge::Clamp);
     glTextureSubImage2D(texture.name(),
                         0,
                         0,
                         0,
                         kShadeTexels,
                         kShadeTexels,
-                        GL_RG,
+                        GL_RGBA,
                         GL_UNSIGNED_BYTE,
                         texels.data());
     return texture;
@@ -78,6 +109,7 @@ Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells)
 Ground::Ground(std::uint32_t seed)
     : program_{gl::makeProgram({"floor.vert", "floor.frag"})},
       detail_{makeTexture(sandTile())},
+      rubble_{makeTexture(rockTile())},
       shade_{bakeShade(seed)} {
     Mesh all;
     constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
@@ -94,8 +126,7 @@ Ground::Ground(std::uint32_t seed)
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
         Patch& patch = patches_.emplace_back();
         patch.centre = {middle.x, floorHeight({seed}, middle), middle.y};
-        patch.finest = finestLevelOf(patch.centre, kLevelMetres);
-        for (std::size_t level = patch.finest; level < levels_.size(); ++level) {
+        for (std::size_t level = 0; level < levels_.size(); ++level) {
             const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells[level]);
             patch.firstVertices[level] = static_cast<int>(all.vertices.size());
             all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
@@ -108,12 +139,12 @@ void Ground::draw(const Viewpoint& viewpoint) const {
     glUseProgram(program_.name());
     glBindTextureUnit(14, detail_.name());
     glBindTextureUnit(15, shade_.name());
+    glBindTextureUnit(16, rubble_.name());
     glBindVertexArray(array_.name());
     constexpr float kPatchRadius = kPatchMetres * 0.75F;
     for (const Patch& patch : patches_) {
         if (!viewpoint.sees(patch.centre, kPatchRadius)) continue;
-        const std::size_t level =
-            std::max(viewpoint.levelOf(patch.centre, kLevelMetres), patch.finest);
+        const std::size_t level = viewpoint.levelOf(patch.centre, kLevelMetres);
         glDrawElementsBaseVertex(GL_TRIANGLES,
                                  levels_[level].count,
                                  GL_UNSIGNED_INT,

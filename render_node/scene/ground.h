@@ -26,7 +26,6 @@ class Ground {
   private:
     struct Patch {
         glm::vec3 centre{};
-        std::size_t finest = 0;
         std::array<int, 3> firstVertices{};
     };
     struct Level {
@@ -38,7 +37,7 @@ class Ground {
     gl::Buffer vertices_, indices_;
     gl::VertexArray array_;
     gl::ProgramHandle program_;
-    gl::Texture detail_, shade_;
+    gl::Texture detail_, rubble_, shade_;
 };
 
 }  // namespace aquarama

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/mesh.h"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -16,6 +20,11 @@ glm::u8 packedUnit(float x) {
     return static_cast<glm::u8>(glm::round(glm::clamp(x, 0.0F, 1.0F) * 255.0F));
 }
 
+bool isBefore(glm::vec3 a, glm::vec3 b) {
+    if (a.x != b.x) return a.x < b.x;
+    return a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
 }  // namespace
 
 std::uint32_t addVertex(
@@ -27,7 +36,10 @@ std::uint32_t addVertex(
                      packedUnit(surface.albedo.g),
                      packedUnit(surface.albedo.b),
                      packedUnit(skyOpenness)};
-    vertex.response = {255, packedUnit(surface.translucency), packedUnit(surface.fluorescence), 0};
+    vertex.response = {packedUnit(surface.sway),
+                       packedUnit(surface.translucency),
+                       packedUnit(surface.fluorescence),
+                       packedUnit(surface.relief)};
     mesh.vertices.push_back(vertex);
     return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
@@ -46,6 +58,25 @@ void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns) {
         }
 }
 
+void turnOver(Mesh& mesh, std::size_t firstIndex) {
+    for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3)
+        std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+}
+
+std::vector<std::uint32_t> seamsOf(const Mesh& mesh, std::uint32_t first) {
+    const SolidVertex* vertices = mesh.vertices.data() + first;
+    std::vector<std::uint32_t> order(mesh.vertices.size() - first);
+    std::iota(order.begin(), order.end(), 0U);
+    std::vector<std::uint32_t> same = order;
+    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        return isBefore(vertices[a].position, vertices[b].position);
+    });
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (vertices[order[i]].position == vertices[order[i - 1]].position)
+            same[order[i]] = same[order[i - 1]];
+    return same;
+}
+
 void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
     std::vector<glm::vec3> sums(mesh.vertices.size() - first, glm::vec3{0.0F});
     for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3) {
@@ -55,10 +86,14 @@ void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
                                           mesh.vertices[corner[2]].position - a);
         for (int k = 0; k < 3; ++k) sums[corner[k] - first] += area;
     }
+    const std::vector<std::uint32_t> same = seamsOf(mesh, first);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        if (same[i] != i) sums[same[i]] += sums[i];
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        if (glm::dot(sums[i], sums[i]) == 0.0F) continue;  // a pole, which keeps its own
+        const glm::vec3 sum = sums[same[i]];
+        if (glm::dot(sum, sum) == 0.0F) continue;  // a pole, which keeps its own
         SolidVertex& vertex = mesh.vertices[first + i];
-        vertex.normal = glm::i8vec4(packedNormal(glm::normalize(sums[i])), vertex.normal.w);
+        vertex.normal = glm::i8vec4(packedNormal(glm::normalize(sum)), vertex.normal.w);
     }
 }
 

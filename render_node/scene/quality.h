@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a frame may cost: what each tier of quality buys, in one place. All nodes of a wall draw
-// at the same tier, or their pictures would part where they overlap.
+// How much a frame may cost: what each tier of quality buys, in one place.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string_view>
+#include "common/config/quality.h"
 
 namespace aquarama {
 
-enum class QualityTier : std::uint8_t {
-    Low,     // software OpenGL on two cores, live
-    Medium,  // a small GPU; software OpenGL that may take its time
-    High,    // a GPU of today
-    Ultra,   // no expense spared: pictures, references
-};
-inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "high", "ultra"};
-
 struct Quality {
     int samples = 1;  // of multisampling
+    // How finely the place is cut: at 1 a facet of a coral fills some 7 of the wall's finest
+    // pixels.
+    float placeDetail = 1.0F;
+    int rockScales = 1;           // of the grit on rock, 1 to 3; above 1 laid on from three sides
+    bool growthAtPixels = false;  // near corals are lit at pixels, not at corners
 };
 
 [[nodiscard]] Quality qualityOf(QualityTier tier);

@@ -2,116 +2,197 @@
 #include "render_node/scene/reef.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include <glm/geometric.hpp>
+#include <atomic>
+#include <cstddef>
+#include <span>
+#include <thread>
 
 #include "render_node/gl/program.h"
-#include "render_node/scene/coral_mesh.h"
-#include "render_node/scene/rock_mesh.h"
-#include "render_node/scene/shade.h"
 #include "render_node/scene/solid_array.h"
-#include "render_node/scene/solid_noise.h"
 
 namespace aquarama {
 
 namespace {
 
-constexpr std::array<float, kReefLevels - 1> kLevelMetres{6.5F, 11.0F, 18.0F, 27.0F};
-constexpr float kGrowthShare = 1.45F;  // of the rock's radius: how far its corals reach
+constexpr unsigned kGroupSize = 64;  // as in place_cull.comp
+constexpr unsigned kGrowths = kPrototypes - kRockShapes;
 
-// The small ones are lost in the water.
-constexpr std::array<float, kReefLevels> kLeastShare{0.0F, 0.0F, 0.1F, 0.3F, 0.55F};
+// As glMultiDrawElementsIndirect reads it.
+struct Command {
+    std::uint32_t count = 0;
+    std::uint32_t instanceCount = 0;
+    std::uint32_t firstIndex = 0;
+    std::int32_t baseVertex = 0;
+    std::uint32_t baseInstance = 0;
+};
+static_assert(sizeof(Command) == 20);
 
-// Cover is what makes rock look alive: about a coral for every hand's breadth of its top.
-void addCorals(ReefMesh& mesh, const Rock& rock, int level) {
-    const auto count = static_cast<int>(6.0F + 46.0F * std::pow(rock.radiusMetres, 1.35F));
-    Dice dice{hashOf(rock.seed, 77)};
-    for (const Spot& spot : spotsOn(rock, count)) {
-        const float share = dice.unit();
-        const float size =
-            (0.16F + 0.34F * share * share) * (0.6F + 0.35F * std::sqrt(rock.radiusMetres));
-        const std::uint32_t seed = dice.seed();
-        if (share < kLeastShare.at(static_cast<std::size_t>(level))) continue;
-        addCoral(mesh, spot, size, seed, std::min(level, 3));
+// As place_cull.comp reads it.
+struct Prototype {
+    float reach = 0.0F;  // about the middle of its height, for a scale of 1
+    float middle = 0.0F;
+    std::uint32_t firstCommand = 0;
+    std::uint32_t commandStride = 0;           // from a level's command to the next level's
+    std::array<float, kLevels> leastPixels{};  // of scale, for each level; smaller is not drawn
+};
+static_assert(sizeof(Prototype) == 32);
+
+// Commands in the order of drawing: rock before what grows on it, fine levels before coarse ones.
+std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
+    if (prototype < kRockShapes) return static_cast<std::uint32_t>(level * kRockShapes + prototype);
+    return static_cast<std::uint32_t>(kLevels * kRockShapes + level * kGrowths + prototype -
+                                      kRockShapes);
+}
+
+// A facet fills some 7 pixels, one of rock, which is large and smooth, some 12.
+std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
+    if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 1.5F};
+    if (prototype >= prototypeOf(Form::Seagrass, 0)) return {150.0F, 60.0F, 24.0F, 3.0F};
+    if (prototype >= prototypeOf(Form::Kelp, 0)) return {900.0F, 420.0F, 190.0F, 6.0F};
+    if (prototype >= prototypeOf(Form::Turf, 0)) return {60.0F, 26.0F, 11.0F, 3.0F};
+    return {95.0F, 36.0F, 13.0F, 2.2F};
+}
+
+template <class T>
+void fill(const gl::Buffer& buffer, std::span<const T> values, GLbitfield flags = 0) {
+    glNamedBufferStorage(
+        buffer.name(), static_cast<GLsizeiptr>(values.size_bytes()), values.data(), flags);
+}
+
+Prototype boundsOf(const Mesh& mesh) {
+    float low = 1.0e9F;
+    float high = -1.0e9F;
+    for (const SolidVertex& vertex : mesh.vertices) {
+        low = std::min(low, vertex.position.y);
+        high = std::max(high, vertex.position.y);
     }
+    Prototype prototype{.middle = 0.5F * (low + high)};
+    for (const SolidVertex& vertex : mesh.vertices)
+        prototype.reach = std::max(
+            prototype.reach, glm::length(vertex.position - glm::vec3{0, prototype.middle, 0}));
+    return prototype;
+}
+
+GLsizei commandCount(unsigned prototypes, unsigned levels) {
+    return static_cast<GLsizei>(prototypes * levels);
 }
 
 }  // namespace
 
-ReefMesh growBoulder(const Rock& rock, std::span<const Rock> all, int level) {
-    ReefMesh mesh;
-    addBoulder(mesh.stone, rock, level);
-    addCorals(mesh, rock, level);
-    std::vector<Rock> others;
-    for (const Rock& other : all)
-        if (other.seed != rock.seed &&
-            glm::distance(other.centre, rock.centre) < 8.0F * other.radiusMetres)
-            others.push_back(other);
-    shade(mesh.stone, others);
-    shade(mesh.growth, others);
-    return mesh;
-}
-
-Reef::Range Reef::append(Mesh& all, const Mesh& mesh) {
-    const Range range{all.indices.size() * sizeof(std::uint32_t),
-                      static_cast<int>(mesh.indices.size()),
-                      static_cast<int>(all.vertices.size())};
-    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
-    return range;
-}
-
-Reef::Reef(std::uint32_t seed)
-    : stoneProgram_{gl::makeProgram({"rock.vert", "rock.frag"})},
-      growthProgram_{gl::makeProgram({"coral.vert", "lit.frag"})},
-      detail_{makeTexture(rockTile())} {
-    const std::vector<Rock> rocks = rocksOf({seed});
-    Mesh all;
-    for (const Rock& rock : rocks) {
-        Boulder& boulder = boulders_.emplace_back();
-        boulder.centre = rock.centre;
-        boulder.radiusMetres = rock.radiusMetres * kGrowthShare;
-        const std::size_t finest = finestLevelOf(rock.centre, kLevelMetres);
-        for (std::size_t level = finest; level < kReefLevels; ++level) {
-            const ReefMesh mesh = growBoulder(rock, rocks, static_cast<int>(level));
-            boulder.stone[level] = append(all, mesh.stone);
-            boulder.growth[level] = append(all, mesh.growth);
+Library growLibrary() {
+    Library library;
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t i = next++; i < kPrototypes; i = next++) {
+            const std::size_t growth = i - kRockShapes;
+            library[i] = i < kRockShapes ? growRock(static_cast<int>(i))
+                                         : grow(static_cast<Form>(growth / kShapesOfForm),
+                                                static_cast<int>(growth % kShapesOfForm));
         }
-        std::fill_n(boulder.stone.begin(), finest, boulder.stone[finest]);
-        std::fill_n(boulder.growth.begin(), finest, boulder.growth[finest]);
+    };
+    std::vector<std::jthread> workers;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) workers.emplace_back(work);
+    work();
+    workers.clear();
+    return library;
+}
+
+Reef::Reef(const PlaceKey& place, const Quality& quality)
+    : quality_{quality},
+      cull_{gl::makeProgram({"place_cull.comp"})},
+      stone_{gl::makeProgram({"rock.vert", "rock.frag"})},
+      growth_{gl::makeProgram({"coral.vert", "coral.frag"})},
+      farGrowth_{gl::makeProgram({"coral_far.vert", "lit.frag"})},
+      detail_{makeTexture(rockTile())} {
+    const Library library = growLibrary();
+    std::array<Levels, kRockShapes> rocks;
+    std::copy_n(library.begin(), rocks.size(), rocks.begin());
+    fillLibrary(library, scatter(place, rocks));
+}
+
+void Reef::fillLibrary(const Library& library, const std::vector<Instance>& instances) {
+    instanceCount_ = static_cast<unsigned>(instances.size());
+    Mesh all;
+    std::vector<Command> commands(kPrototypes * kLevels);
+    std::vector<Prototype> prototypes;
+    std::uint32_t slots = 0;
+    for (std::size_t i = 0; i < kPrototypes; ++i) {
+        const auto own = static_cast<std::uint32_t>(std::ranges::count_if(
+            instances, [&](const Instance& one) { return one.light.w == static_cast<float>(i); }));
+        Prototype prototype = boundsOf(library[i][0]);
+        prototype.firstCommand = commandOf(i, 0);
+        prototype.commandStride = commandOf(i, 1) - commandOf(i, 0);
+        prototype.leastPixels = leastPixelsOf(i);
+        prototypes.push_back(prototype);
+        for (std::size_t level = 0; level < kLevels; ++level) {
+            const Mesh& mesh = library[i].at(level);
+            commands[commandOf(i, level)] = {static_cast<std::uint32_t>(mesh.indices.size()),
+                                             0,
+                                             static_cast<std::uint32_t>(all.indices.size()),
+                                             static_cast<std::int32_t>(all.vertices.size()),
+                                             slots};
+            slots += own;
+            all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+            all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
+        }
     }
     setSolids(array_, vertices_, indices_, all);
+    fill(instances_, std::span{instances});
+    fill(prototypes_, std::span<const Prototype>{prototypes});
+    fill(none_, std::span<const Command>{commands});
+    fill(commands_, std::span<const Command>{commands});
+    glNamedBufferStorage(
+        chosen_.name(), static_cast<GLsizeiptr>(slots * sizeof(std::uint32_t)), nullptr, 0);
+    constexpr unsigned kChosen = 4;  // location and binding, as in instance.glsl
+    glVertexArrayVertexBuffer(array_.name(), kChosen, chosen_.name(), 0, sizeof(std::uint32_t));
+    glVertexArrayBindingDivisor(array_.name(), kChosen, 1);
+    glEnableVertexArrayAttrib(array_.name(), kChosen);
+    glVertexArrayAttribIFormat(array_.name(), kChosen, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(array_.name(), kChosen, kChosen);
 }
 
-void Reef::draw(const Viewpoint& viewpoint) {
-    inView_.clear();
-    for (const Boulder& boulder : boulders_)
-        if (viewpoint.sees(boulder.centre, boulder.radiusMetres)) inView_.push_back(&boulder);
-    // Near ones first: what they hide is never shaded.
-    std::ranges::sort(inView_, {}, [&](const Boulder* boulder) {
-        return glm::distance(boulder->centre, viewpoint.eyeMetres);
-    });
+void Reef::cull(const ReefRule& rule) const {
+    glCopyNamedBufferSubData(none_.name(),
+                             commands_.name(),
+                             0,
+                             0,
+                             static_cast<GLsizeiptr>(kPrototypes * kLevels * sizeof(Command)));
+    glUseProgram(cull_.name());
+    glUniform1ui(0, instanceCount_);
+    glUniform1i(1, rule.culling ? 1 : 0);
+    glUniform1f(2, rule.levelsOfDetail ? quality_.placeDetail : 1.0e6F);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9, prototypes_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 10, commands_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 11, chosen_.name());
+    glDispatchCompute((instanceCount_ + kGroupSize - 1) / kGroupSize, 1, 1);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+void Reef::draw() const {
     glBindTextureUnit(14, detail_.name());
     glBindVertexArray(array_.name());
-    glUseProgram(growthProgram_.name());
-    drawPart(viewpoint, &Boulder::growth);
-    glUseProgram(stoneProgram_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, instances_.name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+    const auto drawFrom = [](std::size_t command, GLsizei count) {
+        glMultiDrawElementsIndirect(
+            GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(Command)), count, 0);
+    };
     glEnable(GL_CULL_FACE);
-    drawPart(viewpoint, &Boulder::stone);
+    glUseProgram(stone_.name());
+    glUniform1i(0, quality_.rockScales);
+    drawFrom(0, commandCount(kRockShapes, kLevels));
     glDisable(GL_CULL_FACE);
-}
-
-void Reef::drawPart(const Viewpoint& viewpoint,
-                    std::array<Range, kReefLevels> Boulder::*part) const {
-    for (const Boulder* boulder : inView_) {
-        const Range& range = (boulder->*part)[viewpoint.levelOf(boulder->centre, kLevelMetres)];
-        glDrawElementsBaseVertex(GL_TRIANGLES,
-                                 range.count,
-                                 GL_UNSIGNED_INT,
-                                 byteOffset(range.firstByte),
-                                 range.firstVertex);
+    constexpr unsigned kFine = 2;  // levels that are shaded at each pixel
+    if (quality_.growthAtPixels) {
+        glUseProgram(growth_.name());
+        glUniform1f(0, quality_.placeDetail);
+        drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
     }
+    const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
+    glUseProgram(farGrowth_.name());
+    glUniform1f(0, quality_.placeDetail);
+    drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
 }
 
 }  // namespace aquarama

@@ -1,50 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boulders with all that grows on them, at five levels of detail.
+// All rock, coral and plants: a library of prototypes at four levels of detail, and instances that
+// one compute pass culls and sorts by level. What a frame costs the processor does not grow with
+// what stands in the sea.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "common/place/place.h"
 #include "render_node/gl/handle.h"
-#include "render_node/scene/coral_mesh.h"
-#include "render_node/scene/frustum.h"
+#include "render_node/scene/mesh.h"
+#include "render_node/scene/quality.h"
+#include "render_node/scene/scatter.h"
 
 namespace aquarama {
 
-inline constexpr int kReefLevels = 5;
-// One boulder and its corals, shaded by all others.
-[[nodiscard]] ReefMesh growBoulder(const Rock& rock, std::span<const Rock> all, int level);
+// Every prototype; grown on all processors.
+using Library = std::array<Levels, kPrototypes>;
+[[nodiscard]] Library growLibrary();
+
+struct ReefRule {
+    bool culling = true;
+    bool levelsOfDetail = true;
+};
 
 class Reef {
   public:
-    explicit Reef(std::uint32_t seed);
-    void draw(const Viewpoint& viewpoint);
+    Reef(const PlaceKey& place, const Quality& quality);
+
+    // For the view of the frame's uniforms, which are bound.
+    void cull(const ReefRule& rule) const;
+    // What the last cull has chosen, what fills most of the view first.
+    void draw() const;
 
   private:
-    struct Range {
-        std::size_t firstByte = 0;
-        int count = 0;
-        int firstVertex = 0;
-    };
-    struct Boulder {
-        glm::vec3 centre{};
-        float radiusMetres = 0.0F;
-        std::array<Range, kReefLevels> stone{};
-        std::array<Range, kReefLevels> growth{};
-    };
-    std::vector<Boulder> boulders_;
-    std::vector<const Boulder*> inView_;  // of the draw under way
-    gl::Buffer vertices_, indices_;
-    gl::VertexArray array_;
-    [[nodiscard]] static Range append(Mesh& all, const Mesh& mesh);
-    void drawPart(const Viewpoint& viewpoint, std::array<Range, kReefLevels> Boulder::*part) const;
+    void fillLibrary(const Library& library, const std::vector<Instance>& instances);
 
-    gl::ProgramHandle stoneProgram_, growthProgram_;
+    Quality quality_;
+    unsigned instanceCount_ = 0;
+    gl::Buffer vertices_, indices_, instances_, prototypes_, chosen_, none_, commands_;
+    gl::VertexArray array_;
+    gl::ProgramHandle cull_, stone_, growth_, farGrowth_;
     gl::Texture detail_;
 };
 

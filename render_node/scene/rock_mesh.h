@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A boulder and the places on it where corals grow.
+// The shapes of rock: worn limestone with ledges, undercuts and hollows, within the unit ball.
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
-#include <glm/vec3.hpp>
-
-#include "common/place/place.h"
 #include "render_node/scene/mesh.h"
 
 namespace aquarama {
 
-struct Spot {
-    glm::vec3 position{};
-    glm::vec3 normal{};
-};
+inline constexpr int kRockShapes = 12;
 
-// level 0 is the finest of four. The shape is the same at all levels, only coarser.
-void addBoulder(Mesh& mesh, const Rock& rock, int level);
-
-// Where larvae settle: upper, open places, spread by the golden angle. The same at all levels.
-[[nodiscard]] std::vector<Spot> spotsOn(const Rock& rock, int count);
+// Nothing stands out of the unit ball. y stays up: a rock may be turned about it, but its ledges
+// lie level. Coarser levels are every second vertex of the finer one. Albedo: lightness, how much
+// turf, how much pink crust.
+[[nodiscard]] Levels growRock(int shape);
 
 }  // namespace aquarama

@@ -11,7 +11,6 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/frustum.h"
 #include "render_node/scene/ground.h"
-#include "render_node/scene/meadow.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/scene_picture.h"
 #include "render_node/scene/sea_light.h"
@@ -24,16 +23,7 @@ namespace aquarama {
 
 namespace {
 
-// Undoes about the water above the eye, so that near things keep their colours and distance stays
-// blue.
-constexpr float kFilterDepthMetres = 4.9F;
 constexpr int kFlakes = 9000;
-
-// All channels of a wall are about as large, so neighbours agree.
-float detailOf(glm::ivec2 sizePixels) {
-    constexpr int kSmallWindow = 640;
-    return sizePixels.y < kSmallWindow ? 0.5F : 1.0F;
-}
 
 // The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
 // sun is mirrored away; what is left then comes from above, and is bluer. Never nothing: a wall
@@ -45,11 +35,13 @@ glm::vec4 daylightOf(float daylight) {
 }
 
 // What is the same for all views of a frame.
-FrameUniforms frameUniforms(const SceneFrame& frame, float pixelRadians) {
+FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, float pixelRadians) {
     FrameUniforms uniforms{};
     uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, static_cast<float>(frame.timeSeconds));
     uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
-    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
+    uniforms.sunAndFilterDepth = glm::vec4(
+        sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
+    uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
     uniforms.daylight = daylightOf(frame.daylight);
     return uniforms;
 }
@@ -65,10 +57,9 @@ void setView(FrameUniforms& uniforms, const View& view) {
 
 // All that stands on the sea floor. In the open sea it lies too deep to be seen.
 struct Bottom {
-    explicit Bottom(std::uint32_t seed) : ground{seed}, reef{seed}, meadow{seed} {}
+    Bottom(std::uint32_t seed, const Quality& quality) : ground{seed}, reef{{seed}, quality} {}
     Ground ground;
     Reef reef;
-    Meadow meadow;
 };
 
 }  // namespace
@@ -77,12 +68,12 @@ struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
-          light{chosen.seed, kFilterDepthMetres},
+          light{chosen.seed, chosen.water},
           picture{quality.samples},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
-        if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed);
+        if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed, quality);
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         const auto skins = makeSkinPrograms();
@@ -138,8 +129,8 @@ void SceneRenderer::Parts::cullFish() {
 // Near things first, so that what they hide is never shaded.
 void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
     if (!bottom) return;
-    bottom->meadow.draw(viewpoint);
-    bottom->reef.draw(viewpoint);
+    bottom->reef.cull({viewpoint.culling, viewpoint.levelsOfDetail});
+    bottom->reef.draw();
     bottom->ground.draw(viewpoint);
 }
 
@@ -170,7 +161,7 @@ SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
-    parts.uniforms = frameUniforms(frame, parts.options.pixelRadians);
+    parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
     parts.fish.assign(frame.fish.begin(), frame.fish.end());
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
@@ -191,7 +182,7 @@ unsigned SceneRenderer::draw(const View& view) {
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,
-                              detailOf(view.sizePixels)};
+                              parts.quality.placeDetail};
     parts.drawSolids(viewpoint);
     parts.drawWater();
     for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water

@@ -49,6 +49,7 @@ struct SceneSpecies {
 struct SceneOptions {
     std::uint32_t seed = 1;
     PlaceKind place = PlaceKind::Reef;
+    WaterType water = WaterType::IA;
     QualityTier quality = QualityTier::Low;
     float pixelRadians = 0.0016F;  // the finest pixel of the whole wall, seen from the sweet spot
     bool culling = true;           // off only to measure what it saves

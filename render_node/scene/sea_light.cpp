@@ -74,15 +74,16 @@ Box texelsInView(glm::vec3 eye, const glm::mat4& worldFromClip) {
 
 }  // namespace
 
-SeaLight::SeaLight(std::uint32_t seed, float filterDepthMetres)
-    : filterDepthMetres_{filterDepthMetres},
-      waves_{wavesOf(seed, kMeanFloorDepthMetres)},
-      inscatter_{oceanWater()},
+SeaLight::SeaLight(std::uint32_t seed, WaterType water)
+    : waves_{wavesOf(seed, kMeanFloorDepthMetres)},
+      water_{seaWater(water)},
+      inscatter_{water_},
       tableDepthMetres_{-kEyePosition.y},
-      direct_{makeTexture(bakeDirect(oceanWater()))},
-      inscatterTable_{makeTexture(
-          inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres)))},
-      openWater_{makeTexture(inscatter_.openWater())},
+      atEye_{inscatter_.atDepth(double{tableDepthMetres_})},
+      primariesKd_{primariesDownwelling(water_)},
+      direct_{makeTexture(bakeDirect(water_))},
+      inscatterTable_{makeVolume(atEye_)},
+      openWater_{makeTexture(bakeOpenWater(water_))},
       waveTile_{makeTexture(GL_RGBA16F, glm::ivec2{kWaveTexels}, kTileLevels, Edge::Repeat)},
       causticTile_{makeTexture(GL_R16F, glm::ivec2{kCausticTexels}, kTileLevels, Edge::Repeat)},
       shaftMap_{makeTexture(GL_RGBA16F, glm::ivec2{kShaftTexels}, 1, Edge::Clamp)},
@@ -105,8 +106,8 @@ SeaLight::SeaLight(std::uint32_t seed, float filterDepthMetres)
 void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
     if (tableDepthMetres_ != -sharedEyeMetres.y) {
         tableDepthMetres_ = -sharedEyeMetres.y;
-        refill(inscatterTable_,
-               inscatter_.atDepth(static_cast<double>(tableDepthMetres_ - filterDepthMetres_)));
+        inscatter_.mixAtDepth(double{tableDepthMetres_}, atEye_);
+        refill(inscatterTable_, atEye_);
     }
     const SeaNow now = seaAt(waves_, timeSeconds);
     glNamedBufferSubData(seaBlock_.name(), 0, sizeof(now), &now);
@@ -114,6 +115,10 @@ void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
     glDisable(GL_DEPTH_TEST);
     drawWaves();
     drawCaustics();
+}
+
+glm::vec4 SeaLight::kdAndExposure(glm::vec3 sharedEyeMetres) const {
+    return {primariesKd_, inscatter_.exposureAt(-double{sharedEyeMetres.y})};
 }
 
 void SeaLight::drawWaves() {

@@ -7,6 +7,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "render_node/gl/handle.h"
 #include "render_node/scene/water_tables.h"
@@ -16,8 +17,10 @@ namespace aquarama {
 
 class SeaLight {
   public:
-    // filterDepthMetres: how much of the way down the diver's filter undoes.
-    SeaLight(std::uint32_t seed, float filterDepthMetres);
+    SeaLight(std::uint32_t seed, WaterType water);
+
+    // For the frame's uniforms: Kd of the primaries, and the exposure of an eye there.
+    [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
 
     // What is the same for all views. Expects the frame's uniform block to be bound.
     void update(double timeSeconds, glm::vec3 sharedEyeMetres);
@@ -32,10 +35,12 @@ class SeaLight {
     void drawWaves();
     void drawCaustics();
 
-    float filterDepthMetres_;
     Waves waves_;
+    WaterSpectra water_;
     Inscatter inscatter_;
     float tableDepthMetres_;
+    Table atEye_;
+    glm::vec3 primariesKd_;
     gl::Texture direct_, inscatterTable_, openWater_;
     gl::Texture waveTile_, causticTile_, shaftMap_;
     gl::Framebuffer waveTarget_, causticTarget_, shaftTarget_;

@@ -35,6 +35,15 @@ gl::Texture makeTexture(const Table& table) {
     return texture;
 }
 
+gl::Texture makeVolume(const Table& table) {
+    gl::Texture texture{static_cast<GLenum>(GL_TEXTURE_3D)};
+    glTextureStorage3D(texture.name(), 1, GL_RGBA16F, table.width, table.height, table.layers);
+    setSampling(texture.name(), 1, Edge::Clamp);
+    glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    refill(texture, table);
+    return texture;
+}
+
 void refill(const gl::Texture& texture, const Table& table) {
     const void* texels = table.texels.data();
     if (table.layers > 1)

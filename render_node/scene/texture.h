@@ -18,6 +18,8 @@ enum class Edge : std::uint8_t { Clamp, Repeat };
 [[nodiscard]] gl::Texture makeTexture(GLenum format, glm::ivec2 size, int levels, Edge edge);
 // A table as RGBA16F, an array where it has layers.
 [[nodiscard]] gl::Texture makeTexture(const Table& table);
+// One that is read smoothly between its layers, too.
+[[nodiscard]] gl::Texture makeVolume(const Table& table);
 void refill(const gl::Texture& texture, const Table& table);
 [[nodiscard]] gl::Framebuffer makeTarget(const gl::Texture& colour);
 

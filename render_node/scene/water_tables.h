@@ -3,32 +3,13 @@
 // shaders: separate coefficients for the way down (Kd) and for the way to the eye (a + 0.51 b).
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <span>
 #include <vector>
 
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "render_node/scene/water_types.h"
+
 namespace aquarama {
-
-inline constexpr std::size_t kBands = 31;  // 400 to 700 nm by 10
-using Spectrum = std::array<double, kBands>;
-
-// Clear ocean water, Jerlov's type IA, 1/m.
-struct WaterSpectra {
-    Spectrum absorption{};     // a
-    Spectrum scattering{};     // b
-    Spectrum downwelling{};    // Kd
-    Spectrum weights[3];       // band to linear Rec. 709; daylight D65 gives (1, 1, 1)
-    Spectrum reflectances[3];  // smooth red, green, blue surfaces that sum to white
-};
-[[nodiscard]] WaterSpectra oceanWater();
-
-// Unscattered share of the way to the eye: of the scattered light, 0.49 goes so nearly straight on
-// that it stays in the picture.
-[[nodiscard]] double beamAttenuation(const WaterSpectra& water, std::size_t band);
 
 inline constexpr double kFarthestMetres = 80.0;
 inline constexpr double kDeepestMetres = 30.0;
@@ -43,20 +24,36 @@ struct Table {
 // 3x3 matrices over sqrt(range / 80 m) and sqrt((depth + 10 m) / 40 m); layers are the columns.
 [[nodiscard]] Table bakeDirect(const WaterSpectra& water);
 
-// Light scattered into the view, without the lobes of direction: over sqrt(range / 80 m) and rise
-// (w_y + 1) / 2 for an eye at one depth, or over depth and rise for 60 m of water.
+// Light scattered into the view from 60 m of water, without the lobes of direction: over
+// sqrt((depth + 10 m) / 40 m) and rise, (w_y + 1) / 2. For mirrors.
+[[nodiscard]] Table bakeOpenWater(const WaterSpectra& water);
+
+// The diver's filter: of the water above an eye at this depth it undoes so many metres, as the
+// white balance of a camera would: a spectral gain exp(Kd z_f), so that depths are looked up z_f
+// higher. Never all of it: distance and depth stay blue. Smooth, for an eye that dives.
+[[nodiscard]] double filterDepthMetres(double eyeDepthMetres);
+
+// Light scattered into the view on the way from the eye, without the lobes of the shaders: layers
+// over the cosine of the azimuth from the sun's, -1 to 1; in each sqrt(range / 80 m) and rise.
+// Baked for eyes at several depths, between which it is mixed, so that the submarine may dive.
 class Inscatter {
   public:
     explicit Inscatter(const WaterSpectra& water);
-    [[nodiscard]] Table atDepth(double depthMetres) const;
-    [[nodiscard]] Table openWater() const;
+    [[nodiscard]] Table atDepth(double eyeDepthMetres) const;
+    // Into a table of `atDepth`; takes no memory.
+    void mixAtDepth(double eyeDepthMetres, Table& table) const;
+    // What makes the water about an eye at this depth bright enough to be seen and dark enough to
+    // hold its colour, before daylight. Smooth in depth.
+    [[nodiscard]] double exposureAt(double eyeDepthMetres) const;
 
   private:
-    [[nodiscard]] Spectrum lightAt(double depthMetres) const;
-    [[nodiscard]] glm::vec3 along(const Spectrum& light, int range, int rise) const;
+    [[nodiscard]] Table baked(const WaterSpectra& water, double eyeDepthMetres) const;
 
-    WaterSpectra water_;
-    std::vector<Spectrum> paths_;  // b (1 - exp(-k r)) / k for every range and rise
+    std::vector<Table> slices_;
+    std::vector<double> exposures_;
 };
+
+// Kd of daylight's three primaries about the depth that the filter leaves, 1/m.
+[[nodiscard]] glm::vec3 primariesDownwelling(const WaterSpectra& water);
 
 }  // namespace aquarama

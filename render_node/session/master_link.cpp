@@ -87,7 +87,8 @@ void MasterLink::obey(const Join&) {
     lastComplaint_ = monotonicNow();
 }
 
-void MasterLink::obey(const Prepared&) {
+void MasterLink::obey(const Prepared& prepared) {
+    prepared_ = prepared;
     if (phase_ == Phase::Building) phase_ = Phase::Listening;
 }
 
@@ -257,7 +258,7 @@ void MasterLink::keepTime(Instant now) {
     }
     if (phase_ == Phase::Fetching && now - lastRequest_ > kRepeat) requestChunk();
     if (phase_ == Phase::Listening && hearsStates_) {
-        say(Prepared{});
+        say(prepared_);
         phase_ = Phase::Member;
     }
     if (finished_ && now - lastReady_ > kRepeat) sayReady();

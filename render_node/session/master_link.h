@@ -85,6 +85,7 @@ class MasterLink {
     std::optional<BlobAssembly> assembly_;  // of the blob that is being fetched
     int spoiltBlobs_ = 0;
     bool hearsStates_ = false;
+    Prepared prepared_;
     std::optional<Finished> finished_;  // and not released yet, as far as we know
     ClockOffset clock_;
     std::string lastDismissal_;

@@ -56,7 +56,7 @@ class LinkSession final : public Session {
                          castOf(*admitted)};
     }
 
-    void prepared() override { link_.wish(Prepared{}); }
+    void prepared(QualityTier quality) override { link_.wish(Prepared{quality}); }
 
     std::optional<StateFrame> nextFrame() override {
         auto arrived = meeting_.takeState();
@@ -81,10 +81,14 @@ class LinkSession final : public Session {
     }
 
     void send(NodeInput input) override {
-        link_.wish(Input{input == NodeInput::Quit ? InputKind::Quit : InputKind::TogglePause, {}});
+        link_.wish(
+            Input{input == NodeInput::Quit ? InputKind::Quit : InputKind::TogglePause, {}, {}});
     }
     void dropFood(glm::vec3 positionMetres) override {
-        link_.wish(Input{InputKind::DropFood, positionMetres});
+        link_.wish(Input{InputKind::DropFood, positionMetres, {}});
+    }
+    void steer(const Steering& steering) override {
+        link_.wish(Input{InputKind::Steer, {}, steering});
     }
     void askMind(std::uint32_t fish) override { link_.wish(ExplainRequest{fish}); }
     std::optional<Explanation> latestMind() const override { return meeting_.latestMind(); }

@@ -50,9 +50,9 @@ class Session {
     // cached on disk). Empty: stopped, or the master ended the show. Throws Error where the master
     // refuses the node, saying why.
     virtual std::optional<Admission> join() = 0;
-    // All that must be built before the first frame is built: from now on the master waits for this
-    // node.
-    virtual void prepared() = 0;
+    // All that must be built before the first frame is built, and this is the finest tier that the
+    // node keeps up with: from now on the master waits for it.
+    virtual void prepared(QualityTier quality) = 0;
     // The next frame to draw: in lockstep every one in order, live the newest. Empty: see
     // `interruption`.
     virtual std::optional<StateFrame> nextFrame() = 0;
@@ -65,6 +65,8 @@ class Session {
     virtual Release readyThenWait(Frame frame) = 0;
     virtual void send(NodeInput input) = 0;
     virtual void dropFood(glm::vec3 positionMetres) = 0;  // world frame
+    // What hands ask of the submarine; holds until the next, half a second at most.
+    virtual void steer(const Steering& steering) = 0;
     // Asks what goes on in the mind of a fish; the answer comes when it comes.
     virtual void askMind(std::uint32_t fish) = 0;
     [[nodiscard]] virtual std::optional<Explanation> latestMind() const = 0;

@@ -1,16 +1,18 @@
-// Twigs, tubes and fans, lit at their corners: a pixel holds several of them.
-#include "shading.glsl"
-layout(location = 0) in vec3 place;
-layout(location = 1) in vec4 normalAndRoughness;
-layout(location = 2) in vec4 albedoAndSky;
-layout(location = 3) in vec4 response;  // openness to the sun, translucency, fluorescence
-layout(location = 0) out vec3 light;
+// What grows, near by: lit at each pixel.
+#include "grown.glsl"
+layout(location = 0) out vec3 place;
+layout(location = 1) out vec3 rest;
+layout(location = 2) out vec4 normal;
+layout(location = 3) out vec3 albedo;
+layout(location = 4) out vec2 open;
+layout(location = 5) out vec3 matter;  // translucency, fluorescence, relief
 void main() {
-    vec3 normal = normalize(normalAndRoughness.xyz);
-    vec3 albedo = albedoAndSky.rgb;
-    Openness open = Openness(response.x * mix(0.5, 1.0, albedoAndSky.w), albedoAndSky.w);
-    vec3 own = litAt(1.0, open, albedo, place, normal, response.y) +
-               fluorescent(albedo, response.z * albedoAndSky.w);
-    light = seen(own, place);
+    Grown it = grown();
+    place = it.place;
+    rest = it.rest;
+    normal = vec4(it.normal, normalAndRoughness.w);
+    albedo = it.albedo;
+    open = vec2(it.open.sun, it.open.sky);
+    matter = response.yzw;
     gl_Position = clipFromWorld * vec4(place, 1.0);
 }

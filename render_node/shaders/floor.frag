@@ -1,21 +1,38 @@
+// The sand: ripples and grains; rubble about the foot of the reefs.
 #include "light.glsl"
 layout(binding = 14) uniform sampler2D detail;  // slopes, albedo, crest
-layout(binding = 15) uniform sampler2D shade;   // openness to the sun and to the light from above
+layout(binding = 15) uniform sampler2D shade;   // openness to the sun and to the light from above, rubble
+layout(binding = 16) uniform sampler2D rock;    // as `detail`
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 radiance;
 const float kTile = 2.6;
-const float kShadeSide = 64.0;
+const float kRubbleTile = 1.3;
+const float kShadeSide = 72.0;
 const vec3 kSand = vec3(0.50, 0.44, 0.35);
 void main() {
     vec4 fine = texture(detail, place.xz / kTile);
     // A second look, larger and turned, so that the tile is not seen to repeat.
     vec2 turned = vec2(place.x * 0.83 - place.z * 0.56, place.x * 0.56 + place.z * 0.83);
     vec4 coarse = texture(detail, turned / (kTile * 5.3));
-    vec2 slope = 2.0 * (fine.xy - 0.5) + 0.5 * (coarse.xy - 0.5);
+    vec3 open = texture(shade, place.xz / kShadeSide + 0.5).rgb;
+    vec2 slope = 2.4 * (fine.xy - 0.5) + 0.6 * (coarse.xy - 0.5);
+    // Where the swell is slack the sand is finer, paler and without ripples.
+    float slack = smoothstep(0.35, 0.75, coarse.w);
+    slope *= mix(1.0, 0.55, slack);
+    vec3 albedo = kSand * (2.0 * fine.z) * (0.60 + 0.8 * coarse.z) * mix(0.92, 1.06, slack);
+    float sky = open.g * (0.70 + 0.35 * fine.w);
+    float rubble = open.b;
+    if (rubble > 0.02) {
+        vec4 stones = texture(rock, place.xz / kRubbleTile);
+        // Broken branches, bleached, some with a crust: they lie on the sand in heaps.
+        float lies = smoothstep(0.62, 0.80, rubble + 0.55 * (stones.w - 0.35));
+        vec3 bone = mix(vec3(0.22, 0.17, 0.13), vec3(0.60, 0.50, 0.38), stones.w) * (1.4 * stones.z);
+        bone = mix(bone, vec3(0.46, 0.24, 0.25) * (1.6 * stones.z), smoothstep(0.55, 0.85, coarse.z) * 0.7);
+        albedo = mix(albedo * mix(1.0, 0.8, rubble), bone, lies);
+        slope = mix(slope, 3.2 * (stones.xy - 0.5), lies);
+        sky *= mix(1.0, 0.35 + 0.8 * stones.w, lies);
+    }
     vec3 n = normalize(normal - vec3(slope.x, 0.0, slope.y));
-    vec2 open = texture(shade, place.xz / kShadeSide + 0.5).rg;
-    vec3 albedo = kSand * (2.0 * fine.z) * (0.55 + 0.9 * coarse.z);
-    Openness openness = Openness(open.r, open.g * (0.75 + 0.3 * fine.w));
-    radiance = vec4(seen(litUnder(openness, albedo, place, n, 0.0), place), 1.0);
+    radiance = vec4(seen(litUnder(Openness(open.r, sky), albedo, place, n, 0.0), place), 1.0);
 }

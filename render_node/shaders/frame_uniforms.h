@@ -23,6 +23,8 @@ layout(std140, binding = 0) uniform FrameUniforms {
     vec4 viewport;           // width, height in pixels, 1/width, 1/height
     vec4 daylight;           // what there is of noon's light: of the sun's (x), and of the sky's
                              // red, green and blue (yzw)
+    vec4 kdAndExposure;      // Kd of the three primaries where the filter looks, 1/m; w: what light
+                             // is multiplied by before the tone
 #ifdef __cplusplus
 };
 }  // namespace aquarama

@@ -1,9 +1,10 @@
-// A test pattern of the world as a function of the direction from the sweet spot: the formulas of
-// common/wall/pattern.h.
+// A test pattern that lies on the screen, as a function of the direction from the wall's origin: the
+// formulas of common/wall/pattern.h.
 layout(location = 0) uniform mat3 wallFromCamera;
 layout(location = 3) uniform vec4 extents;  // left, bottom, right, top: tangents
 layout(location = 4) uniform float greyLight;  // negative: the grid
 layout(location = 5) uniform vec4 gridLines;   // degrees between lines, between bright ones; light of the others; sigma, degrees
+layout(location = 6) uniform vec4 eyeAndRadius;  // wall frame; w: of the screen
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 light;
@@ -23,7 +24,16 @@ float gridLight(vec3 direction) {
     return max(majorAndMinor(azimuth), majorAndMinor(elevation));
 }
 
+// Where a ray from the eye, inside the cylinder, meets it.
+vec3 onScreen(vec3 ray) {
+    vec2 eye = eyeAndRadius.xz;
+    float a = dot(ray.xz, ray.xz), b = dot(eye, ray.xz);
+    float c = dot(eye, eye) - eyeAndRadius.w * eyeAndRadius.w;
+    return eyeAndRadius.xyz + ray * ((sqrt(max(b * b - a * c, 0.0)) - b) / a);
+}
+
 void main() {
-    vec3 direction = wallFromCamera * vec3(mix(extents.xy, extents.zw, uv), -1.0);
+    vec3 ray = wallFromCamera * vec3(mix(extents.xy, extents.zw, uv), -1.0);
+    vec3 direction = onScreen(ray);
     light = vec4(vec3(greyLight < 0.0 ? gridLight(direction) : greyLight), 1.0);
 }

@@ -1,48 +1,9 @@
 // One pixel of the projector: the scene where it looks, times its share of the light, encoded.
+#include "project.glsl"
 layout(binding = 0) uniform sampler2D scene;           // linear light
 layout(binding = 1) uniform sampler2D placeAndWeight;  // top row first
-layout(location = 0) uniform int height;
-layout(location = 1) uniform uint seed;
-layout(location = 2) uniform bool dithered;
-layout(location = 3) uniform bool blendMask;
-
-layout(location = 0) out vec4 encoded;
-
-// sRGB (IEC 61966-2-1), the curve of the projector that undoes it.
-vec3 encode(vec3 linear) {
-    vec3 curve = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
-    return mix(curve, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
-}
-
-// Three independent numbers of 32 bits (pcg3d: Jarzynski and Olano 2020).
-uvec3 noise(uvec3 v) {
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v;
-}
-
-// To one of 256 codes, right in the mean. Triangular noise of +-1 code keeps the grain the same at
-// every level; below half a code from either end it would be cut off and shift the mean, and the
-// grain of uniform noise is the same at that point and fades to none at the end.
-vec3 toCodes(vec3 value, uvec3 random) {
-    vec3 code = value * 255.0;
-    vec3 first = vec3(random & 0xffffu) / 65536.0;
-    vec3 second = vec3(random >> 16u) / 65536.0;
-    bvec3 atAnEnd = greaterThan(abs(code - 127.5), vec3(127.0));
-    return floor(code + mix(first + second - 0.5, first, atAnEnd)) / 255.0;
-}
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.x, height - 1 - int(gl_FragCoord.y));
-    vec3 place = texelFetch(placeAndWeight, pixel, 0).xyz;
-    vec3 light = blendMask ? vec3(1.0) : textureLod(scene, place.xy, 0.0).rgb;
-    vec3 value = encode(clamp(light * place.z, 0.0, 1.0));
-    if (dithered) value = toCodes(value, noise(uvec3(pixel, seed)));
-    encoded = vec4(value, 1.0);
+    ivec2 pixel = projectorPixel();
+    encoded = finished(projectedLight(scene, placeAndWeight, pixel), pixel);
 }

@@ -3,10 +3,6 @@
 #define SHADING_GLSL
 #include "water.glsl"
 
-// Effective Kd of the three primaries near the filter's depth, 1/m: only the small difference
-// between a thing's depth and the filter's is undone with it.
-const vec3 kDownwellingKd = vec3(0.19, 0.062, 0.036);
-
 // How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
 struct Openness {
     float sun;
@@ -18,7 +14,7 @@ struct Openness {
 // is not burnt white. Power relative to the sun at the surface, at 1 m; metres within which the
 // beams pass by; attenuation of the three primaries, 1/m.
 const float kLampPower = 10.0, kLampCrossing = 2.45;
-const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045) * kRangeShare;
+const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045);
 vec3 lampLight(vec3 place, vec3 normal) {
     vec3 way = eyeAndTime.xyz - place;
     float range2 = dot(way, way), range = sqrt(range2);
@@ -57,7 +53,7 @@ vec3 mirrored(vec3 direction, vec3 worldPosition) {
     vec3 window = 0.11 * smoothstep(0.55, 0.85, direction.y) * daylight.yzw;
     float sun = (6.0 * exp(90.0 * towardsSun) + 0.9 * exp(22.0 * towardsSun)) * daylight.x;
     vec3 fromSurface = window + sun * unscatteredShare(depth) * caustic(worldPosition, 1.0);
-    vec3 undone = exp(kDownwellingKd * (depth - sunAndFilterDepth.w));
+    vec3 undone = exp(kdAndExposure.xyz * (depth - sunAndFilterDepth.w));
     return water * undone + fromSurface;
 }
 

@@ -7,18 +7,15 @@
 #include "sunlight.glsl"
 
 layout(binding = 8) uniform sampler2DArray directTable;  // columns of a 3x3 matrix over range, depth
-layout(binding = 9) uniform sampler2D inscatterTable;    // at the eye's depth: over range, rise
+layout(binding = 9) uniform sampler3D inscatterTable;    // of the eye's depth: range, rise, azimuth
 layout(binding = 10) uniform sampler2D openWaterTable;   // 60 m of water: over depth, rise
 
 // The axes of the tables, as water_tables.h has them.
 const vec2 kDirectTexels = vec2(64.0, 32.0);
-const vec2 kInscatterTexels = vec2(64.0, 32.0);
+const vec3 kInscatterTexels = vec3(40.0, 32.0, 9.0);
 const vec2 kOpenWaterTexels = vec2(32.0, 32.0);
 vec2 atTexelCentres(vec2 u, vec2 texels) { return (u * (texels - 1.0) + 0.5) / texels; }
-// Of the water that lies between, this share counts: the reef is seen as from so much nearer, or
-// red would be gone before the wall's nearest sand (5.6 m). 1 is the true sea.
-const float kRangeShare = 0.6;
-float rangeAxis(float range) { return sqrt(clamp(range * (kRangeShare / 80.0), 0.0, 1.0)); }
+float rangeAxis(float range) { return sqrt(clamp(range * (1.0 / 80.0), 0.0, 1.0)); }
 // The diver's filter undoes so many metres of the way down: one looks up at a lesser depth.
 float depthAxis(float depth) {
     return sqrt(clamp((depth - sunAndFilterDepth.w + 10.0) * (1.0 / 40.0), 0.0, 1.0));
@@ -34,10 +31,11 @@ float lobe(float cosine, float g) {
     float x = 1.0 + g * g - 2.0 * g * cosine;
     return (1.0 - g * g) / (4.0 * kPi * x * sqrt(x));
 }
-// Fitted to a Monte Carlo of Fournier-Forand water: light scattered from the sun's ray, and from
-// all the light that comes down.
-float sunLobe(vec3 direction) { return 0.51 * lobe(dot(direction, sunAndFilterDepth.xyz), 0.84); }
-float skyLobe(vec3 direction) { return 0.245 * lobe(direction.y, 0.70); }
+// The mean of what a Monte Carlo of Fournier-Forand water gives at many depths and wavelengths: light
+// scattered from about the sun's ray, and from all the light that comes down. What a wavelength and
+// a depth have besides is in the tables (water_lobes.h).
+float sunLobe(vec3 direction) { return 0.22 * lobe(dot(direction, sunAndFilterDepth.xyz), 0.64); }
+float skyLobe(vec3 direction) { return 0.10 * lobe(direction.y, 0.40); }
 
 // The share of light from a thing at this depth that reaches the eye unscattered, as a matrix: red
 // things lose other wavelengths than white ones.
@@ -50,8 +48,12 @@ vec3 direct(vec3 radiance, float range, float depth) {
 
 // Light scattered into the way from the eye over this range.
 vec3 inscatter(vec3 direction, float range) {
-    vec2 uv = atTexelCentres(vec2(rangeAxis(range), 0.5 + 0.5 * direction.y), kInscatterTexels);
-    return texture(inscatterTable, uv).rgb *
+    vec2 sun = sunAndFilterDepth.xz;
+    float azimuth = dot(direction.xz, sun) *
+                    inversesqrt(max(dot(direction.xz, direction.xz) * dot(sun, sun), 1.0e-8));
+    vec3 at = vec3(rangeAxis(range), 0.5 + 0.5 * direction.y, 0.5 + 0.5 * azimuth);
+    at = (at * (kInscatterTexels - 1.0) + 0.5) / kInscatterTexels;
+    return texture(inscatterTable, at).rgb *
            (sunLobe(direction) * shaft(direction, range) * daylight.x +
             skyLobe(direction) * daylight.yzw);
 }

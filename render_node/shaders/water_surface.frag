@@ -42,7 +42,7 @@ void main() {
     vec3 down = reflect(w, -normal);
     down.y = -abs(down.y);
     // Water has coloured the mirrored light already: what `direct` will add is taken out.
-    vec3 undone = exp(vec3(0.19, 0.062, 0.036) * -sunAndFilterDepth.w);
+    vec3 undone = exp(kdAndExposure.xyz * -sunAndFilterDepth.w);
     vec3 below = openWater(down, 0.4) * (0.9 * mirror) * undone;
     // As far as the open water behind it is seen (water.frag), or a line would show where it ends.
     radiance = vec4(direct(up + below, range, 0.0) + inscatter(w, min(range, 80.0)), 1.0);

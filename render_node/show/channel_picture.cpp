@@ -65,99 +65,135 @@ std::size_t channelIndex(const Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
-ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel)
+ChannelPicture::Viewing::Viewing(const Rig& rig, std::size_t channel, const ChannelFrustum& from)
+    : frustum{from},
+      pattern{from, rig.screen},
+      projection{projectionMap(warpMap(rig, channel), from), rig.channels[channel].id} {}
+
+ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
+      stereo_{stereoOf(admission.rig, channel)},
       school_{admission.welcome.school},
-      frustum_{channelFrustum(admission.rig, channel, kMarginRadians)},
-      map_{projectionMap(warpMap(admission.rig, channel), frustum_)},
-      sceneSize_{scenePictureSize(map_)},
-      patternPass_{frustum_},
-      projection_{map_, admission.rig.channels[channel].id} {
-    if (pattern_ == Pattern::World) {
-        scene_.emplace(SceneOptions{.seed = admission.welcome.seed, .place = admission.scene.place},
+      map_{projectionMap(warpMap(admission.rig, channel),
+                         channelFrustum(admission.rig, channel, kMarginRadians))},
+      sceneSize_{scenePictureSize(map_)} {
+    const Rig& rig = admission.rig;
+    const bool two = stereo_.mode != StereoMode::Mono;
+    for (const EyeSide side :
+         two ? std::vector{EyeSide::Left, EyeSide::Right} : std::vector{EyeSide::Between})
+        eyes_.emplace_back(rig, channel, channelFrustum(rig, channel, kMarginRadians, side));
+    if (two && stereo_.mode != StereoMode::QuadBuffer)
+        together_.emplace(map_.sizePixels, rig.channels[channel].id, stereo_.mode);
+    const bool world = pattern_ == Pattern::World;
+    for (Viewing& eye : eyes_)
+        if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
+    if (world)
+        scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
+                                    .place = admission.scene.place,
+                                    .water = admission.scene.water.jerlov,
+                                    .quality = quality},
                        castOf(admission));
-    } else {
-        patternPicture_.emplace(GL_RGBA16F, sceneSize_);
-    }
 }
 
 void ChannelPicture::drawScene(const StateFrame& frame,
                                const Overlays& overlays,
                                const std::optional<WatchedMind>& mind) {
     frame_ = frame.frame;
-    if (scene_)
-        drawWorld(frame);
-    else
-        drawPattern();
-    glNamedFramebufferTexture(onScene_.name(), GL_COLOR_ATTACHMENT0, sceneTexture_, 0);
-    if (overlays.warpGrid) patternPass_.addGrid(onScene_.name(), sceneSize_);
-    if (overlays.fishIds) drawFishIds();
-    if (mind) drawMind(*mind);
+    if (scene_) drawWorld(frame);
+    for (Viewing& eye : eyes_) {
+        if (!scene_) drawPattern(eye);
+        glNamedFramebufferTexture(eye.onScene.name(), GL_COLOR_ATTACHMENT0, eye.sceneTexture, 0);
+        if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sceneSize_);
+        if (overlays.fishIds) drawFishIds(eye);
+        if (mind) drawMind(eye, *mind);
+    }
 }
 
 void ChannelPicture::drawWorld(const StateFrame& frame) {
     fish_ = presentedFish(frame, school_);
     food_ = presentedFood(frame);
-    const View view = viewOf(frame.eye);
-    clipFromWorld_ = view.clipFromCamera * view.cameraFromWorld;
     const SceneFrame scene{.timeSeconds = presentedSeconds(frame),
                            .eyePositionMetres = frame.eye.positionMetres,
                            .fish = fish_,
                            .food = food_,
                            .daylight = frame.daylight};
     scene_->update(scene);
-    sceneTexture_ = scene_->draw(view);
+    for (Viewing& eye : eyes_) {
+        const View view = viewOf(eye, frame.eye);
+        eye.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+        eye.sceneTexture = scene_->draw(view);
+        if (!eye.kept) continue;
+        glCopyImageSubData(eye.sceneTexture,
+                           GL_TEXTURE_2D,
+                           0,
+                           0,
+                           0,
+                           0,
+                           eye.kept->texture(),
+                           GL_TEXTURE_2D,
+                           0,
+                           0,
+                           0,
+                           0,
+                           sceneSize_.x,
+                           sceneSize_.y,
+                           1);
+        eye.sceneTexture = eye.kept->texture();
+    }
 }
 
-void ChannelPicture::drawPattern() {
-    sceneTexture_ = patternPicture_->texture();
+void ChannelPicture::drawPattern(Viewing& eye) const {
+    eye.sceneTexture = eye.kept->texture();
     if (pattern_ == Pattern::Grid)
-        patternPass_.drawGrid(patternPicture_->framebuffer(), sceneSize_);
+        eye.pattern.drawGrid(eye.kept->framebuffer(), sceneSize_);
     else
-        patternPass_.drawGrey(patternPicture_->framebuffer(), sceneSize_);
+        eye.pattern.drawGrey(eye.kept->framebuffer(), sceneSize_);
 }
 
-std::optional<FishPlace> ChannelPicture::placeOf(const PresentedFish& fish) const {
-    const glm::vec4 clip = clipFromWorld_ * glm::vec4(fish.positionMetres, 1);
+std::optional<FishPlace> ChannelPicture::placeOf(const Viewing& eye,
+                                                 const PresentedFish& fish) const {
+    const glm::vec4 clip = eye.clipFromWorld * glm::vec4(fish.positionMetres, 1);
     if (clip.w <= 0) return std::nullopt;
     const glm::vec2 size(sceneSize_);
     const glm::vec2 place = (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * size;
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) return std::nullopt;
-    const glm::vec3 across(clipFromWorld_[0].x, clipFromWorld_[1].x, clipFromWorld_[2].x);
+    const glm::mat4& columns = eye.clipFromWorld;
+    const glm::vec3 across(columns[0].x, columns[1].x, columns[2].x);
     const float pixelsAMetre = glm::length(across) / clip.w * 0.5F * size.x;
     return FishPlace{place, 0.5F * fish.lengthMetres * pixelsAMetre};
 }
 
 // Each number stands on its fish's body frame.
-void ChannelPicture::drawFishIds() {
+void ChannelPicture::drawFishIds(const Viewing& eye) {
     const float dot = dotPixels(sceneSize_);
     std::vector<Label> labels;
     for (const PresentedFish& fish : fish_) {
-        const auto place = placeOf(fish);
+        const auto place = placeOf(eye, fish);
         if (!place) continue;
         const std::string text = std::to_string(fish.id);
         labels.push_back({place->middle - extentInDots(text) * dot / 2.0F, text});
     }
-    text_.draw(labels, onScene_.name(), sceneSize_, dot);
+    text_.draw(labels, eye.onScene.name(), sceneSize_, dot);
 }
 
-void ChannelPicture::drawMind(const WatchedMind& mind) {
+void ChannelPicture::drawMind(const Viewing& eye, const WatchedMind& mind) {
     if (mind.fish >= fish_.size()) return;
-    const auto place = placeOf(fish_[mind.fish]);
+    const auto place = placeOf(eye, fish_[mind.fish]);
     if (!place) return;
     const float dot = smallDotPixels(sceneSize_);
-    text_.draw(mindLabels(*place, mind, sceneSize_, dot), onScene_.name(), sceneSize_, dot);
+    text_.draw(mindLabels(*place, mind, sceneSize_, dot), eye.onScene.name(), sceneSize_, dot);
 }
 
 std::optional<std::uint32_t> ChannelPicture::fishNearest(glm::vec2 pixel) const {
-    const glm::ivec2 texel = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), map_.sizePixels - 1);
+    const glm::vec2 own = pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
+    const glm::ivec2 texel = glm::clamp(glm::ivec2(own), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
         map_.placeAndWeight[static_cast<std::size_t>(texel.y * map_.sizePixels.x + texel.x)];
     const glm::vec2 wanted = glm::vec2(lit.x, 1.0F - lit.y) * glm::vec2(sceneSize_);
     std::optional<std::uint32_t> nearest;
     float least = std::numeric_limits<float>::infinity();
     for (std::uint32_t i = 0; i < fish_.size(); ++i) {
-        const auto place = placeOf(fish_[i]);
+        const auto place = placeOf(eyes_.front(), fish_[i]);
         if (!place) continue;
         const float distance = glm::distance(place->middle, wanted);
         if (distance >= least) continue;
@@ -167,20 +203,34 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(glm::vec2 pixel) const 
     return nearest;
 }
 
-void ChannelPicture::project(unsigned framebuffer, Encoding encoding, const Overlays& overlays) {
-    projection_.draw({.sceneTexture = sceneTexture_,
-                      .framebuffer = framebuffer,
-                      .frame = frame_,
-                      .encoding = encoding,
-                      .blendMask = overlays.blendMask});
+void ChannelPicture::project(unsigned framebuffer,
+                             Encoding encoding,
+                             const Overlays& overlays,
+                             Shown shown) {
+    Projection::Draw draw{.framebuffer = framebuffer,
+                          .frame = frame_,
+                          .encoding = encoding,
+                          .blendMask = overlays.blendMask};
+    const auto sceneAndMap = [](const Viewing& eye) {
+        return PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
+    };
+    if (shown == Shown::Display && together_) {
+        const Viewing& first = stereo_.swapEyes ? eyes_.back() : eyes_.front();
+        const Viewing& second = stereo_.swapEyes ? eyes_.front() : eyes_.back();
+        together_->draw(sceneAndMap(first), sceneAndMap(second), draw);
+    } else {
+        const Viewing& eye = shown == Shown::RightEye ? eyes_.back() : eyes_.front();
+        draw.sceneTexture = eye.sceneTexture;
+        eye.projection.draw(draw);
+    }
     if (!overlays.help) return;
     const float dot = dotPixels(sizePixels());
     text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
 }
 
-View ChannelPicture::viewOf(const Eye& eye) const {
-    return {.clipFromCamera = clipFromCamera(frustum_, kNearMetres),
-            .cameraFromWorld = glm::mat4(frustum_.cameraFromWall * wallFromWorld(eye)),
+View ChannelPicture::viewOf(const Viewing& viewing, const Eye& submarine) const {
+    return {.clipFromCamera = clipFromCamera(viewing.frustum, kNearMetres),
+            .cameraFromWorld = glm::mat4(viewing.frustum.cameraFromWall * wallFromWorld(submarine)),
             .sizePixels = sceneSize_};
 }
 

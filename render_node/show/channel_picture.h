@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one channel shows of a frame: the world from the sweet spot, projected to its part of the
-// wall.
+// What one channel shows of a frame: the world from the sweet spot, or from two eyes beside it,
+// projected to its part of the wall.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,50 +21,68 @@
 
 namespace aquarama {
 
+// Which picture of a channel: the one that its display takes, with both eyes in it where there are
+// two, or that of one eye.
+enum class Shown : std::uint8_t { Display, LeftEye, RightEye };
+
 // The channel of this name. Throws Error where the rig has none.
 [[nodiscard]] std::size_t channelIndex(const Rig& rig, const std::string& name);
 
 // Owns its GL objects; construct, use and destroy with the same context current.
 class ChannelPicture {
   public:
-    ChannelPicture(const Admission& admission, std::size_t channel);
+    ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality);
 
-    // The picture of the channel's frustum, in linear light, with what belongs to the world.
+    // The picture of each eye's frustum, in linear light, with what belongs to the world.
     void drawScene(const StateFrame& frame,
                    const Overlays& overlays,
                    const std::optional<WatchedMind>& mind = std::nullopt);
-    // Of the fish that the last scene shows, the one that a pixel (from the top left corner) is
-    // nearest to; its place in the school.
+    // Of the fish that the last scene shows, the one that a pixel (of the display, from the top
+    // left corner) is nearest to; its place in the school.
     [[nodiscard]] std::optional<std::uint32_t> fishNearest(glm::vec2 pixel) const;
     // The projector's pixels of the scene that was drawn last, into the framebuffer's lower left
-    // corner.
-    void project(unsigned framebuffer, Encoding encoding, const Overlays& overlays);
+    // corner. A display of quad buffers takes one eye at a time: in one picture it shows the left.
+    void project(unsigned framebuffer,
+                 Encoding encoding,
+                 const Overlays& overlays,
+                 Shown shown = Shown::Display);
     [[nodiscard]] glm::ivec2 sizePixels() const { return map_.sizePixels; }
+    [[nodiscard]] const Stereo& stereo() const { return stereo_; }
 
   private:
+    // A viewer's eye, or the place between both where one picture serves them.
+    struct Viewing {
+        Viewing(const Rig& rig, std::size_t channel, const ChannelFrustum& from);
+
+        ChannelFrustum frustum;
+        PatternPass pattern;
+        Projection projection;
+        gl::Framebuffer onScene;         // to draw over the scene's texture
+        std::optional<gl::Target> kept;  // of its own, where the scene's is needed for another eye
+        glm::mat4 clipFromWorld{1.0F};
+        unsigned sceneTexture = 0;
+    };
+
     void drawWorld(const StateFrame& frame);
-    void drawPattern();
-    void drawFishIds();
-    void drawMind(const WatchedMind& mind);
-    [[nodiscard]] View viewOf(const Eye& eye) const;
+    void drawPattern(Viewing& eye) const;
+    void drawFishIds(const Viewing& eye);
+    void drawMind(const Viewing& eye, const WatchedMind& mind);
+    [[nodiscard]] View viewOf(const Viewing& viewing, const Eye& submarine) const;
     // In the scene's pixels, from its top left corner; nothing for what it does not show.
-    [[nodiscard]] std::optional<FishPlace> placeOf(const PresentedFish& fish) const;
+    [[nodiscard]] std::optional<FishPlace> placeOf(const Viewing& eye,
+                                                   const PresentedFish& fish) const;
 
     Pattern pattern_;
+    Stereo stereo_;
     std::vector<FishTraits> school_;
-    ChannelFrustum frustum_;
-    ProjectionMap map_;
+    ProjectionMap map_;  // from between the eyes
     glm::ivec2 sceneSize_;
-    std::optional<SceneRenderer> scene_;        // of the world
-    std::optional<gl::Target> patternPicture_;  // of a pattern
-    PatternPass patternPass_;
-    Projection projection_;
+    std::deque<Viewing> eyes_;                // one, or left and right
+    std::optional<PairProjection> together_;  // where one picture holds both
+    std::optional<SceneRenderer> scene_;      // of the world
     TextOverlay text_;
-    gl::Framebuffer onScene_;  // to draw over the scene's texture
     std::vector<PresentedFish> fish_;
     std::vector<FoodParticle> food_;
-    glm::mat4 clipFromWorld_{1.0F};
-    unsigned sceneTexture_ = 0;
     Frame frame_;
 };
 

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/units/error.h"
+#include "render_node/show/measured_quality.h"
 #include "render_node/show/snapshot.h"
 #include "render_node/show/window_fit.h"
 
@@ -69,13 +70,15 @@ ChannelShow::ChannelShow(Session& session,
       context_{context},
       controls_{controls},
       options_{options},
-      trace_{options.traceFolder, options.channel} {}
+      trace_{options.traceFolder, options.channel} {
+    if (!options.filmPipe.empty()) film_.emplace(options.filmPipe);
+}
 
 void ChannelShow::run(Admission first) {
     std::optional<Admission> admission = std::move(first);
     while (admission) {
-        build(*admission);
-        session_.prepared();
+        build(std::move(*admission));
+        session_.prepared(bears_);
         const Release end = play();
         if (end == Release::Quit) break;
         spdlog::info("lost the master; joining again");
@@ -89,27 +92,58 @@ void ChannelShow::run(Admission first) {
 }
 
 // A show that goes on after an interruption is not built a second time.
-void ChannelShow::build(const Admission& admission) {
-    if (built_ && sameShow(*built_, admission.welcome)) return;
+void ChannelShow::build(Admission admission) {
+    if (built_ && sameShow(built_->welcome, admission.welcome)) return;
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
     const glm::ivec2 size = admission.rig.channels[channel].sizePixels;
     if (picture_ && picture_->sizePixels() != size)
         throw Error("channel \"" + options_.channel +
                     "\" has another size than before; start its node again");
     spdlog::info("building {} x {} pixels on {}", size.x, size.y, context_.description());
-    picture_.reset();
-    picture_.emplace(admission, channel);
     pointing_.emplace(admission.rig, channel);
     watched_.reset();
     offscreen_.emplace(GL_RGBA8, size);
-    built_ = admission.welcome;
+    built_ = std::move(admission);
     shown_ = false;
+    chooseQuality();
+}
+
+void ChannelShow::buildPicture(QualityTier quality) {
+    picture_.reset();
+    picture_.emplace(*built_, channelIndex(built_->rig, options_.channel), quality);
+    quality_ = quality;
+}
+
+void ChannelShow::chooseQuality() {
+    const Welcome& welcome = built_->welcome;
+    if (welcome.quality || welcome.pattern != Pattern::World) {
+        bears_ = welcome.quality.value_or(QualityTier::Low);
+    } else {
+        bears_ = finestWithin(kBudgetShare / built_->rig.timing.refreshHertz,
+                              [this](QualityTier quality) { return secondsAFrame(quality); });
+        spdlog::info("keeps up with quality {}", nameOf(bears_));
+    }
+    if (!picture_ || quality_ != bears_) buildPicture(bears_);
+}
+
+double ChannelShow::secondsAFrame(QualityTier quality) {
+    constexpr int kFrames = 5;
+    buildPicture(quality);
+    StateFrame frame;
+    frame.eye.positionMetres = built_->scene.eye;
+    draw(frame);  // compiles what the driver compiles on first use
+    waitForGpu();
+    const auto begin = now();
+    for (int i = 0; i < kFrames; ++i) draw(frame);
+    waitForGpu();
+    return std::chrono::duration<double>(now() - begin).count() / kFrames;
 }
 
 Release ChannelShow::play() {
     while (const std::optional<StateFrame> state = session_.nextFrame()) {
         FrameTimes times{.state = session_.stateArrival()};
         feed(state->eye);
+        if (state->quality != quality_) buildPicture(state->quality);
         draw(*state);
         waitForGpu();
         times.ready = now();
@@ -128,9 +162,18 @@ Release ChannelShow::play() {
 void ChannelShow::draw(const StateFrame& frame) {
     const Overlays overlays = controls_.overlays();
     picture_->drawScene(frame, overlays, overlays.mind ? watchMind() : std::nullopt);
+    if (!context_.quadBuffered()) return project(overlays, Shown::Display);
+    const bool swapped = picture_->stereo().swapEyes;
+    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_RIGHT : GL_BACK_LEFT);
+    project(overlays, Shown::LeftEye);
+    glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_LEFT : GL_BACK_RIGHT);
+    project(overlays, Shown::RightEye);
+}
+
+void ChannelShow::project(const Overlays& overlays, Shown shown) {
     const glm::ivec2 window = context_.framebufferPixels();
     const bool fits = context_.hasWindow() && window == picture_->sizePixels();
-    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays);
+    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays, shown);
     if (context_.hasWindow() && !fits) show(*offscreen_, window);
 }
 
@@ -165,12 +208,8 @@ std::optional<WatchedMind> ChannelShow::watchMind() {
 }
 
 void ChannelShow::film(Frame frame) {
-    if (options_.filmEvery <= 0 || options_.snapshotFolder.empty()) return;
-    if (frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
-    writeSnapshot(filmFolder(options_.snapshotFolder, frame),
-                  options_.channel,
-                  *picture_,
-                  PictureBits::Dithered8);
+    if (!film_ || frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
+    film_->write(frame.value, takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
 }
 
 }  // namespace aquarama

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/wall/frame_pipe.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/target.h"
 #include "render_node/session/session.h"
@@ -27,9 +28,14 @@ class ChannelShow {
     void run(Admission admission);
 
   private:
-    void build(const Admission& admission);
+    void build(Admission admission);
+    void buildPicture(QualityTier quality);
+    // What the wall is to be drawn at, or as fine as this node keeps up with.
+    void chooseQuality();
+    [[nodiscard]] double secondsAFrame(QualityTier quality);
     [[nodiscard]] Release play();
     void draw(const StateFrame& frame);
+    void project(const Overlays& overlays, Shown shown);
     void feed(const Eye& eye);
     // Where in the picture a place of the window lies; where there is none, its middle.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
@@ -41,7 +47,10 @@ class ChannelShow {
     Controls& controls_;
     NodeOptions options_;
     Trace trace_;
-    std::optional<Welcome> built_;  // what picture_ was built for
+    std::optional<FramePipeWriter> film_;
+    std::optional<Admission> built_;          // what picture_ was built for
+    QualityTier quality_ = QualityTier::Low;  // of picture_
+    QualityTier bears_ = QualityTier::Low;    // the finest that this node keeps up with
     std::optional<Pointing> pointing_;
     std::optional<ChannelPicture> picture_;
     std::optional<gl::Target> offscreen_;   // where there is no window of the channel's size

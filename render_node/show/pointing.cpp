@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/wall/wall.h"
+#include "render_node/project/projection.h"
 
 namespace aquarama {
 
@@ -17,15 +18,17 @@ constexpr float kLeastDepthMetres = 0.25F;  // food is dropped into water, not i
 }  // namespace
 
 std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const Eye& eye) const {
-    const auto point = screenPoint(screen_, channel_, glm::dvec2(pixel));
+    const glm::vec2 own = pixelOfEye(mode_, channel_.sizePixels, pixel);
+    const auto point = screenPoint(screen_, channel_, glm::dvec2(own));
     if (!point) return std::nullopt;
-    return eye.worldFromWall * glm::vec3(glm::normalize(*point));
+    return eye.worldFromWall * glm::vec3(glm::normalize(*point - sweetSpot_));
 }
 
 std::optional<glm::vec3> Pointing::pinchAt(glm::vec2 pixel, const Eye& eye) const {
     const auto direction = directionOf(pixel, eye);
     if (!direction) return std::nullopt;
-    glm::vec3 place = eye.positionMetres + *direction * kArmMetres;
+    const glm::vec3 viewer = eye.positionMetres + eye.worldFromWall * glm::vec3(sweetSpot_);
+    glm::vec3 place = viewer + *direction * kArmMetres;
     place.y = std::min(place.y, -kLeastDepthMetres);
     return place;
 }

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/config/rig.h"
+#include "common/wall/eyes.h"
 #include "common/wire/messages.h"
 
 namespace aquarama {
@@ -15,10 +16,14 @@ namespace aquarama {
 class Pointing {
   public:
     Pointing(const Rig& rig, std::size_t channel)
-        : screen_{rig.screen}, channel_{rig.channels.at(channel)} {}
+        : screen_{rig.screen},
+          channel_{rig.channels.at(channel)},
+          mode_{stereoOf(rig, channel).mode},
+          sweetSpot_{rig.sweetSpotMetres} {}
 
-    // Unit vector in the world, from the eye through the point of the screen that the pixel
-    // (continuous, from the picture's top left corner) lights; nothing where it misses the screen.
+    // Unit vector in the world, from the sweet spot through the point of the screen that the pixel
+    // (of the display, continuous, from its top left corner) lights; nothing where it misses the
+    // screen.
     [[nodiscard]] std::optional<glm::vec3> directionOf(glm::vec2 pixel, const Eye& eye) const;
     // Where food falls that is dropped there: an arm's length before the submarine, under water.
     // World frame, metres.
@@ -28,6 +33,8 @@ class Pointing {
   private:
     Screen screen_;
     Channel channel_;
+    StereoMode mode_;
+    glm::dvec3 sweetSpot_;  // wall frame
 };
 
 }  // namespace aquarama

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/cli/signals.h"
+#include "common/wall/eyes.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/debug.h"
 #include "render_node/session/session.h"
@@ -22,9 +23,15 @@ using namespace std::chrono_literals;
 
 constexpr auto kPatience = 20ms;  // how late the end of the drawing thread may be noticed
 
-std::unique_ptr<Context> openContext(const NodeOptions& options, const Channel& channel) {
+std::unique_ptr<Context> openContext(const NodeOptions& options,
+                                     const Rig& rig,
+                                     std::size_t index) {
+    const Channel& channel = rig.channels[index];
     if (!options.headless)
-        return makeWindowContext(channel.display, "Aquarama " + channel.name, channel.sizePixels);
+        return makeWindowContext(channel.display,
+                                 "Aquarama " + channel.name,
+                                 channel.sizePixels,
+                                 stereoOf(rig, index).mode == StereoMode::QuadBuffer);
     const std::string& device = options.device.empty() ? channel.display.device : options.device;
     auto context = makeOffscreenContext(device, channel.sizePixels);
     context->release();
@@ -64,7 +71,7 @@ void runNode(const NodeOptions& options) {
     std::optional<Admission> admission = session->join();
     if (!admission) return;
     const std::size_t channel = channelIndex(admission->rig, options.channel);
-    const std::unique_ptr<Context> context = openContext(options, admission->rig.channels[channel]);
+    const std::unique_ptr<Context> context = openContext(options, admission->rig, channel);
     Controls controls(*session);
     std::future<void> drawing = std::async(std::launch::async, [&] {
         show(*session, *context, controls, options, std::move(*admission));

@@ -11,15 +11,27 @@ namespace aquarama {
 namespace {
 
 template <class Sample>
-Picture takePicture(ChannelPicture& picture, GLenum format, Encoding encoding) {
+Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
     const gl::Target target(format, picture.sizePixels());
-    picture.project(target.framebuffer(), encoding, Overlays{});
+    picture.project(target.framebuffer(), encoding, Overlays{}, shown);
     const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
     return {
         picture.sizePixels(), 8 * static_cast<int>(sizeof(Sample)), {pixels.begin(), pixels.end()}};
 }
 
 }  // namespace
+
+Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
+    return bits == PictureBits::Deep16
+               ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain, shown)
+               : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8, shown);
+}
+
+Shown flat(const ChannelPicture& picture) {
+    const StereoMode mode = picture.stereo().mode;
+    const bool whole = mode == StereoMode::Mono || mode == StereoMode::Anaglyph;
+    return whole ? Shown::Display : Shown::LeftEye;
+}
 
 void writeSnapshot(const std::string& folder,
                    const std::string& channel,
@@ -30,16 +42,11 @@ void writeSnapshot(const std::string& folder,
     if (failure)
         throw Error(folder + ": cannot be made (" + failure.message() +
                     "); choose another folder for --snapshot");
-    writePng(folder + "/channel-" + channel + ".png",
-             bits == PictureBits::Deep16
-                 ? takePicture<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain)
-                 : takePicture<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8));
-}
-
-std::string filmFolder(const std::string& folder, Frame frame) {
-    std::string number = std::to_string(frame.value);
-    number.insert(0, std::max<std::size_t>(6, number.size()) - number.size(), '0');
-    return folder + "/film/" + number;
+    const std::string name = folder + "/channel-" + channel;
+    writePng(name + ".png", takePicture(picture, bits, Shown::Display));
+    if (picture.stereo().mode == StereoMode::Mono) return;
+    writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
+    writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
 }
 
 }  // namespace aquarama

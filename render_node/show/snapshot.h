@@ -4,21 +4,25 @@
 
 #include <string>
 
-#include "common/units/ids.h"
+#include "common/wall/picture.h"
 #include "render_node/show/channel_picture.h"
 
 namespace aquarama {
 
 enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
 
-// folder/channel-NAME.png: the frame that was drawn last, without overlays. Throws Error where it
-// cannot be written.
+// The frame that was drawn last, without overlays.
+[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
+
+// What somebody without glasses may look at: one eye's picture where a display takes the two apart
+// from one another.
+[[nodiscard]] Shown flat(const ChannelPicture& picture);
+
+// folder/channel-NAME.png: takePicture() of the display, and in stereo channel-NAME.left_eye.png
+// and .right_eye.png beside it. Throws Error where they cannot be written.
 void writeSnapshot(const std::string& folder,
                    const std::string& channel,
                    ChannelPicture& picture,
                    PictureBits bits);
-
-// Each frame of a film is a folder of snapshots: folder/film/000012.
-[[nodiscard]] std::string filmFolder(const std::string& folder, Frame frame);
 
 }  // namespace aquarama

@@ -69,7 +69,7 @@ class Releases {
   public:
     void attend(Session& session) {
         while (session.join()) {
-            session.prepared();
+            session.prepared(QualityTier::Low);
             while (const auto state = session.nextFrame()) {
                 if (session.readyThenWait(state->frame) != Release::Present) continue;
                 const std::lock_guard lock(mutex_);

@@ -95,7 +95,7 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     const Master master({"--seed", "3"});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared();
+    session->prepared(QualityTier::Low);
     const auto first = await(*session, [](const StateFrame&) { return true; });
     ASSERT_TRUE(first);
     EXPECT_TRUE(pelletsIn(*first).empty());
@@ -126,7 +126,7 @@ TEST(Visitor, looksIntoTheMindOfAFish) {
     const Master master({});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared();
+    session->prepared(QualityTier::Low);
     session->askMind(0);
     const auto told = await(*session, [&](const StateFrame&) { return session->latestMind(); });
     ASSERT_TRUE(told);

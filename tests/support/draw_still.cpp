@@ -23,7 +23,7 @@ struct Wish {
     float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F;
     int ball = 0;
     float ballMetres = 6.0F;
-    std::string tier = "ultra", out = "still.png";
+    std::string tier = "ultra", water = "IA", out = "still.png";
     bool openSea = false;
 };
 
@@ -32,6 +32,8 @@ test::Still stillOf(const Wish& wish, test::Still still) {
     if (wish.openSea) still.options.place = PlaceKind::OpenSea;
     const auto tier = std::ranges::find(kTierNames, wish.tier);
     still.options.quality = static_cast<QualityTier>(tier - kTierNames.begin());
+    const auto water = std::ranges::find(kWaterTypeNames, wish.water);
+    still.options.water = static_cast<WaterType>(water - kWaterTypeNames.begin());
     // Side by side, the first in the middle.
     test::Camera camera = still.camera;
     for (const std::string& species : wish.portraits) {
@@ -65,6 +67,8 @@ int main(int argc, char** argv) try {
     app.add_option("--seed", still.options.seed, "of the place");
     app.add_option("--quality", wish.tier, "tier")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
+    app.add_option("--water", wish.water, "Jerlov's type")
+        ->check(CLI::IsMember({"I", "IA", "IB", "II", "III", "1C", "3C"}));
     app.add_option("--portrait", wish.portraits, "species before the camera");
     app.add_option("--away", wish.metresAway, "of the portraits, metres");
     app.add_option("--turn", wish.turnDegrees, "0 left side, 90 face, 180 right side");

@@ -35,15 +35,17 @@ class CountingWorld final : public Simulation {
     void records(std::vector<FishRecord>& fish) const override {
         fish.assign(3, FishRecord{.x = static_cast<std::int32_t>(tick_.value)});
     }
-    // One pellet where each was dropped, while there is room.
+    // One pellet where each was dropped, while there is room; a hand moves the eye.
     void apply(const WorldInput& input) override {
-        const auto& drop = std::get<DropFood>(input);
+        if (const auto* steering = std::get_if<Steering>(&input)) ahead_ = steering->ahead;
+        const auto* drop = std::get_if<DropFood>(&input);
         const auto room = std::ranges::find(food_, FoodRecord{});
-        if (room != food_.end())
-            *room = foodRecord(FoodRecord::Kind::Pellet, drop.position - kFoodOrigin, 0);
+        if (drop != nullptr && room != food_.end())
+            *room = foodRecord(FoodRecord::Kind::Pellet, drop->position - kFoodOrigin, 0);
     }
     void food(FoodCloud& cloud) const override { cloud = {kFoodOrigin, food_}; }
-    Eye eye() const override { return {}; }
+    // As many metres ahead as the last hand asked for.
+    Eye eye() const override { return {.positionMetres = {0, 0, -static_cast<float>(ahead_)}}; }
     float daylight() const override { return daylightAt(tick_); }
     std::uint64_t hash() const override { return hashAt(tick_); }
     Explanation explain(std::uint32_t fish) const override {
@@ -55,6 +57,7 @@ class CountingWorld final : public Simulation {
 
   private:
     Tick tick_;
+    std::int8_t ahead_ = 0;
     std::vector<FoodRecord> food_{8};
 };
 
@@ -191,7 +194,7 @@ class StageNode {
         while (session_->join()) {
             ++joins_;
             std::this_thread::sleep_for(habits_.building);
-            session_->prepared();
+            session_->prepared(QualityTier::Low);
             if (show() == Release::Quit) return;
         }
     } catch (const Error& error) {

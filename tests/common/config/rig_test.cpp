@@ -102,6 +102,15 @@ TEST(Rig, writtenTextIsReadBackToTheSameBits) {
               rig.channels[1].projector.principalPixels);
 }
 
+TEST(Rig, saysHowFineItsWallIsDrawnOrLeavesItToMeasuring) {
+    EXPECT_EQ(parseRig(kRig, "small.txtpb").quality, std::nullopt);
+    EXPECT_EQ(parseRig(kRig + "quality: MEASURED", "small.txtpb").quality, std::nullopt);
+    EXPECT_EQ(parseRig(kRig + "quality: LOW", "small.txtpb").quality, QualityTier::Low);
+    const Rig rig = parseRig(kRig + "quality: ULTRA", "small.txtpb");
+    EXPECT_EQ(rig.quality, QualityTier::Ultra);
+    EXPECT_EQ(parseRig(writeRig(rig), "back").quality, QualityTier::Ultra);
+}
+
 TEST(Rig, aRoundAngleIsWrittenRound) {
     for (int tenths = -1800; tenths <= 1800; ++tenths)
         EXPECT_EQ(degreesOf(radiansOf(tenths / 10.0)), tenths / 10.0);
@@ -193,6 +202,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"windowOfNoHeight", "height_px: 241", "height_px: 0", "height_px", "must be from"},
         Mistake{"panoramaTooLarge", "width_px: 640", "width_px: 99999", "width_px", "must be from"},
         Mistake{"focalZero", "focal_y_px: 310", "focal_y_px: 0", "focal_y_px", "must be from"},
+        Mistake{"qualityUnspecified",
+                "scene: \"sea.txtpb\"",
+                "scene: \"sea.txtpb\" quality: QUALITY_UNSPECIFIED",
+                "quality",
+                "MEASURED, LOW, MEDIUM, HIGH or ULTRA"},
         Mistake{"noScene", "scene: \"sea.txtpb\"", "", "", "lacks scene"},
         Mistake{"sceneOfNoName", "\"sea.txtpb\"", "\"\"", "scene", "is empty"},
         Mistake{"theCastOfOlderRigs",

@@ -32,6 +32,7 @@ water {
   clarity_m: 15
   surface_c: 27
   celsius_per_metre: -0.25
+  jerlov: "1C"
 }
 gathering: MILL
 plankton: 40
@@ -56,6 +57,7 @@ TEST(Scene, isReadInItsUnits) {
     EXPECT_DOUBLE_EQ(scene.water.clarityMetres, 15);
     EXPECT_DOUBLE_EQ(scene.water.surfaceCelsius, 27);
     EXPECT_DOUBLE_EQ(scene.water.celsiusPerMetre, -0.25);
+    EXPECT_EQ(scene.water.jerlov, WaterType::C1);
     EXPECT_EQ(scene.gathering, Gathering::Mill);
     EXPECT_EQ(scene.plankton, 40U);
     EXPECT_DOUBLE_EQ(scene.day.lengthSeconds, 600);
@@ -79,12 +81,15 @@ TEST(Scene, fillsInWhatIsLeftOut) {
     const auto drop = [&text](const std::string& part) {
         text.erase(text.find(part), part.size());
     };
-    drop("  least_room: 3\n  clarity_m: 15\n  surface_c: 27\n  celsius_per_metre: -0.25\n");
+    drop(
+        "  least_room: 3\n  clarity_m: 15\n  surface_c: 27\n  celsius_per_metre: -0.25\n  jerlov: "
+        "\"1C\"\n");
     drop("day { length_s: 600 starts_at: 0.25 night: 0.1 }");
     drop(" heading_deg: 90 hunger: 0.9 libido: 0.2");
     const Scene scene = parseScene(text, "small.txtpb");
     EXPECT_DOUBLE_EQ(scene.water.leastLengthsCubed, 4);
     EXPECT_DOUBLE_EQ(scene.water.clarityMetres, 12);
+    EXPECT_EQ(scene.water.jerlov, WaterType::IA);
     EXPECT_DOUBLE_EQ(scene.day.lengthSeconds, 0);
     EXPECT_DOUBLE_EQ(scene.day.startsAt, 0.5);
     EXPECT_DOUBLE_EQ(scene.cast[1].start->hunger, 0);
@@ -202,6 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "reaches out of the sea"},
         Mistake{"flatWater", "x_m: 6 y_m: 3", "x_m: 6 y_m: 0", "y_m: 0", "must be from"},
         Mistake{"noRoom", "least_room: 3", "least_room: 0", "least_room", "must be from"},
+        Mistake{"ink", "jerlov: \"1C\"", "jerlov: \"4C\"", "jerlov", "no type of water"},
         Mistake{"murk", "clarity_m: 15", "clarity_m: 0", "clarity_m", "must be from"},
         Mistake{"boilingWater", "surface_c: 27", "surface_c: 100", "surface_c", "must be from"},
         Mistake{"noGathering", "gathering: MILL", "", "", "lacks gathering"},

@@ -71,6 +71,7 @@ TEST(Envelope, aStateKeepsEveryBitOfEveryFish) {
     EXPECT_EQ(state.foodBefore, sent.foodBefore);
     EXPECT_EQ(state.foodAfter, sent.foodAfter);
     EXPECT_EQ(state.daylight, sent.daylight);
+    EXPECT_EQ(state.quality, sent.quality);
 }
 
 // An empty sea between two ticks, and a school before any food has come.
@@ -182,6 +183,7 @@ TEST(Envelope, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[1].bits = 5; }));  // nothing, somewhere
     EXPECT_TRUE(refused([&](StateFrame& s) { s.foodOriginMetres.z = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.quality = static_cast<QualityTier>(4); }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.daylight = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) {
         s.foodBefore.resize(kMostFood + 1);
@@ -192,12 +194,20 @@ TEST(Envelope, aStateThatLiesIsRefused) {
 // What a node sends may come from a broken one.
 TEST(Envelope, foodIsDroppedAtAPlaceOrNotAtAll) {
     const auto accepted = [](glm::vec3 place) {
-        return decode(encode({1, Input{InputKind::DropFood, place}})).has_value();
+        return decode(encode({1, Input{InputKind::DropFood, place, {}}})).has_value();
     };
     EXPECT_TRUE(accepted({0, -6, -kMaxInputMetres}));
     EXPECT_FALSE(accepted({0, -6, -2 * kMaxInputMetres}));
     EXPECT_FALSE(accepted({std::numeric_limits<float>::quiet_NaN(), -6, 0}));
     EXPECT_FALSE(accepted({0, std::numeric_limits<float>::infinity(), 0}));
+}
+
+TEST(Envelope, aSteeringIsOfSharesNoneBeyondFull) {
+    const Input held{InputKind::Steer, {}, {kFullSteering, -kFullSteering, 3, -1, 0}};
+    const auto decoded = decode(encode({1, held}));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(std::get<Input>(decoded->message).steering, held.steering);
+    EXPECT_FALSE(decode(encode({1, Input{InputKind::Steer, {}, {-128, 0, 0, 0, 0}}})));
 }
 
 // A node splits the school by the cast: both must have the same fish.

@@ -34,12 +34,13 @@ TEST(RecordingFormat, everyEntryComesBack) {
     EXPECT_EQ(recording.production.cast[0].text, sampleProduction().cast[0].text);
     EXPECT_EQ(recording.production.cast[0].repertoire, sampleProduction().cast[0].repertoire);
     EXPECT_EQ(recording.production.cast[0].fish, 51U);
-    ASSERT_EQ(recording.inputs.size(), 2U);
+    ASSERT_EQ(recording.inputs.size(), 3U);
     EXPECT_EQ(recording.inputs[0].tick, Tick{17});
     const auto& food = std::get<RecordedFood>(recording.inputs[0].input);
     EXPECT_EQ(food.position, glm::vec3(1.5F, -2.0F, 30.25F));
     EXPECT_EQ(food.pellets, 12U);
-    const auto& moved = std::get<RecordedSubmarine>(recording.inputs[1].input);
+    EXPECT_EQ(std::get<Steering>(recording.inputs[1].input), (Steering{127, -127, 0, 5, -1}));
+    const auto& moved = std::get<RecordedSubmarine>(recording.inputs[2].input);
     EXPECT_EQ(moved.position, glm::vec3(0, -6, 0));
     EXPECT_EQ(moved.velocityMetresPerSecond, glm::vec3(0.5F, 0, -0.25F));
     const std::vector<RecordedHash> checkpoints{{{0}, 0xFEDCBA9876543210U}, {{600}, 1}};
@@ -114,6 +115,8 @@ TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
                 HasSubstr("from nowhere"));
     EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedFood{{0, 1e9F, 0}, 1}})),
                 HasSubstr("from nowhere"));
+    EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, Steering{.tilt = -128}})),
+                HasSubstr("beyond full"));
     EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedFood{{}, 1U << 30U}})),
                 HasSubstr("input"));
     EXPECT_THAT(refusal(beginningOf(sampleProduction())), HasSubstr("cannot be there"));

@@ -47,6 +47,7 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.foodBefore = sampleFood();
     state.foodAfter = sampleFood();
     state.daylight = 0.75F;
+    state.quality = QualityTier::Medium;
     return state;
 }
 
@@ -61,6 +62,7 @@ inline Welcome sampleWelcome() {
     welcome.school = {{7, 230}, {4000000000U, 65535}};
     welcome.cast = {{digestOf("species"), digestOf("repertoire"), 1},
                     {digestOf("other species"), digestOf("other repertoire"), 1}};
+    welcome.quality = QualityTier::Ultra;
     return welcome;
 }
 
@@ -74,13 +76,16 @@ inline std::vector<Envelope> sampleEnvelopes() {
     reply.frameMedianMs = 16.5F;
     reply.skewP99Ms = 0.75F;
     reply.refusedPackets = 3;
+    reply.eye = {{1, -6, 2.5F}, {0.5F, 0.5F, 0.5F, -0.5F}};
+    reply.speedMetresPerSecond = 0.375F;
+    reply.pilot = "middle";
     reply.nodes = {{"left", NodeCondition::Late, 4, 1}, {"right", NodeCondition::Absent, 0, 2}};
     std::vector<Message> messages = {Hello{"left", 3, "0.1.0"},
                                      Refusal{"no"},
                                      sampleWelcome(),
                                      BlobRequest{digestOf("x"), 1U << 18U},
                                      BlobChunk{digestOf("x"), 50, 200, chunk},
-                                     Prepared{},
+                                     Prepared{QualityTier::High},
                                      Joined{{65}},
                                      sampleState(5),
                                      Beacon{},
@@ -91,8 +96,9 @@ inline std::vector<Envelope> sampleEnvelopes() {
                                      Farewell{},
                                      Ping{-1},
                                      Pong{-1, 77},
-                                     Input{InputKind::TogglePause, {}},
-                                     Input{InputKind::DropFood, {0.5F, -6.25F, -2.5F}},
+                                     Input{InputKind::TogglePause, {}, {}},
+                                     Input{InputKind::DropFood, {0.5F, -6.25F, -2.5F}, {}},
+                                     Input{InputKind::Steer, {}, {127, -127, 0, 1, -64}},
                                      StatusRequest{},
                                      reply,
                                      ExplainRequest{59},

@@ -51,10 +51,10 @@ class Peer {
         return present ? std::optional{present->frame.value} : std::nullopt;
     }
     // Hello, welcome, prepared: a member.
-    bool join(const std::string& name) {
+    bool join(const std::string& name, QualityTier bears = QualityTier::Low) {
         say(Hello{name, kProtocolMajor, ""});
         if (!hear<Welcome>()) return false;
-        say(Prepared{});
+        say(Prepared{bears});
         return hear<Joined>().has_value();
     }
 
@@ -160,7 +160,7 @@ TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
         return state.foodAfter.size() -
                static_cast<std::size_t>(std::ranges::count(state.foodAfter, FoodRecord{}));
     };
-    const auto feed = [&](glm::vec3 place) { left.say(Input{InputKind::DropFood, place}); };
+    const auto feed = [&](glm::vec3 place) { left.say(Input{InputKind::DropFood, place, {}}); };
     feed({0.5F, 0, -2.5F});
     for (int stuck = 0; stuck < 100; ++stuck) feed({0, 0, -2});
     std::optional<StateFrame> state;
@@ -185,6 +185,36 @@ TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
     }
     EXPECT_EQ(pellets(*state), 1U);
     EXPECT_EQ(status().refusedPackets, refused + 2);  // and the farewell of who asked before
+}
+
+// From a window's node as from a pilot that drives no channel; whoever has hold last.
+TEST_F(Reception, handsMoveTheEye) {
+    const StageMaster master(lockstepOf({"left"}), net_.master());
+    Peer left(net_);
+    Peer pilot(net_);
+    ASSERT_TRUE(left.join("left"));
+    std::uint64_t frame = 0;
+    const auto eyeAfterSome = [&] {
+        float ahead = 0;
+        for (const std::uint64_t end = frame + 20; frame < end; ++frame) {
+            const auto state = left.seeState();
+            if (!state) return -1.0F;
+            ahead = -state->eye.positionMetres.z;
+            left.say(Ready{{frame}, {}});
+            if (!left.hear<Present>()) return -1.0F;
+        }
+        return ahead;
+    };
+    left.say(Input{InputKind::Steer, {}, {.ahead = 5}});
+    EXPECT_EQ(eyeAfterSome(), 5);
+    pilot.say(Input{InputKind::Steer, {}, {.ahead = 7}});
+    EXPECT_EQ(eyeAfterSome(), 7);
+    EXPECT_EQ(status().pilot, "pilot");
+    left.say(Input{InputKind::Steer, {}, {.ahead = 6}});  // still held, but not the latest
+    EXPECT_EQ(eyeAfterSome(), 7);
+    pilot.say(Input{InputKind::Steer, {}, {}});
+    EXPECT_EQ(eyeAfterSome(), 0);
+    EXPECT_NE(status().pilot, "pilot");
 }
 
 TEST_F(Reception, aSecondNodeOfANameWaitsUntilTheFirstIsSilent) {
@@ -296,6 +326,33 @@ TEST_F(Reception, reportsReleaseSkewFromWhatNodesSay) {
     }
     EXPECT_FLOAT_EQ(status().skewMedianMs, 3.0F);
     EXPECT_FLOAT_EQ(status().skewP99Ms, 3.0F);
+}
+
+// All nodes draw at one tier: the finest that each of them bears, also those that have left.
+TEST_F(Reception, theSlowestNodeDecidesHowFineTheWallIsDrawn) {
+    StageMaster master(lockstepOf({"left", "right"}), net_.master());
+    Peer left(net_);
+    Peer right(net_);
+    ASSERT_TRUE(left.join("left", QualityTier::High));
+    ASSERT_TRUE(right.join("right", QualityTier::Medium));
+    const auto state = left.seeState();
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->quality, QualityTier::Medium);
+}
+
+TEST_F(Reception, aRigMaySayHowFineItsWallIsDrawn) {
+    ConductorOptions options = lockstepOf({"left"});
+    options.quality = QualityTier::Ultra;
+    StageMaster master(options, net_.master());
+    Peer left(net_);
+    left.say(Hello{"left", kProtocolMajor, ""});
+    const auto welcome = left.hear<Welcome>();
+    ASSERT_TRUE(welcome);
+    EXPECT_EQ(welcome->quality, QualityTier::Ultra);
+    left.say(Prepared{QualityTier::Low});
+    const auto state = left.seeState();
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->quality, QualityTier::Ultra);
 }
 
 TEST_F(Reception, writesWhenEachStateWentOut) {

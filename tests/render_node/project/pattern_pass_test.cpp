@@ -31,7 +31,7 @@ class PatternPassTest : public testing::Test {
     std::unique_ptr<Context> context_ = makeOffscreenContext("auto", kSize);
     ChannelFrustum frustum_ = channelFrustum(shippedRig("desk"), 2, 0.01);
     gl::Target target_{GL_RGBA32F, kSize};
-    PatternPass pass_{frustum_};
+    PatternPass pass_{frustum_, shippedRig("desk").screen};
 };
 
 TEST_F(PatternPassTest, theGridIsTheReferences) {

@@ -270,7 +270,7 @@ TEST_F(Place, neighboursAgreeWhereTheyOverlap) {
 }
 
 TEST_F(Place, wavesGatherLightAndMakeNone) {
-    SeaLight light{1, 5.0F};
+    SeaLight light{1, WaterType::IB};
     FrameUniforms uniforms{};
     uniforms.eyeAndTime = glm::vec4(kEyePosition, 0.0F);
     uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), 5.0F);

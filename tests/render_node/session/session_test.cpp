@@ -120,7 +120,7 @@ class SessionTest : public testing::Test {
         auto join = joining();
         master_.admit(StageMaster::blobs(), pace);
         ASSERT_TRUE(join.get());
-        session_->prepared();
+        session_->prepared(QualityTier::Low);
         master_.letIn(first);
     }
     std::uint64_t nextFrame() { return session_->nextFrame().value().frame.value; }
@@ -210,7 +210,7 @@ TEST_F(SessionTest, isPreparedOnlyOnceItHearsTheStates) {
     auto join = joining();
     master_.admit(StageMaster::blobs());
     ASSERT_TRUE(join.get());
-    session_->prepared();
+    session_->prepared(QualityTier::Low);
     EXPECT_FALSE(master_.hear<Prepared>(milliseconds(200)));
     master_.publish(Beacon{});
     EXPECT_TRUE(master_.hear<Prepared>());

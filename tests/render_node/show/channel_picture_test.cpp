@@ -75,8 +75,8 @@ class ChannelPictureTest : public testing::Test {
     struct Stage {
         std::unique_ptr<Context> context = makeOffscreenContext("auto", {480, 360});
         Admission admission = admissionToTheWorld();
-        ChannelPicture picture{admission, kMiddle};
-        ChannelPicture left{admission, kLeft};
+        ChannelPicture picture{admission, kMiddle, QualityTier::Low};
+        ChannelPicture left{admission, kLeft, QualityTier::Low};
         gl::Target target{GL_RGBA8, picture.sizePixels()};
         gl::Target deep{GL_RGBA16, picture.sizePixels()};
     };
@@ -165,7 +165,7 @@ TEST_F(ChannelPictureTest, theFishNearestToThePointerIsTheOneThatIsSeenThere) {
     two.welcome.school.push_back({.id = 18, .lengthMillimetres = 240});
     two.cast.front().fish = 2;
     two.welcome.pattern = Pattern::World;
-    ChannelPicture picture(two, kMiddle);
+    ChannelPicture picture(two, kMiddle, QualityTier::Low);
     EXPECT_EQ(picture.fishNearest({240, 180}), std::nullopt);
     picture.drawScene(frame, {});
     EXPECT_EQ(picture.fishNearest(glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);

@@ -3,15 +3,19 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "common/units/error.h"
+#include "common/wall/frame_pipe.h"
 #include "common/wall/pattern.h"
 #include "common/wall/picture.h"
 #include "common/wall/png_file.h"
@@ -188,17 +192,37 @@ TEST_F(ChannelShowTest, aSnapshotWithNoFrameShownIsNone) {
     EXPECT_FALSE(fs::exists(folder_ + "/channel-middle.png"));
 }
 
-TEST_F(ChannelShowTest, aFilmIsAFolderOfSnapshots) {
+TEST_F(ChannelShowTest, theFramesOfAClipPassThroughAPipeAsTheSnapshotHasThem) {
+    NodeOptions chosen = options();
+    chosen.filmPipe = folder_ + "/pipe";
+    chosen.filmEvery = 2;
+    ASSERT_EQ(mkfifo(chosen.filmPipe.c_str(), 0600), 0);
+    std::vector<PipedFrame> frames;
+    FramePipeReader pipe(chosen.filmPipe);
+    std::thread reader([&] {
+        while (auto frame = pipe.read({480, 360})) frames.push_back(std::move(*frame));
+    });
     FakeSession session(events_,
                         {{frameNumber(1), Release::Present},
                          {frameNumber(2), Release::Present},
-                         {frameNumber(3), Release::Present}});
-    NodeOptions chosen = options();
-    chosen.filmEvery = 2;
+                         {frameNumber(3), Release::Present},
+                         {frameNumber(4), Release::Present}});
     show(session, chosen);
-    EXPECT_TRUE(fs::exists(folder_ + "/film/000002/channel-middle.png"));
-    EXPECT_FALSE(fs::exists(folder_ + "/film/000001"));
-    EXPECT_FALSE(fs::exists(folder_ + "/film/000003"));
+    reader.join();
+    ASSERT_EQ(frames.size(), 2U);
+    EXPECT_EQ(frames[0].frame, 2U);
+    EXPECT_EQ(frames[1].frame, 4U);
+    EXPECT_EQ(frames[1].picture.rgb, readPng(folder_ + "/channel-middle.png").rgb);
+}
+
+TEST_F(ChannelShowTest, aClipThatNobodyReadsAnyMoreEndsTheShowWithAnError) {
+    NodeOptions chosen = options();
+    chosen.filmPipe = folder_ + "/pipe";
+    ASSERT_EQ(mkfifo(chosen.filmPipe.c_str(), 0600), 0);
+    std::optional<FramePipeReader> reader(std::in_place, chosen.filmPipe);
+    FramePipeWriter writer(chosen.filmPipe);
+    reader.reset();
+    EXPECT_THROW(writer.write(1, pictureOf(darkness({4, 4}), 8, 0)), Error);
 }
 
 TEST_F(ChannelShowTest, whatCannotBeWrittenIsSaidBeforeTheShow) {

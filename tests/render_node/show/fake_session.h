@@ -33,7 +33,7 @@ class FakeSession : public Session {
         events_.emplace_back("join");
         return rejoin_;
     }
-    void prepared() override { events_.emplace_back("prepared"); }
+    void prepared(QualityTier /*quality*/) override { events_.emplace_back("prepared"); }
     std::optional<StateFrame> nextFrame() override {
         if (script_.empty()) return std::nullopt;
         return script_.front().first;
@@ -52,12 +52,14 @@ class FakeSession : public Session {
         events_.emplace_back(input == NodeInput::Quit ? "send quit" : "send pause");
     }
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
+    void steer(const Steering& steering) override { steerings_.push_back(steering); }
     void askMind(std::uint32_t fish) override { events_.push_back("ask " + std::to_string(fish)); }
     [[nodiscard]] std::optional<Explanation> latestMind() const override { return mind_; }
     void stop() override { events_.emplace_back("stop"); }
 
     std::optional<Admission> rejoin_;
     std::vector<glm::vec3> drops_;
+    std::vector<Steering> steerings_;
     std::optional<Explanation> mind_;
 
   private:

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/cli/clip.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason() {
+    return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): this process has one thread
+}
+
+}  // namespace
+
+std::vector<std::string> channelsFor(const Rig& rig, const std::string& of) {
+    std::vector<std::string> names;
+    for (const Channel& channel : rig.channels) names.push_back(channel.name);
+    if (of == "panorama" || of == "hall") return names;
+    if (std::ranges::find(names, of) != names.end()) return {of};
+    std::string known = "panorama, hall";
+    for (const std::string& name : names) known += ", " + name;
+    throw Error("--clip-of " + of + ": rig \"" + rig.name + "\" has no such channel; choose one of " +
+                known);
+}
+
+void requireClipPath(const std::string& path) {
+    if (!path.ends_with(".mp4") && !path.ends_with(".webp"))
+        throw Error("--clip " + path + ": a clip is FILE.mp4 or FILE.webp; choose such a name");
+    const fs::path folder = fs::absolute(path).parent_path();
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure || access(folder.c_str(), W_OK | X_OK) != 0 || fs::is_directory(path))
+        throw Error("--clip " + path + ": cannot be written (" +
+                    (failure ? failure.message() : reason()) + "); choose another folder");
+}
+
+ClipPipes::ClipPipes(const std::vector<std::string>& channels) {
+    std::string pattern = (fs::temp_directory_path() / "aquarama-clip-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+        throw Error(pattern + ": no folder can be made for the clip's pipes (" + reason() + ")");
+    folder_ = pattern;
+    for (const std::string& channel : channels)
+        if (mkfifo((folder_ / channel).c_str(), S_IRUSR | S_IWUSR) != 0)
+            throw Error(folder_.string() + ": takes no named pipe (" + reason() +
+                        "); set TMPDIR to a folder of a local disk");
+}
+
+ClipPipes::~ClipPipes() {
+    std::error_code none;
+    fs::remove_all(folder_, none);
+}
+
+std::string ClipPipes::pipeOf(const std::string& channel) const {
+    const fs::path pipe = folder_ / channel;
+    return fs::exists(pipe) ? pipe.string() : "";
+}
+
+}  // namespace aquarama

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pipes through which the nodes of a show send frames to the program that encodes its clip.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/config/rig.h"
+
+namespace aquarama {
+
+// The channels that a clip of `of` needs: all of them for the panorama and the hall, or the one of
+// that name. Throws Error where the rig has none.
+[[nodiscard]] std::vector<std::string> channelsFor(const Rig& rig, const std::string& of);
+
+// Throws Error unless a clip could be written there: another ending than .mp4 and .webp, no folder,
+// no leave to write.
+void requireClipPath(const std::string& path);
+
+// Named pipes in a folder of their own, which goes with them.
+class ClipPipes {
+  public:
+    explicit ClipPipes(const std::vector<std::string>& channels);
+    ~ClipPipes();
+    ClipPipes(const ClipPipes&) = delete;
+    ClipPipes& operator=(const ClipPipes&) = delete;
+    [[nodiscard]] std::string folder() const { return folder_.string(); }
+    // Empty where the channel is not filmed.
+    [[nodiscard]] std::string pipeOf(const std::string& channel) const;
+
+  private:
+    std::filesystem::path folder_;
+};
+
+}  // namespace aquarama

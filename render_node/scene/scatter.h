@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands where: the instances of all prototypes, from the place's rocks and a seed alone. Only
+// seen, never felt: the master knows rocks and kelp from place.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "common/place/place.h"
+#include "render_node/scene/growth.h"
+#include "render_node/scene/mesh.h"
+#include "render_node/scene/rock_mesh.h"
+
+namespace aquarama {
+
+// Rocks first, then each form's shapes.
+inline constexpr std::size_t kPrototypes = kRockShapes + kForms * kShapesOfForm;
+[[nodiscard]] constexpr std::size_t prototypeOf(Form form, int shape) {
+    return kRockShapes + static_cast<std::size_t>(form) * kShapesOfForm +
+           static_cast<std::size_t>(shape);
+}
+
+// 64 bytes, as instance.glsl reads them.
+struct Instance {
+    glm::vec4 placeAndScale{};   // world metres
+    glm::vec4 turn{0, 0, 0, 1};  // quaternion x, y, z, w
+    glm::vec4 tintAndSway{};     // linear albedo; w: share of the swell that its top follows
+    glm::vec4 light{};           // openness to sun and sky, height of the sand, the prototype
+};
+static_assert(sizeof(Instance) == 64);
+
+// Sorted by prototype.
+[[nodiscard]] std::vector<Instance> scatter(const PlaceKey& place,
+                                            const std::array<Levels, kRockShapes>& rocks);
+
+}  // namespace aquarama

@@ -1,0 +1,10 @@
+// What grows, far off: lit at its corners, as a pixel holds several of them.
+#include "grown.glsl"
+layout(location = 0) out vec3 light;
+void main() {
+    Grown it = grown();
+    vec3 own = litAt(1.0, it.open, it.albedo, it.place, normalize(it.normal), response.y) +
+               fluorescent(it.albedo, response.z * albedoAndSky.w);
+    light = seen(own, it.place);
+    gl_Position = clipFromWorld * vec4(it.place, 1.0);
+}

@@ -1,0 +1,40 @@
+// A corner of what grows on the reef: where the swell has carried it, and how it is lit.
+#include "instance.glsl"
+#include "plant_bend.h"
+#include "shading.glsl"
+#include "sea_now.glsl"
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 normalAndRoughness;
+layout(location = 2) in vec4 albedoAndSky;
+layout(location = 3) in vec4 response;  // share of the sway, translucency, fluorescence, relief
+layout(location = 4) in uint chosen;
+layout(location = 0) uniform float detail;
+struct Grown {
+    vec3 place, rest, normal, albedo;
+    Openness open;
+};
+Grown grown() {
+    Instance one = instances[chosen];
+    // What would vanish at the next step back has shrunk before.
+    float shown = smoothstep(2.2, 4.5, detail * pixelsOf(one.placeAndScale));
+    float scale = one.placeAndScale.w * shown;
+    vec3 root = one.placeAndScale.xyz;
+    Grown it;
+    it.rest = root + scale * turned(one.turn, position);
+    it.place = it.rest;
+    float sway = one.tintAndSway.w;
+    if (sway > 0.0) {
+        float share = response.x;
+        vec2 push = sway * scale * surge(mix(root, it.rest, 0.7));
+        it.place += bentStem(share, scale, push) - vec3(0.0, scale * share, 0.0);
+    }
+    it.normal = turned(one.turn, normalAndRoughness.xyz);
+    it.albedo = min(2.0 * albedoAndSky.rgb * one.tintAndSway.rgb, vec3(0.92));
+    // A leaf has two sides: the one that looks at us is lit.
+    if (response.y > 0.3 && dot(it.normal, eyeAndTime.xyz - it.place) < 0.0) it.normal = -it.normal;
+    // The sand takes light from what stands close above it.
+    float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.light.z));
+    float own = albedoAndSky.w;
+    it.open = Openness(one.light.x * mix(0.35, 1.0, own), one.light.y * own * contact);
+    return it;
+}

@@ -1,0 +1,53 @@
+// From a projector pixel's light to its code. The dither is the same for both eyes, or its grain would
+// hang in the room.
+layout(location = 0) uniform ivec2 size;  // of the projector's picture
+layout(location = 1) uniform uint seed;
+layout(location = 2) uniform bool dithered;
+layout(location = 3) uniform bool blendMask;
+
+layout(location = 0) out vec4 encoded;
+
+// sRGB (IEC 61966-2-1), the curve of the projector that undoes it.
+vec3 encode(vec3 linear) {
+    vec3 curve = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
+    return mix(curve, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
+}
+
+// Three independent numbers of 32 bits (pcg3d: Jarzynski and Olano 2020).
+uvec3 noise(uvec3 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+// To one of 256 codes, right in the mean. Triangular noise of +-1 code keeps the grain the same at
+// every level; below half a code from either end it would be cut off and shift the mean, and the
+// grain of uniform noise is the same at that point and fades to none at the end.
+vec3 toCodes(vec3 value, uvec3 random) {
+    vec3 code = value * 255.0;
+    vec3 first = vec3(random & 0xffffu) / 65536.0;
+    vec3 second = vec3(random >> 16u) / 65536.0;
+    bvec3 atAnEnd = greaterThan(abs(code - 127.5), vec3(127.0));
+    return floor(code + mix(first + second - 0.5, first, atAnEnd)) / 255.0;
+}
+
+// The fragment's, from the top left corner.
+ivec2 projectorPixel() { return ivec2(gl_FragCoord.x, size.y - 1 - int(gl_FragCoord.y)); }
+
+// What a texel of the map, top row first, shows of a scene.
+vec3 projectedLight(sampler2D scene, sampler2D placeAndWeight, ivec2 pixel) {
+    vec3 place = texelFetch(placeAndWeight, pixel, 0).xyz;
+    return (blendMask ? vec3(1.0) : textureLod(scene, place.xy, 0.0).rgb) * place.z;
+}
+
+vec4 finished(vec3 light, ivec2 pixel) {
+    vec3 value = encode(clamp(light, 0.0, 1.0));
+    if (dithered) value = toCodes(value, noise(uvec3(pixel, seed)));
+    return vec4(value, 1.0);
+}

@@ -1,0 +1,45 @@
+// One pixel of a display that takes the pictures of two eyes at once.
+#include "project.glsl"
+layout(binding = 0) uniform sampler2D leftScene;
+layout(binding = 1) uniform sampler2D leftPlaces;
+layout(binding = 2) uniform sampler2D rightScene;
+layout(binding = 3) uniform sampler2D rightPlaces;
+layout(location = 4) uniform int mode;
+
+const int kSideBySide = 2, kTopBottom = 3, kInterlaced = 4;  // as StereoMode; else anaglyph
+
+// Red and cyan glasses by least squares over what display and filters do to the light (Dubois 2001),
+// for linear light.
+const mat3 kLeftToRed = mat3(0.4561, -0.0400822, -0.0152161,
+                             0.500484, -0.0378246, -0.0205971,
+                             0.176381, -0.0157589, -0.00546856);
+const mat3 kRightToCyan = mat3(-0.0434706, 0.378476, -0.0721527,
+                               -0.0879388, 0.73364, -0.112961,
+                               -0.00155529, -0.0184503, 1.2264);
+
+vec3 leftLight(ivec2 pixel) { return projectedLight(leftScene, leftPlaces, pixel); }
+vec3 rightLight(ivec2 pixel) { return projectedLight(rightScene, rightPlaces, pixel); }
+vec3 eyesLight(bool right, ivec2 pixel) { return right ? rightLight(pixel) : leftLight(pixel); }
+
+// A half has every eye pixel twice as wide or high as the projector's: the mean of the two.
+vec3 pairOf(bool right, ivec2 first, ivec2 step) {
+    return 0.5 * (eyesLight(right, first) + eyesLight(right, first + step));
+}
+
+void main() {
+    ivec2 pixel = projectorPixel();
+    ivec2 half_ = size / 2;
+    if (mode == kSideBySide) {
+        bool right = pixel.x >= half_.x;
+        ivec2 own = ivec2(pixel.x % half_.x, pixel.y);
+        encoded = finished(pairOf(right, own * ivec2(2, 1), ivec2(1, 0)), own);
+    } else if (mode == kTopBottom) {
+        bool right = pixel.y >= half_.y;
+        ivec2 own = ivec2(pixel.x, pixel.y % half_.y);
+        encoded = finished(pairOf(right, own * ivec2(1, 2), ivec2(0, 1)), own);
+    } else if (mode == kInterlaced) {
+        encoded = finished(eyesLight(pixel.y % 2 == 1, pixel), pixel);
+    } else {
+        encoded = finished(kLeftToRed * leftLight(pixel) + kRightToCyan * rightLight(pixel), pixel);
+    }
+}

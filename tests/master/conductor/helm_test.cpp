@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/helm.h"
+
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+namespace aquarama {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Steering kAhead{.ahead = 127};
+constexpr Steering kBack{.ahead = -127};
+constexpr Steering kNothing{};
+
+class HelmTest : public testing::Test {
+  protected:
+    bool says(const PeerId& who, const Steering& what, int laterMs = 40) {
+        now_ += milliseconds(laterMs);
+        return helm_.heeds(who, what, now_);
+    }
+    Helm helm_;
+    Instant now_ = milliseconds(1000);
+};
+
+TEST_F(HelmTest, oneHandIsHeardUntilItLetsGo) {
+    EXPECT_FALSE(says("a", kNothing)) << "it held nothing";
+    EXPECT_TRUE(says("a", kAhead));
+    EXPECT_TRUE(says("a", kBack));
+    EXPECT_EQ(helm_.pilot(now_), "a");
+    EXPECT_TRUE(says("a", kNothing)) << "the submarine must hear that it lets go";
+    EXPECT_EQ(helm_.pilot(now_), std::nullopt);
+    EXPECT_FALSE(says("a", kNothing));
+}
+
+TEST_F(HelmTest, theLatestThatTakesHoldWins) {
+    EXPECT_TRUE(says("a", kAhead));
+    EXPECT_TRUE(says("b", kBack));
+    EXPECT_FALSE(says("a", kAhead)) << "it holds on, but b came later";
+    EXPECT_FALSE(says("a", kNothing)) << "nor does its letting go let b's go";
+    EXPECT_EQ(helm_.pilot(now_), "b");
+    EXPECT_TRUE(says("a", kAhead)) << "it takes hold anew";
+    EXPECT_FALSE(says("b", kBack));
+    EXPECT_TRUE(says("a", kNothing));
+    EXPECT_TRUE(says("b", kBack)) << "still held, and the helm is free";
+}
+
+TEST_F(HelmTest, aHandThatFallsSilentLosesTheHelm) {
+    EXPECT_TRUE(says("a", kAhead));
+    EXPECT_TRUE(says("b", kBack));
+    EXPECT_EQ(helm_.pilot(now_ + milliseconds(600)), std::nullopt);
+    EXPECT_TRUE(says("a", kAhead, 600));
+}
+
+TEST_F(HelmTest, aFloodIsHeardNowAndThenAndItsEndAtOnce) {
+    int heard = 0;
+    for (int i = 0; i < 1000; ++i) heard += says("a", kAhead, 1) ? 1 : 0;
+    EXPECT_LE(heard, 130);
+    EXPECT_GE(heard, 50);
+    EXPECT_TRUE(says("a", kNothing, 0));
+}
+
+TEST_F(HelmTest, whoOnlyTriesToBeRememberedIsNot) {
+    int heard = 0;
+    for (int i = 0; i < 10000; ++i) heard += says(std::to_string(i), kAhead, 0) ? 1 : 0;
+    EXPECT_LE(heard, 256);
+}
+
+}  // namespace
+}  // namespace aquarama

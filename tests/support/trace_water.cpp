@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traces the table of render_node/scene/water_lobes.h and writes its C++. The same seed and number
+// of paths give the same table.
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
+
+#include "common/units/error.h"
+#include "render_node/scene/shade.h"
+#include "render_node/scene/water_lobes.h"
+#include "tests/support/water_light.h"
+
+namespace {
+
+using namespace aquarama;
+
+struct Wish {
+    std::uint64_t seed = 1;
+    int paths = 30000;
+    std::string out = "water_lobes_table.cpp";
+};
+
+// The direction of an entry, sun's azimuth and all.
+glm::dvec3 directionOf(double rise, double azimuthDegrees, glm::dvec3 sun) {
+    const double flat = std::sqrt(std::max(1 - rise * rise, 0.0));
+    const glm::dvec3 ahead = glm::normalize(glm::dvec3{sun.x, 0, sun.z});
+    const glm::dvec3 aside = glm::cross(ahead, glm::dvec3{0, 1, 0});
+    const double around = azimuthDegrees * std::numbers::pi / 180;
+    return flat * (std::cos(around) * ahead + std::sin(around) * aside) + glm::dvec3{0, rise, 0};
+}
+
+constexpr double kFarthest = 4.0;  // optical
+
+double grown(double loss, double range) {
+    return (1 - std::exp(-loss * range)) / loss;
+}
+
+// What is scattered by less does not count as scattered: it is light that stays in the picture.
+constexpr double kPeakRadians = 4.0 * std::numbers::pi / 180;
+
+// The plain guess at the loss: of what goes straight, less the light that grows as one looks up.
+double guessedLoss(double albedo, double rise, double peakShare) {
+    const double absorbed = 1 - albedo;
+    const double downwelling = std::sqrt(absorbed * absorbed + 0.256 * absorbed * albedo) / 0.9;
+    return std::max(1 - peakShare * albedo - downwelling * rise, 0.02);
+}
+
+// ln L = ln source + ln((1 - e^(-loss r)) / loss) at three ranges: least squares, drawn a little
+// towards the guess where noise would decide.
+WaterLobe fitted(const std::vector<double>& ranges,
+                 const std::vector<double>& lights,
+                 double guess) {
+    constexpr double kTrust = 0.002;
+    WaterLobe best;
+    double least = 1e30;
+    for (double loss = 0.02; loss < 3.0; loss += 0.005) {
+        double mean = 0;
+        double squares = 0;
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            const double ln = std::log(lights[i] / grown(loss, ranges[i]));
+            mean += ln;
+            squares += ln * ln;
+        }
+        const auto count = static_cast<double>(ranges.size());
+        mean /= count;
+        const double error =
+            squares / count - mean * mean + kTrust * (loss - guess) * (loss - guess);
+        if (error >= least) continue;
+        least = error;
+        best = {std::exp(mean), loss};
+    }
+    return best;
+}
+
+// One albedo and depth of the table, in the lengths of the light that does not go straight.
+struct Water {
+    const test::ForwardPhase& phase;
+    double albedo, depth;
+    [[nodiscard]] double scale() const { return 1 - phase.peakShare() * albedo; }
+    [[nodiscard]] double scaledAlbedo() const { return albedo * (1 - phase.peakShare()) / scale(); }
+};
+
+WaterLobe traced(const Water& water, double irradiance, glm::dvec3 direction, const Wish& wish) {
+    const glm::dvec3 sun{sunInWater()};
+    const double farthest =
+        direction.y > 0 ? std::min(water.depth / direction.y, kFarthest) : kFarthest;
+    std::vector<double> ranges;
+    std::vector<double> lights;
+    for (const double share : {0.12, 0.4, 1.0}) {
+        ranges.push_back(share * farthest);
+        const test::SeenWater seen{water.scaledAlbedo(),
+                                   water.depth * water.scale(),
+                                   direction,
+                                   ranges.back() * water.scale()};
+        lights.push_back(test::scatteredIn(water.phase, seen, sun, wish.paths, wish.seed).mean /
+                         (water.albedo * irradiance * plainLobe(direction, sun)));
+    }
+    return fitted(ranges, lights, guessedLoss(water.albedo, direction.y, water.phase.peakShare()));
+}
+
+void write(const Wish& wish) {
+    const test::ForwardPhase phase{kPeakRadians};
+    std::ofstream file(wish.out);
+    file << "// SPDX-License-Identifier: Apache-2.0\n"
+            "// Written by aquarama_trace_water --seed "
+         << wish.seed << " --paths " << wish.paths
+         << ": trace it anew, do not edit it.\n"
+            "#include \"render_node/scene/water_lobes.h\"\n\nnamespace aquarama {\n\n"
+            "// clang-format off\n"
+            "const std::array<LobeEntry, kLobeEntries> kLobeTable{{\n";
+    for (const double albedo : kLobeAlbedos)
+        for (const double depth : kLobeDepths) {
+            const Water water{phase, albedo, depth};
+            const double light = test::irradiance(phase,
+                                                  water.scaledAlbedo(),
+                                                  depth * water.scale(),
+                                                  glm::dvec3{sunInWater()},
+                                                  8 * wish.paths,
+                                                  wish.seed)
+                                     .mean;
+            std::fprintf(stderr, "albedo %.2f depth %.2f irradiance %.4g\n", albedo, depth, light);
+            for (const double rise : kLobeRises) {
+                WaterLobe lobe;
+                for (const double azimuth : kLobeAzimuths) {
+                    // Straight up and down there is one direction.
+                    if (std::abs(rise) < 1 || azimuth == 0)
+                        lobe = traced(water,
+                                      light,
+                                      directionOf(rise, azimuth, glm::dvec3{sunInWater()}),
+                                      wish);
+                    file << '{' << std::lround(1000 * std::log(lobe.source)) << ','
+                         << std::lround(1000 * lobe.loss) << "},";
+                }
+                file << '\n';
+            }
+            file.flush();
+        }
+    file << "}};\n// clang-format on\n\n}  // namespace aquarama\n";
+    if (!file) throw Error("cannot write " + wish.out + ": is the folder there?");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    CLI::App app{"Traces how sea water scatters light and writes the table of its lobes."};
+    Wish wish;
+    app.add_option("--seed", wish.seed, "of the paths");
+    app.add_option("--paths", wish.paths, "for each of the 4 000 radiances");
+    app.add_option("--out", wish.out, "C++ file");
+    CLI11_PARSE(app, argc, argv);
+    write(wish);
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "aquarama_trace_water: %s\n", error.what());
+    return 1;
+}
