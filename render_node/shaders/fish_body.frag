@@ -27,7 +27,7 @@ void main() {
     float outline = smoothstep(0.05, 0.40, look.z);
     skin.tilt *= outline;
     skin.flicker *= outline;
-    skin.albedo = min(skin.albedo * tintOf(id), vec3(1.0));
+    skin.albedo = wetAlbedo(skin.albedo, id);
     float eye = paintEye(skin, at, kIris, look);
 
     vec3 n = normalize(skinNormal + skin.tilt.x * tailwards + skin.tilt.y * upwards);

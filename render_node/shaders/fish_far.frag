@@ -18,7 +18,7 @@ void main() {
     float eye = falling(1.0 - soft, 1.0 + soft, d);
     float pupil = falling(kIris.pupil - soft, kIris.pupil + soft, d);
     skin.albedo = mix(skin.albedo, kIris.colour * (0.85 - 0.80 * pupil), eye);
-    skin.albedo = min(skin.albedo * tintOf(id), vec3(1.0));
+    skin.albedo = wetAlbedo(skin.albedo, id);
     skin.silver *= 1.0 - eye;
 
     vec3 toEye = normalize(eyeAndTime.xyz - place);

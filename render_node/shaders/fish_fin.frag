@@ -49,7 +49,7 @@ void main() {
     float reach = isPaired ? 0.20 : 0.12;
     float grown = smoothstep(0.0, reach, fin.y);
     Skin skin = root;
-    skin.albedo = min(mix(root.albedo, made.albedo, grown) * tintOf(id), vec3(1.0));
+    skin.albedo = wetAlbedo(mix(root.albedo, made.albedo, grown), id);
 
     vec3 n = mix(normalize(normal), facet, grown);
     // Rays stand out like ribs.

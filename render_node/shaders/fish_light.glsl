@@ -4,11 +4,17 @@
 #include "light.glsl"
 #include "skin.glsl"
 
+// The palettes are those of plates in daylight, drawn for paper: under water skin is darker by this.
+const float kWet = 0.78;
+vec3 wetAlbedo(vec3 albedo, uint id) { return min(kWet * albedo * tintOf(id), vec3(1.0)); }
+
 // Light goes a little way through skin, so that the border of its shadow is soft: the sun's
-// cosine c becomes (c + w) / |n + w s|.
+// cosine c becomes (c + w) / |n + w s|. What looks down has the fish's own shadow below it, and
+// sees less of the lit sand.
 vec3 litSkin(Skin skin, vec3 place, vec3 n) {
     vec3 wrapped = normalize(n + 0.35 * skin.soft * sunAndFilterDepth.xyz);
-    return lit(skin.albedo, place, wrapped, 0.10 * skin.soft);
+    float open = mix(0.55, 1.0, smoothstep(-1.0, 0.6, n.y));
+    return lit(skin.albedo, place, wrapped, 0.10 * skin.soft) * open;
 }
 
 // Stacks of guanine platelets hang upright whatever the curve of the skin (Denton 1970), so that a
