@@ -70,5 +70,7 @@ void main() {
         vec3 shown = max(mirrored(reflect(fromEye, plate), place), 0.0);
         radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
-    colour = vec4(seen(radiance, place), mix(1.0, made.opacity, smoothstep(0.0, 2.0 * reach, fin.y)));
+    // Behind the root of a paired fin the body is open: that part is never clear.
+    float clear = isPaired ? smoothstep(0.30, 0.60, fin.y) : smoothstep(0.0, 2.0 * reach, fin.y);
+    colour = vec4(seen(radiance, place), mix(1.0, made.opacity, clear));
 }

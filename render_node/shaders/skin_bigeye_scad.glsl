@@ -4,7 +4,7 @@
 #include "skin_anatomy.glsl"
 
 const Iris kIris = Iris(vec3(0.34, 0.33, 0.27), vec3(0.70, 0.62, 0.36), 0.56, 1.0);
-const vec3 kBack = vec3(0.006, 0.030, 0.044), kFlank = vec3(0.50, 0.60, 0.63),
+const vec3 kBack = vec3(0.006, 0.030, 0.044), kFlank = vec3(0.46, 0.59, 0.65),
            kBelly = vec3(0.78, 0.80, 0.80), kGold = vec3(0.70, 0.46, 0.050);
 
 float goldenLine(SkinPoint at) {
