@@ -16,9 +16,10 @@ layout(location = 4) flat out uint part;
 layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
 layout(location = 7) out float opacity;     // 1 but where a level of detail fades
+layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
 
 // Of DetailLevel, and of CagePart.
-const uint kControlMesh = 3u, kPelvic = 5u;
+const uint kControlMesh = 3u, kMesh = 4u, kPelvic = 5u;
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
@@ -32,5 +33,6 @@ void main() {
     // Few triangles have no paired fins.
     bool grows = fish[slot].detail == kControlMesh && vertexPart >= kPelvic;
     opacity = grows ? fish[slot].blend : 1.0;
+    nearness = fish[slot].detail == kMesh ? fish[slot].blend : 1.0;
     gl_Position = clipFromWorld * vec4(place, 1.0);
 }

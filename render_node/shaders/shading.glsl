@@ -9,16 +9,19 @@ struct Openness {
     float sky;
 };
 
-// The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
-// the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
-const float kLampPower = 8.0;
+// The submarine's own floodlights, either side of the eye: things before it show the reds that the
+// sea has taken from the sun. Their beams cross a few metres ahead, so that what swims at the glass
+// is not burnt white. Power relative to the sun at the surface, at 1 m; metres within which the
+// beams pass by; attenuation of the three primaries, 1/m.
+const float kLampPower = 10.0, kLampCrossing = 2.45;
 const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045);
 vec3 lampLight(vec3 place, vec3 normal) {
     vec3 way = eyeAndTime.xyz - place;
     float range2 = dot(way, way), range = sqrt(range2);
     float facing = 0.15 + 0.85 * max(dot(normal, way) / range, 0.0);
+    float crossed = range2 / (range2 + kLampCrossing * kLampCrossing);
     return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) *
-           (kLampPower * facing / (range2 + 2.0));
+           (kLampPower * facing * crossed * crossed / (range2 + 2.0));
 }
 
 // Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the
