@@ -8,6 +8,7 @@ trap 'rm -rf "$drawn"' EXIT
 build/show/bin/aquarama run config/theatre.txtpb --headless --frames 150 --snapshot "$drawn/theatre"
 build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
 
+build/show/bin/aquarama run config/desk_stereo.txtpb --headless --frames 150 --snapshot "$drawn/stereo"
 cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
@@ -27,6 +28,7 @@ cp "$drawn/chase/panorama.png" docs/pictures/chase.png
 
 build/show/bin/aquarama-capture controllers --out docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
+cp "$drawn/stereo/panorama.png" docs/pictures/stereo.png
 for figure in forward_medium turn_right_sharp midlines_forward_medium; do
     sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"
 done

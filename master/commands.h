@@ -15,6 +15,7 @@ using Job = std::function<int()>;
 
 void addStatus(CLI::App& app, Job& job);
 void addExplain(CLI::App& app, Job& job);
+void addPilot(CLI::App& app, Job& job);    // steers the running show from a terminal
 void addReplay(CLI::App& app, Job& job);   // compares a recording with its replay
 void addInspect(CLI::App& app, Job& job);  // what a recording holds
 

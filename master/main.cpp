@@ -180,7 +180,7 @@ int dispatch(int count, char** arguments) {
         runMaster(options);
         return 0;
     };
-    for (const auto add : {addStatus, addExplain, addReplay, addInspect}) add(app, job);
+    for (const auto add : {addStatus, addExplain, addPilot, addReplay, addInspect}) add(app, job);
     try {
         app.parse(count, arguments);
         if (app.get_subcommands().empty() && rig->empty()) throw CLI::RequiredError("RIG");

@@ -13,8 +13,8 @@
 namespace {
 
 constexpr const char* kFooter =
-    "Keys in its window: q or Escape ends the show, p or space pauses it, f fullscreen, w grid on "
-    "the wall,\nb blend mask, i fish ids, h lists them.\n"
+    "Keys in its window: w a s d, arrows and page up and down steer the submarine, q or Escape ends "
+    "the show,\np or space pauses it, h lists them all.\n"
     "Software OpenGL draws with as many threads as LP_NUM_THREADS says; where several nodes share "
     "a "
     "machine,\nits cores divided by the nodes is best.";

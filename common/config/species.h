@@ -29,6 +29,7 @@ struct Fin {
     std::vector<glm::vec2> base;
     std::vector<glm::vec2> edge;
     float angleRadians = 0.0F;  // paired fins: how far it stands off the flank
+    float flex = 1.0F;          // median fins and tail: how far it ripples
 };
 
 struct Fins {
@@ -37,10 +38,36 @@ struct Fins {
     Fin anal, caudal, pelvic, pectoral;
 };
 
+// How fins move beside the body, at their most; all zero: they keep still (species.proto).
+struct Rowing {
+    float beatHertz = 0;
+    float strokeRadians = 0, featherRadians = 0, openRadians = 0, flapRadians = 0, trimRadians = 0;
+    float alternateBelow = 0, foldAbove = 0;  // body lengths a second
+};
+struct Ripple {
+    float amplitude = 0;  // lengths of a ray
+    float waves = 0;
+    float beatHertz = 0;
+    bool isOpposed = false;
+};
+struct FinMotion {
+    Rowing rowing;
+    Ripple swimming, hovering;
+    float cuppingRadians = 0, pelvicFoldRadians = 0;
+};
+
 struct FishEye {
     float s = 0.0F;
     float y = 0.0F;
     float radius = 0.0F;
+    float bulge = 0.35F;  // height over the skin, in radii
+};
+
+// Thinner than the cage can draw, in the middle plane of the body.
+struct Thread {
+    std::vector<glm::vec2> at;  // (s, y) from its root to its tip
+    float rootWidth = 0.0F, tipWidth = 0.0F;  // seen from the side
+    bool isOfFirstDorsal = false;
 };
 
 struct SkeletonRing {
@@ -106,7 +133,9 @@ struct Species {
     SizeRange size;
     BodyProfile profile;
     Fins fins;
+    FinMotion finMotion;
     FishEye eye;
+    std::vector<Thread> threads;
     Skeleton skeleton;
     Tissue tissue;
     Water water;

@@ -35,6 +35,9 @@ class MasterLine {
                     "; start one, or name its control address with --master");
     }
 
+    // What is not answered.
+    void tell(const Message& message) { channels_->sendControl(encode({0, message})); }
+
   private:
     template <class Reply>
     std::optional<Reply> newest() {

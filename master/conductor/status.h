@@ -8,6 +8,9 @@
 
 namespace aquarama {
 
+// Where the submarine is, how fast, and who steers it; one line.
+[[nodiscard]] std::string submarineText(const StatusReply& status);
+
 [[nodiscard]] std::string statusText(const StatusReply& status);
 
 // Asks the master at this control address. Throws Error where none answers.

@@ -25,6 +25,7 @@ Scenario readScenario(const std::filesystem::path& scene) {
     const Production production = readProduction(scene.string(), {});
     Scenario scenario;
     scenario.world = worldOptionsOf(production);
+    scenario.world.scene.tour.reset();  // fish are measured, not how they make way
     scenario.name = scenario.world.scene.name;
     for (const ProducedSpecies& species : production.cast)
         scenario.halfWidths.push_back(halfWidthOf(species));

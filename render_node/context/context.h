@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "common/config/rig.h"
+#include "render_node/context/hands.h"
 
 namespace aquarama {
 
@@ -28,6 +29,9 @@ class Context {
     // True where framebuffer 0 has a left and a right back buffer.
     [[nodiscard]] virtual bool quadBuffered() const { return false; }
     [[nodiscard]] virtual std::string description() const = 0;  // renderer and version, for the log
+    // Why all that was made in it is gone, on the thread where it is current; nothing while it is
+    // not.
+    [[nodiscard]] virtual std::optional<std::string> loss() const = 0;
 
     // On the main thread: waits for window events no longer than this, and handles them.
     virtual void pumpEvents(std::chrono::milliseconds atMost) = 0;
@@ -39,6 +43,8 @@ class Context {
     [[nodiscard]] virtual std::optional<glm::vec2> nextClick() = 0;
     // Where the mouse points, as above; nothing while it is outside the window.
     [[nodiscard]] virtual std::optional<glm::vec2> pointer() const = 0;
+    // What is held now; keys and mouse of this window only, gamepads of this machine.
+    [[nodiscard]] virtual Hands hands() const = 0;
 };
 
 inline constexpr char kEscapeKey = '\x1b';

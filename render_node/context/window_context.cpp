@@ -5,6 +5,7 @@
 #include <deque>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -13,7 +14,8 @@
 
 #include "common/units/error.h"
 #include "render_node/context/context.h"
-#include "render_node/context/opengl_version.h"
+#include "render_node/context/driver.h"
+#include "render_node/context/gamepads.h"
 
 namespace aquarama {
 
@@ -118,6 +120,7 @@ class WindowContext : public Context {
                                    [](GLFWwindow* source) { of(source).onKey(GLFW_KEY_ESCAPE); });
         glfwSetMouseButtonCallback(window, [](GLFWwindow* source, int button, int action, int) {
             if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) of(source).onClick();
+            if (button == GLFW_MOUSE_BUTTON_RIGHT) of(source).onDrag(action == GLFW_PRESS);
         });
         glfwSetFramebufferSizeCallback(window, [](GLFWwindow* source, int width, int height) {
             of(source).framebuffer_ = glm::ivec2(width, height);
@@ -127,7 +130,7 @@ class WindowContext : public Context {
     void makeCurrent() override {
         glfwMakeContextCurrent(window_.get());
         glfwSwapInterval(1);
-        requireOpenGl45("window");
+        requireDriver("window");
     }
     void release() override { glfwMakeContextCurrent(nullptr); }
     void swap() override { glfwSwapBuffers(window_.get()); }
@@ -137,6 +140,7 @@ class WindowContext : public Context {
     [[nodiscard]] std::string description() const override {
         return rendererAndVersion() + ", in a window";
     }
+    [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     void pumpEvents(std::chrono::milliseconds atMost) override {
         glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
     }
@@ -157,6 +161,7 @@ class WindowContext : public Context {
         if (glfwGetWindowAttrib(window_.get(), GLFW_HOVERED) == GLFW_FALSE) return std::nullopt;
         return cursor();
     }
+    [[nodiscard]] Hands hands() const override;
 
   private:
     static WindowContext& of(GLFWwindow* source) {
@@ -166,6 +171,7 @@ class WindowContext : public Context {
     void check();
     void onKey(int key);
     void onClick();
+    void onDrag(bool begins);
     [[nodiscard]] glm::vec2 cursor() const;
     void toggleFullscreen();
 
@@ -177,14 +183,16 @@ class WindowContext : public Context {
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
     std::deque<char> keys_;
     std::deque<glm::vec2> clicks_;
+    std::optional<glm::vec2> dragFrom_;
 };
 
 void WindowContext::open(const std::string& title) {
-    constexpr std::array<std::array<int, 2>, 9> kHints{{
+    constexpr std::array<std::array<int, 2>, 10> kHints{{
         {GLFW_CONTEXT_VERSION_MAJOR, 4},
         {GLFW_CONTEXT_VERSION_MINOR, 5},
         {GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE},
-        {GLFW_DECORATED, GLFW_FALSE},  // windows side by side are one wall
+        {GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET},  // where the driver can tell
+        {GLFW_DECORATED, GLFW_FALSE},                           // windows side by side are one wall
         {GLFW_RESIZABLE, GLFW_FALSE},
         {GLFW_AUTO_ICONIFY, GLFW_FALSE},  // one projector keeps showing when another is clicked
         {GLFW_VISIBLE, GLFW_FALSE},       // until it is in its place
@@ -250,6 +258,38 @@ void WindowContext::onKey(int key) {
 void WindowContext::onClick() {
     constexpr std::size_t kMostClicks = 16;
     if (clicks_.size() < kMostClicks) clicks_.push_back(cursor());
+}
+
+void WindowContext::onDrag(bool begins) {
+    dragFrom_ = begins ? std::optional(cursor()) : std::nullopt;
+}
+
+// A window that is left by the keyboard holds no key any more: GLFW lets go of all.
+Hands WindowContext::hands() const {
+    constexpr std::array<std::pair<int, HeldKey>, static_cast<std::size_t>(HeldKey::kCount)> kKeys{{
+        {GLFW_KEY_W, HeldKey::W},
+        {GLFW_KEY_A, HeldKey::A},
+        {GLFW_KEY_S, HeldKey::S},
+        {GLFW_KEY_D, HeldKey::D},
+        {GLFW_KEY_UP, HeldKey::Up},
+        {GLFW_KEY_DOWN, HeldKey::Down},
+        {GLFW_KEY_LEFT, HeldKey::Left},
+        {GLFW_KEY_RIGHT, HeldKey::Right},
+        {GLFW_KEY_PAGE_UP, HeldKey::PageUp},
+        {GLFW_KEY_PAGE_DOWN, HeldKey::PageDown},
+        {GLFW_KEY_HOME, HeldKey::Home},
+        {GLFW_KEY_END, HeldKey::End},
+    }};
+    Hands hands;
+    hands.pad = movedPad();
+    for (const auto& [key, held] : kKeys)
+        if (glfwGetKey(window_.get(), key) == GLFW_PRESS) hands.hold(held);
+    if (dragFrom_) {
+        const glm::vec2 drag = cursor() - *dragFrom_;
+        const auto height = static_cast<float>(glm::max(framebuffer_.load().y, 1));
+        hands.drag = glm::vec2(drag.x, -drag.y) / height;
+    }
+    return hands;
 }
 
 // GLFW tells it in the units of the desktop, of which a scaled one has fewer than pixels.

@@ -27,15 +27,19 @@ GLenum stageOf(const std::string& file) {
     throw Error("shader file \"" + file + "\" must end in .vert, .frag or .comp");
 }
 
-struct ShaderTraits {
-    static unsigned create(GLenum stage) { return glCreateShader(stage); }
-    static void destroy(unsigned name) { glDeleteShader(name); }
-};
+std::string trimmed(std::string log) {
+    log.erase(log.find_last_not_of(" \n\t") + 1);
+    return log;
+}
 
-Handle<ShaderTraits> compile(const std::string& file, std::span<const Replacement> replacements) {
-    const std::string source = "#version 450 core\n" + shaderSource(file, replacements);
-    const char* text = source.c_str();
-    Handle<ShaderTraits> shader{stageOf(file)};
+}  // namespace
+
+ShaderHandle compileShader(const std::string& file,
+                           std::span<const Replacement> replacements,
+                           const ReadShader& read) {
+    const ShaderText source = expand(file, read, replacements);
+    const char* text = source.text.c_str();
+    ShaderHandle shader{stageOf(file)};
     glShaderSource(shader.name(), 1, &text, nullptr);
     glCompileShader(shader.name());
     int compiled = 0;
@@ -43,31 +47,14 @@ Handle<ShaderTraits> compile(const std::string& file, std::span<const Replacemen
     if (compiled == 0) {
         std::array<char, 4096> log{};
         glGetShaderInfoLog(shader.name(), log.size(), nullptr, log.data());
-        throw Error("render_node/shaders/" + file + " does not compile: " + log.data());
+        throw Error("render_node/shaders/" + file +
+                    " does not compile: " + trimmed(withFiles(log.data(), source)));
     }
     return shader;
 }
 
-}  // namespace
-
-std::string shaderSource(std::string_view name, std::span<const Replacement> replacements) {
-    constexpr std::string_view kInclude = "#include \"";
-    std::string expanded;
-    std::string_view rest = embedded(name).text;
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
-        const std::string_view line = rest.substr(0, end);
-        rest.remove_prefix(end);
-        if (line.starts_with(kInclude)) {
-            const std::string_view file =
-                line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
-            const auto replaced = std::ranges::find(replacements, file, &Replacement::file);
-            expanded += shaderSource(replaced == replacements.end() ? file : replaced->by, replacements);
-        } else {
-            expanded += line;
-        }
-    }
-    return expanded;
+std::string_view shaderSource(std::string_view name) {
+    return embedded(name).text;
 }
 
 std::vector<std::string_view> shaderNames() {
@@ -80,7 +67,7 @@ ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                           std::span<const Replacement> replacements) {
     ProgramHandle program;
     for (const std::string& file : shaderFiles) {
-        const auto shader = compile(file, replacements);
+        const auto shader = compileShader(file, replacements);
         glAttachShader(program.name(), shader.name());
     }
     glLinkProgram(program.name());

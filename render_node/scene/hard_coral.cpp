@@ -300,7 +300,7 @@ void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
 
 // Low mounds that run over the rock.
 void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kMounds{7, 6, 4, 2};
+    constexpr std::array kMounds{7, 6, 5, 3};
     constexpr std::array kRings{5, 3, 2, 2};
     constexpr std::array kAround{12, 8, 6, 5};
     const float meanders = dice.unit() < 0.4F ? 1.0F : 0.0F;
@@ -308,7 +308,7 @@ void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
         const float out =
             0.6F * std::sqrt(static_cast<float>(i) / static_cast<float>(kMounds.at(level)));
         const float turn = kGoldenAngle * static_cast<float>(i);
-        const float radius = dice.between(0.34F, 0.55F);
+        const float radius = dice.between(0.34F, 0.55F) * (level == 3 ? 1.35F : 1.0F);
         addBall(mesh,
                 {.centre = {out * std::cos(turn), -0.10F, out * std::sin(turn)},
                  .radii = {radius, dice.between(0.24F, 0.38F), radius},

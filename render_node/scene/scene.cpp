@@ -65,30 +65,26 @@ struct Bottom {
 }  // namespace
 
 struct SceneRenderer::Parts {
-    Parts(const SceneOptions& chosen, std::span<const SceneSpecies> cast)
+    Parts(const SceneOptions& chosen, std::span<const SchoolSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
           light{chosen.seed, chosen.water},
-          picture{quality.samples},
+          picture{quality},
+          school{cast,
+                 {.culling = chosen.culling,
+                  .levelsOfDetail = chosen.levelsOfDetail,
+                  .finest = quality.closeUps ? DetailLevel::CloseUp : DetailLevel::Hero,
+                  .fineness = quality.fishFineness},
+                 makeSkinPrograms()},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
         if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed, quality);
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
-        const auto skins = makeSkinPrograms();
-        for (const SceneSpecies& species : cast) {
-            schools.emplace_back(
-                species.body,
-                species.repertoire,
-                SurfaceOptions{chosen.culling, chosen.levelsOfDetail, species.fish, species.skin},
-                skins);
-            fishOfSchool.push_back(species.fish);
-        }
     }
 
     void setUniforms() const;
-    void cullFish();
     void drawSolids(const Viewpoint& viewpoint);
     void drawWater() const;
     void drawSnow() const;
@@ -96,15 +92,13 @@ struct SceneRenderer::Parts {
     SceneOptions options;
     Quality quality;
     FrameUniforms uniforms{};
-    std::vector<PresentedFish> fish;  // of the frame
     std::vector<FoodParticle> specks;
     gl::Buffer frameBlock;
     gl::VertexArray empty;
     SeaLight light;
     std::optional<Bottom> bottom;
     ScenePicture picture;
-    std::vector<SchoolSurface> schools;  // one of each species
-    std::vector<std::size_t> fishOfSchool;
+    SchoolSurface school;
     FoodSpecks food;
     gl::ProgramHandle surface, water, snow;
 };
@@ -112,18 +106,6 @@ struct SceneRenderer::Parts {
 void SceneRenderer::Parts::setUniforms() const {
     glNamedBufferSubData(frameBlock.name(), 0, sizeof(uniforms), &uniforms);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock.name());
-}
-
-void SceneRenderer::Parts::cullFish() {
-    const std::span<const PresentedFish> all = fish;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < schools.size(); ++i) {
-        const std::size_t count = std::min(fishOfSchool[i], all.size() - first);
-        schools[i].update(all.subspan(first, count),
-                          uniforms.clipFromWorld,
-                          glm::vec3(uniforms.sharedEyeAndPixel));
-        first += count;
-    }
 }
 
 // Near things first, so that what they hide is never shaded.
@@ -154,7 +136,7 @@ void SceneRenderer::Parts::drawSnow() const {
     glDepthMask(GL_TRUE);
 }
 
-SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SceneSpecies> cast)
+SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SchoolSpecies> cast)
     : parts_{std::make_unique<Parts>(options, cast)} {}
 
 SceneRenderer::~SceneRenderer() = default;
@@ -162,9 +144,9 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
     parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
-    parts.fish.assign(frame.fish.begin(), frame.fish.end());
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
+    parts.school.update(frame.fish);
     parts.light.update(frame.timeSeconds, frame.eyePositionMetres);
 }
 
@@ -176,16 +158,18 @@ unsigned SceneRenderer::draw(const View& view) {
     const glm::vec3 eye(parts.uniforms.eyeAndTime);
     parts.light.drawShafts(eye, parts.uniforms.worldFromClip);
     parts.light.bind();
-    parts.cullFish();
+    parts.school.look(parts.uniforms.clipFromWorld,
+                      {glm::vec3(parts.uniforms.sharedEyeAndPixel), parts.options.pixelRadians});
     parts.picture.begin(view.sizePixels);
     const Viewpoint viewpoint{Frustum{parts.uniforms.clipFromWorld},
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,
                               parts.quality.placeDetail};
+    parts.school.drawBodies();
     parts.drawSolids(viewpoint);
     parts.drawWater();
-    for (const SchoolSurface& school : parts.schools) school.draw();  // fins over the water
+    parts.school.drawBlended();
     parts.food.update(parts.specks, viewpoint);
     parts.food.draw();
     parts.drawSnow();

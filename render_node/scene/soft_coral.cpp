@@ -108,7 +108,7 @@ void growFan(Mesh& mesh, std::size_t level, Dice dice) {
                    kSides.at(level),
                    1.0F + 0.45F * static_cast<float>(level),
                    dice.between(-0.25F, 0.25F)};
-    const float shorter = level < 2 ? 1.0F : level == 2 ? 1.12F : 1.5F;
+    const float shorter = level < 2 ? 1.0F : level == 2 ? 1.2F : 1.95F;
     fanBranch(mesh,
               habit,
               {{0, -0.05F, 0}, 0.028F * habit.broader, flesh(0.6F, 0.2F, 0.0F), 0.5F},

@@ -7,6 +7,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
+layout(location = 7) in float opacity;
 layout(location = 0) out vec4 colour;
 
 void main() {
@@ -31,5 +32,5 @@ void main() {
         vec3 shown = max(mirrored(reflect(-toEye, plate), place), 0.0);
         radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
-    colour = vec4(seen(radiance, place), 1.0);
+    colour = vec4(seen(radiance, place), opacity);
 }

@@ -1,5 +1,4 @@
-// The fins: painted membranes between rays, growing out of the skin. Drawn from far to near and
-// blended. The painter's file takes the place of the plain one where the species has a painter.
+// The fins: painted membranes between rays, growing out of the skin. Blended. The painter's file takes the place of the plain one where the species has a painter.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"
 
@@ -10,6 +9,7 @@ layout(location = 3) in vec2 fin;
 layout(location = 4) flat in uint part;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
+layout(location = 7) in float opacity;
 layout(location = 0) out vec4 colour;
 
 // How far from a ray, -1 .. 1 across the membrane to the next one; 0 on the ray.
@@ -72,5 +72,5 @@ void main() {
     }
     // Behind the root of a paired fin the body is open: that part is never clear.
     float clear = isPaired ? smoothstep(0.30, 0.60, fin.y) : smoothstep(0.0, 2.0 * reach, fin.y);
-    colour = vec4(seen(radiance, place), mix(1.0, made.opacity, clear));
+    colour = vec4(seen(radiance, place), opacity * mix(1.0, made.opacity, clear));
 }

@@ -38,7 +38,11 @@ vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float
     vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
     vec3 bounce = 0.34 * (1.0 - up) * (sky + sand);
     vec3 back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
-    return albedo * (front + bounce + back + lampLight(place, normal)) / kPi;
+    // The lamp's light has not come down from the surface: what `seen` takes for that is undone. Of
+    // the diver's filter 2.5 m are left on it: with all of it the nearest reds would burn.
+    vec3 lamplit = lampLight(place, normal) *
+                   exp(kdAndExposure.xyz * (depth - sunAndFilterDepth.w + 2.5));
+    return albedo * (front + bounce + back + lamplit) / kPi;
 }
 
 // Many corals turn the blue that is left into their own colour.

@@ -13,7 +13,7 @@ constexpr std::size_t kMostPinches = 8;  // that wait for a frame
 
 bool* overlayOf(char key, Overlays& overlays) {
     switch (key) {
-        case 'w':
+        case 'g':
             return &overlays.warpGrid;
         case 'b':
             return &overlays.blendMask;
@@ -39,7 +39,7 @@ void Controls::press(char key) {
         case ' ':
         case 'p':
             return session_.send(NodeInput::TogglePause);
-        case 'd':
+        case 'c':
             return drop({});
         default:
             break;
@@ -55,6 +55,10 @@ void Controls::click(glm::vec2 place) {
 void Controls::point(WindowPlace place) {
     const std::lock_guard lock(mutex_);
     pointer_ = place;
+}
+
+void Controls::hold(const Hands& hands, std::chrono::nanoseconds now) {
+    if (const auto steering = pace_.due(steeringOf(hands), now)) session_.steer(*steering);
 }
 
 void Controls::drop(const Pinch& pinch) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_node/session/session.h"
+#include "render_node/show/steering.h"
 
 namespace aquarama {
 
@@ -24,16 +26,21 @@ struct Overlays {
 };
 
 // One line a key, in capitals, as the overlay's font has them.
-inline constexpr std::array<std::string_view, 9> kKeyHelp{
-    "Q  ESC    END THE SHOW",
-    "P  SPACE  PAUSE",
-    "F         FULLSCREEN",
-    "D  CLICK  DROP FOOD",
-    "W         GRID ON THE WALL",
-    "B         BLEND MASK",
-    "I         FISH IDS",
-    "E         THE MIND OF A FISH",
-    "H         THIS LIST",
+inline constexpr std::array<std::string_view, 14> kKeyHelp{
+    "W S  UP DOWN     AHEAD, BACK",
+    "A D              TO THE SIDE",
+    "LEFT RIGHT       TURN",
+    "PAGE UP, DOWN    RISE, SINK",
+    "DRAG RIGHT       LOOK ABOUT, ALSO HOME, END",
+    "C    CLICK       DROP FOOD",
+    "P    SPACE       PAUSE",
+    "F                FULLSCREEN",
+    "G                GRID ON THE WALL",
+    "B                BLEND MASK",
+    "I                FISH IDS",
+    "E                THE MIND OF A FISH",
+    "H                THIS LIST",
+    "Q    ESC         END THE SHOW",
 };
 
 // A place of a window, in pixels from its top left corner.
@@ -51,6 +58,7 @@ class Controls {
     void press(char key);
     void click(glm::vec2 place);
     void point(WindowPlace place);
+    void hold(const Hands& hands, std::chrono::nanoseconds now);
 
     // From any thread.
     [[nodiscard]] Overlays overlays() const;
@@ -63,6 +71,7 @@ class Controls {
 
     Session& session_;
     bool quitAsked_ = false;
+    SteeringPace pace_;
     mutable std::mutex mutex_;  // over all below
     Overlays overlays_;
     WindowPlace pointer_;

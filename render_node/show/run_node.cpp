@@ -81,6 +81,7 @@ void runNode(const NodeOptions& options) {
         while (const std::optional<char> key = context->nextKey()) controls.press(*key);
         while (const auto place = context->nextClick()) controls.click(*place);
         controls.point(context->pointer());
+        controls.hold(context->hands(), std::chrono::steady_clock::now().time_since_epoch());
     }
     drawing.get();
 }

@@ -104,7 +104,7 @@ class Windows(unittest.TestCase):
         self.display.press(window, "space")  # the world stands still: what changes from now on is what the keys show
         time.sleep(1)
         before = self.display.screenshot()
-        for key in ("w", "b", "i", "e", "h"):
+        for key in ("g", "b", "i", "e", "h"):
             self.display.press(window, key)
             wait_until(lambda: changed() > 20, 30, f"the key {key} to change the picture")
             before = self.display.screenshot()

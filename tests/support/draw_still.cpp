@@ -20,7 +20,8 @@ using namespace aquarama;
 struct Wish {
     std::vector<float> eye{0.0F, -6.0F, 0.0F};
     std::vector<std::string> portraits;
-    float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F;
+    float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F, phase = 0.1F,
+          speed = 0.8F;
     int ball = 0;
     float ballMetres = 6.0F;
     std::string tier = "ultra", water = "IA", out = "still.png";
@@ -39,6 +40,8 @@ test::Still stillOf(const Wish& wish, test::Still still) {
     for (const std::string& species : wish.portraits) {
         still.fish.push_back(test::portraitOf(
             species, camera, wish.metresAway, wish.turnDegrees, wish.lengthMetres));
+        still.fish.back().phase = wish.phase;
+        still.fish.back().speedBodyLengths = wish.speed;
         camera.azimuthDegrees += 60.0F * wish.lengthMetres / wish.metresAway;
     }
     test::Camera ahead = still.camera;
@@ -73,8 +76,12 @@ int main(int argc, char** argv) try {
     app.add_option("--away", wish.metresAway, "of the portraits, metres");
     app.add_option("--turn", wish.turnDegrees, "0 left side, 90 face, 180 right side");
     app.add_option("--length", wish.lengthMetres, "of the portraits, metres");
+    app.add_option("--phase", wish.phase, "of the portraits' beat, 0 .. 1");
+    app.add_option("--speed", wish.speed, "of the portraits, body lengths a second");
     app.add_option("--ball", wish.ball, "so many scad in a ball");
     app.add_option("--ball-away", wish.ballMetres, "metres");
+    app.add_flag_callback(
+        "--no-lod", [&] { still.options.levelsOfDetail = false; }, "all fish are heroes");
     app.add_flag("--open-sea", wish.openSea, "no floor");
     app.add_option("--out", wish.out, "PNG file");
     CLI11_PARSE(app, argc, argv);

@@ -22,6 +22,7 @@ namespace {
 
 constexpr float kReachSeconds = 2.2F;  // how far ahead the surroundings are felt
 constexpr float kReachMetres = 0.4F;
+constexpr float kBowWaveSeconds = 1.0F;  // of the submarine's way, by which it seems larger
 
 // b1, b2 of a predator's cost of a prey: schooling and turning make it dearer (Tu &
 // Terzopoulos 1994).
@@ -310,14 +311,29 @@ void seeMate(const Onlooker& onlooker) {
                                   });
 }
 
+// The way that is felt ahead is the one past the submarine, which comes to meet the fish or overtakes
+// it; one that comes on is felt from farther.
+glm::vec3 submarinePush(const Submarine& submarine, const Senses& senses, float reach) {
+    const glm::vec3 velocity = submarine.velocityMetresPerSecond;
+    if (velocity == glm::vec3{})
+        return ballPush(
+            submarine.position, submarine.radiusMetres, senses.position, senses.heading, reach);
+    const glm::vec3 past = senses.heading * reach - velocity * kReachSeconds;
+    const glm::vec3 towards = directionOf(senses.position - submarine.position, {});
+    const float comingOn = std::max(0.0F, dot(velocity, towards));
+    return ballPush(submarine.position,
+                    submarine.radiusMetres + comingOn * kBowWaveSeconds,
+                    senses.position,
+                    directionOf(past, senses.heading),
+                    lengthOf(past));
+}
+
 void feelSurroundings(const Environment& environment, Senses& senses) {
     const Surroundings& around = *environment.surroundings;
     const float reach = kReachMetres + senses.speed * kReachSeconds;
     const Submarine& submarine = around.submarine;
-    senses.push =
-        avoidance(around.obstacles, senses.position, senses.heading, reach) +
-        ballPush(
-            submarine.position, submarine.radiusMetres, senses.position, senses.heading, reach);
+    senses.push = avoidance(around.obstacles, senses.position, senses.heading, reach) +
+                  submarinePush(submarine, senses, reach);
     senses.urgency = lengthOf(senses.push);
     senses.submarineMetres = lengthOf(submarine.position - senses.position);
 }

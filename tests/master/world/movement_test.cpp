@@ -270,7 +270,9 @@ TEST(Wander, thoseThatLiveInPairsKeepNearEachOther) {
 
 // The reef of the paper, ten minutes of it, as its species live.
 TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
-    World world(syntheticScene("reef"));
+    WorldOptions options = syntheticScene("reef");
+    options.scene.tour.reset();
+    World world(options);
     const Obstacles& obstacles = world.surroundings().obstacles;
     const Submarine& submarine = world.surroundings().submarine;
     float outside = -99;  // metres
@@ -300,6 +302,25 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
     EXPECT_GT(aboveSand, 0.1F);
     EXPECT_GT(aboveRock, 0.0F);
     EXPECT_GT(fromSubmarine, submarine.radiusMetres);
+}
+
+// It goes through their midst at half a metre a second, and they feel it come.
+TEST(Reef, allMakeWayForASubmarineOnItsTour) {
+    World world(syntheticScene("reef"));
+    const Submarine& submarine = world.surroundings().submarine;
+    float nearest = 99;
+    float farthest = 0;
+    for (int i = 0; i < 400 * kSecond; ++i) {
+        world.advance();
+        farthest = std::max(farthest, lengthOf(submarine.position - kEyePosition));
+        for (std::uint32_t fish = 0; i % 4 == 0 && fish < world.view().size(); ++fish)
+            if (!world.view().shows(fish, kAway))
+                nearest = std::min(
+                    nearest, lengthOf(world.view().position(fish) - submarine.position));
+    }
+    print("from the touring submarine's eye, m", double{nearest});
+    EXPECT_GT(farthest, 4) << "it went through";
+    EXPECT_GT(nearest, 0.65F) << "its hull of half a metre, and half a fish";
 }
 
 // Three hundred scad and three sharks that are not hungry.

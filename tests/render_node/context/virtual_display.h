@@ -45,6 +45,13 @@ class VirtualDisplay {
         if (std::system(command.c_str()) != 0) std::fputs("xdotool failed\n", stderr);
     }
 
+    // Whatever xdotool's words say, with the keyboard in the window of this title.
+    static void hold(const std::string& title, const std::string& words) {
+        const std::string command =
+            "xdotool search --name '^" + title + "$' windowfocus --sync " + words;
+        if (std::system(command.c_str()) != 0) std::fputs("xdotool failed\n", stderr);
+    }
+
     // Moves the mouse to a place of the display, and presses a button there where one is given.
     static void point(glm::ivec2 place, const std::string& button = "") {
         const std::string command = "xdotool mousemove --sync " + std::to_string(place.x) + " " +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <epoxy/gl.h>
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -112,6 +113,43 @@ TEST_F(WindowTest, saysWhereTheMouseClicksAndPoints) {
     VirtualDisplay::point(place - glm::ivec2(10, 10));
     for (int wait = 0; wait < 500 && context->pointer(); ++wait) context->pumpEvents(10ms);
     EXPECT_FALSE(context->pointer());
+}
+
+// No software driver has two back buffers.
+TEST_F(WindowTest, withoutQuadBuffersItSaysWhatElseThereIs) {
+    try {
+        (void)makeWindowContext(windowAt({0, 0}), "Aquarama quad", {200, 100}, true);
+        FAIL() << "a window with left and right buffers came of nothing";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(testing::HasSubstr("no window with left and right buffers"),
+                                   testing::HasSubstr("choose another stereo mode in the rig")));
+    }
+}
+
+TEST_F(WindowTest, keysAndADraggedMouseAreHeldUntilTheyAreLetGo) {
+    const auto context = makeWindowContext(windowAt({100, 100}), "Aquarama hands", {200, 100});
+    const auto awaitThat = [&](const auto& holds) {
+        for (int wait = 0; wait < 500 && !holds(context->hands()); ++wait)
+            context->pumpEvents(10ms);
+        return holds(context->hands());
+    };
+    VirtualDisplay::hold("Aquarama hands", "keydown w keydown Prior");
+    EXPECT_TRUE(awaitThat([](const Hands& hands) {
+        return hands.keys.count() == 2 && hands.holds(HeldKey::W) && hands.holds(HeldKey::PageUp);
+    }));
+    VirtualDisplay::hold("Aquarama hands", "keyup w keyup Prior");
+    EXPECT_TRUE(awaitThat([](const Hands& hands) { return hands.keys.none(); }));
+    VirtualDisplay::hold("Aquarama hands", "mousemove --sync 150 150 mousedown 3");
+    EXPECT_TRUE(awaitThat([](const Hands& hands) { return hands.drag == glm::vec2(0); }));
+    VirtualDisplay::hold("Aquarama hands", "mousemove --sync 200 125");
+    EXPECT_TRUE(awaitThat([](const Hands& hands) {
+        return hands.drag && glm::distance(*hands.drag, glm::vec2(0.5F, 0.25F)) < 0.02F;
+    }));
+    EXPECT_FALSE(context->nextClick()) << "only the left button feeds";
+    VirtualDisplay::hold("Aquarama hands", "mouseup 3");
+    EXPECT_TRUE(awaitThat([](const Hands& hands) { return !hands.drag; }));
+    EXPECT_EQ(context->hands().pad.leftStick, glm::vec2(0)) << "no gamepad here";
 }
 
 TEST_F(WindowTest, goesFullscreenAndBack) {

@@ -87,7 +87,7 @@ class Place : public testing::Test {
         context().reset();
     }
     static std::unique_ptr<SceneRenderer> fresh(const SceneOptions& options) {
-        return std::make_unique<SceneRenderer>(options, std::span<const SceneSpecies>{});
+        return std::make_unique<SceneRenderer>(options, std::span<const SchoolSpecies>{});
     }
     static std::unique_ptr<Context>& context() {
         static std::unique_ptr<Context> instance;

@@ -166,10 +166,9 @@ TEST_F(ChannelPictureTest, theFishNearestToThePointerIsTheOneThatIsSeenThere) {
     two.cast.front().fish = 2;
     two.welcome.pattern = Pattern::World;
     ChannelPicture picture(two, kMiddle, QualityTier::Low);
-    EXPECT_EQ(picture.fishNearest({240, 180}), std::nullopt);
-    picture.drawScene(frame, {});
-    EXPECT_EQ(picture.fishNearest(glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);
-    EXPECT_EQ(picture.fishNearest({5, 180}), 1U);
+    EXPECT_EQ(picture.fishNearest(emptySea(), {240, 180}), std::nullopt);
+    EXPECT_EQ(picture.fishNearest(frame, glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);
+    EXPECT_EQ(picture.fishNearest(frame, {5, 180}), 1U);
 }
 
 TEST_F(ChannelPictureTest, aMindIsWrittenBesideItsFish) {

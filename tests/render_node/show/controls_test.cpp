@@ -41,25 +41,25 @@ TEST_F(ControlsTest, pauseGoesToTheWholeShow) {
 TEST_F(ControlsTest, eachOverlayIsSwitchedByItsKeyAndBack) {
     const auto shown = [&] {
         const Overlays o = controls_.overlays();
-        return std::string() + (o.warpGrid ? 'w' : '-') + (o.blendMask ? 'b' : '-') +
+        return std::string() + (o.warpGrid ? 'g' : '-') + (o.blendMask ? 'b' : '-') +
                (o.fishIds ? 'i' : '-') + (o.mind ? 'e' : '-') + (o.help ? 'h' : '-');
     };
     EXPECT_EQ(shown(), "-----");
     std::string expected = "-----";
     for (std::size_t i = 0; i < 5; ++i) {
-        const char key = "wbieh"[i];
+        const char key = "gbieh"[i];
         controls_.press(key);
         expected[i] = key;
         EXPECT_EQ(shown(), expected);
     }
-    for (const char key : {'w', 'b', 'i', 'e', 'h'}) controls_.press(key);
+    for (const char key : {'g', 'b', 'i', 'e', 'h'}) controls_.press(key);
     EXPECT_EQ(shown(), "-----");
     EXPECT_TRUE(events_.empty());
 }
 
 TEST_F(ControlsTest, foodIsDroppedBeforeTheMiddleOrWhereTheMouseIsClicked) {
     EXPECT_FALSE(controls_.nextPinch());
-    controls_.press('d');
+    controls_.press('c');
     controls_.click({12, 34});
     ASSERT_EQ(controls_.nextPinch()->place, std::nullopt);
     EXPECT_EQ(controls_.nextPinch()->place, glm::vec2(12, 34));
@@ -67,7 +67,7 @@ TEST_F(ControlsTest, foodIsDroppedBeforeTheMiddleOrWhereTheMouseIsClicked) {
 }
 
 TEST_F(ControlsTest, pinchesThatNoFrameTakesAreFew) {
-    for (int i = 0; i < 1000; ++i) controls_.press('d');
+    for (int i = 0; i < 1000; ++i) controls_.press('c');
     int waiting = 0;
     while (controls_.nextPinch()) ++waiting;
     EXPECT_LE(waiting, 16);
@@ -80,6 +80,26 @@ TEST_F(ControlsTest, knowsWhereTheMousePoints) {
     EXPECT_EQ(controls_.pointer(), glm::vec2(5, 6));
     controls_.point(std::nullopt);
     EXPECT_EQ(controls_.pointer(), std::nullopt);
+}
+
+TEST_F(ControlsTest, keysThatSteerSwitchNothing) {
+    for (const char key : {'w', 'a', 's', 'd'}) controls_.press(key);
+    const Overlays o = controls_.overlays();
+    EXPECT_FALSE(o.warpGrid || o.blendMask || o.fishIds || o.mind || o.help);
+    EXPECT_FALSE(controls_.nextPinch());
+    EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(ControlsTest, whatHandsHoldGoesToTheSubmarine) {
+    using std::chrono::milliseconds;
+    Hands hands;
+    controls_.hold(hands, milliseconds(0));
+    EXPECT_TRUE(session_.steerings_.empty());
+    hands.hold(HeldKey::W);
+    controls_.hold(hands, milliseconds(20));
+    controls_.hold(hands, milliseconds(40));
+    controls_.hold({}, milliseconds(60));
+    EXPECT_EQ(session_.steerings_, (std::vector<Steering>{{.ahead = 127}, {}}));
 }
 
 TEST(KeyHelp, isWrittenInLettersThatTheFontHas) {

@@ -89,17 +89,18 @@ View viewTowards(glm::vec3 direction) {
 
 Picture portrait(const Sitter& sitter) {
     const FishBody body = makeBody(sitter.species);
-    const std::vector<SceneSpecies> cast{{.body = body,
-                                          .skin = skinOf(sitter.species),
-                                          .repertoire = test::swaying(body, 0.0F),
-                                          .fish = 1}};
-    SceneRenderer scene{{.seed = 1, .place = sitter.place, .quality = sitter.quality}, cast};
     PresentedFish fish =
         test::fishAt(kEyePosition + sitter.fromEye, sitter.worldFromBody, sitter.lengthMetres);
     fish.id = sitter.id;
+    const test::RecordedSchool school{{&fish, 1}};
+    const std::vector<SchoolSpecies> cast{{.body = body,
+                                           .skin = skinOf(sitter.species),
+                                           .repertoire = test::swaying(body, 0.0F),
+                                           .fish = school.traits}};
+    SceneRenderer scene{{.seed = 1, .place = sitter.place, .quality = sitter.quality}, cast};
     SceneFrame frame;
     frame.eyePositionMetres = kEyePosition;
-    frame.fish = {&fish, 1};
+    frame.fish = school.moment();
     frame.timeSeconds = 12.0;
     scene.update(frame);
     const unsigned texture = scene.draw(viewTowards(sitter.fromEye));

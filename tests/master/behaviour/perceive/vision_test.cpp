@@ -230,5 +230,19 @@ TEST(Submarine, isFelt) {
     EXPECT_NEAR(sea.perceived(0).submarineMetres, 4, 1e-5F);
 }
 
+// Two and a half metres off no fish minds one that stands; one that comes on it does, from behind.
+TEST(Submarine, isFeltFromFartherWhereItComesOn) {
+    Sea sea;
+    Submarine& submarine = sea.surroundings.submarine;
+    const glm::vec3 heading = sea.perceived(0).heading;
+    submarine.position = sea.perceived(0).position - heading * 2.5F;
+    EXPECT_EQ(sea.perceived(0).urgency, 0);
+    submarine.velocityMetresPerSecond = heading * 1.2F;
+    EXPECT_GT(sea.perceived(0).urgency, 0);
+    EXPECT_GT(dot(sea.perceived(0).push, heading), 0) << "ahead of it";
+    submarine.velocityMetresPerSecond = heading * -1.2F;
+    EXPECT_EQ(sea.perceived(0).urgency, 0) << "it goes away";
+}
+
 }  // namespace
 }  // namespace aquarama

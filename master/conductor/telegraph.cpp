@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/telegraph.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace aquarama {
+
+namespace {
+
+constexpr int kNotches = 4;  // to either side
+
+struct Key {
+    std::string_view bytes;
+    std::int8_t Steering::*axis;
+    int notches;
+};
+// Terminals send arrows and pages as escape sequences; none begins as another does.
+constexpr std::array kKeys{
+    Key{"w", &Steering::ahead, 1},
+    Key{"s", &Steering::ahead, -1},
+    Key{"d", &Steering::aside, 1},
+    Key{"a", &Steering::aside, -1},
+    Key{"\x1b[A", &Steering::up, 1},
+    Key{"\x1b[B", &Steering::up, -1},
+    Key{"\x1b[5~", &Steering::up, 1},
+    Key{"\x1b[6~", &Steering::up, -1},
+    Key{"\x1b[D", &Steering::turn, 1},
+    Key{"\x1b[C", &Steering::turn, -1},
+    Key{"r", &Steering::tilt, 1},
+    Key{"f", &Steering::tilt, -1},
+};
+
+struct Word {
+    std::int8_t Steering::*axis;
+    std::string_view plus, minus;
+};
+constexpr std::array kWords{
+    Word{&Steering::ahead, "ahead", "back"},
+    Word{&Steering::aside, "to the right", "to the left"},
+    Word{&Steering::up, "rising", "sinking"},
+    Word{&Steering::turn, "turning left", "turning right"},
+    Word{&Steering::tilt, "nose up", "nose down"},
+};
+
+std::int8_t moved(std::int8_t axis, int notches) {
+    const int notch = (axis * kNotches + (axis < 0 ? -64 : 64)) / kFullSteering + notches;
+    return static_cast<std::int8_t>(std::clamp(notch, -kNotches, kNotches) * kFullSteering /
+                                    kNotches);
+}
+
+}  // namespace
+
+void Telegraph::press(std::string_view bytes) {
+    constexpr char kInterrupt = '\x03';
+    constexpr char kEscape = '\x1b';
+    while (!bytes.empty()) {
+        const auto key = std::ranges::find_if(
+            kKeys, [&](const Key& known) { return bytes.starts_with(known.bytes); });
+        if (key != kKeys.end()) {
+            steering_.*(key->axis) = moved(steering_.*(key->axis), key->notches);
+            bytes.remove_prefix(key->bytes.size());
+            continue;
+        }
+        const char first = bytes.front();
+        if (first == ' ') steering_ = {};
+        if (first == 'q' || first == kInterrupt || bytes == std::string_view(&kEscape, 1))
+            ended_ = true;
+        bytes.remove_prefix(1);
+    }
+}
+
+std::string Telegraph::text() const {
+    std::string text;
+    for (const auto& [axis, plus, minus] : kWords) {
+        const int notch = (std::abs(steering_.*axis) * kNotches + 64) / kFullSteering;
+        if (notch == 0) continue;
+        text += fmt::format("{}{} {}/{}",
+                            text.empty() ? "" : ", ",
+                            steering_.*axis > 0 ? plus : minus,
+                            notch,
+                            kNotches);
+    }
+    return text.empty() ? "hands off" : text;
+}
+
+}  // namespace aquarama

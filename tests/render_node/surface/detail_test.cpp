@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a visitor could see of levels of detail: nothing jumps as a fish swims away.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <epoxy/gl.h>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "render_node/context/context.h"
+#include "render_node/scene/scene.h"
+#include "tests/render_node/surface/test_fish.h"
+#include "tests/support/cast.h"
+#include "tests/support/still.h"
+
+namespace aquarama {
+namespace {
+
+constexpr float kLength = 0.24F;
+const glm::vec3 kEye{0, -6, 0};
+
+using Pixels = std::vector<glm::vec3>;  // display light
+
+// How much two pictures differ: sums over pixels and colours, in 8-bit codes of display light.
+double difference(const Pixels& a, const Pixels& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const glm::vec3 d = glm::abs(a[i] - b.at(i));
+        sum += static_cast<double>(d.x + d.y + d.z) / 3.0 * 255.0;
+    }
+    return sum;
+}
+
+// A wall of one small picture before which fish of one species swim in the open sea.
+class Wall {
+  public:
+    Wall(const std::string& species, const test::Camera& camera, std::size_t fish)
+        : camera_{camera} {
+        camera_.eyeMetres = kEye;
+        const Species member = castMember(species);
+        const FishBody body = makeBody(member);
+        SchoolSpecies school{body, skinOf(member), test::swaying(body, 0.05F), {}};
+        for (std::size_t i = 0; i < fish; ++i)
+            school.fish.push_back({static_cast<std::uint32_t>(i), 240});
+        SceneOptions options;
+        options.place = PlaceKind::OpenSea;
+        options.pixelRadians = test::pixelRadiansOf(camera_);
+        scene_ = std::make_unique<SceneRenderer>(options, std::span(&school, 1));
+    }
+
+    [[nodiscard]] Pixels shown(const std::vector<PresentedFish>& fish) {
+        const test::RecordedSchool school{fish};
+        SceneFrame frame;
+        frame.timeSeconds = 12.0;
+        frame.eyePositionMetres = kEye;
+        frame.fish = school.moment();
+        scene_->update(frame);
+        const unsigned texture = scene_->draw(test::viewOf(camera_));
+        const glm::ivec2 size = camera_.sizePixels;
+        Pixels pixels(static_cast<std::size_t>(size.x * size.y));
+        glGetTextureImage(texture,
+                          0,
+                          GL_RGB,
+                          GL_FLOAT,
+                          static_cast<GLsizei>(pixels.size() * sizeof(glm::vec3)),
+                          pixels.data());
+        return pixels;
+    }
+
+    // So far that a fish there fills so many pixels.
+    [[nodiscard]] float metresFor(float pixels) const {
+        return kLength / (pixels * test::pixelRadiansOf(camera_));
+    }
+
+  private:
+    test::Camera camera_;
+    std::unique_ptr<SceneRenderer> scene_;
+};
+
+// A picture that a fish of so many pixels fills at two metres.
+test::Camera cameraFor(float pixels) {
+    const float pixelRadians = kLength / (2.0F * pixels);
+    test::Camera camera;
+    camera.sizePixels = {static_cast<int>(1.3F * pixels) + 12, static_cast<int>(0.9F * pixels) + 12};
+    const float tangent = 0.5F * pixelRadians * static_cast<float>(camera.sizePixels.y);
+    camera.heightDegrees = 2.0F * glm::degrees(std::atan(tangent));
+    return camera;
+}
+
+class DetailTest : public testing::Test {
+  protected:
+    static void SetUpTestSuite() { context() = makeOffscreenContext("mesa", {64, 64}); }
+    static void TearDownTestSuite() { context().reset(); }
+    static std::unique_ptr<Context>& context() {
+        static std::unique_ptr<Context> one;
+        return one;
+    }
+};
+
+PresentedFish fishAway(float metres) {
+    const glm::quat turn = glm::angleAxis(glm::radians(200.0F), glm::vec3{0, 1, 0});
+    PresentedFish fish = test::fishAt(kEye + glm::vec3{0.3F * kLength / 8, 0, -metres}, turn, kLength);
+    fish.phase = 0.1F;
+    return fish;
+}
+
+TEST_F(DetailTest, noLimitLeavesAJump) {
+    constexpr float kNear = 2e-4F;
+    for (const std::string species : {"bigeye_scad", "moorish_idol"})
+        for (const float limit : {2.5F, 4.0F, 14.0F, 60.0F, 180.0F}) {
+            Wall wall(species, cameraFor(limit), 1);
+            const Pixels water = wall.shown({});
+            const auto at = [&](float pixels) { return wall.shown({fishAway(wall.metresFor(pixels))}); };
+            const Pixels before = at(limit * (1.0F - kNear)), after = at(limit * (1.0F + kNear));
+            const double fish = difference(after, water);
+            const Pixels later = at(limit * (1.0F + 3 * kNear));
+            printf("%s %g: fish %g jump %g control %g\n", species.c_str(), (double)limit, fish,
+                   difference(before, after) / fish, difference(later, after) / fish);
+        }
+}
+
+// Many fish, so that which pixels' centres are hit is averaged out.
+TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
+    constexpr std::size_t kFish = 150;
+    test::Camera camera;
+    camera.sizePixels = {192, 108};
+    camera.heightDegrees = 60.0F;
+    for (const std::string species : {"bigeye_scad", "moorish_idol"}) {
+        Wall wall(species, camera, kFish);
+        const Pixels water = wall.shown({});
+        double last = 0;
+        for (float pixels = 24.0F; pixels > 1.2F; pixels /= 1.1F) {
+            std::vector<PresentedFish> fish;
+            for (std::size_t i = 0; i < kFish; ++i) {
+                const float k = static_cast<float>(i);
+                const float metres = wall.metresFor(pixels);
+                const glm::vec2 slope{0.9F * std::sin(12.9898F * k), 0.5F * std::sin(78.233F * k)};
+                const glm::vec3 towards = glm::normalize(glm::vec3{slope, -1.0F});
+                const glm::quat turn = glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0});
+                fish.push_back(test::fishAt(kEye + metres * towards, turn, kLength));
+                fish.back().id = static_cast<std::uint32_t>(i);
+            }
+            const double light = difference(wall.shown(fish), water) / (pixels * pixels);
+            printf("%s %.2f px %.2f m: %.3f  ratio %.3f\n", species.c_str(), (double)pixels, (double)wall.metresFor(pixels), light, last > 0 ? light / last : 1);
+            last = light;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aquarama
