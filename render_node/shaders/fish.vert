@@ -7,6 +7,8 @@ layout(location = 0) in vec4 vertexRest;
 layout(location = 1) in vec2 vertexFin;
 layout(location = 2) in uint vertexPart;
 layout(location = 3) in uint slot;  // of the instance: its place in the school
+layout(location = 4) in vec4 coarserRest;  // what is painted where the coarser level has it
+layout(location = 5) in vec2 coarserFin;
 
 layout(location = 0) out vec3 place;   // world, metres
 layout(location = 1) out vec3 normal;
@@ -25,8 +27,8 @@ void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
     place = uintBitsToFloat(vertex.xyz);
     normal = unpackNormal(vertex.w);
-    rest = vertexRest;
-    fin = vertexFin;
+    rest = mix(coarserRest, vertexRest, fish[slot].blend);
+    fin = mix(coarserFin, vertexFin, fish[slot].blend);
     part = vertexPart;
     id = fish[slot].id;
     dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));

@@ -192,7 +192,7 @@ class Maker {
   public:
     Maker(const FishBody& body, const LimitTable& controlMesh)
         : body_{body}, mesh_{controlMesh}, points_{atRest(body)} {
-        for (std::size_t i = 0; i < points_.size(); ++i)
+        for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
             normals_.push_back(skinPoint(controlMesh, i, points_).normal);
     }
 
@@ -209,12 +209,20 @@ class Maker {
         addSheet(tailSheet());
         for (const CagePart part : {CagePart::FirstDorsal, CagePart::SecondDorsal, CagePart::Anal})
             if (const auto sheet = midlineSheet(part, sites)) addSheet(*sheet);
-        for (Corner i = 0; i < points_.size(); ++i) {
+        for (Corner i = 0; i < mesh_.vertices.size(); ++i) {
+            if (i >= points_.size()) {  // an eye's or a whip's, which shrink into the body
+                const glm::vec4 rest = mesh_.vertices[i].rest;
+                few_.cage.push_back(placeOn(CagePart::Body, body, i, {-rest.x, rest.y, rest.z}));
+                continue;
+            }
             const auto sheet = sheets.find(body_.cage.vertices[i].part);
             few_.cage.push_back(
                 sheet == sheets.end()
-                    ? placeOn(body, i, points_[i])
-                    : placeOn(sheet->second.triangles, i, placeOnSheet(sheet->second, sites[i], points_)));
+                    ? placeOn(CagePart::Body, body, i, points_[i])
+                    : placeOn(sheet->first,
+                              sheet->second.triangles,
+                              i,
+                              placeOnSheet(sheet->second, sites[i], points_)));
         }
         return std::move(few_);
     }
@@ -255,7 +263,9 @@ class Maker {
         }
     }
 
-    [[nodiscard]] FewTriangles::Place placeOn(std::span<const Triangle> triangles,
+    // On the triangles of a part, as near as can be to a place.
+    [[nodiscard]] FewTriangles::Place placeOn(CagePart part,
+                                              std::span<const Triangle> triangles,
                                               Corner corner,
                                               glm::vec3 wanted) const {
         FewTriangles::Place best;
@@ -271,9 +281,20 @@ class Maker {
             best = {t,
                     {weights.x, weights.y, weights.z},
                     glm::normalize(weights.x * normals_[t[0]] + weights.y * normals_[t[1]] +
-                                   weights.z * normals_[t[2]] + 1e-6F * normals_[corner])};
+                                   weights.z * normals_[t[2]] + 1e-6F * normals_[corner]),
+                    mixed(part, t, weights)};
         }
         return best;
+    }
+
+    [[nodiscard]] SkinPlace mixed(CagePart part, const Triangle& t, glm::vec3 weights) const {
+        SkinPlace place;
+        for (int k = 0; k < 3; ++k) {
+            const SkinPlace corner = placeOf(t.at(static_cast<std::size_t>(k)), part, t);
+            place.rest += weights[k] * corner.rest;
+            place.fin += weights[k] * corner.fin;
+        }
+        return place;
     }
 
     const FishBody& body_;
