@@ -46,7 +46,7 @@ void main() {
     made.albedo *= (1.05 - 0.15 * fin.y) * (1.0 - made.ribbing * ray);
     made.opacity = clamp(made.opacity - (isFleshy ? 0.0 : 0.10 * fin.y) + 0.25 * ray, 0.0, 1.0);
     // At its root a fin is muscle under the skin; those of the paired fins reach further out.
-    float reach = isPaired ? 0.20 : 0.12;
+    float reach = isPaired ? mix(0.55, 0.20, made.opacity) : 0.12;
     float grown = smoothstep(0.0, reach, fin.y);
     Skin skin = root;
     skin.albedo = wetAlbedo(mix(root.albedo, made.albedo, grown), id);
