@@ -4,7 +4,7 @@
 #include "skin_anatomy.glsl"
 
 const Iris kIris = Iris(vec3(0.24, 0.20, 0.11), vec3(0.36, 0.30, 0.16), 0.60, 0.38);
-const vec3 kBronze = vec3(0.180, 0.152, 0.130), kWhite = vec3(0.58, 0.585, 0.595);
+const vec3 kBronze = vec3(0.180, 0.146, 0.118), kWhite = vec3(0.54, 0.52, 0.52);
 
 // The border of bronze and white, and the pale wedge that rises along the flank.
 vec3 counterShaded(SkinPoint at, float ragged) {
