@@ -14,7 +14,7 @@ cmake --build build/show --target aquarama_draw_species
 mkdir -p docs/pictures
 
 cmake --build build/show --target aquarama_draw_still
-build/show/bin/aquarama_draw_still --plate --open-sea --fov 36 --azimuth 100 --width 1280 --height 720 --quality ultra \
+build/show/bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
     --out docs/pictures/portraits.png
 
 # The routines as they are seen on the wall.
