@@ -11,6 +11,7 @@
 #include "common/config/angle.h"
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
+#include "common/config/stereo_names.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
 
@@ -61,6 +62,10 @@ void inspect(const std::string& path) {
                 rig.screen.arcRadians * rig.screen.radiusMetres,
                 rig.screen.heightMetres);
     std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
+    if (rig.stereo.mode != StereoMode::Mono)
+        std::printf("stereo: %s, eyes %.0f mm apart\n",
+                    std::string(nameOf(rig.stereo.mode)).c_str(),
+                    1000 * rig.stereo.eyeSeparationMetres);
     std::printf(
         "addresses: control %s, state %s\n", rig.controlAddress.c_str(), rig.stateAddress.c_str());
     std::printf("timing: %g Hz, present deadline %g s, membership %g s\n",

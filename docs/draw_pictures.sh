@@ -8,9 +8,14 @@ trap 'rm -rf "$drawn"' EXIT
 build/show/bin/aquarama run config/theatre.txtpb --headless --frames 150 --snapshot "$drawn/theatre"
 build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
 
+build/show/bin/aquarama run config/desk_stereo.txtpb --headless --frames 150 --snapshot "$drawn/stereo"
 cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
+
+cmake --build build/show --target aquarama_draw_still
+build/show/bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
+    --out docs/pictures/portraits.png
 
 # The routines as they are seen on the wall.
 while read -r scene frames every; do
@@ -27,12 +32,20 @@ cp "$drawn/chase/panorama.png" docs/pictures/chase.png
 
 build/show/bin/aquarama-capture controllers --out docs/pictures
 cp "$drawn/theatre/hall.png" docs/pictures/
+cp "$drawn/stereo/panorama.png" docs/pictures/stereo.png
 for figure in forward_medium turn_right_sharp midlines_forward_medium; do
     sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"
 done
 cast=(blacktip_reef_shark trumpetfish parrotfish bigeye_scad blue_tang moorish_idol clownfish)
 files=("${cast[@]/%/.txtpb}")
 build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/}"
+
+# One reef in each of Jerlov's types of water, the clearest first.
+cmake --build build/show --target aquarama_draw_still
+for type in I IA IB II III 1C 3C; do
+    build/show/bin/aquarama_draw_still --quality high --width 480 --height 270 --fov 60 --water "$type" --out "$drawn/$type.png"
+done
+montage -label %t "$drawn"/{I,IA,IB,II,III,1C,3C}.png -tile 4x -geometry +3+3 docs/pictures/water_types.png
 
 # Prints the tables of docs/fidelity.md besides.
 build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"

@@ -5,6 +5,7 @@
 
 #include "calibration/theatre/compose.h"
 #include "common/units/error.h"
+#include "common/wall/eyes.h"
 #include "common/wall/png_file.h"
 
 namespace aquarama {
@@ -15,8 +16,9 @@ std::string sizeText(glm::ivec2 size) {
     return std::to_string(size.x) + " x " + std::to_string(size.y);
 }
 
-Light readChannel(const Channel& channel, const std::string& folder) {
-    const std::string path = folder + "/channel-" + channel.name + ".png";
+// `eye` is empty for what the display shows, or of one eye: ".left_eye".
+Light readChannel(const Channel& channel, const std::string& folder, const std::string& eye) {
+    const std::string path = folder + "/channel-" + channel.name + eye + ".png";
     const Picture picture = readPng(path);
     if (picture.sizePixels != channel.sizePixels)
         throw Error(path + ": is " + sizeText(picture.sizePixels) +
@@ -25,18 +27,57 @@ Light readChannel(const Channel& channel, const std::string& folder) {
     return lightOf(picture);
 }
 
+// Displays of the other modes part the eyes again: what they throw on the wall is both, over one
+// another.
+bool showsAsItIs(StereoMode mode) {
+    return mode == StereoMode::Mono || mode == StereoMode::Anaglyph;
+}
+
+Light meanOf(Light one, const Light& other) {
+    for (std::size_t i = 0; i < one.rgb.size(); ++i)
+        one.rgb[i] = 0.5F * (one.rgb[i] + other.rgb[i]);
+    return one;
+}
+
+// As one eye behind its glasses sees it; a mono channel has one picture for both.
+std::vector<Light> readEye(const Rig& rig, const std::string& folder, const std::string& eye) {
+    std::vector<Light> channels;
+    for (std::size_t i = 0; i < rig.channels.size(); ++i) {
+        const bool two = stereoOf(rig, i).mode != StereoMode::Mono;
+        channels.push_back(readChannel(rig.channels[i], folder, two ? eye : ""));
+    }
+    return channels;
+}
+
+bool hasStereo(const Rig& rig) {
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        if (stereoOf(rig, i).mode != StereoMode::Mono) return true;
+    return false;
+}
+
 }  // namespace
 
 std::vector<Light> readChannels(const Rig& rig, const std::string& folder) {
     std::vector<Light> channels;
-    for (const Channel& channel : rig.channels) channels.push_back(readChannel(channel, folder));
+    for (std::size_t i = 0; i < rig.channels.size(); ++i) {
+        const Channel& channel = rig.channels[i];
+        channels.push_back(showsAsItIs(stereoOf(rig, i).mode)
+                               ? readChannel(channel, folder, "")
+                               : meanOf(readChannel(channel, folder, ".left_eye"),
+                                        readChannel(channel, folder, ".right_eye")));
+    }
     return channels;
 }
 
 void composeSnapshot(const Rig& rig, const std::string& folder, int bits) {
-    const Light panorama = composePanorama(rig, readChannels(rig, folder));
+    const PanoramaMap map(rig);
+    const Light panorama = map.compose(readChannels(rig, folder));
     writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
     writePng(folder + "/hall.png", pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
+    if (!hasStereo(rig)) return;
+    for (const std::string eye : {".left_eye", ".right_eye"})
+        writePng(folder + "/panorama" + eye + ".png",
+                 pictureOf(map.compose(readEye(rig, folder, eye)), bits, 0));
 }
 
 }  // namespace aquarama

@@ -10,11 +10,13 @@
 
 namespace aquarama {
 
-// folder/channel-NAME.png of every channel, as light. Throws Error when a picture is missing or has
-// not its channel's size.
+// What every channel of folder/channel-NAME.png throws on the wall, seen without glasses: of two
+// eyes that its display parts again the mean of channel-NAME.left_eye.png and .right_eye.png.
+// Throws Error when a picture is missing or has not its channel's size.
 [[nodiscard]] std::vector<Light> readChannels(const Rig& rig, const std::string& folder);
 
-// Reads folder/channel-NAME.png of every channel, writes folder/panorama.png and folder/hall.png.
+// Composes folder/panorama.png and folder/hall.png, and in stereo panorama.left_eye.png and
+// .right_eye.png, of the channels' pictures there.
 // Throws Error when a picture is missing or has not its channel's size.
 void composeSnapshot(const Rig& rig, const std::string& folder, int bits);
 

@@ -12,6 +12,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/fin_table.h"
+
 namespace aquarama {
 
 inline constexpr int kNodalPoints = 23;
@@ -31,7 +33,8 @@ enum class CagePart : std::uint8_t {
     SecondDorsal,
     Anal,
     Pelvic,
-    Pectoral
+    Pectoral,
+    Eye  // no vertex of the cage: a ball that is set into the skin
 };
 
 // One vertex of the control cage. Rest coordinates in body lengths: s from nose (0) to caudal tip
@@ -56,6 +59,13 @@ struct ControlCage {
     std::vector<CageCrease> creases;
 };
 
+// Thinner than the cage can draw, in the middle plane of the body (species.proto, Thread).
+struct BodyThread {
+    std::vector<glm::vec2> at;  // (s, y) from its root to its tip
+    float rootWidth = 0.0F, tipWidth = 0.0F;
+    bool isOfFirstDorsal = false;
+};
+
 struct FishBody {
     std::string species;
     float typicalLengthMetres = 0.0F;
@@ -66,7 +76,10 @@ struct FishBody {
     std::vector<float> profileVentral;    // depth below the axis (positive)
     std::vector<float> profileHalfWidth;
     glm::vec3 eye{};  // (s, y, radius)
+    float eyeBulge = 0.0F;  // height over the skin, in radii
+    std::vector<BodyThread> threads;
     ControlCage cage;
+    FinTable fins;
 };
 
 struct Species;

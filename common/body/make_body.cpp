@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/body/cage_shape.h"
 #include "common/body/cage_topology.h"
+#include "common/body/fin_motion.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 
@@ -50,7 +51,12 @@ FishBody makeBody(const Species& species) {
     body.profileVentral = species.profile.ventral;
     body.profileHalfWidth = species.profile.halfWidth;
     body.eye = {species.eye.s, species.eye.y, species.eye.radius};
+    body.eyeBulge = species.eye.bulge;
+    for (const Thread& thread : species.threads)
+        body.threads.push_back(
+            {thread.at, thread.rootWidth, thread.tipWidth, thread.isOfFirstDorsal});
     body.cage = makeCage(species);
+    body.fins = makeFinTable(species, body.cage);
     return body;
 }
 

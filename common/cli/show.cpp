@@ -226,10 +226,14 @@ void makeFolder(const std::string& folder) {
 }
 
 void sayWhatWasMade(const ShowOptions& options, const Rig& rig) {
-    if (!options.clipPath.empty()) std::cout << "clip of the " << options.clipOf << " in "
-                                             << options.clipPath << '\n';
+    if (!options.clipPath.empty())
+        std::cout << "clip of the " << options.clipOf << " in " << options.clipPath << '\n';
     if (options.snapshotFolder.empty()) return;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
+    if (std::ranges::any_of(rig.channels, [&](const Channel& channel) {
+            return channel.display.stereo.value_or(rig.stereo.mode) != StereoMode::Mono;
+        }))
+        std::cout << " and each eye's";
     for (const Channel& channel : rig.channels) std::cout << ", channel-" << channel.name << ".png";
     std::cout << '\n';
 }

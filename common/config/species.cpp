@@ -113,7 +113,9 @@ Species parseSpecies(const std::string& text, const std::string& source) {
     species.size = readSize(root.in("size"));
     species.profile = readProfile(root);
     species.fins = readFins(root.in("fins"), species.profile.stations.back());
+    if (root.has("fin_motion")) species.finMotion = readFinMotion(root.in("fin_motion"));
     species.eye = readEye(root.in("eye"));
+    species.threads = readThreads(root);
     species.skeleton = readSkeleton(root.in("skeleton"));
     species.tissue = readTissue(root.in("tissue"));
     species.water = {.drag = root.in("water").number("drag", {0, 1e5}),
@@ -132,6 +134,9 @@ std::string motionText(const std::string& text, const std::string& source) {
     const TextReader reader(text, source, message);
     message.clear_habits();
     message.clear_palette();
+    message.clear_fin_motion();
+    message.clear_threads();
+    message.clear_eye();
     std::string kept;
     google::protobuf::TextFormat::PrintToString(message, &kept);
     return kept;

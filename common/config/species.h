@@ -22,6 +22,8 @@ struct BodyProfile {
     std::vector<float> dorsal;
     std::vector<float> ventral;  // positive
     std::vector<float> halfWidth;
+    // Of the section above and below the axis: the exponent of a superellipse, |z|^n + |y|^n = 1.
+    std::vector<float> fullnessUp, fullnessDown;
 };
 
 // A ruled patch of points (s, y): ray by ray from the base on the body to the edge.
@@ -29,6 +31,8 @@ struct Fin {
     std::vector<glm::vec2> base;
     std::vector<glm::vec2> edge;
     float angleRadians = 0.0F;  // paired fins: how far it stands off the flank
+    float round = 0.0F;         // paired fins: 1 makes a paddle of what is drawn
+    float flex = 1.0F;          // median fins and tail: how far it ripples
 };
 
 struct Fins {
@@ -37,10 +41,36 @@ struct Fins {
     Fin anal, caudal, pelvic, pectoral;
 };
 
+// How fins move beside the body, at their most; all zero: they keep still (species.proto).
+struct Rowing {
+    float beatHertz = 0;
+    float strokeRadians = 0, featherRadians = 0, openRadians = 0, flapRadians = 0, trimRadians = 0;
+    float alternateBelow = 0, foldAbove = 0;  // body lengths a second
+};
+struct Ripple {
+    float amplitude = 0;  // lengths of a ray
+    float waves = 0;
+    float beatHertz = 0;
+    bool isOpposed = false;
+};
+struct FinMotion {
+    Rowing rowing;
+    Ripple swimming, hovering;
+    float cuppingRadians = 0, pelvicFoldRadians = 0;
+};
+
 struct FishEye {
     float s = 0.0F;
     float y = 0.0F;
     float radius = 0.0F;
+    float bulge = 0.35F;  // height over the skin, in radii
+};
+
+// Thinner than the cage can draw, in the middle plane of the body.
+struct Thread {
+    std::vector<glm::vec2> at;  // (s, y) from its root to its tip
+    float rootWidth = 0.0F, tipWidth = 0.0F;  // seen from the side
+    bool isOfFirstDorsal = false;
 };
 
 struct SkeletonRing {
@@ -106,7 +136,9 @@ struct Species {
     SizeRange size;
     BodyProfile profile;
     Fins fins;
+    FinMotion finMotion;
     FishEye eye;
+    std::vector<Thread> threads;
     Skeleton skeleton;
     Tissue tissue;
     Water water;

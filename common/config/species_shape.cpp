@@ -9,9 +9,10 @@ namespace aquarama {
 
 namespace {
 
-constexpr Range kStation{0, 1.2};
+constexpr Range kStation{0, 1.4};  // threads trail behind the tail
 constexpr float kHead = 0.05F;  // no fin stands before it
 constexpr Range kHeight{-1, 1};
+constexpr Range kFullness{1.4, 3.5};
 constexpr Range kExtent{0.0005, 0.5};  // body lengths; thinner would fold the skin
 
 float real(const TextPlace& at, const std::string& field, Range range) {
@@ -33,7 +34,9 @@ Fin readFin(const TextPlace& fins, const std::string& field) {
     const TextPlace at = fins.in(field);
     return {.base = readPolyline(at, "base"),
             .edge = readPolyline(at, "edge"),
-            .angleRadians = static_cast<float>(radiansOf(at.numberOr("angle_deg", {0, 90}, 0)))};
+            .angleRadians = static_cast<float>(radiansOf(at.numberOr("angle_deg", {0, 90}, 0))),
+            .round = static_cast<float>(at.numberOr("round", {0, 1}, 0)),
+            .flex = static_cast<float>(at.numberOr("flex", {0, 2}, 1))};
 }
 
 // A fin along the back or the belly: the skin's rings follow its base, so that must run tailwards.
@@ -97,6 +100,8 @@ BodyProfile readProfile(const TextPlace& root) {
         profile.dorsal.push_back(real(at, "up", kExtent));
         profile.ventral.push_back(real(at, "down", kExtent));
         profile.halfWidth.push_back(real(at, "half_width", kExtent));
+        profile.fullnessUp.push_back(static_cast<float>(at.numberOr("full_up", kFullness, 2)));
+        profile.fullnessDown.push_back(static_cast<float>(at.numberOr("full_down", kFullness, 2)));
     }
     return profile;
 }
@@ -113,10 +118,66 @@ Fins readFins(const TextPlace& at, float tailRoot) {
     return fins;
 }
 
+namespace {
+
+float optional(const TextPlace& at, const std::string& field, Range range) {
+    return static_cast<float>(at.numberOr(field, range, 0));
+}
+
+float radians(const TextPlace& at, const std::string& field, Range degrees) {
+    return static_cast<float>(radiansOf(at.numberOr(field, degrees, 0)));
+}
+
+Rowing readRowing(const TextPlace& at) {
+    return {.beatHertz = real(at, "beat_hz", {0, 10}),
+            .strokeRadians = radians(at, "stroke_deg", {0, 70}),
+            .featherRadians = radians(at, "feather_deg", {0, 60}),
+            .openRadians = radians(at, "open_deg", {0, 90}),
+            .flapRadians = radians(at, "flap_deg", {0, 90}),
+            .trimRadians = radians(at, "trim_deg", {0, 20}),
+            .alternateBelow = optional(at, "alternate_below", {0, 10}),
+            .foldAbove = real(at, "fold_above", {0.1, 100})};
+}
+
+Ripple readRipple(const TextPlace& fins, const std::string& field) {
+    if (!fins.has(field)) return {};
+    const TextPlace at = fins.in(field);
+    return {.amplitude = real(at, "amplitude", {0, 0.5}),
+            .waves = real(at, "waves", {0, 4}),
+            .beatHertz = optional(at, "beat_hz", {0, 10}),
+            .isOpposed = at.has("opposed") && at.truth("opposed")};
+}
+
+}  // namespace
+
+FinMotion readFinMotion(const TextPlace& at) {
+    FinMotion motion;
+    if (at.has("rowing")) motion.rowing = readRowing(at.in("rowing"));
+    motion.swimming = readRipple(at, "swimming");
+    motion.hovering = readRipple(at, "hovering");
+    motion.cuppingRadians = radians(at, "cupping_deg", {0, 45});
+    motion.pelvicFoldRadians = radians(at, "pelvic_fold_deg", {0, 45});
+    return motion;
+}
+
+std::vector<Thread> readThreads(const TextPlace& root) {
+    std::vector<Thread> threads;
+    for (int i = 0; i < root.count("threads"); ++i) {
+        const TextPlace at = root.in("threads", i);
+        threads.push_back({.at = readPolyline(at, "at"),
+                           .rootWidth = real(at, "root_width", {0.0005, 0.05}),
+                           .tipWidth = real(at, "tip_width", {0, 0.05}),
+                           .isOfFirstDorsal =
+                               at.has("of_first_dorsal") && at.truth("of_first_dorsal")});
+    }
+    return threads;
+}
+
 FishEye readEye(const TextPlace& at) {
     return {.s = real(at, "s", {0, 0.5}),
             .y = real(at, "y", {-0.4, 0.4}),
-            .radius = real(at, "radius", {0.001, 0.2})};
+            .radius = real(at, "radius", {0.001, 0.2}),
+            .bulge = static_cast<float>(at.numberOr("bulge", {0, 1}, 0.35))};
 }
 
 }  // namespace aquarama

@@ -11,6 +11,8 @@ namespace aquarama {
 [[nodiscard]] BodyProfile readProfile(const TextPlace& root);
 // tailRoot: the last station of the profile, before which the other fins end.
 [[nodiscard]] Fins readFins(const TextPlace& at, float tailRoot);
+[[nodiscard]] FinMotion readFinMotion(const TextPlace& at);
+[[nodiscard]] std::vector<Thread> readThreads(const TextPlace& root);
 [[nodiscard]] FishEye readEye(const TextPlace& at);
 
 }  // namespace aquarama

@@ -27,7 +27,8 @@ struct PresentedFish {
     std::uint32_t segment = 0;
     std::uint32_t fromSegment = 0;
     std::uint32_t id = 0;
-    std::uint32_t padding[2] = {0, 0};
+    float speed = 0.0F;  // body lengths a second
+    std::uint32_t padding = 0;
 };
 static_assert(sizeof(PresentedFish) == 64);
 

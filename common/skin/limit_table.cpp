@@ -10,6 +10,7 @@
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
+#include "common/skin/attachments.h"
 #include "common/skin/face_grid.h"
 #include "common/skin/skin_places.h"
 #include "common/units/error.h"
@@ -101,6 +102,70 @@ void holdToControlPoint(std::vector<StencilEntry>& entries, std::uint32_t contro
         entry.position = entry.controlPoint == controlPoint ? 1.0F : 0.0F;
 }
 
+// The limit surface at rest of the right side of the head, about the eye.
+std::vector<RestTriangle> headAtRest(const Far::TopologyRefiner& refiner, const FishBody& body) {
+    constexpr int kCuts = 4;
+    const FaceGrid grid{body.cage, kCuts};
+    const float nearest = body.eye.x - 3 * body.eye.z, farthest = body.eye.x + 3 * body.eye.z;
+    std::vector<FaceGrid::Location> locations;
+    for (std::size_t f = 0; f < body.cage.faces.size(); ++f) {
+        const bool isHead = std::ranges::all_of(body.cage.faces[f], [&](std::uint16_t corner) {
+            const CageVertex& vertex = body.cage.vertices[corner];
+            return vertex.part == CagePart::Body && vertex.rest.z > 0;
+        });
+        const auto [first, last] = std::ranges::minmax(
+            body.cage.faces[f], {}, [&](std::uint16_t c) { return body.cage.vertices[c].rest.x; });
+        if (!isHead || body.cage.vertices[last].rest.x < nearest ||
+            body.cage.vertices[first].rest.x > farthest)
+            continue;
+        for (int j = 0; j <= kCuts; ++j)
+            for (int i = 0; i <= kCuts; ++i)
+                locations.push_back({static_cast<std::uint32_t>(f),
+                                     static_cast<float>(i) / kCuts,
+                                     static_cast<float>(j) / kCuts});
+    }
+    std::vector<std::uint32_t> order(locations.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto stencils = limitStencils(refiner, locations, order);
+    std::vector<glm::vec3> points;
+    for (std::size_t i = 0; i < locations.size(); ++i) {
+        glm::vec3& point = points.emplace_back();
+        for (const StencilEntry& entry : entriesOf(*stencils, i))
+            point += entry.position * body.cage.vertices[entry.controlPoint].rest;
+    }
+    constexpr std::size_t kRow = kCuts + 1;
+    std::vector<RestTriangle> head;
+    for (std::size_t first = 0; first < points.size(); first += kRow * kRow)
+        for (std::size_t j = 0; j < kCuts; ++j)
+            for (std::size_t i = 0; i < kCuts; ++i) {
+                const std::size_t a = first + j * kRow + i;
+                head.push_back({points[a], points[a + 1], points[a + kRow]});
+                head.push_back({points[a + 1], points[a + kRow + 1], points[a + kRow]});
+            }
+    return head;
+}
+
+void append(const FishBody& body, const Attachments& attachments, LimitTable& table) {
+    table.skinVertices = table.vertices.size();
+    const auto first = static_cast<std::uint32_t>(table.vertices.size());
+    for (const Attachments::Vertex& vertex : attachments.vertices) {
+        table.entries.insert(table.entries.end(), vertex.entries.begin(), vertex.entries.end());
+        table.firstEntry.push_back(static_cast<std::uint32_t>(table.entries.size()));
+        table.vertices.push_back(vertex.place);
+        glm::vec4& rest = table.vertices.back().rest;
+        rest.w = heightOnBody(body, rest.x, rest.y);
+    }
+    std::vector<std::uint32_t> onBody;
+    for (const auto& triangle : attachments.onBody)
+        for (const std::uint32_t vertex : triangle) onBody.push_back(first + vertex);
+    table.indices.insert(table.indices.begin() + static_cast<std::ptrdiff_t>(table.bodyIndices),
+                         onBody.begin(),
+                         onBody.end());
+    table.bodyIndices += onBody.size();
+    for (const auto& triangle : attachments.onFins)
+        for (const std::uint32_t vertex : triangle) table.indices.push_back(first + vertex);
+}
+
 }  // namespace
 
 SkinPoint skinPoint(const LimitTable& table,
@@ -143,6 +208,7 @@ LimitTable makeLimitTable(const FishBody& body, int level) {
         table.firstEntry.push_back(static_cast<std::uint32_t>(table.entries.size()));
     }
     paintPlaces(body, grid, table);
+    append(body, makeAttachments(body, headAtRest(*refiner, body)), table);
     return table;
 }
 

@@ -46,6 +46,9 @@ struct LimitTable {
     std::vector<std::uint32_t>
         indices;  // counter-clockwise triangles: first the body's, then the fins'
     std::size_t bodyIndices = 0;
+    // The vertices from here on are attachments (attachments.h), the same at every level; their
+    // triangles come last among the body's and the fins'.
+    std::size_t skinVertices = 0;
 };
 
 struct SkinPoint {

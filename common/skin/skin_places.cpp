@@ -48,12 +48,6 @@ float tableAt(const std::vector<float>& x, const std::vector<float>& y, float at
     return glm::mix(y[i - 1], y[i], (at - x[i - 1]) / (x[i] - x[i - 1]));
 }
 
-float heightOnBody(const FishBody& body, float s, float y) {
-    const auto& halfHeight = y >= 0.0F ? body.profileDorsal : body.profileVentral;
-    return glm::clamp(
-        y / std::max(tableAt(body.profileStations, halfHeight, s), 1e-3F), -1.0F, 1.0F);
-}
-
 glm::vec4 restOf(const FishBody& body, const LimitTable& table, std::size_t vertex) {
     glm::vec3 rest{};
     for (std::uint32_t k = table.firstEntry[vertex]; k < table.firstEntry[vertex + 1]; ++k) {
@@ -120,6 +114,12 @@ void addTriangles(const FaceGrid& grid,
 }
 
 }  // namespace
+
+float heightOnBody(const FishBody& body, float s, float y) {
+    const auto& halfHeight = y >= 0.0F ? body.profileDorsal : body.profileVentral;
+    return glm::clamp(
+        y / std::max(tableAt(body.profileStations, halfHeight, s), 1e-3F), -1.0F, 1.0F);
+}
 
 void paintPlaces(const FishBody& body, const FaceGrid& grid, LimitTable& table) {
     table.vertices.resize(grid.locations().size());

@@ -7,6 +7,9 @@
 
 namespace aquarama {
 
+// Height of a place at rest: -1 on the belly .. +1 on the back, as SkinPlace has it.
+[[nodiscard]] float heightOnBody(const FishBody& body, float s, float y);
+
 // Fills vertices, indices and bodyIndices of a table whose stencils are made.
 void paintPlaces(const FishBody& body, const FaceGrid& grid, LimitTable& table);
 

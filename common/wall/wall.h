@@ -63,6 +63,9 @@ struct ChannelFrustum {
 // Reversed depth, zero to one, infinite far plane.
 [[nodiscard]] glm::mat4 clipFromCamera(const ChannelFrustum& frustum, float nearMetres);
 
+// The angle at the sweet spot of the finest pixel that any channel throws on the screen, radians.
+[[nodiscard]] double finestPixelRadians(const Rig& rig);
+
 // This share of the screen's width and height may stay dark at each of its edges.
 inline constexpr double kDarkBorder = 0.005;
 

@@ -19,7 +19,7 @@
 
 namespace aquarama {
 
-// The submarine: where the wall's sweet spot is in the world.
+// The submarine: where the wall's origin is in the world.
 struct Eye {
     glm::vec3 positionMetres{};
     glm::quat worldFromWall{1, 0, 0, 0};

@@ -29,6 +29,9 @@ class Context {
     // True where framebuffer 0 has a left and a right back buffer.
     [[nodiscard]] virtual bool quadBuffered() const { return false; }
     [[nodiscard]] virtual std::string description() const = 0;  // renderer and version, for the log
+    // Why all that was made in it is gone, on the thread where it is current; nothing while it is
+    // not.
+    [[nodiscard]] virtual std::optional<std::string> loss() const = 0;
 
     // On the main thread: waits for window events no longer than this, and handles them.
     virtual void pumpEvents(std::chrono::milliseconds atMost) = 0;

@@ -12,7 +12,7 @@
 
 #include "common/units/error.h"
 #include "render_node/context/context.h"
-#include "render_node/context/opengl_version.h"
+#include "render_node/context/driver.h"
 
 namespace aquarama {
 
@@ -90,6 +90,21 @@ void requireEgl() {
         throw Error("EGL offers no device without a display; install a driver (libegl-mesa0)");
 }
 
+// OpenGL 4.5 core; where the driver can, one that tells when a reset of the card has taken it away.
+EGLContext makeContext(EGLDisplay display, bool toldOfReset) {
+    const std::array attributes{
+        EGL_CONTEXT_MAJOR_VERSION,
+        4,
+        EGL_CONTEXT_MINOR_VERSION,
+        5,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        toldOfReset ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY : EGL_NONE,
+        EGL_LOSE_CONTEXT_ON_RESET,
+        EGL_NONE};
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+}
+
 class OffscreenContext final : public Context {
   public:
     OffscreenContext(const std::string& device, glm::ivec2 sizePixels) : sizePixels_{sizePixels} {
@@ -104,22 +119,15 @@ class OffscreenContext final : public Context {
                         "\": EGL does not start; install libegl1 and a driver (libgl1-mesa-dri)");
         }
         eglBindAPI(EGL_OPENGL_API);
-        constexpr std::array kAttributes{EGL_CONTEXT_MAJOR_VERSION,
-                                         4,
-                                         EGL_CONTEXT_MINOR_VERSION,
-                                         5,
-                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                         EGL_NONE};
-        context_ =
-            eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes.data());
+        context_ = makeContext(display_, /*toldOfReset=*/true);
+        if (context_ == EGL_NO_CONTEXT) context_ = makeContext(display_, /*toldOfReset=*/false);
         if (context_ == EGL_NO_CONTEXT) {
             throw Error(
                 "device \"" + device +
                 "\": no OpenGL 4.5 core context; update its driver or choose another device");
         }
         makeCurrent();
-        requireOpenGl45("device \"" + device + "\"");
+        requireDriver("device \"" + device + "\"");
     }
     ~OffscreenContext() override {
         release();
@@ -143,6 +151,7 @@ class OffscreenContext final : public Context {
     [[nodiscard]] std::string description() const override {
         return rendererAndVersion() + ", EGL without display";
     }
+    [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     void pumpEvents(std::chrono::milliseconds atMost) override {
         std::this_thread::sleep_for(atMost);
     }

@@ -14,8 +14,8 @@
 
 #include "common/units/error.h"
 #include "render_node/context/context.h"
+#include "render_node/context/driver.h"
 #include "render_node/context/gamepads.h"
-#include "render_node/context/opengl_version.h"
 
 namespace aquarama {
 
@@ -130,7 +130,7 @@ class WindowContext : public Context {
     void makeCurrent() override {
         glfwMakeContextCurrent(window_.get());
         glfwSwapInterval(1);
-        requireOpenGl45("window");
+        requireDriver("window");
     }
     void release() override { glfwMakeContextCurrent(nullptr); }
     void swap() override { glfwSwapBuffers(window_.get()); }
@@ -140,6 +140,7 @@ class WindowContext : public Context {
     [[nodiscard]] std::string description() const override {
         return rendererAndVersion() + ", in a window";
     }
+    [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     void pumpEvents(std::chrono::milliseconds atMost) override {
         glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
     }
@@ -186,11 +187,12 @@ class WindowContext : public Context {
 };
 
 void WindowContext::open(const std::string& title) {
-    constexpr std::array<std::array<int, 2>, 9> kHints{{
+    constexpr std::array<std::array<int, 2>, 10> kHints{{
         {GLFW_CONTEXT_VERSION_MAJOR, 4},
         {GLFW_CONTEXT_VERSION_MINOR, 5},
         {GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE},
-        {GLFW_DECORATED, GLFW_FALSE},  // windows side by side are one wall
+        {GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET},  // where the driver can tell
+        {GLFW_DECORATED, GLFW_FALSE},                           // windows side by side are one wall
         {GLFW_RESIZABLE, GLFW_FALSE},
         {GLFW_AUTO_ICONIFY, GLFW_FALSE},  // one projector keeps showing when another is clicked
         {GLFW_VISIBLE, GLFW_FALSE},       // until it is in its place

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "common/units/error.h"
 #include "render_node/gl/embedded_shaders.h"
@@ -11,6 +12,8 @@
 namespace aquarama::gl {
 
 namespace {
+
+thread_local std::string definitions;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 const EmbeddedShader& embedded(std::string_view name) {
     const auto shaders = embeddedShaders();
@@ -27,15 +30,34 @@ GLenum stageOf(const std::string& file) {
     throw Error("shader file \"" + file + "\" must end in .vert, .frag or .comp");
 }
 
-struct ShaderTraits {
-    static unsigned create(GLenum stage) { return glCreateShader(stage); }
-    static void destroy(unsigned name) { glDeleteShader(name); }
-};
+std::string trimmed(std::string log) {
+    log.erase(log.find_last_not_of(" \n\t") + 1);
+    return log;
+}
 
-Handle<ShaderTraits> compile(const std::string& file, std::span<const Replacement> replacements) {
-    const std::string source = "#version 450 core\n" + shaderSource(file, replacements);
-    const char* text = source.c_str();
-    Handle<ShaderTraits> shader{stageOf(file)};
+// After the #version, which comes first; the lines of the files keep their places.
+void addDefinitions(ShaderText& shader, const std::string& file) {
+    shader.text.insert(shader.text.find('\n') + 1, definitions);
+    const auto lines = static_cast<std::size_t>(std::ranges::count(definitions, '\n'));
+    shader.sources.insert(shader.sources.begin() + 1, lines, {file, 0});
+}
+
+}  // namespace
+
+Definitions::Definitions(std::string lines)
+    : outer_{std::exchange(definitions, std::move(lines))} {}
+
+Definitions::~Definitions() {
+    definitions = std::move(outer_);
+}
+
+ShaderHandle compileShader(const std::string& file,
+                           std::span<const Replacement> replacements,
+                           const ReadShader& read) {
+    ShaderText source = expand(file, read, replacements);
+    addDefinitions(source, file);
+    const char* text = source.text.c_str();
+    ShaderHandle shader{stageOf(file)};
     glShaderSource(shader.name(), 1, &text, nullptr);
     glCompileShader(shader.name());
     int compiled = 0;
@@ -43,31 +65,14 @@ Handle<ShaderTraits> compile(const std::string& file, std::span<const Replacemen
     if (compiled == 0) {
         std::array<char, 4096> log{};
         glGetShaderInfoLog(shader.name(), log.size(), nullptr, log.data());
-        throw Error("render_node/shaders/" + file + " does not compile: " + log.data());
+        throw Error("render_node/shaders/" + file +
+                    " does not compile: " + trimmed(withFiles(log.data(), source)));
     }
     return shader;
 }
 
-}  // namespace
-
-std::string shaderSource(std::string_view name, std::span<const Replacement> replacements) {
-    constexpr std::string_view kInclude = "#include \"";
-    std::string expanded;
-    std::string_view rest = embedded(name).text;
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
-        const std::string_view line = rest.substr(0, end);
-        rest.remove_prefix(end);
-        if (line.starts_with(kInclude)) {
-            const std::string_view file =
-                line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
-            const auto replaced = std::ranges::find(replacements, file, &Replacement::file);
-            expanded += shaderSource(replaced == replacements.end() ? file : replaced->by, replacements);
-        } else {
-            expanded += line;
-        }
-    }
-    return expanded;
+std::string_view shaderSource(std::string_view name) {
+    return embedded(name).text;
 }
 
 std::vector<std::string_view> shaderNames() {
@@ -80,7 +85,7 @@ ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                           std::span<const Replacement> replacements) {
     ProgramHandle program;
     for (const std::string& file : shaderFiles) {
-        const auto shader = compile(file, replacements);
+        const auto shader = compileShader(file, replacements);
         glAttachShader(program.name(), shader.name());
     }
     glLinkProgram(program.name());

@@ -8,22 +8,42 @@
 #include <vector>
 
 #include "render_node/gl/handle.h"
+#include "render_node/gl/shader_text.h"
 
 namespace aquarama::gl {
 
-// Includes `by` wherever a file says #include "file": so one shader serves several painters.
-struct Replacement {
-    std::string_view file, by;
-};
-
-// The text of a file of render_node/shaders, with its #include "name" lines expanded. Throws Error
-// for an unknown name.
-[[nodiscard]] std::string shaderSource(std::string_view name,
-                                       std::span<const Replacement> replacements = {});
+// The text of a file of render_node/shaders. Throws Error for an unknown name.
+[[nodiscard]] std::string_view shaderSource(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> shaderNames();  // every embedded file
 
-// Compiles and links; the stage follows from the ending: .vert .frag .comp. "#version 450 core" is
-// put in front. Throws Error with the driver's log. The first name labels the program.
+// While it lives, every program that this thread makes begins with these lines of #define: what a
+// tier leaves out costs nothing, also where a driver runs both sides of every branch.
+class Definitions {
+  public:
+    explicit Definitions(std::string lines);
+    ~Definitions();
+    Definitions(const Definitions&) = delete;
+    Definitions& operator=(const Definitions&) = delete;
+    Definitions(Definitions&&) = delete;
+    Definitions& operator=(Definitions&&) = delete;
+
+  private:
+    std::string outer_;
+};
+
+struct ShaderTraits {
+    static unsigned create(GLenum stage) { return glCreateShader(stage); }
+    static void destroy(unsigned name) { glDeleteShader(name); }
+};
+using ShaderHandle = Handle<ShaderTraits>;
+
+// The stage follows from the ending: .vert .frag .comp. Throws Error with the driver's log, which
+// names file and line of each mistake, also in an included file.
+[[nodiscard]] ShaderHandle compileShader(const std::string& file,
+                                         std::span<const Replacement> replacements = {},
+                                         const ReadShader& read = shaderSource);
+
+// Compiles and links; the first name labels the program. Throws Error as above.
 [[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                                         std::span<const Replacement> replacements = {});
 

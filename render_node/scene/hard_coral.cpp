@@ -187,7 +187,11 @@ void growTable(Mesh& mesh, std::size_t level, Dice dice) {
                            Ring{0.0F, foot + 0.03F, 0.9F, 0.75F, 0.0F}};
     const Turning turning{
         .around = kAround.at(level), .seed = seed, .wide = 0.26F, .high = 0.07F, .lobes = 1.8F};
-    addTurned(mesh, rings, turning, tissue(1.0F));
+    const std::array few{rings[1], rings[3], rings[5], rings[8]};
+    if (level == 3)
+        addTurned(mesh, few, turning, tissue(1.0F));
+    else
+        addTurned(mesh, rings, turning, tissue(1.0F));
     const int carpet = kCarpet.at(level);
     const float broader = carpet > 0 ? std::sqrt(560.0F / static_cast<float>(carpet)) : 0.0F;
     for (int i = 0; i < carpet; ++i) {
@@ -222,8 +226,8 @@ void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
              .rings = kRings.at(level),
              .around = kAround.at(level),
              .seed = dice.seed(),
-             .lumps = 0.13F,
-             .cells = 1.6F},
+             .lumps = 0.24F,
+             .cells = 2.0F},
             tissue(1.0F, 1.0F));
 }
 
@@ -300,7 +304,7 @@ void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
 
 // Low mounds that run over the rock.
 void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kMounds{7, 6, 4, 2};
+    constexpr std::array kMounds{7, 6, 5, 3};
     constexpr std::array kRings{5, 3, 2, 2};
     constexpr std::array kAround{12, 8, 6, 5};
     const float meanders = dice.unit() < 0.4F ? 1.0F : 0.0F;
@@ -308,7 +312,7 @@ void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
         const float out =
             0.6F * std::sqrt(static_cast<float>(i) / static_cast<float>(kMounds.at(level)));
         const float turn = kGoldenAngle * static_cast<float>(i);
-        const float radius = dice.between(0.34F, 0.55F);
+        const float radius = dice.between(0.34F, 0.55F) * (level == 3 ? 1.35F : 1.0F);
         addBall(mesh,
                 {.centre = {out * std::cos(turn), -0.10F, out * std::sin(turn)},
                  .radii = {radius, dice.between(0.24F, 0.38F), radius},

@@ -10,13 +10,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/body/fish_body.h"
-#include "common/body/fish_skin.h"
 #include "common/config/scene.h"
-#include "common/motion/reconstruct.h"
-#include "common/motion/repertoire.h"
 #include "render_node/scene/food_specks.h"
 #include "render_node/scene/quality.h"
+#include "render_node/surface/school_surface.h"
 
 namespace aquarama {
 
@@ -32,18 +29,10 @@ struct View {
 // tick and the fish.
 struct SceneFrame {
     double timeSeconds = 0;
-    glm::vec3 eyePositionMetres{};        // the shared eye: of the submarine, for levels of detail
-    std::span<const PresentedFish> fish;  // of each species in turn, as many as it has
+    glm::vec3 eyePositionMetres{};  // the shared eye: of the submarine, for levels of detail
+    SchoolMoment fish;              // of each species in turn, as many as it has
     std::span<const FoodParticle> food = {};
     float daylight = 1.0F;  // of the sky: 1 at noon, towards 0 at night
-};
-
-// One species of the cast.
-struct SceneSpecies {
-    FishBody body;
-    FishSkin skin;
-    Repertoire repertoire;
-    std::size_t fish = 0;
 };
 
 struct SceneOptions {
@@ -60,7 +49,7 @@ struct SceneOptions {
 class SceneRenderer {
   public:
     // Without a cast it is a sea without fish.
-    SceneRenderer(const SceneOptions& options, std::span<const SceneSpecies> cast);
+    SceneRenderer(const SceneOptions& options, std::span<const SchoolSpecies> cast);
     ~SceneRenderer();
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;

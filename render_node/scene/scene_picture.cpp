@@ -2,6 +2,7 @@
 #include "render_node/scene/scene_picture.h"
 
 #include <algorithm>
+#include <array>
 
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
@@ -10,45 +11,69 @@ namespace aquarama {
 
 namespace {
 
+// Of the smaller copies, the last that the widest ring of the bloom reads (bloom.glsl) on a wall of
+// 4 000 pixels a radian.
+constexpr int kBloomLevels = 6;
+
 int supported(int samples) {
     int most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     return std::clamp(samples, 1, std::max(most, 1));
 }
 
-gl::Texture makeLayer(GLenum format, glm::ivec2 size, int samples) {
-    if (samples == 1) return makeTexture(format, size, 1, Edge::Clamp);
+gl::Texture makeLayer(GLenum format, glm::ivec2 size, int samples, int levels = 1) {
+    if (samples == 1) return makeTexture(format, size, levels, Edge::Clamp);
     gl::Texture texture{static_cast<GLenum>(GL_TEXTURE_2D_MULTISAMPLE)};
     glTextureStorage2DMultisample(texture.name(), samples, format, size.x, size.y, GL_TRUE);
     return texture;
 }
 
+int bloomLevels(glm::ivec2 size) {
+    int levels = 1;
+    while (levels < kBloomLevels && std::min(size.x, size.y) >> levels > 0) ++levels;
+    return levels;
+}
+
+gl::ProgramHandle makeTone(bool bloom) {
+    const std::array replacements{gl::Replacement{"scene_light.glsl", "bloom.glsl"}};
+    if (!bloom) return gl::makeProgram({"quad.vert", "tone.frag"});
+    return gl::makeProgram({"quad.vert", "tone.frag"}, replacements);
+}
+
 }  // namespace
 
-ScenePicture::ScenePicture(int samples)
-    : samples_{supported(samples)},
-      tone_{gl::makeProgram({"quad.vert", "tone.frag"})},
-      drawnColour_{static_cast<GLenum>(GL_TEXTURE_2D)},
-      drawnDepth_{static_cast<GLenum>(GL_TEXTURE_2D)},
-      resolvedColour_{static_cast<GLenum>(GL_TEXTURE_2D)},
-      display_{static_cast<GLenum>(GL_TEXTURE_2D)} {}
+ScenePicture::ScenePicture(const Quality& quality)
+    : quality_{quality},
+      tone_{makeTone(quality.bloom)},
+      softenedColour_{static_cast<GLenum>(GL_TEXTURE_2D)},
+      display_{static_cast<GLenum>(GL_TEXTURE_2D)} {
+    quality_.samples = supported(quality.samples);
+    if (quality.softening) soften_.emplace(gl::makeProgram({"quad.vert", "soften.frag"}));
+}
 
 void ScenePicture::allocate(glm::ivec2 sizePixels) {
     size_ = sizePixels;
-    drawnColour_ = makeLayer(GL_RGBA16F, size_, samples_);
-    drawnDepth_ = makeLayer(GL_DEPTH_COMPONENT32F, size_, samples_);
+    const int levels = quality_.bloom ? bloomLevels(size_) : 1;
+    const auto fill = [&](Layer& layer, int samples, int of) {
+        layer.colour = makeLayer(GL_RGBA16F, size_, samples, of);
+        layer.depth = makeLayer(GL_DEPTH_COMPONENT32F, size_, samples);
+        layer.target = makeTarget(layer.colour);
+        glNamedFramebufferTexture(layer.target.name(), GL_DEPTH_ATTACHMENT, layer.depth.name(), 0);
+    };
+    const int unsoftened = soften_ ? 1 : levels;  // what the tone reads has the smaller copies
+    fill(drawn_, quality_.samples, unsoftened);
+    if (quality_.samples > 1) fill(resolved_, 1, unsoftened);
+    if (soften_) {
+        softenedColour_ = makeTexture(GL_RGBA16F, size_, levels, Edge::Clamp);
+        softened_ = makeTarget(softenedColour_);
+    }
     display_ = makeTexture(GL_RGBA16F, size_, 1, Edge::Clamp);
-    drawn_ = makeTarget(drawnColour_);
-    glNamedFramebufferTexture(drawn_.name(), GL_DEPTH_ATTACHMENT, drawnDepth_.name(), 0);
     toned_ = makeTarget(display_);
-    if (samples_ == 1) return;
-    resolvedColour_ = makeTexture(GL_RGBA16F, size_, 1, Edge::Clamp);
-    resolved_ = makeTarget(resolvedColour_);
 }
 
 void ScenePicture::begin(glm::ivec2 sizePixels) {
     if (sizePixels != size_) allocate(sizePixels);
-    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.target.name());
     glViewport(0, 0, size_.x, size_.y);
     // Every pixel will be covered: only the depth needs a value. Far is 0.
     glDepthMask(GL_TRUE);
@@ -58,26 +83,45 @@ void ScenePicture::begin(glm::ivec2 sizePixels) {
     glDepthFunc(GL_GEQUAL);
 }
 
-unsigned ScenePicture::finish() {
-    glDisable(GL_DEPTH_TEST);
-    if (samples_ > 1)
-        glBlitNamedFramebuffer(drawn_.name(),
-                               resolved_.name(),
-                               0,
-                               0,
-                               size_.x,
-                               size_.y,
-                               0,
-                               0,
-                               size_.x,
-                               size_.y,
-                               GL_COLOR_BUFFER_BIT,
-                               GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, toned_.name());
-    glUseProgram(tone_.name());
-    glBindTextureUnit(0, samples_ > 1 ? resolvedColour_.name() : drawnColour_.name());
+// Light is a mean over the samples; of the depths one is taken.
+void ScenePicture::resolve() const {
+    const GLbitfield layers =
+        GL_COLOR_BUFFER_BIT | (soften_ ? static_cast<GLbitfield>(GL_DEPTH_BUFFER_BIT) : 0U);
+    glBlitNamedFramebuffer(drawn_.target.name(),
+                           resolved_.target.name(),
+                           0,
+                           0,
+                           size_.x,
+                           size_.y,
+                           0,
+                           0,
+                           size_.x,
+                           size_.y,
+                           layers,
+                           GL_NEAREST);
+}
+
+void ScenePicture::pass(unsigned framebuffer, unsigned program) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glUseProgram(program);
     glBindVertexArray(empty_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+unsigned ScenePicture::finish() {
+    glDisable(GL_DEPTH_TEST);
+    if (quality_.samples > 1) resolve();
+    const Layer& light = quality_.samples > 1 ? resolved_ : drawn_;
+    unsigned seen = light.colour.name();
+    if (soften_) {
+        glBindTextureUnit(0, seen);
+        glBindTextureUnit(1, light.depth.name());
+        pass(softened_.name(), soften_->name());
+        seen = softenedColour_.name();
+    }
+    if (quality_.bloom) glGenerateTextureMipmap(seen);
+    glBindTextureUnit(0, seen);
+    pass(toned_.name(), tone_.name());
     return display_.name();
 }
 

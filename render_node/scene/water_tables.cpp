@@ -16,7 +16,7 @@ namespace aquarama {
 
 namespace {
 
-constexpr int kRanges = 64, kDepths = 32, kRises = 32;
+constexpr int kRanges = 64, kDepths = 64, kRises = 32;
 constexpr int kSightRanges = 40, kSightRises = 32, kSightAzimuths = 9;  // as in water.glsl
 constexpr double kOpenWaterMetres = 60.0;
 // Eyes: closer near the surface, where the light changes most.
@@ -106,8 +106,9 @@ double eyePlace(double depth) {
 
 // Straight between a mean of near sand and the water beyond it, in their logarithms.
 double exposureOf(const WaterSpectra& water, double eyeDepth) {
-    constexpr double kKey = 0.185;
-    constexpr double kSandAway = 5.0, kSandBelow = 2.0, kSandAlbedo = 0.4;
+    constexpr double kKey = 0.145, kWater = 0.6;
+    constexpr double kDusk = 0.018;  // the deep is darker, 1/m
+    constexpr double kSandAway = 5.0, kSandBelow = 5.0, kSandAlbedo = 0.4;
     const double lit = eyeDepth - filterDepthMetres(eyeDepth);
     const glm::dvec3 sand = transmitted(water, kSandAway, lit + kSandBelow) * glm::dvec3{1.0};
     const glm::dvec3 across =
@@ -115,16 +116,17 @@ double exposureOf(const WaterSpectra& water, double eyeDepth) {
     const glm::dvec3 open =
         integrated(water, rayOf(water, eyeDepth, lit, 0.0, 90.0).lightBefore(kOpenWaterMetres)) *
         plainLobe(across, glm::dvec3{sunInWater()});
-    const double grey =
-        std::sqrt(luminance(sand) * kSandAlbedo / std::numbers::pi * luminance(open));
-    return kKey / grey;
+    const double grey = std::pow(luminance(sand) * kSandAlbedo / std::numbers::pi, 1 - kWater) *
+                        std::pow(luminance(open), kWater);
+    return kKey / grey * std::exp(-kDusk * eyeDepth);
 }
 
 }  // namespace
 
 double filterDepthMetres(double eyeDepthMetres) {
-    constexpr double kMost = 24.0, kGrowth = 18.0;
-    return kMost * (1.0 - std::exp(-std::max(eyeDepthMetres, 0.0) / kGrowth));
+    constexpr double kMost = 21.0;
+    const double depth = std::max(eyeDepthMetres, 0.0);
+    return depth / std::hypot(1.0, depth / kMost);
 }
 
 Table bakeDirect(const WaterSpectra& water) {

@@ -135,12 +135,12 @@ void setWeights(WaterSpectra& water) {
         for (double& weight : water.weights[c]) weight /= white[c];
 }
 
-// Edges at 495 and 585 nm, 8 nm soft: of such triples the one that errs least over seven pigments.
+// Edges at 505 and 590 nm, 8 nm soft: of such triples the one that errs least over seven pigments.
 void setReflectances(WaterSpectra& water) {
     const auto step = [](double x) { return 1.0 / (1.0 + std::exp(-x / 8.0)); };
     for (std::size_t band = 0; band < kBands; ++band) {
-        const double red = step(wavelengthOf(band) - 585.0);
-        const double blue = 1.0 - step(wavelengthOf(band) - 495.0);
+        const double red = step(wavelengthOf(band) - 590.0);
+        const double blue = 1.0 - step(wavelengthOf(band) - 505.0);
         water.reflectances[0][band] = red;
         water.reflectances[1][band] = 1.0 - red - blue;
         water.reflectances[2][band] = blue;

@@ -1,15 +1,14 @@
 // A vertex of the surface that fish.comp has made, with its place on the skin.
 #include "frame_uniforms.h"
-#include "fish_data.glsl"
+#include "fish_school.glsl"
 
-layout(std430, binding = 4) readonly buffer Surface { uvec4 surface[]; };
+layout(std430, binding = 5) readonly buffer Surface { uvec4 surface[]; };
 layout(location = 0) in vec4 vertexRest;
 layout(location = 1) in vec2 vertexFin;
 layout(location = 2) in uint vertexPart;
-
-layout(location = 0) uniform uint firstFish;
-layout(location = 1) uniform uint firstVertex;
-layout(location = 2) uniform uint vertexCount;
+layout(location = 3) in uint slot;  // of the instance: its place in the school
+layout(location = 4) in vec4 coarserRest;  // what is painted where the coarser level has it
+layout(location = 5) in vec2 coarserFin;
 
 layout(location = 0) out vec3 place;   // world, metres
 layout(location = 1) out vec3 normal;
@@ -18,16 +17,24 @@ layout(location = 3) out vec2 fin;     // p along its base, q from base to edge
 layout(location = 4) flat out uint part;
 layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
+layout(location = 7) out float opacity;     // 1 but where a level of detail fades
+layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
+
+// Of DetailLevel, and of CagePart.
+const uint kControlMesh = 3u, kMesh = 4u, kPelvic = 5u;
 
 void main() {
-    uint instance = uint(gl_InstanceID);
-    uvec4 vertex = surface[firstVertex + instance * vertexCount + uint(gl_VertexID)];
+    uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
     place = uintBitsToFloat(vertex.xyz);
     normal = unpackNormal(vertex.w);
-    rest = vertexRest;
-    fin = vertexFin;
+    rest = mix(coarserRest, vertexRest, fish[slot].blend);
+    fin = mix(coarserFin, vertexFin, fish[slot].blend);
     part = vertexPart;
-    id = fish[firstFish + instance].id;
-    dorsal = rotate(fish[firstFish + instance].rotation, vec3(0.0, 1.0, 0.0));
+    id = fish[slot].id;
+    dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));
+    // Few triangles have no paired fins.
+    bool grows = fish[slot].detail == kControlMesh && vertexPart >= kPelvic;
+    opacity = grows ? fish[slot].blend : 1.0;
+    nearness = fish[slot].detail == kMesh ? fish[slot].blend : 1.0;
     gl_Position = clipFromWorld * vec4(place, 1.0);
 }

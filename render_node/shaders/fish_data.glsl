@@ -1,8 +1,9 @@
-// A fish as the node receives it, and what the compute shader makes of it.
+// A fish that a view draws, as fish_scatter.comp makes it of what the node receives.
 #ifndef FISH_DATA_GLSL
 #define FISH_DATA_GLSL
 
-// PresentedFish of common/motion/reconstruct.h, 64 bytes.
+// DrawnFish of render_node/surface/drawn_fish.h, 80 bytes; its first 48 and the segments are those
+// of PresentedFish (common/motion/reconstruct.h).
 struct Fish {
     vec3 positionMetres;
     float lengthMetres;
@@ -13,9 +14,13 @@ struct Fish {
     uint segment;
     uint fromSegment;
     uint id;
-    uint padding0, padding1;
+    uint species;  // its place in the cast
+    uint detail;   // DetailLevel of render_node/surface/visibility.h
+    float blend;   // how far it is from the next coarser level: 0 looks as that does
+    uint firstVertex;  // in the surface buffer, less the first vertex of its mesh
+    float speed;  // body lengths a second
+    uint padding;
 };
-layout(std430, binding = 0) readonly buffer School { Fish fish[]; };
 
 vec3 rotate(vec4 rotation, vec3 v) {
     return v + 2.0 * cross(rotation.xyz, cross(rotation.xyz, v) + rotation.w * v);

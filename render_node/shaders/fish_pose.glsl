@@ -1,30 +1,84 @@
-// A fish's control points from the recorded ones (eq. 13), in its body frame, body lengths.
+// A fish's control points from the recorded ones (eq. 13), and its fins moved beside them; in its body
+// frame, body lengths. common/motion/living_cage.h is the reference.
 #ifndef FISH_POSE_GLSL
 #define FISH_POSE_GLSL
-#include "fish_data.glsl"
+#include "frame_uniforms.h"
+#include "fish_school.glsl"
+#include "fish_fins.glsl"
 
 const uint kControlPoints = 426u;
 const uint kPhases = 64u;
-// 3 x 16 bits a point, body lengths.
+const uint kActions = 8u;
+const uint kPoses = kActions * kPhases * kControlPoints;
+const uint kFinNumbers = 7u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
+// Species by species. First by segment and phase the points: 3 x 16 bits, body lengths, then a
+// heading, half turns; behind them, as OpenGL promises no more buffers, the fins.
 layout(std430, binding = 1) readonly buffer Recorded { uvec2 recorded[]; };
 
-vec3 recordedPoint(uint segment, uint phase, uint point) {
-    uvec2 bits = recorded[(segment * kPhases + phase) * kControlPoints + point];
-    return vec3(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y).x);
+vec4 finNumbers(uint species, uint vector) {
+    uint k = species * (kPoses + kFinNumbers) + kPoses + 2u * vector;
+    return uintBitsToFloat(uvec4(recorded[k], recorded[k + 1u]));
 }
 
-vec3 pointAt(uint segment, float phase, uint point) {
+FinPoint finPointOf(uint species, uint i) {
+    vec4 arm = finNumbers(species, 7u + 2u * i), place = finNumbers(species, 8u + 2u * i);
+    return FinPoint(arm.xyz, arm.w, place.x, place.y, place.z, floatBitsToUint(place.w));
+}
+
+FinStyle finStyleOf(uint species) {
+    vec4 a = finNumbers(species, 0u), b = finNumbers(species, 1u), c = finNumbers(species, 2u);
+    vec4 d = finNumbers(species, 3u), e = finNumbers(species, 4u), f = finNumbers(species, 5u);
+    return FinStyle(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y, d.z, d.w, e.x, e.y, e.z, e.w, f.x,
+                    f.y, f.z, f.w, finNumbers(species, 6u).x);
+}
+
+struct Posed {
+    vec3 place;
+    float heading;
+    float drift;  // to the right, body lengths in a radian of the beat
+};
+
+vec4 recordedPoint(uint species, uint segment, uint phase, uint point) {
+    uint pose = segment * kPhases + phase;
+    uvec2 bits = recorded[species * (kPoses + kFinNumbers) + pose * kControlPoints + point];
+    return vec4(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y));
+}
+
+Posed posedAt(uint species, uint segment, float phase, uint point) {
     float sampled = phase * float(kPhases);
     uint before = uint(floor(sampled)) % kPhases;
-    uint after = (before + 1u) % kPhases;
-    return mix(recordedPoint(segment, before, point), recordedPoint(segment, after, point),
-               fract(sampled));
+    vec4 from = recordedPoint(species, segment, before, point);
+    vec4 to = recordedPoint(species, segment, (before + 1u) % kPhases, point);
+    vec4 here = mix(from, to, fract(sampled));
+    float heading = here.w * 0.5 * kWholeTurn;
+    vec3 right = vec3(sin(heading), 0.0, cos(heading));
+    return Posed(here.xyz, heading, dot(to.xyz - from.xyz, right) * float(kPhases) / kWholeTurn);
+}
+
+// How far a segment is a turn to the left, to the right. Actions of common/motion/repertoire.h.
+vec2 turnOf(uint segment) {
+    const float kGradual = 0.4;
+    return vec2(segment == 3u ? kGradual : segment == 4u ? 1.0 : 0.0,
+                segment == 5u ? kGradual : segment == 6u ? 1.0 : 0.0);
+}
+
+FinDrive finDriveOf(Fish self) {
+    return FinDrive(eyeAndTime.w, self.speed, rotate(self.rotation, vec3(1.0, 0.0, 0.0)).y,
+                    mix(turnOf(self.fromSegment), turnOf(self.segment), self.warpWeight),
+                    0.37 * float(self.id), self.phase, self.fromPhase, self.warpWeight);
 }
 
 vec3 controlPointOf(Fish self, uint i) {
-    vec3 point = pointAt(self.segment, self.phase, i);
-    if (self.warpWeight < 1.0)
-        point = mix(pointAt(self.fromSegment, self.fromPhase, i), point, self.warpWeight);
-    return point;
+    Posed pose = posedAt(self.species, self.segment, self.phase, i);
+    if (self.warpWeight < 1.0) {
+        Posed from = posedAt(self.species, self.fromSegment, self.fromPhase, i);
+        pose.place = mix(from.place, pose.place, self.warpWeight);
+        pose.heading = mix(from.heading, pose.heading, self.warpWeight);
+        pose.drift = mix(from.drift, pose.drift, self.warpWeight);
+    }
+    FinPoint point = finPointOf(self.species, i);
+    if (point.part == kBodyPart) return pose.place;
+    vec3 offset = finOffset(finStyleOf(self.species), point, finDriveOf(self), pose.drift);
+    return pose.place + turnedBy(pose.heading, offset);
 }
 #endif

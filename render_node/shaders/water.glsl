@@ -11,9 +11,9 @@ layout(binding = 9) uniform sampler3D inscatterTable;    // of the eye's depth: 
 layout(binding = 10) uniform sampler2D openWaterTable;   // 60 m of water: over depth, rise
 
 // The axes of the tables, as water_tables.h has them.
-const vec2 kDirectTexels = vec2(64.0, 32.0);
+const vec2 kDirectTexels = vec2(64.0, 64.0);
 const vec3 kInscatterTexels = vec3(40.0, 32.0, 9.0);
-const vec2 kOpenWaterTexels = vec2(32.0, 32.0);
+const vec2 kOpenWaterTexels = vec2(64.0, 32.0);
 vec2 atTexelCentres(vec2 u, vec2 texels) { return (u * (texels - 1.0) + 0.5) / texels; }
 float rangeAxis(float range) { return sqrt(clamp(range * (1.0 / 80.0), 0.0, 1.0)); }
 // The diver's filter undoes so many metres of the way down: one looks up at a lesser depth.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include <glm/common.hpp>
@@ -12,6 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/units/error.h"
+#include "render_node/shaders/post_radii.h"
 #include "render_node/show/presented.h"
 
 namespace aquarama {
@@ -20,6 +22,7 @@ namespace {
 
 // Beyond what the projector lights, so that filters which read neighbours have some: 1 degree.
 constexpr double kMarginRadians = 0.0175;
+static_assert(double{kPostReach} <= kMarginRadians);
 constexpr float kNearMetres = 0.05F;
 
 // Dots large enough to be read from the sweet spot.
@@ -46,13 +49,23 @@ std::vector<Label> helpLabels(float dot) {
     return labels;
 }
 
-std::vector<SceneSpecies> castOf(const Admission& admission) {
-    std::vector<SceneSpecies> cast;
+std::vector<SchoolSpecies> castOf(const Admission& admission) {
+    std::vector<SchoolSpecies> cast;
+    std::span<const FishTraits> rest = admission.welcome.school;
     for (const AdmittedSpecies& admitted : admission.cast) {
         const Species species = parseSpecies(admitted.text, "the master's species file");
-        cast.push_back({makeBody(species), skinOf(species), admitted.repertoire, admitted.fish});
+        const auto own = rest.first(std::min<std::size_t>(admitted.fish, rest.size()));
+        rest = rest.subspan(own.size());
+        cast.push_back({makeBody(species),
+                        skinOf(species),
+                        admitted.repertoire,
+                        {own.begin(), own.end()}});
     }
     return cast;
+}
+
+glm::mat4 clipOf(const View& view) {
+    return view.clipFromCamera * view.cameraFromWorld;
 }
 
 }  // namespace
@@ -65,25 +78,28 @@ std::size_t channelIndex(const Rig& rig, const std::string& name) {
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
-ChannelPicture::Viewing::Viewing(const Rig& rig, std::size_t channel, const ChannelFrustum& from)
-    : frustum{from},
-      pattern{from, rig.screen},
-      projection{projectionMap(warpMap(rig, channel), from), rig.channels[channel].id} {}
+ChannelPicture::Viewing::Viewing(const ChannelFrustum& from,
+                                 const WarpMap& warp,
+                                 const Screen& screen,
+                                 std::uint32_t channelId)
+    : frustum{from}, pattern{from, screen}, projection{projectionMap(warp, from), channelId} {}
 
 ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
     : pattern_{admission.welcome.pattern},
       stereo_{stereoOf(admission.rig, channel)},
-      school_{admission.welcome.school},
-      map_{projectionMap(warpMap(admission.rig, channel),
-                         channelFrustum(admission.rig, channel, kMarginRadians))},
-      sceneSize_{scenePictureSize(map_)} {
+      school_{admission.welcome.school} {
     const Rig& rig = admission.rig;
+    const std::uint32_t id = rig.channels[channel].id;
+    const WarpMap warp = warpMap(rig, channel);
+    map_ = projectionMap(warp, channelFrustum(rig, channel, kMarginRadians));
+    sceneSize_ = scenePictureSize(map_);
     const bool two = stereo_.mode != StereoMode::Mono;
     for (const EyeSide side :
          two ? std::vector{EyeSide::Left, EyeSide::Right} : std::vector{EyeSide::Between})
-        eyes_.emplace_back(rig, channel, channelFrustum(rig, channel, kMarginRadians, side));
+        eyes_.emplace_back(
+            channelFrustum(rig, channel, kMarginRadians, side), warp, rig.screen, id);
     if (two && stereo_.mode != StereoMode::QuadBuffer)
-        together_.emplace(map_.sizePixels, rig.channels[channel].id, stereo_.mode);
+        together_.emplace(map_.sizePixels, id, stereo_.mode);
     const bool world = pattern_ == Pattern::World;
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
@@ -91,7 +107,9 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, 
         scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
                                     .place = admission.scene.place,
                                     .water = admission.scene.water.jerlov,
-                                    .quality = quality},
+                                    .quality = quality,
+                                    .pixelRadians =
+                                        static_cast<float>(finestPixelRadians(admission.rig))},
                        castOf(admission));
 }
 
@@ -104,23 +122,22 @@ void ChannelPicture::drawScene(const StateFrame& frame,
         if (!scene_) drawPattern(eye);
         glNamedFramebufferTexture(eye.onScene.name(), GL_COLOR_ATTACHMENT0, eye.sceneTexture, 0);
         if (overlays.warpGrid) eye.pattern.addGrid(eye.onScene.name(), sceneSize_);
-        if (overlays.fishIds) drawFishIds(eye);
-        if (mind) drawMind(eye, *mind);
+        if (overlays.fishIds) drawFishIds(eye, frame);
+        if (mind) drawMind(eye, frame, *mind);
     }
 }
 
 void ChannelPicture::drawWorld(const StateFrame& frame) {
-    fish_ = presentedFish(frame, school_);
-    food_ = presentedFood(frame);
+    presentFood(frame, food_);
     const SceneFrame scene{.timeSeconds = presentedSeconds(frame),
                            .eyePositionMetres = frame.eye.positionMetres,
-                           .fish = fish_,
+                           .fish = {frame.before, frame.after, frame.fraction},
                            .food = food_,
                            .daylight = frame.daylight};
     scene_->update(scene);
     for (Viewing& eye : eyes_) {
         const View view = viewOf(eye, frame.eye);
-        eye.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
+        eye.clipFromWorld = clipOf(view);
         eye.sceneTexture = scene_->draw(view);
         if (!eye.kept) continue;
         glCopyImageSubData(eye.sceneTexture,
@@ -150,25 +167,24 @@ void ChannelPicture::drawPattern(Viewing& eye) const {
         eye.pattern.drawGrey(eye.kept->framebuffer(), sceneSize_);
 }
 
-std::optional<FishPlace> ChannelPicture::placeOf(const Viewing& eye,
+std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
                                                  const PresentedFish& fish) const {
-    const glm::vec4 clip = eye.clipFromWorld * glm::vec4(fish.positionMetres, 1);
+    const glm::vec4 clip = clipFromWorld * glm::vec4(fish.positionMetres, 1);
     if (clip.w <= 0) return std::nullopt;
     const glm::vec2 size(sceneSize_);
     const glm::vec2 place = (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * size;
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) return std::nullopt;
-    const glm::mat4& columns = eye.clipFromWorld;
-    const glm::vec3 across(columns[0].x, columns[1].x, columns[2].x);
+    const glm::vec3 across(clipFromWorld[0].x, clipFromWorld[1].x, clipFromWorld[2].x);
     const float pixelsAMetre = glm::length(across) / clip.w * 0.5F * size.x;
     return FishPlace{place, 0.5F * fish.lengthMetres * pixelsAMetre};
 }
 
 // Each number stands on its fish's body frame.
-void ChannelPicture::drawFishIds(const Viewing& eye) {
+void ChannelPicture::drawFishIds(const Viewing& eye, const StateFrame& frame) {
     const float dot = dotPixels(sceneSize_);
     std::vector<Label> labels;
-    for (const PresentedFish& fish : fish_) {
-        const auto place = placeOf(eye, fish);
+    for (const PresentedFish& fish : presentedFish(frame, school_)) {
+        const auto place = placeOf(eye.clipFromWorld, fish);
         if (!place) continue;
         const std::string text = std::to_string(fish.id);
         labels.push_back({place->middle - extentInDots(text) * dot / 2.0F, text});
@@ -176,15 +192,19 @@ void ChannelPicture::drawFishIds(const Viewing& eye) {
     text_.draw(labels, eye.onScene.name(), sceneSize_, dot);
 }
 
-void ChannelPicture::drawMind(const Viewing& eye, const WatchedMind& mind) {
-    if (mind.fish >= fish_.size()) return;
-    const auto place = placeOf(eye, fish_[mind.fish]);
+void ChannelPicture::drawMind(const Viewing& eye,
+                              const StateFrame& frame,
+                              const WatchedMind& mind) {
+    const auto fish = presentedFish(frame, school_, mind.fish);
+    if (!fish) return;
+    const auto place = placeOf(eye.clipFromWorld, *fish);
     if (!place) return;
     const float dot = smallDotPixels(sceneSize_);
     text_.draw(mindLabels(*place, mind, sceneSize_, dot), eye.onScene.name(), sceneSize_, dot);
 }
 
-std::optional<std::uint32_t> ChannelPicture::fishNearest(glm::vec2 pixel) const {
+std::optional<std::uint32_t> ChannelPicture::fishNearest(const StateFrame& frame,
+                                                         glm::vec2 pixel) const {
     const glm::vec2 own = pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
     const glm::ivec2 texel = glm::clamp(glm::ivec2(own), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
@@ -192,8 +212,10 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(glm::vec2 pixel) const 
     const glm::vec2 wanted = glm::vec2(lit.x, 1.0F - lit.y) * glm::vec2(sceneSize_);
     std::optional<std::uint32_t> nearest;
     float least = std::numeric_limits<float>::infinity();
-    for (std::uint32_t i = 0; i < fish_.size(); ++i) {
-        const auto place = placeOf(eyes_.front(), fish_[i]);
+    const glm::mat4 clipFromWorld = clipOf(viewOf(eyes_.front(), frame.eye));
+    const std::vector<PresentedFish> fish = presentedFish(frame, school_);
+    for (std::uint32_t i = 0; i < fish.size(); ++i) {
+        const auto place = placeOf(clipFromWorld, fish[i]);
         if (!place) continue;
         const float distance = glm::distance(place->middle, wanted);
         if (distance >= least) continue;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/motion/reconstruct.h"
 #include "common/wire/messages.h"
 #include "render_node/gl/target.h"
 #include "render_node/project/pattern_pass.h"
@@ -37,9 +38,10 @@ class ChannelPicture {
     void drawScene(const StateFrame& frame,
                    const Overlays& overlays,
                    const std::optional<WatchedMind>& mind = std::nullopt);
-    // Of the fish that the last scene shows, the one that a pixel (of the display, from the top
-    // left corner) is nearest to; its place in the school.
-    [[nodiscard]] std::optional<std::uint32_t> fishNearest(glm::vec2 pixel) const;
+    // Of the fish of a frame, the one that a pixel (of the display, from the top left corner) is
+    // nearest to; its place in the school.
+    [[nodiscard]] std::optional<std::uint32_t> fishNearest(const StateFrame& frame,
+                                                           glm::vec2 pixel) const;
     // The projector's pixels of the scene that was drawn last, into the framebuffer's lower left
     // corner. A display of quad buffers takes one eye at a time: in one picture it shows the left.
     void project(unsigned framebuffer,
@@ -52,7 +54,10 @@ class ChannelPicture {
   private:
     // A viewer's eye, or the place between both where one picture serves them.
     struct Viewing {
-        Viewing(const Rig& rig, std::size_t channel, const ChannelFrustum& from);
+        Viewing(const ChannelFrustum& from,
+                const WarpMap& warp,
+                const Screen& screen,
+                std::uint32_t channelId);
 
         ChannelFrustum frustum;
         PatternPass pattern;
@@ -65,23 +70,22 @@ class ChannelPicture {
 
     void drawWorld(const StateFrame& frame);
     void drawPattern(Viewing& eye) const;
-    void drawFishIds(const Viewing& eye);
-    void drawMind(const Viewing& eye, const WatchedMind& mind);
+    void drawFishIds(const Viewing& eye, const StateFrame& frame);
+    void drawMind(const Viewing& eye, const StateFrame& frame, const WatchedMind& mind);
     [[nodiscard]] View viewOf(const Viewing& viewing, const Eye& submarine) const;
     // In the scene's pixels, from its top left corner; nothing for what it does not show.
-    [[nodiscard]] std::optional<FishPlace> placeOf(const Viewing& eye,
+    [[nodiscard]] std::optional<FishPlace> placeOf(const glm::mat4& clipFromWorld,
                                                    const PresentedFish& fish) const;
 
     Pattern pattern_;
     Stereo stereo_;
     std::vector<FishTraits> school_;
     ProjectionMap map_;  // from between the eyes
-    glm::ivec2 sceneSize_;
+    glm::ivec2 sceneSize_{};
     std::deque<Viewing> eyes_;                // one, or left and right
     std::optional<PairProjection> together_;  // where one picture holds both
     std::optional<SceneRenderer> scene_;      // of the world
     TextOverlay text_;
-    std::vector<PresentedFish> fish_;
     std::vector<FoodParticle> food_;
     Frame frame_;
 };

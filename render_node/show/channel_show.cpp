@@ -146,6 +146,7 @@ Release ChannelShow::play() {
         if (state->quality != quality_) buildPicture(state->quality);
         draw(*state);
         waitForGpu();
+        refuseLoss();
         times.ready = now();
         const Release release = session_.readyThenWait(state->frame);
         if (release == Release::Rejoin || release == Release::Quit) return release;
@@ -159,9 +160,16 @@ Release ChannelShow::play() {
     return session_.interruption();
 }
 
+// All textures and programs went with it: a new process has them again in a second or two.
+void ChannelShow::refuseLoss() const {
+    if (const auto loss = context_.loss())
+        throw Error("the graphics driver took its context away (" + *loss +
+                    "); this node ends, and is to be started again");
+}
+
 void ChannelShow::draw(const StateFrame& frame) {
     const Overlays overlays = controls_.overlays();
-    picture_->drawScene(frame, overlays, overlays.mind ? watchMind() : std::nullopt);
+    picture_->drawScene(frame, overlays, overlays.mind ? watchMind(frame) : std::nullopt);
     if (!context_.quadBuffered()) return project(overlays, Shown::Display);
     const bool swapped = picture_->stereo().swapEyes;
     glNamedFramebufferDrawBuffer(0, swapped ? GL_BACK_RIGHT : GL_BACK_LEFT);
@@ -192,12 +200,12 @@ std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
 
 // Another fish may come nearest at any time: it is chosen as often as is asked, so that the answer
 // can be read.
-std::optional<WatchedMind> ChannelShow::watchMind() {
+std::optional<WatchedMind> ChannelShow::watchMind(const StateFrame& frame) {
     constexpr std::chrono::milliseconds kBetweenQuestions{250};
     if (now() - askedAt_ >= kBetweenQuestions) {
         askedAt_ = now();
         const auto pixel = pixelAt(controls_.pointer()).value_or(pointing_->middle());
-        watched_ = picture_->fishNearest(pixel);
+        watched_ = picture_->fishNearest(frame, pixel);
         if (watched_) session_.askMind(*watched_);
     }
     if (!watched_) return std::nullopt;

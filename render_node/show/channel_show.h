@@ -36,10 +36,11 @@ class ChannelShow {
     [[nodiscard]] Release play();
     void draw(const StateFrame& frame);
     void project(const Overlays& overlays, Shown shown);
+    void refuseLoss() const;
     void feed(const Eye& eye);
     // Where in the picture a place of the window lies; where there is none, its middle.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
-    [[nodiscard]] std::optional<WatchedMind> watchMind();
+    [[nodiscard]] std::optional<WatchedMind> watchMind(const StateFrame& frame);
     void film(Frame frame);
 
     Session& session_;

@@ -8,23 +8,28 @@
 
 namespace aquarama {
 
-std::vector<PresentedFish> presentedFish(const StateFrame& frame,
-                                         std::span<const FishTraits> school) {
+std::optional<PresentedFish> presentedFish(const StateFrame& frame,
+                                           std::span<const FishTraits> school,
+                                           std::size_t place) {
+    if (place >= std::min(frame.after.size(), school.size())) return std::nullopt;
     // Without a tick before, the frame shows the tick itself.
     const bool between = frame.before.size() == frame.after.size();
-    const std::vector<FishRecord>& before = between ? frame.before : frame.after;
-    const float fraction = between ? frame.fraction : 1.0F;
+    const FishRecord& before = between ? frame.before[place] : frame.after[place];
+    return present(before, frame.after[place], between ? frame.fraction : 1.0F, school[place]);
+}
+
+std::vector<PresentedFish> presentedFish(const StateFrame& frame,
+                                         std::span<const FishTraits> school) {
     std::vector<PresentedFish> fish;
     const std::size_t count = std::min(frame.after.size(), school.size());
     fish.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-        fish.push_back(present(before[i], frame.after[i], fraction, school[i]));
+    for (std::size_t i = 0; i < count; ++i) fish.push_back(*presentedFish(frame, school, i));
     return fish;
 }
 
-std::vector<FoodParticle> presentedFood(const StateFrame& frame) {
+void presentFood(const StateFrame& frame, std::vector<FoodParticle>& food) {
     const bool between = frame.foodBefore.size() == frame.foodAfter.size();
-    std::vector<FoodParticle> food;
+    food.clear();
     food.reserve(frame.foodAfter.size());
     for (std::size_t i = 0; i < frame.foodAfter.size(); ++i) {
         const FoodRecord after = frame.foodAfter[i];
@@ -38,7 +43,6 @@ std::vector<FoodParticle> presentedFood(const StateFrame& frame) {
                         static_cast<std::uint32_t>(4 * i + after.generation()),
                         after.kind() == FoodRecord::Kind::Pellet});
     }
-    return food;
 }
 
 double presentedSeconds(const StateFrame& frame) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame's fish and clock as the scene takes them.
+// A frame's food and clock as the scene takes them, and its fish for those who point at them.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,11 +14,16 @@
 namespace aquarama {
 
 // The school at the frame's moment. Records beyond the school that was welcomed are left out.
+// It takes its time with all of them: the scene itself presents fish on the GPU.
 [[nodiscard]] std::vector<PresentedFish> presentedFish(const StateFrame& frame,
                                                        std::span<const FishTraits> school);
+// One of them by its place in the school, if there is such a one.
+[[nodiscard]] std::optional<PresentedFish> presentedFish(const StateFrame& frame,
+                                                         std::span<const FishTraits> school,
+                                                         std::size_t place);
 
 // The food at the frame's moment: a particle that another takes the place of never glides to it.
-[[nodiscard]] std::vector<FoodParticle> presentedFood(const StateFrame& frame);
+void presentFood(const StateFrame& frame, std::vector<FoodParticle>& food);
 
 // Since tick 0.
 [[nodiscard]] double presentedSeconds(const StateFrame& frame);

@@ -2,216 +2,399 @@
 #include "render_node/surface/school_surface.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <tuple>
+#include <numeric>
 #include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
 #include "render_node/gl/handle.h"
-#include "render_node/surface/level_buffers.h"
+#include "render_node/gl/program.h"
+#include "render_node/surface/fish_plan.h"
 #include "render_node/surface/skin_programs.h"
-#include "render_node/surface/visibility.h"
 
 namespace aquarama {
 
 namespace {
 
-// Bindings of shader storage, as fish_data.glsl, fish.comp and fish.vert have them.
-constexpr GLuint kSchool = 0, kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 4;
-// Uniforms of fish.comp and fish.vert.
-constexpr GLint kFirstFish = 0, kFirstVertex = 1, kVertexCount = 2;
+// Bindings of shader storage. The kernels that sort fish and those that make surfaces share numbers,
+// as OpenGL promises only eight.
+constexpr GLuint kSchool = 0, kBefore = 1, kAfter = 2, kTraits = 3, kCast = 4, kChoices = 5, kPlan = 6,
+                 kCounts = 7;
+constexpr GLuint kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 5, kParents = 7;
+
+// Uniforms of fish_record.glsl, fish_detail.glsl and of the kernels.
+constexpr GLint kFraction = 0, kPlanes = 1, kSharedEye = 7, kLimits = 8, kFinest = 15, kCulls = 16,
+                kChoosesDetail = 17, kOwn = 18, kRoom = 19;
 
 constexpr std::size_t kBytesPerVertex = 16;
-// Half of the least block that GL drivers allow in practice (128 MiB on software Mesa).
-constexpr std::size_t kMostSurfaceBytes = std::size_t{64} << 20U;
-constexpr std::size_t kLargestDispatch = 65535;
 
-// Fish of one level that follow each other in the school's buffer and share the surface buffer.
-struct Batch {
-    int level = 0;
-    std::size_t firstFish = 0;
-    std::size_t fish = 0;
-    std::size_t firstVertex = 0;
+gl::Buffer makeRoom(std::size_t bytes, const char* label, GLbitfield flags = 0) {
+    gl::Buffer buffer;
+    const auto size = static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16));
+    glNamedBufferStorage(buffer.name(), size, nullptr, flags);
+    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
+    return buffer;
+}
+
+void bindStorage(GLuint binding, const gl::Buffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+}
+
+struct Traits {
+    std::uint32_t id, lengthMillimetres;
 };
 
-struct VisibleFish {
-    int level = 0;
-    float distanceMetres = 0;
-    PresentedFish fish;
-};
+std::vector<Traits> traitsOf(std::span<const SchoolSpecies> cast) {
+    std::vector<Traits> traits;
+    for (const SchoolSpecies& species : cast)
+        for (const FishTraits& fish : species.fish)
+            traits.push_back({fish.id, fish.lengthMillimetres});
+    return traits;
+}
+
+std::vector<std::uint32_t> upTo(std::size_t count) {
+    std::vector<std::uint32_t> numbers(std::max<std::size_t>(count, 1));
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    return numbers;
+}
+
+// NOLINTNEXTLINE(performance-no-int-to-ptr): GL takes an offset into a buffer as a pointer
+const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
+
+std::size_t surfaceOf(DetailLevel level) {
+    return std::size_t(level) - std::size_t(DetailLevel::ControlMesh);
+}
+
+// Indices, and for each instance its place in the school.
+void describe(const gl::VertexArray& array, const gl::Buffer& indices, const gl::Buffer& slots) {
+    glVertexArrayElementBuffer(array.name(), indices.name());
+    glVertexArrayVertexBuffer(array.name(), 1, slots.name(), 0, sizeof(std::uint32_t));
+    glVertexArrayBindingDivisor(array.name(), 1, 1);
+    glEnableVertexArrayAttrib(array.name(), 3);
+    glVertexArrayAttribBinding(array.name(), 3, 1);
+    glVertexArrayAttribIFormat(array.name(), 3, 1, GL_UNSIGNED_INT, 0);
+}
+
+// The SkinPlace with which each vertex begins.
+void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::size_t stride) {
+    glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, static_cast<GLsizei>(stride));
+    for (const unsigned attribute : {0U, 1U, 2U}) {
+        glEnableVertexArrayAttrib(array.name(), attribute);
+        glVertexArrayAttribBinding(array.name(), attribute, 0);
+    }
+    const unsigned name = array.name();
+    glVertexArrayAttribFormat(name, 0, 4, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, rest));
+    glVertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, fin));
+    glVertexArrayAttribIFormat(name, 2, 1, GL_UNSIGNED_INT, offsetof(SkinPlace, part));
+}
 
 }  // namespace
 
 struct SchoolSurface::Parts {
-    Parts(const FishBody& body,
-          const std::vector<RecordedPoint>& points,
+    Parts(std::span<const SchoolSpecies> members,
           const SurfaceOptions& surfaceOptions,
           std::shared_ptr<const SkinPrograms> skins)
         : options{surfaceOptions},
-          painter{surfaceOptions.skin, body.eye},
-          reachBodyLengths{reachOf(points)},
-          recorded{makeBuffer(points, "recorded control points")},
+          limits{detailLimits(options.fineness)},
+          tables{members, surfaceOf(options.finest)},
           programs{std::move(skins)} {
-        for (int level = 0; level < kSurfaceLevels; ++level)
-            levels.emplace_back(makeLimitTable(body, level));
-        roomVertices =
-            std::min(kMostSurfaceBytes / kBytesPerVertex, options.fish * levels.back().vertexCount);
-        const auto bytes = static_cast<GLsizeiptr>(roomVertices * kBytesPerVertex);
-        glNamedBufferStorage(surface.name(), bytes, nullptr, 0);
-        glObjectLabel(GL_BUFFER, surface.name(), -1, "fish surfaces");
+        for (const SchoolSpecies& member : members) {
+            fish += member.fish.size();
+            painters.emplace_back(member.skin, member.body.eye);
+        }
+        makeBuffers(members);
+        makeVertexArrays();
+        setConstants();
     }
 
-    void cull(std::span<const PresentedFish> fish,
-              const glm::mat4& clipFromWorld,
-              glm::vec3 sharedEyeMetres);
-    void upload();
-    void splitIntoBatches();
-    void evaluate(const Batch& batch) const;
-    void bind(const Batch& batch, unsigned program) const;
-    void drawBatch(const Batch& batch) const;
+    void makeBuffers(std::span<const SchoolSpecies> members);
+    void makeVertexArrays() const;
+    void setConstants() const;
+    void upload(const gl::Buffer& buffer, std::span<const FishRecord> records) const;
+    void bindRecords() const;
+    void setView(unsigned program, const FrustumPlanes& frustum, const SharedView& shared) const;
+    void sort() const;
+    void evaluate(std::size_t turn, std::size_t groupsOffset) const;
+    void drawSurfaces(std::size_t turn, bool isFins) const;
+    void drawTurns(bool isFins) const;
+    void drawTails(std::size_t first, std::size_t commands, gl::ProgramHandle SkinPainter::*program)
+        const;
+    void drawPoints() const;
+    void drawFew() const;
 
     SurfaceOptions options;
-    SkinPainter painter;
-    float reachBodyLengths;
-    std::size_t roomVertices = 0;
-    std::vector<LevelBuffers> levels;
-    gl::Buffer recorded, school, surface;
+    DetailLimits limits;
+    FishTables tables;
     std::shared_ptr<const SkinPrograms> programs;
+    std::vector<SkinPainter> painters;  // one a species
+    std::size_t fish = 0;
+    std::size_t turns = 1;  // of the surface buffer, at most
+    gl::Buffer before, after, traits, choices, counts, plan, school, surface, slots;
+    gl::VertexArray surfaceArray, fewArray, pointArray;
+    gl::Buffer pointIndices{makeBuffer(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, "point indices")};
+    gl::ProgramHandle cull{gl::makeProgram({"fish_cull.comp"})};
+    gl::ProgramHandle scan{gl::makeProgram({"fish_scan.comp"})};
+    gl::ProgramHandle planner{gl::makeProgram({"fish_plan.comp"})};
+    gl::ProgramHandle scatter{gl::makeProgram({"fish_scatter.comp"})};
 
-    std::vector<VisibleFish> visible;
-    std::vector<PresentedFish> uploaded;
-    std::vector<Batch> batches;
-    bool allFit = true;  // the surfaces of all batches have room at once
+    std::size_t recordsUploaded = 0;
+    bool isBetween = false;
+    float fraction = 1.0F;
 };
 
-// Farthest first, so that fins may be blended over what is behind them; coarse levels are the
-// farthest. Equal distances fall back to the id: all nodes draw in the same order.
-void SchoolSurface::Parts::cull(std::span<const PresentedFish> fish,
-                                const glm::mat4& clipFromWorld,
-                                glm::vec3 sharedEyeMetres) {
-    const Frustum frustum = frustumOf(clipFromWorld);
-    visible.clear();
-    for (const PresentedFish& one : fish) {
-        const float margin = reachBodyLengths * one.lengthMetres;
-        if (isAway(one)) continue;
-        if (options.culling && !reaches(frustum, one.positionMetres, margin)) continue;
-        const int level = options.levelsOfDetail
-                              ? levelOfDetail(sharedEyeMetres, one.positionMetres, one.lengthMetres)
-                              : kSurfaceLevels - 1;
-        visible.push_back({level, glm::distance(sharedEyeMetres, one.positionMetres), one});
+void SchoolSurface::Parts::makeBuffers(std::span<const SchoolSpecies> members) {
+    const std::size_t most = options.surfaceBytes / kBytesPerVertex;
+    const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
+    const std::size_t room = std::min(most, wanted);
+    turns = std::min(kTurns, (wanted + most - 1) / most);
+    before = makeRoom(fish * sizeof(FishRecord), "fish before", GL_DYNAMIC_STORAGE_BIT);
+    after = makeRoom(fish * sizeof(FishRecord), "fish after", GL_DYNAMIC_STORAGE_BIT);
+    traits = makeBuffer(traitsOf(members), "traits");
+    choices = makeRoom(fish * sizeof(std::uint32_t), "fish choices");
+    counts = makeRoom(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
+    plan = makeRoom(sizeof(FishPlan), "fish plan");
+    school = makeRoom(fish * sizeof(DrawnFish), "fish drawn");
+    surface = makeRoom(room * kBytesPerVertex, "fish surfaces");
+    slots = makeBuffer(upTo(fish), "places in the school");
+    glProgramUniform1ui(planner.name(), kRoom, static_cast<GLuint>(room));
+}
+
+void SchoolSurface::Parts::makeVertexArrays() const {
+    describe(surfaceArray, tables.indices, slots);
+    addPlaces(surfaceArray, tables.places, sizeof(SurfaceVertex));
+    const unsigned surfaces = surfaceArray.name();
+    for (const unsigned attribute : {4U, 5U}) {
+        glEnableVertexArrayAttrib(surfaces, attribute);
+        glVertexArrayAttribBinding(surfaces, attribute, 0);
     }
-    std::ranges::sort(visible, {}, [](const VisibleFish& one) {
-        return std::tuple{one.level, -one.distanceMetres, one.fish.id};
-    });
-}
-
-void SchoolSurface::Parts::upload() {
-    uploaded.clear();
-    for (const VisibleFish& one : visible) uploaded.push_back(one.fish);
-    glNamedBufferData(school.name(),
-                      static_cast<GLsizeiptr>(uploaded.size() * sizeof(PresentedFish)),
-                      uploaded.data(),
-                      GL_STREAM_DRAW);
-}
-
-void SchoolSurface::Parts::splitIntoBatches() {
-    batches.clear();
-    allFit = true;
-    std::size_t used = 0;
-    for (std::size_t first = 0; first < visible.size();) {
-        const int level = visible[first].level;
-        const std::size_t vertexCount = levels[static_cast<std::size_t>(level)].vertexCount;
-        if (used + vertexCount > roomVertices) {
-            used = 0;
-            allFit = false;
-        }
-        const std::size_t most = std::min(kLargestDispatch, (roomVertices - used) / vertexCount);
-        std::size_t last = first;
-        while (last < visible.size() && last - first < most && visible[last].level == level) ++last;
-        batches.push_back({level, first, last - first, used});
-        used += (last - first) * vertexCount;
-        first = last;
+    glVertexArrayAttribFormat(
+        surfaces, 4, 4, GL_FLOAT, GL_FALSE, offsetof(SurfaceVertex, coarserRest));
+    glVertexArrayAttribFormat(
+        surfaces, 5, 2, GL_FLOAT, GL_FALSE, offsetof(SurfaceVertex, coarserFin));
+    describe(fewArray, tables.fewIndices, slots);
+    addPlaces(fewArray, tables.fewVertices, sizeof(FewTriangles::Vertex));
+    const unsigned few = fewArray.name();
+    for (const unsigned attribute : {4U, 5U}) {
+        glEnableVertexArrayAttrib(few, attribute);
+        glVertexArrayAttribBinding(few, attribute, 0);
     }
+    using Vertex = FewTriangles::Vertex;
+    glVertexArrayAttribIFormat(few, 4, 1, GL_UNSIGNED_INT, offsetof(Vertex, controlPoint));
+    glVertexArrayAttribFormat(few, 5, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
+    describe(pointArray, pointIndices, slots);
 }
 
-void SchoolSurface::Parts::bind(const Batch& batch, unsigned program) const {
-    const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
-    glUseProgram(program);
-    glUniform1ui(kFirstFish, static_cast<GLuint>(batch.firstFish));
-    glUniform1ui(kFirstVertex, static_cast<GLuint>(batch.firstVertex));
-    glUniform1ui(kVertexCount, static_cast<GLuint>(level.vertexCount));
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSchool, school.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSurface, surface.name());
+void SchoolSurface::Parts::setConstants() const {
+    for (const unsigned program : {cull.name(), scatter.name()}) {
+        glProgramUniform1fv(program, kLimits, static_cast<GLsizei>(limits.size()), limits.data());
+        glProgramUniform1ui(program, kFinest, static_cast<GLuint>(options.finest));
+        glProgramUniform1i(program, kChoosesDetail, options.levelsOfDetail ? 1 : 0);
+    }
+    glProgramUniform1i(cull.name(), kCulls, options.culling ? 1 : 0);
+    glProgramUniform1ui(planner.name(), kOwn, static_cast<GLuint>(painters.size()));
 }
 
-void SchoolSurface::Parts::evaluate(const Batch& batch) const {
-    const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
-    bind(batch, programs->surface.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecorded, recorded.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFirstEntries, level.firstEntries.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, level.entries.name());
+void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
+                                  std::span<const FishRecord> records) const {
+    const std::size_t count = std::min(records.size(), fish);
+    if (count == 0) return;
+    const auto bytes = static_cast<GLsizeiptr>(count * sizeof(FishRecord));
+    glNamedBufferSubData(buffer.name(), 0, bytes, records.data());
+}
+
+// Without a tick before, the frame shows the tick itself.
+void SchoolSurface::Parts::bindRecords() const {
+    bindStorage(kBefore, isBetween ? before : after);
+    bindStorage(kAfter, after);
+    bindStorage(kTraits, traits);
+}
+
+void SchoolSurface::Parts::setView(unsigned program,
+                                   const FrustumPlanes& frustum,
+                                   const SharedView& shared) const {
+    const glm::vec4 eye{shared.eyeMetres, shared.pixelRadians};
+    glProgramUniform4fv(program, kPlanes, 6, &frustum.planes.front().x);
+    glProgramUniform4fv(program, kSharedEye, 1, &eye.x);
+    glProgramUniform1f(program, kFraction, fraction);
+    glProgramUniform1ui(program, kOwn, static_cast<GLuint>(recordsUploaded));
+}
+
+// Each kernel reads what the one before it wrote.
+void SchoolSurface::Parts::sort() const {
+    const auto groups = static_cast<GLuint>(tables.groups);
+    bindRecords();
+    bindStorage(kCast, tables.cast);
+    bindStorage(kChoices, choices);
+    bindStorage(kCounts, counts);
+    bindStorage(kPlan, plan);
+    bindStorage(kSchool, school);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // an earlier view has drawn from these
+    glUseProgram(cull.name());
+    glDispatchCompute(groups, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(scan.name());
+    glDispatchCompute(static_cast<GLuint>(painters.size()), kDetailLevels, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(planner.name());
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(scatter.name());
+    glDispatchCompute(groups, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) const {
+    bindStorage(kSchool, school);
+    bindStorage(kRecorded, tables.recorded);
+    bindStorage(kFirstEntries, tables.firstEntries);
+    bindStorage(kEntries, tables.entries);
+    bindStorage(kCast, tables.cast);
+    bindStorage(kSurface, surface);
+    bindStorage(kPlan, plan);
+    bindStorage(kParents, tables.parents);
+    glUseProgram(programs->surface.name());
+    glUniform1ui(kOwn, static_cast<GLuint>(turn));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan.name());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // earlier draws have read what is overwritten
-    glDispatchCompute(static_cast<GLuint>(batch.fish), 1, 1);
+    glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(FishPlan, turns) +
+                                                    turn * sizeof(FishPlan::Turn) + groupsOffset));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void SchoolSurface::Parts::drawBatch(const Batch& batch) const {
-    const LevelBuffers& level = levels[static_cast<std::size_t>(batch.level)];
-    const auto instances = static_cast<GLsizei>(batch.fish);
-    glBindVertexArray(level.vertexArray.name());
-    glEnable(GL_CULL_FACE);
-
-    bind(batch, painter.bodyOf(batch.level));
-    glDrawElementsInstanced(GL_TRIANGLES, level.bodyIndices, GL_UNSIGNED_INT, nullptr, instances);
-
-    bind(batch, painter.fins.name());
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glDepthMask(GL_FALSE);
-    const auto firstFin = static_cast<std::uintptr_t>(level.bodyIndices) * sizeof(std::uint32_t);
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): GL takes an offset into the buffer as a pointer
-    const auto* offset = reinterpret_cast<const void*>(firstFin);
-    glDrawElementsInstanced(GL_TRIANGLES, level.finIndices, GL_UNSIGNED_INT, offset, instances);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
+// All levels of a species that one program draws go in one call.
+void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
+    const std::size_t surfaces = 1 + surfaceOf(options.finest);
+    const auto programOf = [&](const SkinPainter& painter, std::size_t surfaceLevel) {
+        return isFins ? painter.fins.name() : painter.bodyOf(static_cast<int>(surfaceLevel));
+    };
+    const std::size_t table = isFins ? offsetof(FishPlan, fins) : offsetof(FishPlan, bodies);
+    for (std::size_t s = 0; s < painters.size(); ++s) {
+        for (std::size_t first = 0; first < surfaces;) {
+            const unsigned program = programOf(painters[s], first);
+            std::size_t last = first + 1;
+            while (last < surfaces && programOf(painters[s], last) == program) ++last;
+            glUseProgram(program);
+            const std::size_t piece = (turn * kMostSpecies + s) * kSurfaces + first;
+            glMultiDrawElementsIndirect(GL_TRIANGLES,
+                                        GL_UNSIGNED_INT,
+                                        at(table + piece * sizeof(FishPlan::Command)),
+                                        static_cast<GLsizei>(last - first),
+                                        sizeof(FishPlan::Command));
+            first = last;
+        }
+    }
 }
 
-SchoolSurface::SchoolSurface(const FishBody& body,
-                             const Repertoire& repertoire,
+void SchoolSurface::Parts::drawTurns(bool isFins) const {
+    glBindVertexArray(surfaceArray.name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+        if (!isFins || turns > 1)
+            evaluate(turn,
+                     isFins ? offsetof(FishPlan::Turn, finGroups)
+                            : offsetof(FishPlan::Turn, bodyGroups));
+        bindStorage(kSchool, school);
+        bindStorage(kSurface, surface);
+        drawSurfaces(turn, isFins);
+    }
+}
+
+void SchoolSurface::Parts::drawTails(std::size_t first,
+                                     std::size_t commands,
+                                     gl::ProgramHandle SkinPainter::*program) const {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
+    for (std::size_t s = 0; s < painters.size(); ++s) {
+        glUseProgram((painters[s].*program).name());
+        glMultiDrawElementsIndirect(
+            GL_TRIANGLES,
+            GL_UNSIGNED_INT,
+            at(offsetof(FishPlan, tails) + (s * kTails + first) * sizeof(FishPlan::Command)),
+            static_cast<GLsizei>(commands),
+            sizeof(FishPlan::Command));
+    }
+}
+
+// Before the few triangles that fade in over them. They hide nothing.
+void SchoolSurface::Parts::drawPoints() const {
+    bindStorage(kSchool, school);
+    bindStorage(kCast, tables.cast);
+    glBindVertexArray(pointArray.name());
+    glDepthMask(GL_FALSE);
+    drawTails(2 * kMeshes, 1, &SkinPainter::point);
+    glDepthMask(GL_TRUE);
+}
+
+void SchoolSurface::Parts::drawFew() const {
+    bindStorage(kSchool, school);
+    bindStorage(kRecorded, tables.recorded);
+    glBindVertexArray(fewArray.name());
+    glEnable(GL_CULL_FACE);
+    drawTails(0, kMeshes, &SkinPainter::fewBody);
+    glDisable(GL_CULL_FACE);  // a sheet has two sides
+    drawTails(kMeshes, kMeshes, &SkinPainter::fewFins);
+}
+
+SchoolSurface::SchoolSurface(std::span<const SchoolSpecies> cast,
                              const SurfaceOptions& options,
                              std::shared_ptr<const SkinPrograms> skins)
-    : parts_{std::make_unique<Parts>(
-          body, recordedPoints(body, repertoire), options, std::move(skins))} {}
+    : parts_{std::make_unique<Parts>(cast, options, std::move(skins))} {}
 
 SchoolSurface::~SchoolSurface() = default;
 SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;
 SchoolSurface& SchoolSurface::operator=(SchoolSurface&&) noexcept = default;
 
-void SchoolSurface::update(std::span<const PresentedFish> fish,
-                           const glm::mat4& clipFromWorld,
-                           glm::vec3 sharedEyeMetres) {
-    parts_->cull(fish, clipFromWorld, sharedEyeMetres);
-    parts_->upload();
-    parts_->splitIntoBatches();
-    if (!parts_->allFit) return;  // then each batch is evaluated just before it is drawn
-    for (const Batch& batch : parts_->batches) parts_->evaluate(batch);
+void SchoolSurface::update(const SchoolMoment& moment) {
+    Parts& parts = *parts_;
+    parts.recordsUploaded = std::min(moment.after.size(), parts.fish);
+    parts.isBetween = moment.before.size() == moment.after.size();
+    parts.fraction = parts.isBetween ? moment.fraction : 1.0F;
+    parts.upload(parts.after, moment.after);
+    if (parts.isBetween) parts.upload(parts.before, moment.before);
 }
 
-void SchoolSurface::draw() const {
-    for (const Batch& batch : parts_->batches) {
-        if (!parts_->allFit) parts_->evaluate(batch);
-        parts_->drawBatch(batch);
-    }
+void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& shared) {
+    const Parts& parts = *parts_;
+    if (parts.fish == 0) return;
+    const FrustumPlanes frustum = frustumOf(clipFromWorld);
+    for (const unsigned program : {parts.cull.name(), parts.scatter.name()})
+        parts.setView(program, frustum, shared);
+    parts.sort();
 }
+
+void SchoolSurface::drawBodies() const {
+    if (parts_->fish == 0) return;
+    glEnable(GL_CULL_FACE);
+    parts_->drawTurns(false);
+    glDisable(GL_CULL_FACE);
+}
+
+void SchoolSurface::drawBlended() const {
+    if (parts_->fish == 0) return;
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (parts_->options.levelsOfDetail) {
+        parts_->drawPoints();
+        parts_->drawFew();
+    }
+    glEnable(GL_CULL_FACE);
+    parts_->drawTurns(true);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+}
+
+void SchoolSurface::bindRecords() const { parts_->bindRecords(); }
+std::size_t SchoolSurface::fishInRecords() const { return parts_->recordsUploaded; }
+float SchoolSurface::fraction() const { return parts_->fraction; }
 
 SurfaceCounts SchoolSurface::counts() const {
     SurfaceCounts counts;
-    counts.visible = static_cast<int>(parts_->visible.size());
-    for (const VisibleFish& one : parts_->visible) ++counts.perLevel[one.level];
+    if (parts_->fish == 0) return counts;
+    decltype(FishPlan::totals) totals{};
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(parts_->plan.name(), offsetof(FishPlan, totals), sizeof(totals), &totals);
+    for (std::size_t s = 0; s < parts_->painters.size(); ++s)
+        for (std::size_t level = 0; level < kDetailLevels; ++level)
+            counts.atLevel.at(level) += totals.at(s).at(level);
+    counts.visible = std::accumulate(counts.atLevel.begin(), counts.atLevel.end(), std::size_t{0});
     return counts;
 }
 

@@ -20,10 +20,13 @@ std::string painterOf(const FishSkin& skin) {
     return std::ranges::find(files, file) == files.end() ? std::string(kPlain) : file;
 }
 
-gl::ProgramHandle painting(const std::string& fragments, const FishSkin& skin, glm::vec3 eye) {
+gl::ProgramHandle painting(const std::string& vertices,
+                           const std::string& fragments,
+                           const FishSkin& skin,
+                           glm::vec3 eye) {
     const std::string painter = painterOf(skin);
     const std::array replaced{gl::Replacement{kPlain, painter}};
-    gl::ProgramHandle program = gl::makeProgram({"fish.vert", fragments}, replaced);
+    gl::ProgramHandle program = gl::makeProgram({vertices, fragments}, replaced);
     const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
     // Which of them a painter does not look at, has no location.
     const auto at = [&](const char* name) { return glGetUniformLocation(program.name(), name); };
@@ -41,8 +44,11 @@ std::shared_ptr<const SkinPrograms> makeSkinPrograms() {
 }
 
 SkinPainter::SkinPainter(const FishSkin& skin, glm::vec3 eye)
-    : nearBody{painting("fish_body.frag", skin, eye)},
-      farBody{painting("fish_far.frag", skin, eye)},
-      fins{painting("fish_fin.frag", skin, eye)} {}
+    : nearBody{painting("fish.vert", "fish_body.frag", skin, eye)},
+      farBody{painting("fish.vert", "fish_far.frag", skin, eye)},
+      fins{painting("fish.vert", "fish_fin.frag", skin, eye)},
+      fewBody{painting("fish_few.vert", "fish_far.frag", skin, eye)},
+      fewFins{painting("fish_few.vert", "fish_fin.frag", skin, eye)},
+      point{painting("fish_point.vert", "fish_far.frag", skin, eye)} {}
 
 }  // namespace aquarama

@@ -26,6 +26,7 @@ struct SkinPainter {
     SkinPainter(const FishSkin& skin, glm::vec3 eye);
 
     gl::ProgramHandle nearBody, farBody, fins;
+    gl::ProgramHandle fewBody, fewFins, point;  // with the vertex shaders of coarser levels
 
     // Far bodies have no level finer than 0.
     [[nodiscard]] unsigned bodyOf(int level) const {

@@ -10,17 +10,17 @@ namespace aquarama {
 
 namespace {
 
-// Radians. A projector of the theatre shows 0.09 as some 160 pixels: six for a quad of the control
-// mesh.
-constexpr float kLevel1Angle = 0.09F;
-constexpr float kLevel2Angle = 0.28F;
+// By level, pixels. A control mesh has 26 rings, so that its quads are 2 pixels wide where the mesh
+// takes over, as are the mesh's where the hero does, and so on.
+constexpr DetailLimits kLimits{0.0F, 2.5F, 4.0F, 14.0F, 60.0F, 180.0F, 600.0F};
+constexpr float kMorph = 1.35F;  // a level is all its own at so many times its limit
 
 }  // namespace
 
-Frustum frustumOf(const glm::mat4& clipFromWorld) {
+FrustumPlanes frustumOf(const glm::mat4& clipFromWorld) {
     const glm::vec4 x = glm::row(clipFromWorld, 0), y = glm::row(clipFromWorld, 1);
     const glm::vec4 z = glm::row(clipFromWorld, 2), w = glm::row(clipFromWorld, 3);
-    Frustum frustum{{w + x, w - x, w + y, w - y, z, w - z}};
+    FrustumPlanes frustum{{w + x, w - x, w + y, w - y, z, w - z}};
     for (glm::vec4& plane : frustum.planes) {
         const float length = glm::length(glm::vec3(plane));
         if (length > 0.0F) plane /= length;  // none at infinity
@@ -28,16 +28,44 @@ Frustum frustumOf(const glm::mat4& clipFromWorld) {
     return frustum;
 }
 
-bool reaches(const Frustum& frustum, glm::vec3 point, float marginMetres) {
+bool reaches(const FrustumPlanes& frustum, glm::vec3 point, float marginMetres) {
     return std::ranges::all_of(frustum.planes, [&](const glm::vec4& plane) {
         return glm::dot(glm::vec3(plane), point) + plane.w >= -marginMetres;
     });
 }
 
-int levelOfDetail(glm::vec3 sharedEyeMetres, glm::vec3 centreMetres, float lengthMetres) {
-    const float distance = glm::distance(sharedEyeMetres, centreMetres);
-    if (lengthMetres > kLevel2Angle * distance) return 2;
-    return lengthMetres > kLevel1Angle * distance ? 1 : 0;
+DetailLimits detailLimits(float fineness) {
+    DetailLimits limits = kLimits;
+    for (auto level = std::size_t(DetailLevel::ControlMesh); level < limits.size(); ++level)
+        limits[level] /= fineness;
+    return limits;
+}
+
+Detail detailOf(const SharedView& view,
+                const DetailLimits& limits,
+                DetailLevel finest,
+                glm::vec3 placeMetres,
+                float lengthMetres) {
+    const float pixels =
+        lengthMetres / (glm::distance(view.eyeMetres, placeMetres) * view.pixelRadians);
+    std::size_t level = 0;
+    while (level < std::size_t(finest) && pixels >= limits[level + 1]) ++level;
+    const auto chosen = static_cast<DetailLevel>(level);
+    if (chosen == DetailLevel::Point) return {chosen, 0.0F};
+    if (chosen == DetailLevel::FewTriangles) return {chosen, 1.0F};
+    const float from = limits[level];
+    const float to = chosen == DetailLevel::Fading ? limits[level + 1] : kMorph * from;
+    const float t = glm::clamp((pixels - from) / (to - from), 0.0F, 1.0F);
+    return {chosen, t * t * (3.0F - 2.0F * t)};
+}
+
+float marginOf(const SharedView& view,
+               glm::vec3 placeMetres,
+               float lengthMetres,
+               float reachBodyLengths) {
+    constexpr float kPixels = 3.0F;
+    return reachBodyLengths * lengthMetres +
+           kPixels * view.pixelRadians * glm::distance(view.eyeMetres, placeMetres);
 }
 
 }  // namespace aquarama

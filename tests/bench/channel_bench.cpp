@@ -51,9 +51,9 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     const FishBody body = test::scad();
     const Projection projection(map, 0);
     const gl::Target target(GL_RGBA8, map.sizePixels);
-    const std::vector<PresentedFish> fish = schoolAround();
-    const std::vector<SceneSpecies> cast{
-        {.body = body, .skin = {}, .repertoire = test::swaying(body, 0.05F), .fish = fish.size()}};
+    const test::RecordedSchool fish{schoolAround()};
+    const std::vector<SchoolSpecies> cast{
+        {.body = body, .skin = {}, .repertoire = test::swaying(body, 0.05F), .fish = fish.traits}};
     SceneRenderer scene({.culling = culling, .levelsOfDetail = levelsOfDetail}, cast);
     const glm::dmat4 wallFromWorld = glm::translate(glm::dmat4(1), -glm::dvec3(kEyePosition));
     const View view{.clipFromCamera = clipFromCamera(frustum, 0.05F),
@@ -62,7 +62,9 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     double seconds = 0;
     const auto drawFrame = [&] {
         const SceneFrame frame{
-            .timeSeconds = seconds += 1.0 / 60, .eyePositionMetres = kEyePosition, .fish = fish};
+            .timeSeconds = seconds += 1.0 / 60,
+            .eyePositionMetres = kEyePosition,
+            .fish = fish.moment()};
         scene.update(frame);
         projection.draw(
             {.sceneTexture = scene.draw(view), .framebuffer = target.framebuffer(), .frame = {}});

@@ -28,8 +28,8 @@ glm::mat3 worldFromCamera(const Camera& camera) {
 
 // Of one species after the other, as a scene takes them.
 struct Cast {
-    std::vector<SceneSpecies> species;
-    std::vector<PresentedFish> fish;
+    std::vector<SchoolSpecies> species;
+    std::vector<FishRecord> fish;
 };
 
 Cast castOf(const std::vector<StillFish>& fish) {
@@ -40,16 +40,17 @@ Cast castOf(const std::vector<StillFish>& fish) {
     for (const std::string& name : names) {
         const Species species = castMember(name);
         const FishBody body = makeBody(species);
-        std::size_t count = 0;
+        std::vector<FishTraits> traits;
         for (const StillFish& one : fish) {
             if (one.species != name) continue;
             PresentedFish shown = fishAt(one.placeMetres, one.worldFromBody, one.lengthMetres);
             shown.phase = one.phase;
+            shown.speed = one.speedBodyLengths;
             shown.id = static_cast<std::uint32_t>(cast.fish.size());
-            cast.fish.push_back(shown);
-            ++count;
+            cast.fish.push_back(recordOf(shown));
+            traits.push_back(traitsOf(shown));
         }
-        cast.species.push_back({body, skinOf(species), swaying(body, kSway), count});
+        cast.species.push_back({body, skinOf(species), swaying(body, kSway), traits});
     }
     return cast;
 }
@@ -74,6 +75,11 @@ Picture encoded(unsigned texture, glm::ivec2 size) {
 }
 
 }  // namespace
+
+float pixelRadiansOf(const Camera& camera) {
+    const float tangent = std::tan(glm::radians(camera.heightDegrees) / 2);
+    return 2.0F * tangent / static_cast<float>(camera.sizePixels.y);
+}
 
 View viewOf(const Camera& camera) {
     constexpr float kNear = 0.05F;
@@ -104,7 +110,8 @@ StillFish portraitOf(const std::string& species,
             camera.eyeMetres + metresAway * ahead,
             glm::angleAxis(glm::radians(turn), kUp),
             lengthMetres,
-            0.1F};
+            0.1F,
+            0.8F};
 }
 
 std::vector<StillFish> ballOf(const std::string& species,
@@ -125,18 +132,20 @@ std::vector<StillFish> ballOf(const std::string& species,
         const float wobble = 0.25F * std::sin(12.9898F * static_cast<float>(i));
         const glm::quat heading = glm::angleAxis(angle + wobble, kUp);
         const float length = 0.24F * (1.0F + 0.1F * std::sin(7.0F * static_cast<float>(i)));
-        ball.push_back({species, centreMetres + r * from, heading, length, depth});
+        ball.push_back({species, centreMetres + r * from, heading, length, depth, 1.5F});
     }
     return ball;
 }
 
 Picture pictureOf(const Still& still) {
     const Cast cast = castOf(still.fish);
-    SceneRenderer scene{still.options, cast.species};
+    SceneOptions options = still.options;
+    options.pixelRadians = pixelRadiansOf(still.camera);
+    SceneRenderer scene{options, cast.species};
     SceneFrame frame;
     frame.timeSeconds = still.timeSeconds;
     frame.eyePositionMetres = still.camera.eyeMetres;
-    frame.fish = cast.fish;
+    frame.fish.after = cast.fish;
     frame.daylight = still.daylight;
     scene.update(frame);
     return encoded(scene.draw(viewOf(still.camera)), still.camera.sizePixels);

@@ -25,6 +25,8 @@ struct Camera {
 };
 // Reversed depth, zero to one, far plane at infinity.
 [[nodiscard]] View viewOf(const Camera& camera);
+// The angle of the pixel in the middle: a still is the whole wall.
+[[nodiscard]] float pixelRadiansOf(const Camera& camera);
 
 struct StillFish {
     std::string species;  // of config/species
@@ -32,6 +34,7 @@ struct StillFish {
     glm::quat worldFromBody{1, 0, 0, 0};
     float lengthMetres = 0.24F;
     float phase = 0.0F;
+    float speedBodyLengths = 0.0F;  // a second; its fins go by it
 };
 // So far before the camera and turned so that it shows its left side (0), its face (90), its right
 // side (180).
@@ -50,7 +53,7 @@ struct Still {
     Camera camera;
     std::vector<StillFish> fish;
     double timeSeconds = 12.0;
-    SceneOptions options;  // quality, place, seed
+    SceneOptions options;  // quality, place, seed; not pixelRadians
     float daylight = 1.0F;
 };
 // Needs a current context. Bodies sway; they are not captured. sRGB, 8 bits, without dither.

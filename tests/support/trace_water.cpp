@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces the table of render_node/scene/water_lobes.h and writes its C++. The same seed and number
 // of paths give the same table.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "common/units/error.h"
 #include "render_node/scene/shade.h"
 #include "render_node/scene/water_lobes.h"
+#include "tests/support/water_comparison.h"
 #include "tests/support/water_light.h"
 
 namespace {
@@ -26,6 +29,7 @@ struct Wish {
     std::uint64_t seed = 1;
     int paths = 30000;
     std::string out = "water_lobes_table.cpp";
+    bool compare = false;
 };
 
 // The direction of an entry, sun's azimuth and all.
@@ -147,6 +151,31 @@ void write(const Wish& wish) {
     if (!file) throw Error("cannot write " + wish.out + ": is the folder there?");
 }
 
+// CIEDE2000 over range and depth, for every type of water.
+bool compare(const Wish& wish) {
+    constexpr double kMost = 2.0;
+    const test::ForwardPhase phase{kPeakRadians};
+    bool isWithin = true;
+    std::printf("type   mean   95 %%    max of CIEDE2000, table to Monte Carlo\n");
+    for (std::size_t i = 0; i < kWaterTypeNames.size(); ++i) {
+        std::vector<double> off = test::differences(
+            phase,
+            static_cast<WaterType>(i),
+            {{2.0, 5.0, 10.0, 20.0}, {2.0, 6.0, 18.0}, wish.paths, wish.seed + 1000});
+        std::ranges::sort(off);
+        const double mean =
+            std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size());
+        std::printf("%-4s %6.2f %6.2f %6.2f\n",
+                    std::string(kWaterTypeNames.at(i)).c_str(),
+                    mean,
+                    off[off.size() * 95 / 100],
+                    off.back());
+        std::fflush(stdout);
+        isWithin = isWithin && mean <= kMost;
+    }
+    return isWithin;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -155,7 +184,9 @@ int main(int argc, char** argv) try {
     app.add_option("--seed", wish.seed, "of the paths");
     app.add_option("--paths", wish.paths, "for each of the 4 000 radiances");
     app.add_option("--out", wish.out, "C++ file");
+    app.add_flag("--compare", wish.compare, "the table that is built in with a new tracing");
     CLI11_PARSE(app, argc, argv);
+    if (wish.compare) return compare(wish) ? 0 : 1;
     write(wish);
     return 0;
 } catch (const std::exception& error) {

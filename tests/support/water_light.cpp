@@ -234,9 +234,13 @@ Estimate scatteredIn(const ForwardPhase& phase,
     return mean.estimate();
 }
 
-Estimate transmitted(
-    const ForwardPhase& phase, double albedo, double range, int paths, std::uint64_t seed) {
-    const Disc disc{{0, 0, -range}, {0, 0, -1}, kDiscTangent * range};
+Estimate transmitted(const ForwardPhase& phase,
+                     double albedo,
+                     double range,
+                     double radius,
+                     int paths,
+                     std::uint64_t seed) {
+    const Disc disc{{0, 0, -range}, {0, 0, -1}, radius * range};
     Random random{seed};
     Mean mean;
     for (int i = 0; i < paths; ++i) {

@@ -50,9 +50,14 @@ struct Estimate {
                                    glm::dvec3 towardsSun,
                                    int paths,
                                    std::uint64_t seed);
-// Light of a matte, glowing disc of radiance 1 that arrives, straight or by small angles.
-[[nodiscard]] Estimate transmitted(
-    const ForwardPhase& phase, double albedo, double range, int paths, std::uint64_t seed);
+// Light of a matte, glowing disc of radiance 1 that arrives, straight or by small angles; its
+// radius in parts of the range.
+[[nodiscard]] Estimate transmitted(const ForwardPhase& phase,
+                                   double albedo,
+                                   double range,
+                                   double radius,
+                                   int paths,
+                                   std::uint64_t seed);
 // Downwelling irradiance.
 [[nodiscard]] Estimate irradiance(const ForwardPhase& phase,
                                   double albedo,

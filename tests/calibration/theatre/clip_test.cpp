@@ -40,7 +40,7 @@ Picture pictureAt(glm::ivec2 size, int step) {
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
             for (const double phase : {0.0, 2.1, 4.2}) {
-                const double wave = std::sin(0.05 * x + 0.08 * y + 0.3 * step + phase);
+                const double wave = std::sin(0.02 * x + 0.03 * y + 0.3 * step + phase);
                 picture.rgb.push_back(static_cast<std::uint16_t>(128 + 100 * wave));
             }
     return picture;

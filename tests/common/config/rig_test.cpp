@@ -111,13 +111,48 @@ TEST(Rig, saysHowFineItsWallIsDrawnOrLeavesItToMeasuring) {
     EXPECT_EQ(parseRig(writeRig(rig), "back").quality, QualityTier::Ultra);
 }
 
+TEST(Rig, isMonoFromTheOriginUnlessItSaysOtherwise) {
+    const Rig mono = parseRig(kRig, "small.txtpb");
+    EXPECT_EQ(mono.stereo.mode, StereoMode::Mono);
+    EXPECT_EQ(mono.stereo.eyeSeparationMetres, 0.063);
+    EXPECT_EQ(mono.sweetSpotMetres, glm::dvec3(0));
+    EXPECT_FALSE(mono.channels[0].display.stereo);
+
+    std::string text = kRig +
+                       "stereo { mode: INTERLACED eye_separation_m: 0.07 swap_eyes: true }\n"
+                       "sweet_spot { x_m: 0.5 y_m: -0.25 z_m: 1 }";
+    text.replace(text.find("mode: WINDOW"), 12, "mode: WINDOW stereo: ANAGLYPH swap_eyes: false");
+    const Rig read = parseRig(text, "small.txtpb");
+    for (const Rig& rig : {read, parseRig(writeRig(read), "back")}) {
+        EXPECT_EQ(rig.stereo.mode, StereoMode::Interlaced);
+        EXPECT_EQ(rig.stereo.eyeSeparationMetres, 0.07);
+        EXPECT_TRUE(rig.stereo.swapEyes);
+        EXPECT_EQ(rig.sweetSpotMetres, glm::dvec3(0.5, -0.25, 1));
+        EXPECT_EQ(rig.channels[1].display.stereo, StereoMode::Anaglyph);
+        EXPECT_EQ(rig.channels[1].display.swapEyes, false);
+        EXPECT_FALSE(rig.channels[0].display.stereo);
+    }
+}
+
+TEST(Rig, everyModeOfStereoIsReadBack) {
+    for (const std::string mode :
+         {"MONO", "QUAD_BUFFER", "TOP_BOTTOM", "INTERLACED", "ANAGLYPH", "SIDE_BY_SIDE"}) {
+        std::string text = kRig + "stereo { mode: " + mode + " }";
+        text.replace(text.find("width_px: 321"), 13, "width_px: 320");
+        text.replace(text.find("height_px: 241"), 14, "height_px: 240");
+        const Rig rig = parseRig(text, "small.txtpb");
+        EXPECT_EQ(parseRig(writeRig(rig), "back").stereo.mode, rig.stereo.mode) << mode;
+        EXPECT_THAT(writeRig(rig), testing::HasSubstr("mode: " + mode));
+    }
+}
+
 TEST(Rig, aRoundAngleIsWrittenRound) {
     for (int tenths = -1800; tenths <= 1800; ++tenths)
         EXPECT_EQ(degreesOf(radiansOf(tenths / 10.0)), tenths / 10.0);
 }
 
 TEST(Rig, theRigsThatComeWithAquaramaAreValid) {
-    for (const std::string name : {"theatre", "touring", "desk"}) {
+    for (const std::string name : {"theatre", "touring", "desk", "desk_stereo"}) {
         const Rig rig = readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
         EXPECT_EQ(rig.name, name);
         EXPECT_EQ(rig.channels.size(), 3U);
@@ -238,6 +273,16 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"noMode", "mode: WINDOW ", "", "display", "lacks mode"},
         Mistake{
             "unspecifiedMode", "mode: WINDOW", "mode: MODE_UNSPECIFIED", "mode", "write WINDOW"},
+        Mistake{"unknownStereo",
+                "device: \"device:2\"",
+                "stereo: MODE_UNSPECIFIED",
+                "stereo: ",
+                "SIDE_BY_SIDE"},
+        Mistake{"oddHalves",
+                "scene: \"sea.txtpb\"",
+                "scene: \"sea.txtpb\" stereo { mode: TOP_BOTTOM }",
+                "height_px: 241",
+                "is odd"},
         Mistake{"impatientMembership",
                 "membership_s: 0.5",
                 "membership_s: 0.01",

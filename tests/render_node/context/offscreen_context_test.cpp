@@ -10,6 +10,7 @@
 
 #include "common/units/error.h"
 #include "render_node/context/context.h"
+#include "render_node/context/driver.h"
 
 namespace aquarama {
 namespace {
@@ -45,6 +46,23 @@ TEST(OffscreenContext, aDeviceThatIsNotThereIsNamed) {
         testing::AllOf(testing::HasSubstr("device:99"), testing::HasSubstr("numbered from 0")));
     for (const char* nonsense : {"", "device:", "device:-1", "device:1000000000000", "teapot"})
         EXPECT_THAT(refusalOf(nonsense), testing::HasSubstr(nonsense));
+}
+
+TEST(OffscreenContext, isNotLostAndWouldTell) {
+    const auto context = makeOffscreenContext("auto", {16, 16});
+    EXPECT_EQ(context->loss(), std::nullopt);
+    GLint strategy = 0;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    EXPECT_EQ(strategy, GL_LOSE_CONTEXT_ON_RESET);
+}
+
+TEST(Driver, theFirstThingThatItLacksIsNamedWithBothNumbers) {
+    const auto plenty = [](unsigned) { return 1 << 20; };
+    EXPECT_EQ(lackOf(plenty), std::nullopt);
+    EXPECT_EQ(lackOf([&](unsigned limit) {
+                  return limit == GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS ? 0 : plenty(limit);
+              }),
+              "4 storage blocks in vertex shaders, it has 0");
 }
 
 TEST(OffscreenContext, movesBetweenThreads) {

@@ -115,6 +115,18 @@ TEST_F(WindowTest, saysWhereTheMouseClicksAndPoints) {
     EXPECT_FALSE(context->pointer());
 }
 
+// No software driver has two back buffers.
+TEST_F(WindowTest, withoutQuadBuffersItSaysWhatElseThereIs) {
+    try {
+        (void)makeWindowContext(windowAt({0, 0}), "Aquarama quad", {200, 100}, true);
+        FAIL() << "a window with left and right buffers came of nothing";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(testing::HasSubstr("no window with left and right buffers"),
+                                   testing::HasSubstr("choose another stereo mode in the rig")));
+    }
+}
+
 TEST_F(WindowTest, keysAndADraggedMouseAreHeldUntilTheyAreLetGo) {
     const auto context = makeWindowContext(windowAt({100, 100}), "Aquarama hands", {200, 100});
     const auto awaitThat = [&](const auto& holds) {

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/units/error.h"
@@ -17,24 +18,14 @@ bool isStage(std::string_view name) {
     return name.ends_with(".vert") || name.ends_with(".frag") || name.ends_with(".comp");
 }
 
-// Compiled alone, as a separable program: neighbours in the pipeline are not needed.
-std::string logOfCompiling(const std::string& name) {
-    const GLenum stage = name.ends_with(".vert")   ? GL_VERTEX_SHADER
-                         : name.ends_with(".frag") ? GL_FRAGMENT_SHADER
-                                                   : GL_COMPUTE_SHADER;
-    const std::string source = "#version 450 core\n" + shaderSource(name);
-    const char* text = source.c_str();
-    const unsigned shader = glCreateShader(stage);
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    int compiled = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-    std::string log(4096, '\0');
-    GLsizei length = 0;
-    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    glDeleteShader(shader);
-    return compiled != 0 ? "" : "does not compile: " + log;
+// Compiled alone: neighbours in the pipeline are not needed.
+std::string logOfCompiling(const std::string& name, const ReadShader& read = shaderSource) {
+    try {
+        (void)compileShader(name, {}, read);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
 }
 
 TEST(Shaders, everyFileCompiles) {
@@ -55,6 +46,42 @@ TEST(Shaders, aMissingFileIsNamed) {
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("kraken.frag"), std::string::npos);
     }
+}
+
+// Three files, the second of which is included in the middle of the first and includes the third.
+std::string_view brokenShader(std::string_view name) {
+    if (name == "broken.frag")
+        return "// A mistake in the last line.\n"
+               "#include \"middle.glsl\"\n"
+               "layout(location = 0) out vec4 colour;\n"
+               "void main() { colour = nowhere; }\n";
+    if (name == "worse.frag")
+        return "#include \"middle.glsl\"\n#include \"wrong.glsl\"\nvoid main() {}\n";
+    if (name == "middle.glsl") return "// Two lines\n#include \"deep.glsl\"\nfloat b = a;";
+    if (name == "wrong.glsl") return "\n\nfloat c = vec2(1.0);\n";
+    return "float a = 1.0;\n\n";
+}
+
+TEST(Shaders, aMistakeIsPlacedInItsFileAndLine) {
+    const auto context = makeOffscreenContext("auto", {16, 16});
+    EXPECT_THAT(
+        logOfCompiling("broken.frag", brokenShader),
+        testing::AllOf(testing::HasSubstr("render_node/shaders/broken.frag does not compile"),
+                       testing::HasSubstr("broken.frag:4"),
+                       testing::HasSubstr("nowhere")));
+    EXPECT_THAT(logOfCompiling("worse.frag", brokenShader), testing::HasSubstr("wrong.glsl:3"));
+}
+
+// In the text that is compiled: the version, the third file's two lines, the second's first and
+// third, and so on.
+TEST(Shaders, theLogOfEveryDriverNamesFiles) {
+    const ShaderText shader = expand("worse.frag", brokenShader);
+    EXPECT_EQ(withFiles("0:8(5): error: no\n0:3(1): warning: yes\n", shader),
+              "wrong.glsl:3(5): error: no\ndeep.glsl:1(1): warning: yes\n");
+    EXPECT_EQ(withFiles("0(5) : error C1008: no\n", shader), "middle.glsl:3 : error C1008: no\n");
+    EXPECT_EQ(withFiles("ERROR: 0:9: no\n", shader), "ERROR: worse.frag:3: no\n");
+    EXPECT_EQ(withFiles("0:99(1): error: a line that is not ours", shader),
+              "0:99(1): error: a line that is not ours");
 }
 
 TEST(Target, isReadTopRowFirst) {

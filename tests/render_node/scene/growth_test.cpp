@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -10,11 +11,10 @@
 #include "common/place/place.h"
 #include "render_node/scene/detail_tiles.h"
 #include "render_node/scene/ground.h"
-#include "render_node/scene/plant_mesh.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/rock_mesh.h"
+#include "render_node/scene/scatter.h"
 #include "render_node/scene/shade.h"
-#include "render_node/scene/waves.h"
 #include "render_node/shaders/plant_bend.h"
 
 namespace aquarama {
@@ -51,48 +51,117 @@ TEST(Plants, aStemStandsOnItsRootAndRisesWithoutWater) {
     EXPECT_EQ(bentStem(1.0F, 5.0F, {0.0F, 0.0F}), glm::vec3(0.0F, 5.0F, 0.0F));
 }
 
-TEST(Plants, fartherLevelsHaveFewerTriangles) {
-    for (const PlantKind kind : {PlantKind::Kelp, PlantKind::Seagrass})
-        for (int level = 1; level < 3; ++level)
-            EXPECT_LT(growPlant(kind, level).indices.size(),
-                      growPlant(kind, level - 1).indices.size());
+const Library& library() {
+    static const Library all = growLibrary();
+    return all;
 }
 
-TEST(Reef, coralsKeepToTheirBoulder) {
-    const std::vector<Rock> rocks = rocksOf({kSeed});
-    for (const Rock& rock : rocks) {
+const std::vector<Instance>& instances() {
+    static const std::vector<Instance> all = [] {
+        std::array<Levels, kRockShapes> rocks;
+        std::copy_n(library().begin(), rocks.size(), rocks.begin());
+        return scatter({kSeed}, rocks);
+    }();
+    return all;
+}
+
+bool isRock(const Instance& one) {
+    return one.light.w < static_cast<float>(kRockShapes);
+}
+
+TEST(Library, fartherLevelsHaveFewerTriangles) {
+    for (std::size_t i = 0; i < kPrototypes; ++i) {
         std::size_t triangles = ~std::size_t{0};
-        for (int level = 1; level < kReefLevels; ++level) {
-            const ReefMesh mesh = growBoulder(rock, rocks, level);
-            ASSERT_TRUE(namesItsOwnVertices(mesh.stone));
-            ASSERT_TRUE(namesItsOwnVertices(mesh.growth));
-            const std::size_t count = mesh.stone.indices.size() + mesh.growth.indices.size();
-            EXPECT_LE(count, triangles) << "level " << level;
-            triangles = count;
-            for (const SolidVertex& vertex : mesh.growth.vertices)
-                ASSERT_LT(glm::distance(vertex.position, rock.centre), rock.radiusMetres + 1.6F);
+        for (const Mesh& mesh : library()[i]) {
+            ASSERT_FALSE(mesh.indices.empty()) << i;
+            ASSERT_TRUE(namesItsOwnVertices(mesh)) << i;
+            EXPECT_LT(mesh.indices.size(), triangles) << i;
+            triangles = mesh.indices.size();
         }
+        EXPECT_LE(triangles / 3, 240U) << i << ": the coarsest is for what is small";
     }
 }
 
-// Fish keep clear of the ball: no stone may stand out of it.
-TEST(Reef, stoneKeepsWithinItsBall) {
-    for (const Rock& rock : rocksOf({kSeed})) {
-        Mesh mesh;
-        addBoulder(mesh, rock, 1);
+// A level that were larger or smaller than the next would be seen to jump.
+TEST(Library, levelsAreAboutAsLarge) {
+    const auto halfExtentOf = [](const Mesh& mesh) {
+        glm::vec3 low{1.0e9F};
+        glm::vec3 high{-1.0e9F};
+        for (const SolidVertex& vertex : mesh.vertices) {
+            low = glm::min(low, vertex.position);
+            high = glm::max(high, vertex.position);
+        }
+        return glm::length(high - low) / 2.0F;
+    };
+    for (std::size_t i = 0; i < kPrototypes; ++i)
+        for (std::size_t level = 1; level < kLevels; ++level)
+            EXPECT_NEAR(
+                halfExtentOf(library()[i].at(level)) / halfExtentOf(library()[i][0]), 1.0F, 0.3F)
+                << "prototype " << i << " level " << level;
+}
+
+TEST(Library, stoneLooksOutward) {
+    for (std::size_t shape = 0; shape < kRockShapes; ++shape) {
+        const Mesh& mesh = library().at(shape)[0];
+        std::size_t inward = 0;
         for (const SolidVertex& vertex : mesh.vertices)
-            ASSERT_LE(glm::distance(vertex.position, rock.centre), rock.radiusMetres * 1.001F);
+            inward += glm::dot(glm::vec3(vertex.normal), vertex.position) < 0.0F ? 1 : 0;
+        EXPECT_LT(inward, mesh.vertices.size() / 50) << "but for overhangs";
     }
 }
 
-TEST(Reef, stoneLooksOutward) {
-    const Rock rock = rocksOf({kSeed}).front();
-    Mesh mesh;
-    addBoulder(mesh, rock, 0);
-    int inward = 0;
-    for (const SolidVertex& vertex : mesh.vertices)
-        inward += glm::dot(glm::vec3(vertex.normal), vertex.position - rock.centre) < 0.0F ? 1 : 0;
-    EXPECT_LT(inward, static_cast<int>(mesh.vertices.size() / 50)) << "but for overhangs";
+TEST(Scatter, followsFromTheSeed) {
+    std::array<Levels, kRockShapes> rocks;
+    std::copy_n(library().begin(), rocks.size(), rocks.begin());
+    const auto same = scatter({kSeed}, rocks);
+    ASSERT_EQ(same.size(), instances().size());
+    EXPECT_EQ(std::memcmp(same.data(), instances().data(), same.size() * sizeof(Instance)), 0);
+    const auto other = scatter({kSeed + 1}, rocks);
+    EXPECT_NE(other.front().placeAndScale, same.front().placeAndScale);
+}
+
+// Fish keep clear of the balls that the master knows: each holds the stone that is drawn.
+TEST(Scatter, stoneKeepsWithinTheBallsThatFishAvoid) {
+    const std::vector<Rock> rocks = rocksOf({kSeed});
+    std::size_t boulders = 0;
+    for (const Instance& one : instances()) {
+        if (!isRock(one)) continue;
+        const glm::vec3 centre(one.placeAndScale);
+        const bool known = std::ranges::any_of(rocks, [&](const Rock& rock) {
+            return rock.centre == centre && rock.radiusMetres == one.placeAndScale.w;
+        });
+        boulders += known ? 1 : 0;
+        ASSERT_TRUE(known || one.placeAndScale.w < 0.3F) << "a pebble lies below any fish";
+    }
+    EXPECT_EQ(boulders, rocks.size());
+    for (std::size_t shape = 0; shape < kRockShapes; ++shape)
+        for (const SolidVertex& vertex : library().at(shape)[0].vertices)
+            ASSERT_LE(glm::length(vertex.position), 1.0F);
+}
+
+TEST(Scatter, allStandsOnSandOrStone) {
+    const std::vector<Rock> rocks = rocksOf({kSeed});
+    for (const Instance& one : instances()) {
+        if (isRock(one)) continue;
+        const glm::vec3 root(one.placeAndScale);
+        const float aboveSand = root.y - floorHeight({kSeed}, {root.x, root.z});
+        EXPECT_GT(aboveSand, -0.2F);
+        if (aboveSand < 0.05F) continue;
+        EXPECT_TRUE(std::ranges::any_of(rocks, [&](const Rock& rock) {
+            return glm::distance(rock.centre, root) < 1.001F * rock.radiusMetres;
+        })) << "it floats";
+    }
+}
+
+TEST(Scatter, noThirdOfTheWallIsBareAndNoWayRoundIsEmpty) {
+    std::array<int, 9> inSector{};  // of 40 degrees, all round
+    for (const Instance& one : instances()) {
+        const glm::vec3 way = glm::vec3(one.placeAndScale) - kEyePosition;
+        if (glm::length(way) > 16.0F || one.placeAndScale.w < 0.2F) continue;
+        const float azimuth = std::atan2(way.x, -way.z) / (2.0F * std::numbers::pi_v<float>);
+        ++inSector.at(static_cast<std::size_t>((azimuth + 1.0F + 0.5F / 9.0F) * 9.0F) % 9);
+    }
+    EXPECT_GT(*std::ranges::min_element(inSector), 20);
 }
 
 TEST(Ground, theSandIsWhereTheMasterHasIt) {
@@ -115,32 +184,6 @@ TEST(Shade, aBoulderShadesWhatLiesBehindIt) {
     EXPECT_EQ(sunOpenness(rocks, rocks[0].centre + 2.0F * sunInWater()), 1.0F);
     EXPECT_LT(skyOpenness(rocks, {0.9F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.75F);
     EXPECT_GT(skyOpenness(rocks, {7.0F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.95F);
-}
-
-TEST(Waves, fitTheirTileAndFocusOnTheSand) {
-    const Waves waves = wavesOf(kSeed, kMeanFloorDepthMetres);
-    for (const Wave& wave : waves) {
-        const glm::dvec2 onTile =
-            wave.number * (static_cast<double>(kTileMetres) / (2.0 * std::numbers::pi));
-        EXPECT_NEAR(onTile.x, std::round(onTile.x), 1e-9);
-        EXPECT_NEAR(onTile.y, std::round(onTile.y), 1e-9);
-        EXPECT_NEAR(wave.frequency * wave.frequency, 9.81 * glm::length(wave.number), 1e-9);
-    }
-    const double focus = focusNumber(waves, static_cast<double>(kMeanFloorDepthMetres));
-    EXPECT_GT(focus, 0.35);
-    EXPECT_LT(focus, 0.70);
-}
-
-TEST(Waves, keepTheirPhaseForMonths) {
-    const Waves waves = wavesOf(kSeed, kMeanFloorDepthMetres);
-    constexpr double kMonth = 30.0 * 86400.0;
-    for (std::size_t i = 0; i < waves.size(); ++i) {
-        const float phase = seaAt(waves, kMonth).waves[i].w;
-        const double exact = std::remainder(
-            waves[i].phase - waves[i].frequency * kMonth - static_cast<double>(phase),
-            2.0 * std::numbers::pi);
-        EXPECT_NEAR(exact, 0.0, 1e-5);
-    }
 }
 
 TEST(Tiles, reliefIsLevelOnTheWhole) {

@@ -1,68 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
+// The tables that the shaders read, against the 31 bands that they stand for.
 #include "render_node/scene/water_tables.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
+
+#include "render_node/scene/shade.h"
+#include "render_node/scene/water_lobes.h"
+#include "tests/render_node/scene/water_reading.h"
+#include "tests/support/colour_difference.h"
 
 namespace aquarama {
 namespace {
 
-using Pigment = std::function<double(double nanometres)>;
+using namespace test;
 
-double wavelengthOf(std::size_t band) {
-    return 400.0 + 10.0 * static_cast<double>(band);
-}
-
-// A table as the shaders read it: axes as in water.glsl, bilinear between texels.
-glm::vec3 read(const Table& table, double u, double v, int layer = 0) {
-    const double x = u * (table.width - 1);
-    const double y = v * (table.height - 1);
-    const int left = std::min(static_cast<int>(x), table.width - 2);
-    const int low = std::min(static_cast<int>(y), table.height - 2);
-    const auto at = [&](int column, int row) {
-        return table.texels.at(static_cast<std::size_t>(layer * table.height + row) *
-                                   static_cast<std::size_t>(table.width) +
-                               static_cast<std::size_t>(column));
-    };
-    const auto s = static_cast<float>(x - left);
-    const auto t = static_cast<float>(y - low);
-    return glm::mix(glm::mix(at(left, low), at(left + 1, low), s),
-                    glm::mix(at(left, low + 1), at(left + 1, low + 1), s),
-                    t);
+double smoothStep(double x) {
+    return 1.0 / (1.0 + std::exp(-x));
 }
 
-double rangeAxis(double range) {
-    return std::sqrt(range / 80.0);
-}
-double depthAxis(double depth) {
-    return std::sqrt((depth + 10.0) / 40.0);
-}
-
-glm::dvec3 integrated(const WaterSpectra& water, const std::function<double(std::size_t)>& light) {
-    glm::dvec3 sum{0.0};
-    for (std::size_t band = 0; band < kBands; ++band)
-        for (int c = 0; c < 3; ++c) sum[c] += water.weights[c][band] * light(band);
-    return sum;
-}
-
-glm::dvec3 colourOf(const WaterSpectra& water, const Pigment& pigment) {
-    return integrated(water, [&](std::size_t band) { return pigment(wavelengthOf(band)); });
-}
-
-glm::dvec3 seenThrough(const WaterSpectra& water,
-                       const Pigment& pigment,
-                       double range,
-                       double depth) {
-    return integrated(water, [&](std::size_t band) {
-        return pigment(wavelengthOf(band)) *
-               std::exp(-water.downwelling[band] * depth - beamAttenuation(water, band) * range);
-    });
-}
+// Reflectances: white, sand (Maritorena 1994, a straight line), coral red, yellow, green, blue,
+// magenta.
+const std::array<Pigment, 7> kTargets{
+    [](double) { return 1.0; },
+    [](double nm) { return 0.28 + 0.28 * (nm - 400) / 300; },
+    [](double nm) { return 0.06 + 0.55 * smoothStep((nm - 600) / 9); },
+    [](double nm) { return 0.06 + 0.70 * smoothStep((nm - 515) / 10); },
+    [](double nm) { return 0.05 + 0.22 * std::exp(-0.5 * std::pow((nm - 555) / 35, 2)); },
+    [](double nm) { return 0.05 + 0.40 * smoothStep((500 - nm) / 14); },
+    [](double nm) { return 0.50 - 0.42 * std::exp(-0.5 * std::pow((nm - 540) / 40, 2)); },
+};
+constexpr std::size_t kWhiteAndSand = 2;
 
 glm::dvec3 seenByTable(const Table& table, glm::dvec3 colour, double range, double depth) {
     glm::dvec3 sum{0.0};
@@ -71,19 +46,26 @@ glm::dvec3 seenByTable(const Table& table, glm::dvec3 colour, double range, doub
     return sum;
 }
 
-// Worst difference of a channel, relative to the brightest of them.
-double error(glm::dvec3 a, glm::dvec3 truth) {
-    const glm::dvec3 off = glm::abs(a - truth);
-    return std::max({off.r, off.g, off.b}) / std::max({truth.r, truth.g, truth.b});
-}
+class EachWater : public testing::TestWithParam<WaterType> {
+  protected:
+    WaterSpectra water = seaWater(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(Jerlov,
+                         EachWater,
+                         testing::Values(WaterType::I,
+                                         WaterType::IA,
+                                         WaterType::IB,
+                                         WaterType::II,
+                                         WaterType::III,
+                                         WaterType::C1,
+                                         WaterType::C3),
+                         [](const auto& tested) {
+                             return "type" + std::string(kWaterTypeNames.at(
+                                                 static_cast<std::size_t>(tested.param)));
+                         });
 
-double smoothStep(double x) {
-    return 1.0 / (1.0 + std::exp(-x));
-}
-
-TEST(WaterSpectra, daylightIsWhiteAndTheThreeSurfacesMakeWhite) {
-    const WaterSpectra water = oceanWater();
-    EXPECT_LT(error(colourOf(water, [](double) { return 1.0; }), glm::dvec3{1.0}), 1e-9);
+TEST_P(EachWater, daylightIsWhiteAndTheThreeSurfacesMakeWhite) {
+    EXPECT_LT(glm::distance(colourOf(water, kTargets[0]), glm::dvec3{1.0}), 1e-9);
     for (std::size_t band = 0; band < kBands; ++band)
         EXPECT_NEAR(
             water.reflectances[0][band] + water.reflectances[1][band] + water.reflectances[2][band],
@@ -91,78 +73,123 @@ TEST(WaterSpectra, daylightIsWhiteAndTheThreeSurfacesMakeWhite) {
             1e-12);
 }
 
-TEST(WaterSpectra, redDiesFirstAndTheWayDownIsNotTheWayAcross) {
-    const WaterSpectra water = oceanWater();
+TEST_P(EachWater, redDiesFirstAndTheWayDownIsNotTheWayAcross) {
+    constexpr std::size_t kGreen = 13;  // 530 nm
+    constexpr std::size_t kRed = 25;    // 650 nm
+    constexpr std::size_t kBlue = 7;    // 470 nm
+    EXPECT_GT(beamAttenuation(water, kRed), 1.3 * beamAttenuation(water, kGreen));
+    EXPECT_GT(beamAttenuation(water, kBlue), 1.1 * water.downwelling[kBlue]);
+    for (std::size_t band = 0; band < kBands; ++band) {
+        EXPECT_GT(water.absorption[band], 0.0);
+        EXPECT_GT(water.scattering[band], 0.0);
+    }
+}
+
+TEST(WaterTypes, theClearestComesFirst) {
     constexpr std::size_t kBlue = 7;  // 470 nm
-    constexpr std::size_t kRed = 25;  // 650 nm
-    EXPECT_GT(beamAttenuation(water, kRed), 5.0 * beamAttenuation(water, kBlue));
-    EXPECT_GT(beamAttenuation(water, kBlue), 1.3 * water.downwelling[kBlue]);
-    for (std::size_t band = 0; band < kBands; ++band) EXPECT_GT(water.absorption[band], 0.0);
+    for (std::size_t i = 1; i < kWaterTypeNames.size(); ++i)
+        EXPECT_LT(beamAttenuation(seaWater(static_cast<WaterType>(i - 1)), kBlue),
+                  beamAttenuation(seaWater(static_cast<WaterType>(i)), kBlue))
+            << kWaterTypeNames.at(i);
 }
 
-// Also above the surface, where the diver's filter looks.
-TEST(DirectTable, whiteIsExactAtAnyRangeAndDepth) {
-    const WaterSpectra water = oceanWater();
-    const Table table = bakeDirect(water);
-    const Pigment white = [](double) { return 1.0; };
-    for (double depth = -8.0; depth < 30.0; depth += 3.7)
-        for (double range = 0.4; range < 40.0; range *= 1.7)
-            EXPECT_LT(error(seenByTable(table, glm::dvec3{1.0}, range, depth),
-                            seenThrough(water, white, range, depth)),
-                      0.012)
-                << "range " << range << " depth " << depth;
-}
-
-TEST(DirectTable, pigmentsComeOutAsTheirSpectraDo) {
-    const WaterSpectra water = oceanWater();
-    const Table table = bakeDirect(water);
-    const std::array<Pigment, 4> pigments{
-        [](double nm) { return 0.06 + 0.70 * smoothStep((nm - 515.0) / 10.0); },  // yellow
-        [](double nm) { return 0.05 + 0.22 * std::exp(-0.5 * std::pow((nm - 555.0) / 35.0, 2)); },
-        [](double nm) { return 0.05 + 0.40 * smoothStep((500.0 - nm) / 14.0); },  // blue
-        [](double nm) { return 0.28 + 0.28 * (nm - 400.0) / 300.0; },             // sand
-    };
+// With the light that water adds, as a visitor sees them, exposed so that near white is at 0.8.
+TEST_P(EachWater, pigmentsLookAsTheirSpectraDo) {
+    const Table direct = bakeDirect(water);
+    const Inscatter inscatter{water};
     double sum = 0;
+    double plain = 0;
     int count = 0;
-    for (const Pigment& pigment : pigments)
-        for (const double depth : {0.0, 2.0, 5.0, 10.0})
-            for (const double range : {1.0, 3.0, 8.0, 20.0}) {
-                sum += error(seenByTable(table, colourOf(water, pigment), range, depth),
-                             seenThrough(water, pigment, range, depth));
+    const double clear = 0.13 / beamAttenuation(water, 10);  // this water's range, as of type IA
+    for (const double depth : {2.0, 5.0, 10.0, 20.0}) {
+        const Table sight = inscatter.atDepth(depth);
+        const double lit = depth - filterDepthMetres(depth);
+        const double exposure =
+            0.8 / glm::dot(seenThrough(water, kTargets[0], 0.5, lit), kLuminance);
+        for (const double range : {1.0, 2.0, 5.0, 10.0, 20.0}) {
+            const double away = range * std::min(clear, 1.0);
+            const Sight level{depth, 0.0, 90.0};
+            const glm::dvec3 added = veil(water, level, away) * std::numbers::pi;
+            const glm::dvec3 addedByTable = veilByTable(sight, level, away) * std::numbers::pi;
+            for (std::size_t i = 0; i < kTargets.size(); ++i) {
+                const glm::dvec3 truth = seenThrough(water, kTargets[i], away, lit) + added;
+                const glm::dvec3 table =
+                    seenByTable(direct, colourOf(water, kTargets[i]), away, lit) + addedByTable;
+                const double off = ciede2000(labOf(truth * exposure), labOf(table * exposure));
+                sum += off;
+                plain += i < kWhiteAndSand ? off : 0;
                 ++count;
             }
-    EXPECT_LT(sum / count, 0.06);
-}
-
-// The closed form against the sum along the ray of what each piece of water scatters.
-TEST(InscatterTable, isTheSumAlongTheRay) {
-    const WaterSpectra water = oceanWater();
-    const Inscatter inscatter{water};
-    constexpr double kDepth = 6.0;
-    const Table table = inscatter.atDepth(kDepth);
-    for (const double rise : {-0.8, -0.2, 0.0, 0.3})
-        for (const double range : {1.0, 5.0, 14.0}) {
-            constexpr int kSteps = 2000;
-            const glm::dvec3 truth = integrated(water, [&](std::size_t band) {
-                double sum = 0;
-                for (int i = 0; i < kSteps; ++i) {
-                    const double s = range * (i + 0.5) / kSteps;
-                    sum += std::exp(-water.downwelling[band] * (kDepth - rise * s) -
-                                    beamAttenuation(water, band) * s);
-                }
-                return water.scattering[band] * sum * range / kSteps;
-            });
-            EXPECT_LT(error(glm::dvec3(read(table, rangeAxis(range), 0.5 + 0.5 * rise)), truth),
-                      0.02)
-                << "rise " << rise << " range " << range;
         }
+    }
+    const double white = plain / (count * double{kWhiteAndSand} / kTargets.size());
+    RecordProperty("mean_de2000", std::to_string(sum / count));
+    RecordProperty("white_and_sand_de2000", std::to_string(white));
+    EXPECT_LT(sum / count, 1.3);
+    EXPECT_LT(white, 1.0);
 }
 
-TEST(InscatterTable, openWaterIsBlue) {
-    const Inscatter inscatter{oceanWater()};
-    const glm::vec3 water = read(inscatter.openWater(), depthAxis(1.0), 0.5);
-    EXPECT_GT(water.b, 1.3F * water.g);
-    EXPECT_GT(water.g, 2.0F * water.r);
+// To look up so much nearer the surface is the spectral gain of the filter.
+TEST_P(EachWater, theFilterIsAGainOnEachWavelength) {
+    for (const double depth : {1.0, 6.0, 12.0, 30.0}) {
+        const double filter = filterDepthMetres(depth);
+        EXPECT_LT(filter, depth) << "the water above is never undone wholly";
+        const glm::dvec3 gained = integrated(water, [&](std::size_t band) {
+            return std::exp(-water.downwelling[band] * depth) *
+                   std::exp(water.downwelling[band] * filter);
+        });
+        EXPECT_LT(glm::distance(gained, seenThrough(water, kTargets[0], 0, depth - filter)), 1e-9);
+        const glm::dvec3 table =
+            seenByTable(bakeDirect(water), glm::dvec3{1.0}, 0.0, depth - filter);
+        EXPECT_LT(glm::distance(gained, table), 0.01 * glm::length(gained));
+    }
+}
+
+// The submarine dives and rises: neither light nor exposure ever jumps.
+TEST_P(EachWater, nothingJumpsAsTheEyeDives) {
+    const Inscatter inscatter{water};
+    constexpr double kStep = 0.05;
+    for (double depth = 0.5; depth < 45; depth += kStep) {
+        EXPECT_NEAR(inscatter.exposureAt(depth + kStep) / inscatter.exposureAt(depth), 1.0, 0.02);
+        EXPECT_NEAR(filterDepthMetres(depth + kStep), filterDepthMetres(depth), kStep);
+    }
+    for (double depth = 0.5; depth < 40; depth += 1.7) {
+        const Sight ahead{depth, -0.1, 60.0};
+        const Sight deeper{depth + kStep, -0.1, 60.0};
+        const glm::dvec3 here = veilByTable(inscatter.atDepth(depth), ahead, 30);
+        const glm::dvec3 there = veilByTable(inscatter.atDepth(depth + kStep), deeper, 30);
+        EXPECT_LT(glm::distance(here, there), 0.03 * glm::length(here)) << depth;
+    }
+}
+
+TEST_P(EachWater, slicesBetweenEyesAreAsBakedForThem) {
+    const Inscatter inscatter{water};
+    double sum = 0;
+    int count = 0;
+    for (const double depth : {1.7, 4.4, 6.0, 9.1, 17.0, 28.0})
+        for (const double rise : {-0.6, -0.1, 0.3})
+            for (const double range : {3.0, 10.0}) {
+                const Sight sight{depth, rise, 70.0};
+                const double exposure = inscatter.exposureAt(depth);
+                const glm::dvec3 truth = veil(water, sight, range) * exposure;
+                const glm::dvec3 table =
+                    veilByTable(inscatter.atDepth(depth), sight, range) * exposure;
+                sum += ciede2000(labOf(truth), labOf(table));
+                ++count;
+            }
+    EXPECT_LT(sum / count, 1.0);
+}
+
+TEST(Inscatter, clearWaterIsBlueAndCoastalWaterGreen) {
+    const auto level = [](WaterType type) {
+        const WaterSpectra water = seaWater(type);
+        return veil(water, {10.0, 0.0, 90.0}, 60.0);
+    };
+    const glm::dvec3 blue = level(WaterType::IA);
+    EXPECT_GT(blue.b, 1.8 * blue.g);
+    EXPECT_GT(blue.g, 2.0 * blue.r);
+    const glm::dvec3 green = level(WaterType::C3);
+    EXPECT_GT(green.g, 1.3 * green.b);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/show/channel_show.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -231,6 +232,21 @@ TEST_F(ChannelShowTest, whatCannotBeWrittenIsSaidBeforeTheShow) {
     chosen.traceFolder = folder_ + "/nowhere";
     EXPECT_THROW(show(session, chosen), Error);
     EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(ChannelShowTest, aLostContextEndsTheNodeBeforeItSaysThatItIsReady) {
+    FakeSession session(events_,
+                        {{frameNumber(0), Release::Present}, {frameNumber(1), Release::Present}});
+    context_.lostAfterSwaps_ = 1;
+    try {
+        show(session, options());
+        FAIL() << "went on without a context";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("took its context away (a reset)"));
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+    EXPECT_EQ(std::ranges::count(events_, "ready 1"), 0);
+    EXPECT_FALSE(fs::exists(folder_ + "/channel-middle.png"));
 }
 
 TEST_F(ChannelShowTest, aChannelThatTheRigLacksIsNamed) {

@@ -2,6 +2,7 @@
 // A master that follows a script, and a context that counts, for tests of a node's frame loop.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <fstream>
 #include <iterator>
@@ -80,11 +81,18 @@ class CountingContext : public Context {
     }
     [[nodiscard]] bool hasWindow() const override { return false; }
     [[nodiscard]] std::string description() const override { return context_->description(); }
+    [[nodiscard]] std::optional<std::string> loss() const override {
+        return lostAfterSwaps_ && std::ranges::count(events_, "swap") >= *lostAfterSwaps_
+                   ? std::optional<std::string>("a reset")
+                   : context_->loss();
+    }
     void pumpEvents(std::chrono::milliseconds) override {}
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
     [[nodiscard]] Hands hands() const override { return {}; }
+
+    std::optional<long> lostAfterSwaps_;
 
   private:
     Events& events_;

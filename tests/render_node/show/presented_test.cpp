@@ -51,18 +51,24 @@ FoodRecord pelletAt(glm::vec3 place, unsigned generation) {
     return foodRecord(FoodRecord::Kind::Pellet, place, generation);
 }
 
+std::vector<FoodParticle> foodOf(const StateFrame& frame) {
+    std::vector<FoodParticle> food;
+    presentFood(frame, food);
+    return food;
+}
+
 TEST(Presented, foodIsBetweenTheTicks) {
     StateFrame frame = halfWay();
     frame.foodOriginMetres = {0, -6, 0};
     frame.foodBefore = {{}, pelletAt({0, 1, 0}, 2)};
     frame.foodAfter = {{}, pelletAt({0, 2, 0}, 2)};
-    const auto food = presentedFood(frame);
+    const auto food = foodOf(frame);
     ASSERT_EQ(food.size(), 1U);
     EXPECT_NEAR(glm::distance(food[0].positionMetres, {0, -4.5F, 0}), 0, 1e-4);
     EXPECT_TRUE(food[0].isPellet);
     frame.foodBefore.clear();
     frame.fraction = 1.0F;
-    EXPECT_NEAR(glm::distance(presentedFood(frame)[0].positionMetres, {0, -4, 0}), 0, 1e-4);
+    EXPECT_NEAR(glm::distance(foodOf(frame)[0].positionMetres, {0, -4, 0}), 0, 1e-4);
 }
 
 // One is eaten here, another comes there in its place: nothing flies through the water.
@@ -71,7 +77,7 @@ TEST(Presented, aParticleNeverGlidesToTheOneThatTakesItsPlace) {
     frame.foodBefore = {pelletAt({0, 1, 0}, 1), pelletAt({5, 0, 0}, 1), {}};
     frame.foodAfter = {
         pelletAt({9, 9, 9}, 2), {}, foodRecord(FoodRecord::Kind::Plankton, {3, 0, 0}, 0)};
-    const auto food = presentedFood(frame);
+    const auto food = foodOf(frame);
     ASSERT_EQ(food.size(), 2U);
     EXPECT_EQ(food[0].positionMetres, glm::vec3(9, 9, 9));
     EXPECT_EQ(food[1].positionMetres, glm::vec3(3, 0, 0));

@@ -7,7 +7,7 @@
 
 #include "common/body/cage_tables.h"
 #include "common/units/error.h"
-#include "render_node/surface/level_buffers.h"
+#include "render_node/surface/fish_tables.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace aquarama {

@@ -2,8 +2,10 @@
 // A scad that sways, without the minutes of a capture: each action is a wave along the rest nodes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "common/config/species.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
+#include "render_node/surface/school_surface.h"
 
 namespace aquarama::test {
 
@@ -74,5 +77,43 @@ inline PresentedFish fishAt(glm::vec3 place, const glm::quat& bodyToWorld, float
     fish.rotation = {bodyToWorld.x, bodyToWorld.y, bodyToWorld.z, bodyToWorld.w};
     return fish;
 }
+
+// The same as the wire has it: phases and weights are rounded to its units.
+inline FishRecord recordOf(const PresentedFish& fish) {
+    const glm::vec4& q = fish.rotation;
+    MotionStates states;
+    states.resize(1);
+    setBodyFrame(states, 0, {fish.positionMetres, glm::quat(q.w, q.x, q.y, q.z)});
+    FishRecord record = aquarama::recordOf(states, 0);
+    const auto cycle = [](float phase) {
+        return static_cast<std::uint16_t>(std::lround(phase * 65536.0F));
+    };
+    record.phase = cycle(fish.phase);
+    record.fromPhase = cycle(fish.fromPhase);
+    record.segment = static_cast<std::uint8_t>(fish.segment);
+    record.fromSegment = static_cast<std::uint8_t>(fish.fromSegment);
+    record.speed = static_cast<std::int32_t>(std::lround(fish.speed * kSpeedUnitsPerBodyLength));
+    if (fish.warpWeight >= 1.0F) return record;
+    record.warpLength = 254;
+    const long weight = std::lround(fish.warpWeight * 255.0F);
+    record.warpFrame = static_cast<std::uint8_t>(std::max(weight - 1, 0L));
+    return record;
+}
+
+inline FishTraits traitsOf(const PresentedFish& fish) {
+    return {fish.id, static_cast<std::uint16_t>(std::lround(1000.0F * fish.lengthMetres))};
+}
+
+struct RecordedSchool {
+    explicit RecordedSchool(std::span<const PresentedFish> fish) {
+        for (const PresentedFish& one : fish) {
+            records.push_back(recordOf(one));
+            traits.push_back(traitsOf(one));
+        }
+    }
+    [[nodiscard]] SchoolMoment moment() const { return {.before = {}, .after = records}; }
+    std::vector<FishRecord> records;
+    std::vector<FishTraits> traits;
+};
 
 }  // namespace aquarama::test

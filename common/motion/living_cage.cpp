@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/motion/living_cage.h"
+
+#include <array>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "common/body/fin_motion.h"
+#include "common/motion/phase_sample.h"
+
+namespace aquarama {
+
+namespace {
+
+struct CagePose {
+    std::array<glm::vec3, kControlPoints> points{};
+    std::array<float, kControlPoints> headings{};
+    std::array<float, kControlPoints> drift{};  // to the right, body lengths in a radian
+};
+
+void recordedPose(const FishBody& body,
+                  const ActionSegment& segment,
+                  std::size_t phase,
+                  CagePose& pose) {
+    NodalPoints nodes{};
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const auto& [x, y, z] = segment.nodes.at(phase).at(n);
+        nodes.at(n) = glm::vec3(x, y, z) * kPoseUnit;
+    }
+    headingsOf(body, nodes, pose.headings);
+    if (segment.controlPoints.empty()) return poseCage(body, nodes, pose.points);
+    for (std::size_t i = 0; i < pose.points.size(); ++i) {
+        const auto& [x, y, z] = segment.controlPoints[phase].at(i);
+        pose.points.at(i) = glm::vec3(x, y, z) * kPoseUnit;
+    }
+}
+
+CagePose mixed(const CagePose& a, const CagePose& b, float share) {
+    CagePose pose;
+    for (std::size_t i = 0; i < pose.points.size(); ++i) {
+        pose.points.at(i) = glm::mix(a.points.at(i), b.points.at(i), share);
+        pose.headings.at(i) = glm::mix(a.headings.at(i), b.headings.at(i), share);
+        pose.drift.at(i) = glm::mix(a.drift.at(i), b.drift.at(i), share);
+    }
+    return pose;
+}
+
+CagePose poseAt(const FishBody& body, const ActionSegment& segment, float phase) {
+    const PhaseSample sample = sampleAt(phase);
+    CagePose before, after;
+    recordedPose(body, segment, sample.before, before);
+    recordedPose(body, segment, sample.after, after);
+    CagePose pose = mixed(before, after, sample.share);
+    constexpr float kRadians = glm::two_pi<float>() / kPhases;  // from one phase to the next
+    for (std::size_t i = 0; i < pose.points.size(); ++i)
+        pose.drift.at(i) = glm::dot(after.points.at(i) - before.points.at(i),
+                                    turned({0, 0, 1}, pose.headings.at(i))) /
+                           kRadians;
+    return pose;
+}
+
+// How far a segment is a turn to the left (0) or right (1).
+float turnOf(std::uint32_t segment, std::size_t side) {
+    constexpr float kGradual = 0.4F;
+    const auto first = static_cast<std::uint32_t>(side == 0 ? Action::TurnLeftGradual
+                                                            : Action::TurnRightGradual);
+    return segment == first ? kGradual : segment == first + 1 ? 1.0F : 0.0F;
+}
+
+FinDrive driveOf(const PresentedFish& fish, float seconds) {
+    const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
+    FinDrive drive{.seconds = seconds,
+                   .speed = fish.speed,
+                   .climb = (rotation * glm::vec3(1, 0, 0)).y,
+                   .id = fish.id,
+                   .phase = fish.phase,
+                   .fromPhase = fish.fromPhase,
+                   .weight = fish.warpWeight};
+    for (std::size_t side = 0; side < 2; ++side)
+        drive.turning.at(side) =
+            glm::mix(turnOf(fish.fromSegment, side), turnOf(fish.segment, side), fish.warpWeight);
+    return drive;
+}
+
+}  // namespace
+
+void livingCage(const FishBody& body,
+                const Repertoire& repertoire,
+                const PresentedFish& fish,
+                float seconds,
+                std::span<glm::vec3> points) {
+    CagePose pose = poseAt(body, segmentOf(repertoire, fish.segment), fish.phase);
+    if (fish.warpWeight < 1.0F)
+        pose = mixed(poseAt(body, segmentOf(repertoire, fish.fromSegment), fish.fromPhase),
+                     pose,
+                     fish.warpWeight);
+    const FinDrive drive = driveOf(fish, seconds);
+    const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::vec3 offset = finOffset(body.fins, i, drive, pose.drift.at(i));
+        const glm::vec3 place = pose.points.at(i) + turned(offset, pose.headings.at(i));
+        points[i] = fish.positionMetres + rotation * (fish.lengthMetres * place);
+    }
+}
+
+}  // namespace aquarama

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/skin/attachments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "common/skin/rest_binding.h"
+
+namespace aquarama {
+
+namespace {
+
+constexpr std::size_t kSpokes = 16;
+// Rings of an eye, in its radii; the last lies under the skin.
+constexpr std::array kEyeRings{0.38F, 0.70F, 0.94F, 1.12F};
+constexpr float kSunk = 0.10F;  // radii
+// An eye follows the curve of the head by this share, for the rest it is flat.
+constexpr float kDraped = 0.55F;
+constexpr std::size_t kSides = 4;
+constexpr float kThreadDepth = 0.3F;        // of a thread, seen from above, of its width
+constexpr float kMostThreadDepth = 0.003F;  // body lengths
+constexpr float kLastBinding = 0.6F;  // a whip trails behind the body's middle, not behind its tail
+
+void add(std::vector<StencilEntry>& entries,
+         const RestBinding& binding,
+         const RestBinding::Weights& weights,
+         float StencilEntry::* component,
+         float factor = 1) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t point = binding.points().at(k);
+        const auto found = std::ranges::find(entries, point, &StencilEntry::controlPoint);
+        StencilEntry& entry =
+            found != entries.end() ? *found : entries.emplace_back(StencilEntry{.controlPoint = point});
+        entry.*component += factor * weights.at(k);
+    }
+}
+
+// A vertex of the surface spanned by two directions, whose cross product in the body frame looks
+// outwards: its x runs against s.
+Attachments::Vertex vertexAt(const RestBinding& binding, glm::vec3 rest, glm::vec3 u, glm::vec3 v) {
+    Attachments::Vertex vertex;
+    add(vertex.entries, binding, binding.ofPlace(rest), &StencilEntry::position);
+    add(vertex.entries, binding, binding.ofDirection(u), &StencilEntry::tangentU);
+    add(vertex.entries, binding, binding.ofDirection(v), &StencilEntry::tangentV);
+    vertex.place.rest = {rest, 0};
+    return vertex;
+}
+
+void addQuad(std::vector<std::array<std::uint32_t, 3>>& triangles,
+             const std::array<std::size_t, 4>& quad) {
+    const auto number = [&](std::size_t k) { return static_cast<std::uint32_t>(quad.at(k)); };
+    triangles.push_back({number(0), number(1), number(2)});
+    triangles.push_back({number(0), number(2), number(3)});
+}
+
+// How far out the skin is at (s, y), or a little less than nothing where there is none.
+float skinAt(std::span<const RestTriangle> skin, glm::vec2 at) {
+    float out = -1;
+    for (const RestTriangle& t : skin) {
+        const glm::vec2 a(t[0]), b(t[1]), c(t[2]);
+        const auto area = [](glm::vec2 p, glm::vec2 q) { return p.x * q.y - p.y * q.x; };
+        const float whole = area(b - a, c - a);
+        if (std::abs(whole) < 1e-12F) continue;
+        const float v = area(at - a, c - a) / whole, w = area(b - a, at - a) / whole;
+        if (v < -1e-4F || w < -1e-4F || v + w > 1 + 1e-4F) continue;
+        out = std::max(out, (1 - v - w) * t[0].z + v * t[1].z + w * t[2].z);
+    }
+    return out;
+}
+
+// The right eye's ball: how far out it is at a place in its radii.
+class Ball {
+  public:
+    Ball(const FishBody& body, std::span<const RestTriangle> head)
+        : eye_(body.eye), bulge_(body.eyeBulge), head_(head) {
+        constexpr float kStep = 0.5F;
+        middle_ = skin({0, 0});
+        slope_ = {(skin({kStep, 0}) - skin({-kStep, 0})) / (2 * kStep),
+                  (skin({0, kStep}) - skin({0, -kStep})) / (2 * kStep)};
+    }
+
+    [[nodiscard]] glm::vec3 at(glm::vec2 radii) const {
+        const float rho = glm::length(radii);
+        const float flat = middle_ + glm::dot(slope_, radii);
+        const float drape = glm::mix(flat, skin(radii), glm::mix(kDraped, 1.0F, std::min(rho, 1.0F)));
+        const float dome = std::pow(std::max(1 - rho * rho, 0.0F), 0.6F) * bulge_;
+        const float sunk = kSunk * glm::smoothstep(0.96F, 1.12F, rho);
+        return {eye_.x + radii.x * eye_.z, eye_.y + radii.y * eye_.z, drape + (dome - sunk) * eye_.z};
+    }
+
+  private:
+    [[nodiscard]] float skin(glm::vec2 radii) const {
+        return skinAt(head_, glm::vec2(eye_) + radii * eye_.z);
+    }
+    glm::vec3 eye_;
+    float bulge_;
+    std::span<const RestTriangle> head_;
+    float middle_ = 0;
+    glm::vec2 slope_{};
+};
+
+Attachments::Vertex eyeVertex(const Ball& ball, const RestBinding& binding, glm::vec2 at, float side) {
+    constexpr float kStep = 0.04F;
+    const glm::vec3 mirror(1, 1, side);
+    const glm::vec3 tailwards = (ball.at(at + glm::vec2(kStep, 0)) - ball.at(at - glm::vec2(kStep, 0)));
+    const glm::vec3 upwards = (ball.at(at + glm::vec2(0, kStep)) - ball.at(at - glm::vec2(0, kStep)));
+    // On the right side up, then tailwards turn outwards: tailwards is -x.
+    const glm::vec3 u = mirror * (side > 0 ? upwards : tailwards);
+    const glm::vec3 v = mirror * (side > 0 ? tailwards : upwards);
+    Attachments::Vertex vertex = vertexAt(binding, mirror * ball.at(at), u, v);
+    vertex.place.fin = at;
+    vertex.place.part = static_cast<std::uint32_t>(CagePart::Eye);
+    return vertex;
+}
+
+void addEye(const FishBody& body, const Ball& ball, float side, Attachments& attachments) {
+    const RestBinding binding(body.cage, body.eye.x);
+    const std::size_t middle = attachments.vertices.size();
+    attachments.vertices.push_back(eyeVertex(ball, binding, {0, 0}, side));
+    for (const float rho : kEyeRings)
+        for (std::size_t k = 0; k < kSpokes; ++k) {
+            const float angle =
+                glm::two_pi<float>() * static_cast<float>(k) / static_cast<float>(kSpokes);
+            const glm::vec2 at = rho * glm::vec2(std::cos(angle), std::sin(angle));
+            attachments.vertices.push_back(eyeVertex(ball, binding, at, side));
+        }
+    const auto on = [&](std::size_t ring, std::size_t k) {
+        return middle + 1 + ring * kSpokes + k % kSpokes;
+    };
+    // Spokes turn from tailwards to upwards: seen from the right, clockwise.
+    for (std::size_t k = 0; k < kSpokes; ++k) {
+        const std::size_t here = side > 0 ? k + 1 : k, next = side > 0 ? k : k + 1;
+        attachments.onBody.push_back({static_cast<std::uint32_t>(on(0, here)),
+                                      static_cast<std::uint32_t>(on(0, next)),
+                                      static_cast<std::uint32_t>(middle)});
+        for (std::size_t ring = 0; ring + 1 < kEyeRings.size(); ++ring)
+            addQuad(attachments.onBody,
+                    {on(ring + 1, here), on(ring + 1, next), on(ring, next), on(ring, here)});
+    }
+}
+
+// The margin of the first dorsal fin, from its front.
+std::vector<std::uint32_t> marginOf(const FishBody& body) {
+    const auto& vertices = body.cage.vertices;
+    std::vector<std::uint32_t> margin;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i)
+        if (vertices[i].part == CagePart::FirstDorsal && vertices[i].fin.y == 1 &&
+            vertices[i].rest.z > 0)
+            margin.push_back(i);
+    std::ranges::sort(margin, {}, [&](std::uint32_t i) { return vertices[i].fin.x; });
+    return margin;
+}
+
+// The ripple of the first dorsal fin's margin at p, which a whip passes on.
+void addRipple(const FishBody& body, float p, float gain, std::vector<StencilEntry>& entries) {
+    const std::vector<std::uint32_t> margin = marginOf(body);
+    const auto rayOf = [&](std::size_t k) { return body.cage.vertices[margin[k]].fin.x; };
+    std::size_t k = 0;
+    while (k + 2 < margin.size() && rayOf(k + 1) < p) ++k;
+    const float between = std::max(rayOf(k + 1) - rayOf(k), 1e-3F);
+    const float share = std::clamp((p - rayOf(k)) / between, 0.0F, 1.0F);
+    for (const auto& [point, weight] : {std::pair{margin[k], gain * (1 - share)},
+                                        std::pair{margin[k + 1], gain * share}}) {
+        const glm::vec3 rest = body.cage.vertices[point].rest;
+        const RestBinding binding(body.cage, rest.x);
+        add(entries, binding, binding.ofPlace(rest), &StencilEntry::position, -weight);
+        entries.push_back({.controlPoint = point, .position = weight});
+    }
+}
+
+// A curve through the points (Catmull & Rom 1974).
+glm::vec2 along(const std::vector<glm::vec2>& points, float share) {
+    const float at = share * static_cast<float>(points.size() - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), points.size() - 2);
+    const float t = at - static_cast<float>(k);
+    const glm::vec2 b = points[k], c = points[k + 1];
+    const glm::vec2 a = k == 0 ? 2.0F * b - c : points[k - 1];
+    const glm::vec2 d = k + 2 == points.size() ? 2.0F * c - b : points[k + 2];
+    return 0.5F * (2.0F * b + (c - a) * t + (2.0F * a - 5.0F * b + 4.0F * c - d) * (t * t) +
+                   (3.0F * b - 3.0F * c + d - a) * (t * t * t));
+}
+
+// Where on the first dorsal fin a thread begins.
+float dorsalRayOf(const FishBody& body, glm::vec2 root) {
+    float best = 1e9F, p = 0;
+    for (const CageVertex& vertex : body.cage.vertices) {
+        if (vertex.part != CagePart::FirstDorsal || vertex.fin.y < 1) continue;
+        const float distance = glm::distance(glm::vec2(vertex.rest), root);
+        if (distance >= best) continue;
+        best = distance;
+        p = vertex.fin.x;
+    }
+    return p;
+}
+
+void addThread(const FishBody& body, const BodyThread& thread, Attachments& attachments) {
+    const std::size_t steps = threadSteps(thread);
+    const std::size_t first = attachments.vertices.size();
+    const float ray = dorsalRayOf(body, thread.at.front());
+    for (std::size_t i = 0; i <= steps; ++i) {
+        const float share = static_cast<float>(i) / static_cast<float>(steps);
+        const glm::vec2 at = along(thread.at, share);
+        const glm::vec2 ahead = along(thread.at, std::min(share + 0.05F, 1.0F)) -
+                                along(thread.at, std::max(share - 0.05F, 0.0F));
+        const glm::vec2 run = glm::normalize(ahead);
+        const float width = 0.5F * glm::mix(thread.rootWidth, thread.tipWidth, share);
+        const float depth = std::min(kThreadDepth * width, kMostThreadDepth);
+        const float station =
+            std::min(glm::mix(thread.at.front().x, at.x, 0.5F), kLastBinding);
+        const RestBinding binding(body.cage, station);
+        for (std::size_t k = 0; k < kSides; ++k) {
+            constexpr std::array<glm::vec2, kSides> kRound{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+            const auto round = [&](glm::vec2 r, float w, float d) {
+                return glm::vec3(-run.y * r.x * w, run.x * r.x * w, r.y * d);
+            };
+            const glm::vec2 r = kRound.at(k);
+            const glm::vec3 rest = glm::vec3(at, 0) + round(r, width, depth);
+            // About the thread, then along it, turn outwards: s runs against x.
+            const glm::vec3 about = round({-r.y, r.x}, 1, 1);
+            Attachments::Vertex vertex =
+                vertexAt(binding, rest, 0.01F * glm::vec3(run, 0), 0.01F * about);
+            if (thread.isOfFirstDorsal) {
+                const float wave = std::min(ray + 0.5F * share, 1.0F);
+                addRipple(body, wave, 1 + share, vertex.entries);
+                vertex.place.part = static_cast<std::uint32_t>(CagePart::FirstDorsal);
+                vertex.place.fin = {ray, 1};
+            }
+            attachments.vertices.push_back(std::move(vertex));
+        }
+    }
+    auto& triangles = thread.isOfFirstDorsal ? attachments.onFins : attachments.onBody;
+    const auto on = [&](std::size_t i, std::size_t k) { return first + i * kSides + k % kSides; };
+    for (std::size_t i = 0; i < steps; ++i)
+        for (std::size_t k = 0; k < kSides; ++k)
+            addQuad(triangles, {on(i, k), on(i, k + 1), on(i + 1, k + 1), on(i + 1, k)});
+}
+
+}  // namespace
+
+std::size_t threadSteps(const BodyThread& thread) {
+    return 2 * (thread.at.size() - 1);
+}
+
+Attachments makeAttachments(const FishBody& body, std::span<const RestTriangle> head) {
+    Attachments attachments;
+    const Ball ball(body, head);
+    for (const float side : {1.0F, -1.0F}) addEye(body, ball, side, attachments);
+    for (const BodyThread& thread : body.threads) addThread(body, thread, attachments);
+    return attachments;
+}
+
+}  // namespace aquarama

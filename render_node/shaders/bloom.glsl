@@ -1,0 +1,26 @@
+// A little of what is bright glows about it, as it does in an eye and in a lens: means over two rings
+// of the picture's smaller copies, sized in radians.
+#ifndef BLOOM_GLSL
+#define BLOOM_GLSL
+#include "look_around.glsl"
+#include "post_radii.h"
+
+const float kBloomShare = 0.012;
+
+vec3 ring(sampler2D scene, Neighbourhood here, vec2 uv, float radius) {
+    float pixels = 0.5 * viewport.y * length(here.up.xy) / here.ahead.z;  // in a radian
+    float lod = log2(max(0.7 * radius * pixels, 1.0));
+    vec3 sum = textureLod(scene, uv, lod).rgb;
+    for (int i = 0; i < 8; ++i) {
+        float turn = 0.785398 * float(i);
+        sum += textureLod(scene, uvOf(beside(here, radius * vec2(cos(turn), sin(turn)))), lod).rgb;
+    }
+    return sum / 9.0;
+}
+
+vec3 sceneLight(sampler2D scene, vec2 uv) {
+    Neighbourhood here = neighbourhoodOf(uv);
+    vec3 glow = 0.5 * (ring(scene, here, uv, kBloomNear) + ring(scene, here, uv, kBloomFar));
+    return mix(textureLod(scene, uv, 0.0).rgb, glow, kBloomShare);
+}
+#endif

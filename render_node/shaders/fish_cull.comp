@@ -1,0 +1,47 @@
+// Which fish a view shows, and how finely: one thread a fish, one workgroup a group. Only place and
+// length are unpacked here; the rest of what nobody sees is never looked at (paper, section 4.3).
+#include "fish_record.glsl"
+#include "fish_detail.glsl"
+#include "fish_lists.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 5) writeonly buffer Choices { uint choices[]; };  // level | rank << 4
+layout(std430, binding = 7) writeonly buffer Counts { uint counts[]; };    // [group][level]
+layout(location = 18) uniform uint fishCount;
+
+// Who of the group is at a level, a bit each: an order of arrival could not change it.
+shared uint members[kDetails][2];
+
+uint levelOf(Species species, uint i) {
+    if (isAway(i)) return kUnseen;
+    vec3 place = placeMetresOf(i);
+    float lengthMetres = lengthMetresOf(i);
+    // Nothing that is drawn of it reaches further, be it a point that is wider than the fish.
+    float margin = species.area.w * lengthMetres + 3.0 * sharedEye.w * distance(sharedEye.xyz, place);
+    if (culls && !reaches(place, margin)) return kUnseen;
+    return detailAt(place, lengthMetres).level;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x, group = gl_WorkGroupID.x;
+    if (lane < kDetails) members[lane][0] = members[lane][1] = 0u;
+    barrier();
+
+    uint s = 0u;
+    while (group >= kinds[s].firstGroup + kinds[s].groups) ++s;
+    uint own = (group - kinds[s].firstGroup) * kGroup + lane;
+    uint i = kinds[s].firstFish + own;
+    uint level = own < kinds[s].fish && i < fishCount ? levelOf(kinds[s], i) : kUnseen;
+    if (level != kUnseen) atomicOr(members[level][lane >> 5], 1u << (lane & 31u));
+    barrier();
+
+    if (level != kUnseen) {
+        uint below = bitCount(members[level][lane >> 5] & ((1u << (lane & 31u)) - 1u));
+        uint rank = below + (lane < 32u ? 0u : bitCount(members[level][0]));
+        choices[i] = level | rank << 4;
+    } else if (own < kinds[s].fish) {
+        choices[i] = kUnseen;
+    }
+    if (lane < kDetails)
+        counts[group * kStride + lane] = bitCount(members[lane][0]) + bitCount(members[lane][1]);
+}

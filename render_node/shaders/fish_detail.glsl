@@ -1,0 +1,43 @@
+// How finely a fish is drawn; detailOf() of render_node/surface/visibility.h is the reference.
+#ifndef FISH_DETAIL_GLSL
+#define FISH_DETAIL_GLSL
+
+const uint kPoint = 0u, kFading = 1u, kFewTriangles = 2u, kControlMesh = 3u, kHero = 5u, kDetails = 7u,
+           kUnseen = 15u;
+
+layout(location = 1) uniform vec4 planes[6];       // of the view's frustum, inward
+layout(location = 7) uniform vec4 sharedEye;       // world, metres; w: the wall's finest pixel, radians
+layout(location = 8) uniform float limits[7];      // pixels that a fish fills from this level on
+layout(location = 15) uniform uint finestDetail;
+layout(location = 16) uniform bool culls;
+layout(location = 17) uniform bool choosesDetail;  // else all are heroes
+
+struct Detail {
+    uint level;
+    float blend;
+};
+
+// Of a fish that fills so many pixels of the wall from nose to tail.
+Detail detailOf(float pixels) {
+    if (!choosesDetail) return Detail(kHero, 1.0);
+    uint level = 0u;
+    while (level < finestDetail && pixels >= limits[level + 1u]) ++level;
+    if (level == kPoint) return Detail(level, 0.0);
+    if (level == kFewTriangles) return Detail(level, 1.0);
+    float from = limits[level];
+    float to = level == kFading ? limits[kFewTriangles] : 1.35 * from;
+    float t = clamp((pixels - from) / (to - from), 0.0, 1.0);
+    return Detail(level, t * t * (3.0 - 2.0 * t));
+}
+
+Detail detailAt(vec3 place, float lengthMetres) {
+    return detailOf(lengthMetres / (distance(sharedEye.xyz, place) * sharedEye.w));
+}
+
+// A single point against the enlarged frustum.
+bool reaches(vec3 place, float marginMetres) {
+    for (int i = 0; i < 6; ++i)
+        if (dot(planes[i].xyz, place) + planes[i].w < -marginMetres) return false;
+    return true;
+}
+#endif

@@ -1,0 +1,35 @@
+// A corner of a fish of few triangles: a control point, posed here, as there are too few of them for
+// a kernel of their own.
+#include "frame_uniforms.h"
+#include "fish_pose.glsl"
+
+layout(location = 0) in vec4 vertexRest;
+layout(location = 1) in vec2 vertexFin;
+layout(location = 2) in uint vertexPart;
+layout(location = 3) in uint slot;  // of the instance: its place in the school
+layout(location = 4) in uint controlPoint;
+layout(location = 5) in vec3 restNormal;
+
+// As of fish.vert.
+layout(location = 0) out vec3 place;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec4 rest;
+layout(location = 3) out vec2 fin;
+layout(location = 4) flat out uint part;
+layout(location = 5) flat out uint id;
+layout(location = 6) flat out vec3 dorsal;
+layout(location = 7) out float opacity;
+
+void main() {
+    Fish self = fish[slot];
+    vec3 point = controlPointOf(self, controlPoint);
+    place = self.positionMetres + rotate(self.rotation, point * self.lengthMetres);
+    normal = rotate(self.rotation, restNormal);
+    rest = vertexRest;
+    fin = vertexFin;
+    part = vertexPart;
+    id = self.id;
+    dorsal = rotate(self.rotation, vec3(0.0, 1.0, 0.0));
+    opacity = self.blend;
+    gl_Position = clipFromWorld * vec4(place, 1.0);
+}

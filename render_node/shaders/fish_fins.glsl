@@ -1,0 +1,105 @@
+// Fins that row, flutter, ripple and fold beside the body that bears them: a pure function of time and
+// of what a node knows of a fish. common/body/fin_motion.h is the reference.
+#ifndef FISH_FINS_GLSL
+#define FISH_FINS_GLSL
+
+// FinStyle and FinPoint of common/body/fin_table.h. Tailwards, up, away from the body; the left side
+// is the mirror image of the right.
+struct FinStyle {
+    vec3 hinge;
+    float open;
+    vec3 stroke;
+    float fold;
+    vec3 ray;
+    float strokeAngle;
+    float featherAngle, trimAngle, rowHertz, alternateBelow;
+    float foldAbove, pelvicFold, swimRipple, swimWaves;
+    float hoverRipple, hoverWaves, hoverHertz, opposed;
+    float cupping;
+};
+struct FinPoint {
+    vec3 arm;
+    float side;
+    float p, q, sway;
+    uint part;
+};
+
+// CagePart of common/body/fish_body.h
+const uint kBodyPart = 0u, kCaudalPart = 1u, kAnalPart = 4u, kPelvicPart = 5u, kPectoralPart = 6u;
+
+const float kWholeTurn = 6.2831853;
+const float kMarginLag = kWholeTurn / 6.0, kTipLag = 0.12;
+const float kStands = 0.2, kSwims = 0.6, kFolded = 1.5;  // body lengths a second
+const float kFoldBand = 0.2, kTrimGain = 3.0;
+
+// What drives the fins of one fish.
+struct FinDrive {
+    float seconds, speed, climb;
+    vec2 turning;  // how far it is in a turn to the left, to the right
+    float own;     // cycles by which it differs from others
+    float phase, fromPhase, weight;
+};
+
+vec3 rotatedAbout(vec3 axis, float angle, vec3 v) {
+    float c = cos(angle);
+    return c * v + sin(angle) * cross(axis, v) + (1.0 - c) * dot(axis, v) * axis;
+}
+
+// 0 well below a speed, 1 well above it.
+float beyondSpeed(float speed, float limit) {
+    float band = kFoldBand * limit + 1.0e-4;
+    return smoothstep(limit - band, limit + band, abs(speed) + 1.0e-3);
+}
+
+vec3 rowedFin(FinStyle style, FinPoint point, FinDrive drive) {
+    bool isRight = point.side > 0.0;
+    float apart = isRight ? 0.0 : 0.5 * (1.0 - beyondSpeed(drive.speed, style.alternateBelow));
+    float beat = style.rowHertz * drive.seconds + drive.own + apart;
+    float outer = isRight ? drive.turning.x : drive.turning.y;
+    float rows = (1.0 - beyondSpeed(drive.speed, style.foldAbove)) * (1.0 - outer);
+    float twist = rows * style.featherAngle * cos(kWholeTurn * beat) +
+                  style.trimAngle * clamp(kTrimGain * drive.climb, -1.0, 1.0);
+    float angle = rows * style.strokeAngle * sin(kWholeTurn * (beat - kTipLag * point.q));
+    vec3 arm = rotatedAbout(style.ray, twist * point.q, point.arm);
+    arm = rotatedAbout(style.hinge, mix(style.fold, style.open, rows), arm);
+    return rotatedAbout(style.stroke, angle, arm) - point.arm;
+}
+
+float finWave(FinPoint point, float cycles, float waves) {
+    return sin(kWholeTurn * (waves * point.p - cycles) - kMarginLag * point.q);
+}
+
+float rippledFin(FinStyle style, FinPoint point, FinDrive drive) {
+    float swimming = mix(finWave(point, drive.fromPhase, style.swimWaves),
+                         finWave(point, drive.phase, style.swimWaves), drive.weight);
+    float opposed = point.part == kAnalPart ? style.opposed / kWholeTurn : 0.0;
+    float hovering = finWave(point, style.hoverHertz * drive.seconds + drive.own + opposed,
+                             style.hoverWaves);
+    return point.sway * mix(style.hoverRipple * hovering, style.swimRipple * swimming,
+                            smoothstep(kStands, kSwims, abs(drive.speed)));
+}
+
+// How far a control point is from where the body alone would have it: tailwards, up, to the right.
+vec3 finOffset(FinStyle style, FinPoint point, FinDrive drive, float drift) {
+    vec3 mirror = vec3(1.0, 1.0, point.side);
+    switch (point.part) {
+        case kBodyPart: return vec3(0.0);
+        case kPectoralPart: return rowedFin(style, point, drive) * mirror;
+        case kPelvicPart: {
+            float angle = style.pelvicFold * smoothstep(kStands, kFolded, abs(drive.speed));
+            return (rotatedAbout(vec3(0.0, 0.0, 1.0), angle, point.arm) - point.arm) * mirror;
+        }
+        case kCaudalPart: {
+            float lobe = 2.0 * point.p - 1.0;
+            return vec3(0.0, 0.0, drift * style.cupping * (lobe * lobe - 0.5) * pow(point.q, 1.5));
+        }
+        default: return vec3(0.0, 0.0, rippledFin(style, point, drive));
+    }
+}
+
+// tailwards, up, right to the body frame, in which right is turned from z towards x.
+vec3 turnedBy(float heading, vec3 offset) {
+    float c = cos(heading), s = sin(heading);
+    return vec3(s * offset.z - c * offset.x, offset.y, c * offset.z + s * offset.x);
+}
+#endif

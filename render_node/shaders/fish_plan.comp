@@ -1,0 +1,91 @@
+// From how many fish are in each list to the commands that draw them. One thread: a few hundred
+// steps, whatever the number of fish.
+#include "fish_detail.glsl"
+#include "fish_plan.glsl"
+
+layout(local_size_x = 1) in;
+layout(location = 18) uniform uint speciesCount;
+layout(location = 19) uniform uint roomVertices;  // of the surface buffer
+
+const uint kPointIndices = 12u;
+
+uint turn = 0u, usedVertices = 0u;
+
+Command bodyOf(Mesh mesh, uint fish, uint first) {
+    return Command(mesh.bodyIndices, fish, mesh.firstBodyIndex, mesh.firstVertex, first);
+}
+Command finsOf(Mesh mesh, uint fish, uint first) {
+    return Command(mesh.finIndices, fish, mesh.firstFinIndex, mesh.firstVertex, first);
+}
+
+void clear() {
+    for (uint t = 0u; t < kTurns; ++t) {
+        turns[t] = Turn(0u, 1u, 1u, 0u, 1u, 1u, 0u, 0u);
+        for (uint k = 0u; k < speciesCount * kSurfaces; ++k) {
+            uint at = t * kMostSpecies * kSurfaces + k;
+            pieces[at] = Piece(0u, 0u, 0u);
+            bodies[at].instances = fins[at].instances = 0u;
+        }
+    }
+}
+
+// Gives a list of surfaces room in this turn and the next; what does not fit in the last is drawn as
+// few triangles.
+void place(uint species, uint surface, uint first, uint fish) {
+    Mesh mesh = kinds[species].meshes[1u + surface];
+    uint placed = 0u;
+    while (placed < fish && turn < kTurns) {
+        uint now = min(fish - placed, (roomVertices - usedVertices) / mesh.vertexCount);
+        if (now > 0u) {
+            uint at = (turn * kMostSpecies + species) * kSurfaces + surface;
+            pieces[at] = Piece(first + placed, now, usedVertices);
+            bodies[at] = bodyOf(mesh, now, first + placed);
+            fins[at] = finsOf(mesh, now, first + placed);
+            if (turns[turn].bodyGroups == 0u) turns[turn].firstFish = first + placed;
+            turns[turn].bodyGroups += now;
+            usedVertices += now * mesh.vertexCount;
+            placed += now;
+        }
+        if (placed < fish) {
+            ++turn;
+            usedVertices = 0u;
+        }
+    }
+    Mesh few = kinds[species].meshes[0];
+    uint at = species * kTails + 1u + surface;
+    tails[at] = bodyOf(few, fish - placed, first + placed);
+    tails[at + 1u + kSurfaces] = finsOf(few, fish - placed, first + placed);
+}
+
+// Few triangles, those that fade, points: one behind the other, and those that fade are drawn as
+// both.
+uint placeTail(uint species, uint first) {
+    uint list = species * kStride;
+    uint few = totals[list + kFewTriangles], fading = totals[list + kFading];
+    firsts[list + kFewTriangles] = first;
+    firsts[list + kFading] = first + few;
+    firsts[list + kPoint] = first + few + fading;
+    Mesh mesh = kinds[species].meshes[0];
+    tails[species * kTails] = bodyOf(mesh, few + fading, first);
+    tails[species * kTails + 1u + kSurfaces] = finsOf(mesh, few + fading, first);
+    tails[species * kTails + 2u + 2u * kSurfaces] =
+        Command(kPointIndices, fading + totals[list + kPoint], 0u, 0u, first + few);
+    return first + few + fading + totals[list + kPoint];
+}
+
+void main() {
+    clear();
+    uint first = 0u;
+    for (uint surface = kSurfaces; surface-- > 0u;) {
+        for (uint species = 0u; species < speciesCount; ++species) {
+            uint list = species * kStride + kControlMesh + surface;
+            firsts[list] = first;
+            place(species, surface, first, totals[list]);
+            first += totals[list];
+        }
+    }
+    for (uint species = 0u; species < speciesCount; ++species) first = placeTail(species, first);
+    // A surface that is still there when fins are drawn need not be evaluated again.
+    for (uint t = 0u; turns[1].bodyGroups > 0u && t < kTurns; ++t)
+        turns[t].finGroups = turns[t].bodyGroups;
+}

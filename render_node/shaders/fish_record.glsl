@@ -1,0 +1,88 @@
+// The school as the wire has it (FishRecord of common/motion/motion_state.h, 32 bytes): before and
+// after a tick, and where each fish is between them. present() of common/motion/reconstruct.h is the
+// reference of all this.
+#ifndef FISH_RECORD_GLSL
+#define FISH_RECORD_GLSL
+
+// Two words of four numbers a fish: place and the low orientation; the high one, phases, segments
+// and warp, speed.
+layout(std430, binding = 1) readonly buffer Before { uvec4 before[]; };
+layout(std430, binding = 2) readonly buffer After { uvec4 after[]; };
+layout(std430, binding = 3) readonly buffer Traits { uvec2 traits[]; };  // id, length in millimetres
+layout(location = 0) uniform float fraction;                             // of the way to `after`
+
+const float kPositionUnitMetres = 1.0 / 65536.0;
+const float kPhaseUnit = 1.0 / 65536.0;
+const int kAwayBelow = -8192 * 65536;
+
+float lengthMetresOf(uint i) { return float(traits[i].y) * 0.001; }
+
+// Body lengths a second; backwards is negative.
+float speedOf(uint i) {
+    const float kUnitsPerBodyLength = 262144.0;
+    return mix(float(int(before[2u * i + 1u].w)), float(int(after[2u * i + 1u].w)), fraction) /
+           kUnitsPerBodyLength;
+}
+
+// Not in the water at one of the ticks: nobody draws it.
+bool isAway(uint i) {
+    return int(before[2u * i].y) < kAwayBelow || int(after[2u * i].y) < kAwayBelow;
+}
+
+vec3 placeMetresOf(uint i) {
+    ivec3 from = ivec3(before[2u * i].xyz), to = ivec3(after[2u * i].xyz);
+    return (vec3(from) + fraction * vec3(to - from)) * kPositionUnitMetres;
+}
+
+// The smallest three components of a unit quaternion, 20 bits each; the largest is positive.
+vec4 unpackRotation(uint low, uint high) {
+    const float kUnit = 1.0 / 741455.2;
+    uvec3 bits = uvec3(low, (low >> 20) | (high << 12), high >> 8);
+    vec3 abc = vec3(ivec3(bits << 12) >> 12) * kUnit;
+    float most = sqrt(max(1.0 - dot(abc, abc), 0.0));
+    uint largest = (high >> 28) & 3u;  // of w, x, y, z
+    if (largest == 0u) return vec4(abc, most);
+    if (largest == 1u) return vec4(most, abc.yz, abc.x);
+    if (largest == 2u) return vec4(abc.y, most, abc.z, abc.x);
+    return vec4(abc.yz, most, abc.x);
+}
+
+vec4 rotationOf(uint i) {
+    vec4 from = unpackRotation(before[2u * i].w, before[2u * i + 1u].x);
+    vec4 to = unpackRotation(after[2u * i].w, after[2u * i + 1u].x);
+    if (dot(from, to) < 0.0) to = -to;
+    return normalize(from * (1.0 - fraction) + to * fraction);
+}
+
+struct Motion {
+    float phase, fromPhase, warpWeight;
+    uint segment, fromSegment;
+};
+
+// The shorter way round: a retreating fish plays its cycle backwards.
+float phaseBetween(uint from, uint to) {
+    int played = (int(to) - int(from) + 32768 & 65535) - 32768;
+    float phase = float(from) + fraction * float(played);
+    float cycle = phase < 0.0 ? 65536.0 : phase < 65536.0 ? 0.0 : -65536.0;
+    return (phase + cycle) * kPhaseUnit;
+}
+
+float weightOf(uint motion) { return float((motion >> 16 & 255u) + 1u) / float((motion >> 24) + 1u); }
+
+Motion motionOf(uint i) {
+    uvec2 from = before[2u * i + 1u].yz, to = after[2u * i + 1u].yz;
+    uint segment = to.y & 255u, fromSegment = to.y >> 8 & 255u, lastSegment = from.y & 255u;
+    Motion m = Motion(float(to.x & 65535u) * kPhaseUnit, float(to.x >> 16) * kPhaseUnit,
+                      weightOf(to.y), segment, fromSegment);
+    bool wasWarping = (from.y >> 16 & 255u) != from.y >> 24;
+    bool hasJustLeft = (to.y >> 16 & 255u) == 0u && lastSegment == fromSegment &&
+                       (from.x & 65535u) == to.x >> 16 && lastSegment != segment && !wasWarping;
+    if (hasJustLeft) {
+        m.warpWeight *= fraction;
+    } else if (lastSegment == segment) {
+        m.phase = phaseBetween(from.x & 65535u, to.x & 65535u);
+        m.warpWeight = mix(weightOf(from.y), weightOf(to.y), fraction);
+    }
+    return m;
+}
+#endif

@@ -1,0 +1,57 @@
+// Puts each fish that a view shows in its place, and only of those unpacks all.
+#include "fish_data.glsl"
+#include "fish_record.glsl"
+#include "fish_detail.glsl"
+#include "fish_plan.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) writeonly buffer School { Fish fish[]; };
+layout(std430, binding = 5) readonly buffer Choices { uint choices[]; };  // level | rank << 4
+layout(std430, binding = 7) readonly buffer Counts { uint counts[]; };    // [group][level], sums
+layout(location = 18) uniform uint fishCount;
+
+// The piece that has its place, or none.
+bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
+    Mesh mesh = kinds[species].meshes[1u + surface];
+    for (uint t = 0u; t < kTurns; ++t) {
+        Piece piece = pieces[(t * kMostSpecies + species) * kSurfaces + surface];
+        if (slot - piece.firstFish >= piece.fish) continue;
+        firstVertex = piece.firstVertex + (slot - piece.firstFish) * mesh.vertexCount - mesh.firstVertex;
+        return true;
+    }
+    return false;
+}
+
+void main() {
+    uint species = 0u, group = gl_WorkGroupID.x;
+    while (group >= kinds[species].firstGroup + kinds[species].groups) ++species;
+    uint own = (group - kinds[species].firstGroup) * kGroup + gl_LocalInvocationID.x;
+    uint i = kinds[species].firstFish + own;
+    if (own >= kinds[species].fish || i >= fishCount) return;
+    uint level = choices[i] & 15u;
+    if (level == kUnseen) return;
+
+    uint slot = firsts[species * kStride + level] + counts[group * kStride + level] + (choices[i] >> 4);
+    Fish self;
+    self.positionMetres = placeMetresOf(i);
+    self.lengthMetres = lengthMetresOf(i);
+    self.rotation = rotationOf(i);
+    Motion motion = motionOf(i);
+    self.phase = motion.phase;
+    self.fromPhase = motion.fromPhase;
+    self.warpWeight = motion.warpWeight;
+    self.segment = motion.segment;
+    self.fromSegment = motion.fromSegment;
+    self.id = traits[i].x;
+    self.species = species;
+    self.detail = level;
+    self.blend = detailAt(self.positionMetres, self.lengthMetres).blend;
+    self.speed = speedOf(i);
+    self.firstVertex = self.padding = 0u;
+    if (level >= kControlMesh &&
+        !findSurface(species, level - kControlMesh, slot, self.firstVertex)) {
+        self.detail = kFewTriangles;
+        self.blend = 1.0;
+    }
+    fish[slot] = self;
+}

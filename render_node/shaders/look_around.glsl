@@ -1,0 +1,31 @@
+// Places of the picture so many radians beside another: the same in the world whichever way the
+// channel's picture lies, so that neighbours read the same neighbourhood.
+#ifndef LOOK_AROUND_GLSL
+#define LOOK_AROUND_GLSL
+#include "frame_uniforms.h"
+
+vec3 clipOf(vec3 direction) {  // x, y and w; w is the cosine from the axis
+    vec4 clip = clipFromWorld * vec4(direction, 0.0);
+    return clip.xyw;
+}
+
+// A pixel's direction, and a radian to its right and above it.
+struct Neighbourhood {
+    vec3 ahead, right, up;
+};
+Neighbourhood neighbourhoodOf(vec2 uv) {
+    vec4 near = worldFromClip * vec4(uv * 2.0 - 1.0, 1.0, 1.0);
+    vec3 ahead = normalize(near.xyz / near.w - eyeAndTime.xyz);
+    vec3 right = normalize(cross(ahead, vec3(0.0, 1.0, 0.013)));
+    return Neighbourhood(clipOf(ahead), clipOf(right), clipOf(cross(right, ahead)));
+}
+vec3 beside(Neighbourhood at, vec2 radians) {
+    return at.ahead + radians.x * at.right + radians.y * at.up;
+}
+vec2 uvOf(vec3 clip) { return 0.5 + 0.5 * clip.xy / clip.z; }
+
+// How far one sees there: the depth is near / distance along the axis.
+float rangeOf(vec3 clip, float depth) {
+    return min(clipFromWorld[3].z / max(depth * clip.z, 1.0e-6), 80.0);
+}
+#endif

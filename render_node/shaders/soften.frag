@@ -1,0 +1,36 @@
+// Forward scattering on the way to the eye: of the light of a thing at a range, a share arrives
+// spread over some tenths of a degree. Each tap counts by its own thing's share and spread, so that
+// the distance softens behind a near fish whose outline stays sharp.
+#include "look_around.glsl"
+#include "post_radii.h"
+layout(binding = 0) uniform sampler2D scene;
+layout(binding = 1) uniform sampler2D depth;
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 softened;
+
+const int kTaps = 16;
+const float kGoldenAngle = 2.39996323;
+
+float shareSpread(float range) { return 1.0 - exp(-0.028 * range); }
+float sigmaAt(float range) { return min(kScatterSigma * sqrt(range), kScatterMostSigma); }
+
+void main() {
+    Neighbourhood here = neighbourhoodOf(uv);
+    vec3 own = textureLod(scene, uv, 0.0).rgb;
+    float range = rangeOf(here.ahead, textureLod(depth, uv, 0.0).r);
+    float share = shareSpread(range), sigma = sigmaAt(range);
+    float weights = share;
+    vec3 sum = own * weights;
+    for (int i = 0; i < kTaps; ++i) {
+        float away = 2.0 * sigma * sqrt((float(i) + 0.5) / float(kTaps));
+        float turn = kGoldenAngle * float(i);
+        vec3 tap = beside(here, away * vec2(cos(turn), sin(turn)));
+        vec2 place = uvOf(tap);
+        float tapRange = rangeOf(tap, textureLod(depth, place, 0.0).r);
+        float x = away / sigmaAt(tapRange);
+        float weight = shareSpread(tapRange) * exp(-0.5 * x * x);
+        sum += weight * textureLod(scene, place, 0.0).rgb;
+        weights += weight;
+    }
+    softened = vec4(mix(own, sum / weights, share), 1.0);
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/surface/few_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "common/body/cage_topology.h"
+
+namespace aquarama {
+
+namespace {
+
+using Corner = std::uint32_t;  // a control point
+using Triangle = std::array<Corner, 3>;
+
+// Back, right side, belly, left side.
+constexpr std::array<int, 4> kColumns{0, 3, 6, 10};
+
+Corner tubeCorner(int ring, int column) {
+    return static_cast<Corner>(ring * kTubeColumns + column);
+}
+
+// The fish at rest in the axes of its body frame; where its origin is does not matter here.
+std::vector<glm::vec3> atRest(const FishBody& body) {
+    std::vector<glm::vec3> points;
+    for (const CageVertex& vertex : body.cage.vertices)
+        points.emplace_back(-vertex.rest.x, vertex.rest.y, vertex.rest.z);
+    return points;
+}
+
+float heightBetween(glm::vec3 front, glm::vec3 rear, float x) {
+    const float length = front.x - rear.x;
+    const float share = length > 0.0F ? glm::clamp((front.x - x) / length, 0.0F, 1.0F) : 0.0F;
+    return glm::mix(front.y, rear.y, share);
+}
+
+// How much of the side view is lost or added where only these rings are kept.
+float profileError(std::span<const glm::vec3> points, const std::array<int, 4>& rings) {
+    float error = 0.0F;
+    for (std::size_t k = 0; k + 1 < rings.size(); ++k)
+        for (int ring = rings.at(k); ring < rings.at(k + 1); ++ring)
+            for (const int column : {kColumns[0], kColumns[2]}) {
+                const glm::vec3 here = points[tubeCorner(ring, column)];
+                const float kept = heightBetween(points[tubeCorner(rings.at(k), column)],
+                                                 points[tubeCorner(rings.at(k + 1), column)],
+                                                 here.x);
+                error += std::abs(kept - here.y) * (here.x - points[tubeCorner(ring + 1, column)].x);
+            }
+    return error;
+}
+
+std::array<int, 4> bestRings(std::span<const glm::vec3> points) {
+    std::array<int, 4> best{0, 7, 14, kBodyEndRing};
+    for (int front = 1; front < kBodyEndRing - 1; ++front)
+        for (int rear = front + 1; rear < kBodyEndRing; ++rear) {
+            const std::array rings{0, front, rear, kBodyEndRing};
+            if (profileError(points, rings) < profileError(points, best)) best = rings;
+        }
+    return best;
+}
+
+std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
+                                    const std::vector<CageSite>& sites) {
+    std::vector<Triangle> triangles;
+    const auto nose = std::ranges::find(sites, CageSiteKind::Nose, &CageSite::kind);
+    for (std::size_t j = 0; j < kColumns.size(); ++j) {
+        const int here = kColumns.at(j), next = kColumns.at((j + 1) % kColumns.size());
+        triangles.push_back({static_cast<Corner>(nose - sites.begin()),
+                             tubeCorner(rings[0], here),
+                             tubeCorner(rings[0], next)});
+        for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
+            const Corner a = tubeCorner(rings.at(k), here), b = tubeCorner(rings.at(k), next);
+            const Corner c = tubeCorner(rings.at(k + 1), next), d = tubeCorner(rings.at(k + 1), here);
+            triangles.push_back({a, b, c});
+            triangles.push_back({a, c, d});
+        }
+    }
+    return triangles;
+}
+
+// A fin without thickness. Where a vertex of the fin is on it goes by its place in the cage, not by
+// nearness: else the fin would not fill the sheet.
+struct Sheet {
+    CagePart part = CagePart::Body;
+    std::vector<Triangle> triangles;
+    Corner foot = 0, heel = 0;         // its base, front and rear; of the tail its root, from the back down
+    std::vector<Corner> edge;          // as its base runs
+    float firstRing = 0, lastRing = 0;  // of a fin of the midline
+};
+
+// A point of a line of corners, 0 .. 1.
+glm::vec3 alongEdge(const Sheet& sheet, std::span<const glm::vec3> points, float share) {
+    const float at = share * static_cast<float>(sheet.edge.size() - 1);
+    const auto before = std::min(static_cast<std::size_t>(at), sheet.edge.size() - 2);
+    return glm::mix(points[sheet.edge[before]],
+                    points[sheet.edge[before + 1]],
+                    at - static_cast<float>(before));
+}
+
+// From the back (0) to the belly (1), down either side of the tube.
+float downTube(int column) {
+    const int steps = column == 0 ? 0 : column <= 6 ? column - 1 : kTubeColumns - column;
+    return static_cast<float>(steps) / 5.0F;
+}
+
+glm::vec3 placeOnSheet(const Sheet& sheet, const CageSite& site, std::span<const glm::vec3> points) {
+    const bool isTail = sheet.part == CagePart::Caudal;
+    const float rings = std::max(sheet.lastRing - sheet.firstRing, 1.0F);
+    const float along = isTail ? downTube(site.column)
+                               : (static_cast<float>(site.ring) - sheet.firstRing) / rings;
+    const float outwards =
+        isTail ? static_cast<float>(site.ring - kBodyEndRing) / float{kTubeRings - 1 - kBodyEndRing}
+               : static_cast<float>(site.level) / static_cast<float>(site.levels);
+    const glm::vec3 base = glm::mix(points[sheet.foot], points[sheet.heel], along);
+    return glm::mix(base, alongEdge(sheet, points, along), outwards);
+}
+
+Sheet tailSheet() {
+    constexpr int kEnd = kTubeRings - 1;
+    const Corner back = tubeCorner(kBodyEndRing, 0), belly = tubeCorner(kBodyEndRing, 6);
+    const Corner upper = tubeCorner(kEnd, 0), lower = tubeCorner(kEnd, 6), fork = tubeCorner(kEnd, 3);
+    return {CagePart::Caudal,
+            {{back, fork, upper}, {back, belly, fork}, {belly, lower, fork}},
+            back,
+            belly,
+            {upper, fork, lower}};
+}
+
+// From the first to the last ring that carries the fin, from its base to its edge.
+std::optional<Sheet> midlineSheet(CagePart part, const std::vector<CageSite>& sites) {
+    std::optional<std::size_t> front, rear;
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        const CageSite& site = sites[i];
+        if (site.kind != CageSiteKind::Flap || site.part != part || site.level != site.levels)
+            continue;
+        if (!front || site.ring < sites[*front].ring) front = i;
+        if (!rear || site.ring > sites[*rear].ring) rear = i;
+    }
+    if (!front) return std::nullopt;
+    const Corner topFront = static_cast<Corner>(*front), topRear = static_cast<Corner>(*rear);
+    const Corner foot = tubeCorner(sites[*front].ring, sites[*front].column);
+    const Corner heel = tubeCorner(sites[*rear].ring, sites[*rear].column);
+    return Sheet{part,
+                 {{foot, heel, topRear}, {foot, topRear, topFront}},
+                 foot,
+                 heel,
+                 {topFront, topRear},
+                 static_cast<float>(sites[*front].ring),
+                 static_cast<float>(sites[*rear].ring)};
+}
+
+// The nearest point of a triangle, as weights of its corners.
+glm::vec3 nearestOn(const std::array<glm::vec3, 3>& t, glm::vec3 point) {
+    const glm::vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = point - t[0];
+    const float aa = glm::dot(ab, ab), cc = glm::dot(ac, ac), bc = glm::dot(ab, ac);
+    const float pb = glm::dot(ap, ab), pc = glm::dot(ap, ac);
+    const float determinant = aa * cc - bc * bc;
+    if (determinant > 1e-12F) {
+        const float v = (cc * pb - bc * pc) / determinant, w = (aa * pc - bc * pb) / determinant;
+        if (v >= 0.0F && w >= 0.0F && v + w <= 1.0F) return {1.0F - v - w, v, w};
+    }
+    // Outside: on the nearest edge.
+    glm::vec3 best{1, 0, 0};
+    float least = std::numeric_limits<float>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3;
+        const glm::vec3 a = t.at(static_cast<std::size_t>(k));
+        const glm::vec3 edge = t.at(static_cast<std::size_t>(next)) - a;
+        const float squared = glm::dot(edge, edge);
+        const float share =
+            squared > 0.0F ? glm::clamp(glm::dot(point - a, edge) / squared, 0.0F, 1.0F) : 0.0F;
+        const float away = glm::distance(point, a + share * edge);
+        if (away >= least) continue;
+        least = away;
+        best = {};
+        best[k] = 1.0F - share;
+        best[next] += share;
+    }
+    return best;
+}
+
+// Puts the mesh together.
+class Maker {
+  public:
+    Maker(const FishBody& body, const LimitTable& controlMesh)
+        : body_{body}, mesh_{controlMesh}, points_{atRest(body)} {
+        for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
+            normals_.push_back(skinPoint(controlMesh, i, points_).normal);
+    }
+
+    FewTriangles make() {
+        const std::vector<CageSite> sites = makeCageTopology().sites;
+        const std::vector<Triangle> body = bodyTriangles(bestRings(points_), sites);
+        for (const Triangle& triangle : body) add(outward(triangle), CagePart::Body);
+        few_.bodyIndices = few_.indices.size();
+        std::map<CagePart, Sheet> sheets;
+        const auto addSheet = [&](const Sheet& sheet) {
+            for (const Triangle& triangle : sheet.triangles) add(triangle, sheet.part);
+            sheets[sheet.part] = sheet;
+        };
+        addSheet(tailSheet());
+        for (const CagePart part : {CagePart::FirstDorsal, CagePart::SecondDorsal, CagePart::Anal})
+            if (const auto sheet = midlineSheet(part, sites)) addSheet(*sheet);
+        for (Corner i = 0; i < mesh_.vertices.size(); ++i) {
+            if (i >= points_.size()) {  // an eye's or a whip's, which shrink into the body
+                const glm::vec4 rest = mesh_.vertices[i].rest;
+                few_.cage.push_back(placeOn(CagePart::Body, body, i, {-rest.x, rest.y, rest.z}));
+                continue;
+            }
+            const auto sheet = sheets.find(body_.cage.vertices[i].part);
+            few_.cage.push_back(
+                sheet == sheets.end()
+                    ? placeOn(CagePart::Body, body, i, points_[i])
+                    : placeOn(sheet->first,
+                              sheet->second.triangles,
+                              i,
+                              placeOnSheet(sheet->second, sites[i], points_)));
+        }
+        return std::move(few_);
+    }
+
+  private:
+    [[nodiscard]] Triangle outward(const Triangle& t) const {
+        const glm::vec3 normal =
+            glm::cross(points_[t[1]] - points_[t[0]], points_[t[2]] - points_[t[0]]);
+        const glm::vec3 out = normals_[t[0]] + normals_[t[1]] + normals_[t[2]];
+        return glm::dot(normal, out) < 0.0F ? Triangle{t[0], t[2], t[1]} : t;
+    }
+
+    // Where a sheet grows out of the body, the corner is the body's and knows no place on the fin:
+    // it is the root of the ray above it.
+    [[nodiscard]] SkinPlace placeOf(Corner corner, CagePart part, const Triangle& triangle) const {
+        SkinPlace place = mesh_.vertices[corner];
+        place.part = static_cast<std::uint32_t>(part);
+        if (part == CagePart::Body) place.fin = {};
+        if (part == CagePart::Body || body_.cage.vertices[corner].fin.y > 0.0F) return place;
+        float away = std::numeric_limits<float>::infinity();
+        for (const Corner other : triangle) {
+            const CageVertex& vertex = body_.cage.vertices[other];
+            const float distance = glm::distance(points_[other], points_[corner]);
+            if (vertex.fin.y <= 0.0F || distance >= away) continue;
+            away = distance;
+            place.fin = {vertex.fin.x, 0.0F};
+        }
+        return place;
+    }
+
+    void add(const Triangle& triangle, CagePart part) {
+        for (const Corner corner : triangle) {
+            const auto [known, isNew] = numbers_.try_emplace(
+                {part, corner}, static_cast<std::uint32_t>(few_.vertices.size()));
+            if (isNew)
+                few_.vertices.push_back({placeOf(corner, part, triangle), corner, normals_[corner]});
+            few_.indices.push_back(known->second);
+        }
+    }
+
+    // On the triangles of a part, as near as can be to a place.
+    [[nodiscard]] FewTriangles::Place placeOn(CagePart part,
+                                              std::span<const Triangle> triangles,
+                                              Corner corner,
+                                              glm::vec3 wanted) const {
+        FewTriangles::Place best;
+        float least = std::numeric_limits<float>::infinity();
+        for (const Triangle& t : triangles) {
+            const glm::vec3 weights =
+                nearestOn({points_[t[0]], points_[t[1]], points_[t[2]]}, wanted);
+            const glm::vec3 place = weights.x * points_[t[0]] + weights.y * points_[t[1]] +
+                                    weights.z * points_[t[2]];
+            const float away = glm::distance(place, wanted);
+            if (away >= least) continue;
+            least = away;
+            best = {t,
+                    {weights.x, weights.y, weights.z},
+                    glm::normalize(weights.x * normals_[t[0]] + weights.y * normals_[t[1]] +
+                                   weights.z * normals_[t[2]] + 1e-6F * normals_[corner]),
+                    mixed(part, t, weights)};
+        }
+        return best;
+    }
+
+    [[nodiscard]] SkinPlace mixed(CagePart part, const Triangle& t, glm::vec3 weights) const {
+        SkinPlace place;
+        for (int k = 0; k < 3; ++k) {
+            const SkinPlace corner = placeOf(t.at(static_cast<std::size_t>(k)), part, t);
+            place.rest += weights[k] * corner.rest;
+            place.fin += weights[k] * corner.fin;
+        }
+        return place;
+    }
+
+    const FishBody& body_;
+    const LimitTable& mesh_;
+    std::vector<glm::vec3> points_, normals_;
+    std::map<std::pair<CagePart, Corner>, std::uint32_t> numbers_;
+    FewTriangles few_;
+};
+
+}  // namespace
+
+FewTriangles makeFewTriangles(const FishBody& body, const LimitTable& controlMesh) {
+    return Maker{body, controlMesh}.make();
+}
+
+}  // namespace aquarama

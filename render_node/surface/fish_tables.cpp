@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/surface/fish_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <numbers>
+#include <string>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/packing.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/body/fin_motion.h"
+#include "common/skin/coarser_level.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+RecordedPoint quantised(glm::vec3 point) {
+    RecordedPoint recorded{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const float value = std::round(point[axis] / kPoseUnit);
+        if (!(std::abs(value) <= 32767))
+            throw Error("a control point lies further than a body length from its fish");
+        recorded.at(static_cast<std::size_t>(axis)) = static_cast<std::int16_t>(value);
+    }
+    return recorded;
+}
+
+NodalPoints nodesOf(const NodalPose& pose) {
+    NodalPoints nodes{};
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        nodes.at(n) = glm::vec3(pose.at(n)[0], pose.at(n)[1], pose.at(n)[2]) * kPoseUnit;
+    return nodes;
+}
+
+void addPosed(const FishBody& body, const NodalPoints& nodes, std::vector<RecordedPoint>& points) {
+    std::vector<glm::vec3> cage(kControlPoints);
+    poseCage(body, nodes, cage);
+    std::ranges::transform(cage, std::back_inserter(points), quantised);
+}
+
+// To the last points, one pose's.
+void addHeadings(const FishBody& body, const NodalPoints& nodes, std::vector<RecordedPoint>& points) {
+    std::array<float, kControlPoints> headings{};
+    headingsOf(body, nodes, headings);
+    const std::size_t first = points.size() - headings.size();
+    for (std::size_t i = 0; i < headings.size(); ++i)
+        points[first + i][3] = static_cast<std::int16_t>(
+            std::lround(headings.at(i) / std::numbers::pi_v<float> * 32767.0F));
+}
+
+// As fish_pose.glsl reads them, behind the points of a species.
+void addFins(const FinTable& fins, std::vector<RecordedPoint>& points) {
+    const auto add = [&](std::span<const std::byte> bytes) {
+        const std::size_t first = points.size();
+        points.resize(first + bytes.size() / sizeof(RecordedPoint));
+        std::memcpy(&points[first], bytes.data(), bytes.size());
+    };
+    add(std::as_bytes(std::span(&fins.style, 1)));
+    add(std::as_bytes(std::span(fins.points)));
+}
+
+}  // namespace
+
+std::vector<RecordedPoint> recordedPoints(const FishBody& body, const Repertoire& repertoire) {
+    std::vector<RecordedPoint> points;
+    points.reserve(std::size_t{kActions} * kPhases * kControlPoints);
+    for (const ActionSegment& segment : repertoire.segments) {
+        for (std::size_t phase = 0; phase < kPhases; ++phase) {
+            const NodalPoints nodes = nodesOf(segment.nodes.at(phase));
+            if (segment.controlPoints.empty()) {
+                addPosed(body, nodes, points);
+            } else {
+                for (const auto& [x, y, z] : segment.controlPoints[phase])
+                    points.push_back({x, y, z, 0});
+            }
+            addHeadings(body, nodes, points);
+        }
+    }
+    return points;
+}
+
+float reachOf(std::span<const RecordedPoint> points) {
+    float reach = 0.0F;
+    for (const auto& [x, y, z, unused] : points)
+        reach = std::max(reach, glm::length(glm::vec3(x, y, z)));
+    return reach * kPoseUnit;
+}
+
+namespace {
+
+template <class T>
+std::uint32_t append(std::vector<T>& all, std::span<const T> more) {
+    const auto first = static_cast<std::uint32_t>(all.size());
+    all.insert(all.end(), more.begin(), more.end());
+    return first;
+}
+
+// As packNormal() of fish_data.glsl.
+std::uint32_t packedNormal(glm::vec3 normal) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < 3; ++k) {
+        const auto number = static_cast<std::int32_t>(std::lround(normal[k] * 511.0F));
+        bits |= (static_cast<std::uint32_t>(number) & 1023U) << static_cast<unsigned>(10 * k);
+    }
+    return bits;
+}
+
+// The areas that a pose covers from three sides, and its middle. Of a fin, through which one sees,
+// half is counted.
+void measure(const LimitTable& mesh, std::span<const RecordedPoint> pose, SpeciesTables& tables) {
+    constexpr float kFinOpacity = 0.5F;
+    std::vector<glm::vec3> points;
+    for (const auto& [x, y, z, unused] : pose.first(kControlPoints))
+        points.push_back(glm::vec3(x, y, z) * kPoseUnit);
+    std::vector<glm::vec3> places;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        places.push_back(skinPoint(mesh, i, points).position);
+    glm::vec3 area{}, moment{};
+    float side = 0.0F;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        const glm::vec3 a = places[mesh.indices[t]], b = places[mesh.indices[t + 1]],
+                        c = places[mesh.indices[t + 2]];
+        const float weight = t < mesh.bodyIndices ? 1.0F : kFinOpacity;
+        // A closed surface covers its area once by its front and once by its back.
+        const glm::vec3 own = 0.25F * weight * glm::abs(glm::cross(b - a, c - a));
+        area += own;
+        moment += own.z * (a + b + c) / 3.0F;
+        side += own.z;
+    }
+    // A whip reaches further than the fish, and swings.
+    float reach = tables.area.w;
+    for (std::size_t i = mesh.skinVertices; i < places.size(); ++i)
+        reach = std::max(reach, 1.1F * glm::length(places[i]));
+    tables.area = glm::vec4{area, reach};
+    tables.middle = glm::vec4{moment / side, 0.0F};
+}
+
+// Gathers the tables of all species before they go to the GPU.
+class Gatherer {
+  public:
+    SpeciesTables add(const SchoolSpecies& species, std::size_t finest) {
+        SpeciesTables tables;
+        const std::vector<RecordedPoint> points = recordedPoints(species.body, species.repertoire);
+        append<RecordedPoint>(recorded, points);
+        addFins(species.body.fins, recorded);
+        tables.area.w = reachOf(points);
+        LimitTable coarser = makeLimitTable(species.body, 0);
+        const FewTriangles few = makeFewTriangles(species.body, coarser);
+        tables.meshes[0] = add(few);
+        for (std::size_t surface = 0; surface <= finest; ++surface) {
+            const LimitTable table = makeLimitTable(species.body, static_cast<int>(surface));
+            tables.meshes.at(1 + surface) = add(species.body, surface, table, coarser, few);
+            if (surface == 0) addPlaces(few);
+            if (surface == 1) measure(table, points, tables);
+            coarser = table;
+        }
+        isFirst_ = false;
+        return tables;
+    }
+
+    std::vector<RecordedPoint> recorded;
+    std::vector<std::uint32_t> firstEntry, parents, indices;
+    std::vector<StencilEntry> entries;
+    std::vector<SurfaceVertex> places;
+    std::vector<FewTriangles::Vertex> fewVertices;
+    std::vector<std::uint32_t> fewIndices;
+
+  private:
+    SpeciesTables::Mesh add(const FewTriangles& few) {
+        SpeciesTables::Mesh mesh{};
+        mesh.vertices = static_cast<std::uint32_t>(few.vertices.size());
+        mesh.firstVertex = append<FewTriangles::Vertex>(fewVertices, few.vertices);
+        mesh.firstBodyIndex = append<std::uint32_t>(fewIndices, few.indices);
+        mesh.bodyIndices = static_cast<std::uint32_t>(few.bodyIndices);
+        mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
+        mesh.finIndices = static_cast<std::uint32_t>(few.indices.size() - few.bodyIndices);
+        return mesh;
+    }
+
+    // The parents of the control mesh, as fish.comp has them.
+    void addPlaces(const FewTriangles& few) {
+        for (const FewTriangles::Place& place : few.cage) {
+            const auto& [a, b, c] = place.controlPoints;
+            parents.push_back(a | b << 9U | c << 18U);
+            parents.push_back(glm::packUnorm2x16({place.weights[0], place.weights[1]}));
+            parents.push_back(packedNormal(place.normal));
+        }
+    }
+
+    SpeciesTables::Mesh add(const FishBody& body,
+                            std::size_t surface,
+                            const LimitTable& table,
+                            const LimitTable& coarser,
+                            const FewTriangles& few) {
+        SpeciesTables::Mesh mesh{};
+        mesh.vertices = static_cast<std::uint32_t>(table.vertices.size());
+        mesh.firstEntry = addStencils(surface, table);
+        mesh.firstParent = static_cast<std::uint32_t>(parents.size());
+        mesh.firstVertex = static_cast<std::uint32_t>(places.size());
+        if (surface == 0)
+            addVertices(table, few);
+        else
+            addVertices(table,
+                        surface == 1 ? coarser : table,
+                        coarserParents(body, static_cast<int>(surface), coarser));
+        mesh.firstBodyIndex = append<std::uint32_t>(indices, table.indices);
+        mesh.bodyIndices = static_cast<std::uint32_t>(table.bodyIndices);
+        mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
+        mesh.finIndices = static_cast<std::uint32_t>(table.indices.size() - table.bodyIndices);
+        return mesh;
+    }
+
+    void addVertices(const LimitTable& controlMesh, const FewTriangles& few) {
+        for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
+            places.push_back({controlMesh.vertices[i],
+                              few.cage.at(i).place.rest,
+                              few.cage.at(i).place.fin});
+    }
+    // coarser: where the parents are painted as the coarser level has them.
+    void addVertices(const LimitTable& table,
+                     const LimitTable& coarser,
+                     std::span<const std::array<std::uint32_t, 2>> pairs) {
+        for (std::uint32_t i = 0; i < table.vertices.size(); ++i) {
+            if (i >= table.skinVertices) {  // an attachment, the same at every level
+                parents.push_back(i | i << 16U);
+                places.push_back({table.vertices[i], table.vertices[i].rest, table.vertices[i].fin});
+                continue;
+            }
+            const auto& [a, b] = pairs[i];
+            parents.push_back(a | b << 16U);
+            const SkinPlace &one = coarser.vertices.at(a), &other = coarser.vertices.at(b);
+            places.push_back({table.vertices[i],
+                              0.5F * (one.rest + other.rest),
+                              0.5F * (one.fin + other.fin)});
+        }
+    }
+
+    // All cages hang together alike, so that one species' stencils serve the others.
+    std::uint32_t addStencils(std::size_t surface, const LimitTable& table) {
+        Stencils& shared = shared_.at(surface);
+        const bool serves =
+            std::ranges::equal(table.entries, shared.entries, sameEntry) &&
+            table.firstEntry == shared.firstEntry;
+        if (!isFirst_ && serves) return shared.at;
+        const auto firstOfAll = static_cast<std::uint32_t>(entries.size());
+        append<StencilEntry>(entries, table.entries);
+        const auto at = static_cast<std::uint32_t>(firstEntry.size());
+        for (const std::uint32_t first : table.firstEntry) firstEntry.push_back(firstOfAll + first);
+        if (isFirst_) shared = {table.firstEntry, table.entries, at};
+        return at;
+    }
+    static bool sameEntry(const StencilEntry& a, const StencilEntry& b) {
+        return a.controlPoint == b.controlPoint && a.position == b.position &&
+               a.tangentU == b.tangentU && a.tangentV == b.tangentV;
+    }
+
+    struct Stencils {
+        std::vector<std::uint32_t> firstEntry;
+        std::vector<StencilEntry> entries;
+        std::uint32_t at = 0;
+    };
+    std::array<Stencils, kSurfaces> shared_;
+    bool isFirst_ = true;
+};
+
+}  // namespace
+
+FishTables::FishTables(std::span<const SchoolSpecies> members, std::size_t finest) {
+    if (members.size() > kMostSpecies)
+        throw Error("a scene has more than " + std::to_string(kMostSpecies) +
+                    " species; leave some out");
+    Gatherer all;
+    std::size_t firstFish = 0;
+    for (const SchoolSpecies& member : members) {
+        SpeciesTables tables = all.add(member, finest);
+        tables.firstFish = static_cast<std::uint32_t>(firstFish);
+        tables.fish = static_cast<std::uint32_t>(member.fish.size());
+        tables.firstGroup = static_cast<std::uint32_t>(groups);
+        tables.groups = static_cast<std::uint32_t>((member.fish.size() + kGroup - 1) / kGroup);
+        firstFish += member.fish.size();
+        groups += tables.groups;
+        mostVertices = std::max<std::size_t>(mostVertices, tables.meshes.at(1 + finest).vertices);
+        species.push_back(tables);
+    }
+    cast = makeBuffer(species, "cast");
+    recorded = makeBuffer(all.recorded, "recorded control points");
+    firstEntries = makeBuffer(all.firstEntry, "stencil offsets");
+    entries = makeBuffer(all.entries, "stencil entries");
+    parents = makeBuffer(all.parents, "parents of vertices");
+    fewVertices = makeBuffer(all.fewVertices, "few vertices");
+    fewIndices = makeBuffer(all.fewIndices, "few indices");
+    places = makeBuffer(all.places, "skin places");
+    indices = makeBuffer(all.indices, "fish indices");
+}
+
+}  // namespace aquarama

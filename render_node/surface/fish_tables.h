@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the GPU keeps of the species of a cast: recorded control points, and the meshes of each level
+// of detail, all in the same few buffers. Made once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "common/body/fish_body.h"
+#include "common/body/fish_skin.h"
+#include "common/motion/motion_state.h"
+#include "common/motion/repertoire.h"
+#include "common/skin/limit_table.h"
+#include "render_node/gl/handle.h"
+#include "render_node/surface/few_triangles.h"
+#include "render_node/surface/fish_plan.h"
+
+namespace aquarama {
+
+// The fish of one species of a school, which follow those of the species before it.
+struct SchoolSpecies {
+    FishBody body;
+    FishSkin skin;
+    Repertoire repertoire;
+    std::vector<FishTraits> fish;
+};
+
+// A place, body lengths, and a heading (headingsOf()), half turns: 16 bits each.
+using RecordedPoint = std::array<std::int16_t, 4>;
+
+// By segment, phase and control point. Of segments that were captured without control points they
+// are computed from the nodal points (paper, section 3.1), so that the GPU sees no difference.
+// Throws Error where one lies further than a body length from the body frame's origin.
+[[nodiscard]] std::vector<RecordedPoint> recordedPoints(const FishBody& body,
+                                                        const Repertoire& repertoire);
+
+// How far from the body frame's origin any control point of any pose gets, in body lengths. Poses
+// between recorded ones get no further.
+[[nodiscard]] float reachOf(std::span<const RecordedPoint> points);
+
+// What shaders know of a species, as fish_lists.glsl has it.
+struct SpeciesTables {
+    struct Mesh {
+        std::uint32_t vertices, firstEntry, firstParent;
+        std::uint32_t firstVertex, bodyIndices, firstBodyIndex, finIndices, firstFinIndex;
+    };
+    std::uint32_t firstFish = 0, fish = 0, firstGroup = 0, groups = 0;
+    glm::vec4 area{};    // seen from the front, from above, from the side: square body lengths; w:
+                         // reachOf()
+    glm::vec4 middle{};  // of the body, in its frame, body lengths
+    std::array<Mesh, kMeshes> meshes{};
+};
+static_assert(sizeof(SpeciesTables) == 208);
+
+template <class T>
+gl::Buffer makeBuffer(const std::vector<T>& values, const char* label) {
+    gl::Buffer buffer;
+    // A buffer of nothing is an error in GL, and a school may have no fish.
+    const std::size_t bytes = values.size() * sizeof(T);
+    glNamedBufferStorage(buffer.name(),
+                         static_cast<GLsizeiptr>(bytes == 0 ? sizeof(T) : bytes),
+                         bytes == 0 ? nullptr : values.data(),
+                         0);
+    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
+    return buffer;
+}
+
+// A vertex of a surface, and what is painted where the next coarser level has it.
+struct SurfaceVertex {
+    SkinPlace place;
+    glm::vec4 coarserRest{};
+    glm::vec2 coarserFin{};
+};
+static_assert(sizeof(SurfaceVertex) == 52);
+
+struct FishTables {
+    // finest: of the surfaces, 0 .. kSurfaces - 1; there are none beyond.
+    FishTables(std::span<const SchoolSpecies> cast, std::size_t finest);
+
+    std::vector<SpeciesTables> species;
+    std::size_t mostVertices = 1;  // of a fish
+    std::size_t groups = 0;
+    gl::Buffer cast, recorded, firstEntries, entries, parents, places, indices;
+    gl::Buffer fewVertices, fewIndices;
+};
+
+}  // namespace aquarama

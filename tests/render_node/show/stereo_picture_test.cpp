@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a channel draws for two eyes: the same as for one where they are one, and elsewhere with the
+// parallax that the geometry asks for.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include "common/place/place.h"
+#include "common/wall/eyes.h"
+#include "common/wall/pinhole.h"
+#include "render_node/show/channel_picture.h"
+#include "render_node/show/snapshot.h"
+#include "tests/render_node/show/fake_session.h"
+#include "tests/support/golden.h"
+
+namespace aquarama {
+namespace {
+
+constexpr std::size_t kLeft = 0;
+constexpr std::size_t kMiddle = 1;
+
+// The desk at half its size, which is as good and drawn four times as fast.
+Admission admissionInStereo(StereoMode mode, double separationMetres, PlaceKind place) {
+    Admission admission = admissionTo(Pattern::World);
+    for (Channel& channel : admission.rig.channels) {
+        channel.sizePixels /= 2;
+        channel.projector.focalPixels /= 2;
+        channel.projector.principalPixels /= 2;
+    }
+    admission.rig.stereo = {.mode = mode, .eyeSeparationMetres = separationMetres};
+    admission.scene.place = place;
+    admission.welcome.school = {{.id = 17, .lengthMillimetres = 300}};
+    admission.cast = {{.text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
+                       .repertoire = test::swaying(test::scad(), 0.05F),
+                       .fish = 1}};
+    return admission;
+}
+
+// In the wall's frame; nose towards the viewer, so that both eyes see the same outline.
+StateFrame frameWithAFish(glm::vec3 wallPlace) {
+    StateFrame frame = frameNumber(1);
+    frame.eye.positionMetres = kEyePosition;
+    MotionStates states;
+    states.resize(1);
+    setBodyFrame(states, 0, {.position = kEyePosition + wallPlace});
+    frame.after = {recordOf(states, 0)};
+    return frame;
+}
+
+StateFrame emptySea() {
+    StateFrame frame = frameNumber(1);
+    frame.eye.positionMetres = kEyePosition;
+    return frame;
+}
+
+class StereoPictureTest : public testing::Test {
+  protected:
+    std::unique_ptr<Context> context_ = makeOffscreenContext("mesa", {16, 16});
+};
+
+TEST_F(StereoPictureTest, eyesWithoutSeparationSeeThePictureOfOneToTheBit) {
+    const auto taken = [](StereoMode mode) {
+        const Admission admission = admissionInStereo(mode, 0, PlaceKind::OpenSea);
+        auto picture = std::make_unique<ChannelPicture>(admission, kMiddle, QualityTier::Low);
+        picture->drawScene(frameWithAFish({0.2F, 0.1F, -2}), {});
+        return picture;
+    };
+    const auto mono = takePicture(*taken(StereoMode::Mono), PictureBits::Dithered8, Shown::Display);
+    const auto two = taken(StereoMode::Interlaced);
+    for (const Shown shown : {Shown::Display, Shown::LeftEye, Shown::RightEye})
+        EXPECT_EQ(takePicture(*two, PictureBits::Dithered8, shown).rgb, mono.rgb)
+            << static_cast<int>(shown);
+}
+
+// With all that a reef culls and thins out: nothing of the first eye's drawing may reach the
+// second.
+TEST_F(StereoPictureTest, theSecondEyeIsDrawnAsIfItWereTheFirst) {
+    const Admission admission = admissionInStereo(StereoMode::Anaglyph, 0, PlaceKind::Reef);
+    ChannelPicture picture(admission, kMiddle, QualityTier::Low);
+    picture.drawScene(frameWithAFish({0.2F, 0.1F, -2}), {});
+    EXPECT_EQ(takePicture(picture, PictureBits::Dithered8, Shown::LeftEye).rgb,
+              takePicture(picture, PictureBits::Dithered8, Shown::RightEye).rgb);
+}
+
+// An upright string of crumbs of food, each at its distance: seen alike by both eyes, as no fish
+// is, and so many, a little beside one another, that the pixels' grain is lost in the mean.
+std::vector<glm::dvec3> crumbsAt(double distance, double azimuth) {
+    std::vector<glm::dvec3> crumbs;
+    for (int i = 0; i < 60; ++i) {
+        const double turn = azimuth + 0.0005 * (7 * i % 13 - 6);
+        crumbs.emplace_back(
+            distance * std::sin(turn), distance * 0.008 * (i - 30), -distance * std::cos(turn));
+    }
+    return crumbs;
+}
+
+StateFrame frameWith(const std::vector<glm::dvec3>& crumbs) {
+    StateFrame frame = emptySea();
+    frame.foodOriginMetres = kEyePosition;
+    for (const glm::dvec3& crumb : crumbs)
+        frame.foodAfter.push_back(foodRecord(FoodRecord::Kind::Pellet, glm::vec3(crumb), 1));
+    return frame;
+}
+
+// An open sea in which both eyes look for crumbs.
+class Watched {
+  public:
+    explicit Watched(std::size_t channel)
+        : admission_{admissionInStereo(StereoMode::SideBySide, 0.063, PlaceKind::OpenSea)},
+          channel_{channel},
+          picture_{admission_, channel, QualityTier::Low} {}
+
+    // Column of an eye's picture: the mean of what the crumbs change.
+    double columnOf(const std::vector<glm::dvec3>& crumbs, Shown shown) {
+        const Light with = seen(frameWith(crumbs), shown);
+        const Light without = seen(emptySea(), shown);
+        double sum = 0;
+        double total = 0;
+        for (int y = 0; y < with.sizePixels.y; ++y)
+            for (int x = 0; x < with.sizePixels.x; ++x) {
+                const glm::dvec3 change = glm::abs(with.at(x, y) - without.at(x, y));
+                const double share = change.x + change.y + change.z;
+                sum += share * (x + 0.5);
+                total += share;
+            }
+        EXPECT_GT(total, 0.1) << "the crumbs are not seen";
+        return sum / total;
+    }
+    // By geometry alone: where the eye's lines to them meet the screen.
+    [[nodiscard]] double askedColumn(const std::vector<glm::dvec3>& crumbs, EyeSide side) const {
+        const Rig& rig = admission_.rig;
+        const glm::dvec3 eye = eyePosition(rig, side);
+        double sum = 0;
+        for (const glm::dvec3& crumb : crumbs) {
+            const auto lit = screenHit(rig.screen, {eye, crumb - eye}, 1).value();
+            sum += projectorPixel(rig.channels[channel_], lit).value().x;
+        }
+        return sum / static_cast<double>(crumbs.size());
+    }
+    [[nodiscard]] const Rig& rig() const { return admission_.rig; }
+
+  private:
+    Light seen(const StateFrame& frame, Shown shown) {
+        picture_.drawScene(frame, {});
+        return lightOf(takePicture(picture_, PictureBits::Deep16, shown));
+    }
+    Admission admission_;
+    std::size_t channel_;
+    ChannelPicture picture_;
+};
+
+// Crossed before the screen, none on it, uncrossed behind; in the middle and at the side.
+TEST_F(StereoPictureTest, whatIsSeenLiesAsFarApartAsItsDistanceAsks) {
+    for (const std::size_t channel : {kMiddle, kLeft}) {
+        Watched watched(channel);
+        const double azimuth = channel == kMiddle ? 0.0 : -0.66;
+        const double radius = watched.rig().screen.radiusMetres;
+        for (const double distance : {1.3, radius, 5.0}) {
+            const auto crumbs = crumbsAt(distance, azimuth);
+            const double shown = watched.columnOf(crumbs, Shown::RightEye) -
+                                 watched.columnOf(crumbs, Shown::LeftEye);
+            const double asked = watched.askedColumn(crumbs, EyeSide::Right) -
+                                 watched.askedColumn(crumbs, EyeSide::Left);
+            EXPECT_NEAR(shown, asked, 0.15) << "channel " << channel << ", " << distance << " m";
+        }
+    }
+}
+
+TEST_F(StereoPictureTest, swappedEyesChangePlacesOnTheDisplayAlone) {
+    const StateFrame frame = frameWithAFish({0, 0, -1.5});
+    Admission admission = admissionInStereo(StereoMode::TopBottom, 0.063, PlaceKind::OpenSea);
+    ChannelPicture straight(admission, kMiddle, QualityTier::Low);
+    admission.rig.stereo.swapEyes = true;
+    ChannelPicture swapped(admission, kMiddle, QualityTier::Low);
+    straight.drawScene(frame, {});
+    swapped.drawScene(frame, {});
+    const auto take = [](ChannelPicture& picture, Shown shown) {
+        return takePicture(picture, PictureBits::Deep16, shown).rgb;
+    };
+    EXPECT_EQ(take(straight, Shown::LeftEye), take(swapped, Shown::LeftEye));
+    const auto one = take(straight, Shown::Display);
+    const auto other = take(swapped, Shown::Display);
+    const auto half = static_cast<std::ptrdiff_t>(one.size() / 2);
+    EXPECT_TRUE(std::equal(one.begin(), one.begin() + half, other.begin() + half));
+    EXPECT_NE(one, other);
+}
+
+TEST_F(StereoPictureTest, aPairAndItsAnaglyphAreTheGoldenOnes) {
+    ChannelPicture picture(
+        admissionInStereo(StereoMode::Anaglyph, 0.063, PlaceKind::Reef), kMiddle, QualityTier::Low);
+    picture.drawScene(frameWithAFish({0.15F, 0.05F, -1.2F}), {});
+    using test::expectGolden;
+    expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::LeftEye), "stereo/left_eye");
+    expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::RightEye), "stereo/right_eye");
+    expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::Display), "stereo/anaglyph");
+}
+
+}  // namespace
+}  // namespace aquarama
