@@ -13,6 +13,10 @@ cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
 
+cmake --build build/show --target aquarama_draw_still
+build/show/bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
+    --out docs/pictures/portraits.png
+
 # The routines as they are seen on the wall.
 while read -r scene frames every; do
     build/show/bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$scene.txtpb" --headless \

@@ -53,13 +53,14 @@ std::string definitionsOf(const LightQuality& light) {
 
 Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{
-        Quality{.samples = 1, .light = {}, .placeDetail = 0.5F},
+        Quality{.samples = 1, .light = {}, .placeDetail = 0.42F},
         Quality{.samples = 1,
                 .softening = true,
                 .bloom = true,
                 .light = kMediumLight,
                 .placeDetail = 0.9F,
                 .rockScales = 2,
+                .plantsGiveWay = true,
                 .growthAtPixels = true},
         Quality{.samples = 4,
                 .softening = true,
@@ -69,6 +70,7 @@ Quality qualityOf(QualityTier tier) {
                 .light = kHighLight,
                 .placeDetail = 1.4F,
                 .rockScales = 3,
+                .plantsGiveWay = true,
                 .growthAtPixels = true},
         Quality{.samples = 4,
                 .softening = true,
@@ -78,6 +80,7 @@ Quality qualityOf(QualityTier tier) {
                 .light = kUltraLight,
                 .placeDetail = 2.5F,
                 .rockScales = 3,
+                .plantsGiveWay = true,
                 .growthAtPixels = true},
     };
     return kTiers.at(static_cast<std::size_t>(tier));

@@ -38,7 +38,8 @@ struct Quality {
     // How finely the place is cut: at 1 a facet of a coral fills some 7 of the wall's finest
     // pixels.
     float placeDetail = 1.0F;
-    int rockScales = 1;           // of the grit on rock, 1 to 3; above 1 laid on from three sides
+    int rockScales = 1;           // of the grit on rock, 1 to 3; 1 is lit at corners
+    bool plantsGiveWay = false;   // to fish that pass
     bool growthAtPixels = false;  // near corals are lit at pixels, not at corners
 };
 

@@ -174,9 +174,13 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
     parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
+    parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
     parts.school.update(frame.fish);
+    parts.school.bindRecords();
+    if (parts.bottom)
+        parts.bottom->reef.stir(parts.school.fishInRecords(), parts.school.fraction());
     parts.light.update(frame.timeSeconds, frame.eyePositionMetres);
     parts.light.shade().updateFish(parts.school);
 }

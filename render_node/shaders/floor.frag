@@ -30,7 +30,7 @@ void main() {
         vec3 bone = mix(vec3(0.22, 0.17, 0.13), vec3(0.60, 0.50, 0.38), stones.w) * (1.4 * stones.z);
         bone = mix(bone, vec3(0.46, 0.24, 0.25) * (1.6 * stones.z), smoothstep(0.55, 0.85, coarse.z) * 0.7);
         albedo = mix(albedo * mix(1.0, 0.8, rubble), bone, lies);
-        slope = mix(slope, 3.2 * (stones.xy - 0.5), lies);
+        slope = mix(slope, 1.3 * (stones.xy - 0.5), lies);
         sky *= mix(1.0, 0.35 + 0.8 * stones.w, lies);
     }
     vec3 n = normalize(normal - vec3(slope.x, 0.0, slope.y));

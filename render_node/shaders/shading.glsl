@@ -3,14 +3,19 @@
 #define SHADING_GLSL
 #include "water.glsl"
 
-// The submarine's own floodlight brings back the reds that the sea has taken from the sun. Falls off
-// with the square of the distance and by the water on its way; attenuation of the primaries, 1/m.
+// The submarine's own floodlights, either side of the eye, bring back the reds that the sea has taken
+// from the sun. They fall off with the square of the distance and by the water on their way. Their
+// beams cross a few metres ahead, so that what swims at the glass is not burnt white: metres within
+// which they pass by; attenuation of the three primaries, 1/m.
+const float kLampCrossing = 2.45;
 const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045);
 vec3 lampLight(vec3 place, vec3 normal) {
     vec3 way = lamp.xyz - place;
     float range2 = dot(way, way), range = sqrt(range2);
     float facing = 0.15 + 0.85 * max(dot(normal, way) / range, 0.0);
-    return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) * (lamp.w * facing / (range2 + 1.0));
+    float crossed = range2 / (range2 + kLampCrossing * kLampCrossing);
+    return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) *
+           (lamp.w * facing * crossed * crossed / (range2 + 1.0));
 }
 
 // Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the

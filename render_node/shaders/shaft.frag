@@ -7,7 +7,7 @@ layout(location = 0) out vec4 upTo;
 layout(location = 0) uniform int texels;
 layout(location = 1) uniform int steps;
 
-const float kGain = 2.3;
+const float kGain = 2.2;
 
 vec3 directionOf(vec2 p) {
     // Beyond the edge the map goes on at the mirrored place: one texel of border for the filter.
@@ -19,11 +19,13 @@ vec3 directionOf(vec2 p) {
     return normalize(d);
 }
 
-// At a place, of the light's mean there. The eye is spread over texels of the map and the water
-// spreads the rays: fine nets blur with range.
-float lightAt(vec3 place, float range) {
+// At a place, of the light's mean there. apart: how far from one step to the next the rays of the sun
+// come through the surface: the net is blurred by as much, or steps would show as clouds. Towards the
+// sun they come through one place, and shafts are sharp.
+float lightAt(vec3 place, float range, float apart) {
     float depth = -place.y;
-    float lod = 1.2 + log2(1.0 + range * (6.0 / float(texels)) * (256.0 / kTileMetres));
+    float spread = 0.06 + range * (4.0 / float(texels)) + 0.35 * apart;
+    float lod = log2(spread * (256.0 / kTileMetres));
     float gathered = net(surfacePoint(place), depth, lod) - 1.0;
     float light = max(1.0 + kGain * gathered * exp(-0.022 * depth), 0.0);
     if (!kFine) return light;
@@ -35,6 +37,7 @@ float lightAt(vec3 place, float range) {
 void main() {
     vec3 direction = directionOf((uv * 2.0 - 1.0) * (float(texels) / float(texels - 2)));
     vec3 eye = eyeAndTime.xyz;
+    float drift = length(surfacePoint(direction));
     vec4 sums = vec4(0.0), weights = vec4(1.0e-5);
     for (int i = 0; i < steps; ++i) {
         float x = (float(i) + 0.5) / float(steps);
@@ -44,7 +47,7 @@ void main() {
         if (place.y > 0.0) break;
         float weight = stride * exp(-0.075 * range);
         vec4 within = step(vec4(range), vec4(3.0, 8.0, 18.0, 45.0)) * weight;
-        sums += within * lightAt(place, range);
+        sums += within * lightAt(place, range, stride / float(steps) * drift);
         weights += within;
     }
     upTo = (sums + 1.0e-5) / weights;
