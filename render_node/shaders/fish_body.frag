@@ -7,6 +7,7 @@
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest;
+layout(location = 4) flat in uint part;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
 layout(location = 8) flat in float nearness;  // 0: as fish_far.frag has it
@@ -32,7 +33,7 @@ void main() {
     skin.tilt *= outline;
     skin.flicker *= outline;
     skin.albedo = wetAlbedo(skin.albedo, id);
-    float eye = paintEye(skin, at, kIris, look);
+    float eye = paintEye(skin, at, kIris, part == kEye ? 0.3 : 0.85, look);
 
     vec3 n = normalize(skinNormal + skin.tilt.x * tailwards + skin.tilt.y * upwards);
     float facing = clamp(dot(n, toEye), 0.0, 1.0);

@@ -33,6 +33,7 @@ void main() {
     // A membrane is flat: its normal is its triangle's, and the small terms keep it from vanishing.
     vec3 facet = normalize(cross(dFdx(place), dFdy(place)) + 1.0e-14 * normal);
     if (dot(facet, fromEye) > 0.0) facet = -facet;
+    float throughIt = max(-dot(facet, fromEye), 0.12);
     float under = smoothstep(0.05, -0.15, dot(facet, dorsal));
     // Median fins stand upright, also where a far one's triangles are thinner than a pixel.
     if (!isPaired) facet -= 0.85 * dot(facet, dorsal) * dorsal;
@@ -45,8 +46,10 @@ void main() {
     // The edge of a membrane is thin and clear, its rays are bone.
     made.albedo *= (1.05 - 0.15 * fin.y) * (1.0 - made.ribbing * ray);
     made.opacity = clamp(made.opacity - (isFleshy ? 0.0 : 0.10 * fin.y) + 0.25 * ray, 0.0, 1.0);
+    // Seen from its edge one looks the longer way through it.
+    made.opacity = 1.0 - pow(1.0 - made.opacity, 1.0 / throughIt);
     // At its root a fin is muscle under the skin; those of the paired fins reach further out.
-    float reach = isPaired ? 0.20 : 0.12;
+    float reach = isPaired ? mix(0.55, 0.20, made.opacity) : 0.12;
     float grown = smoothstep(0.0, reach, fin.y);
     Skin skin = root;
     skin.albedo = wetAlbedo(mix(root.albedo, made.albedo, grown), id);

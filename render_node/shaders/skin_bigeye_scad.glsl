@@ -80,7 +80,7 @@ Fin finOf(FinPoint fin, Skin root) {
         made.opacity = 0.74;
         made.rays = 17.0;
     } else if (fin.part == kFirstDorsal || fin.part == kSecondDorsal) {
-        made.albedo = mix(made.albedo, vec3(0.10, 0.11, 0.11), smoothstep(0.55, 1.0, q));
+        made.albedo = mix(vec3(0.15, 0.17, 0.16), vec3(0.08, 0.09, 0.09), smoothstep(0.4, 1.0, q));
         made.opacity += 0.18 * smoothstep(0.5, 1.0, q);
         made.rays = fin.part == kFirstDorsal ? 8.0 : 26.0;
         made.spined = fin.part == kFirstDorsal ? 1.0 : 0.0;

@@ -115,8 +115,10 @@ Picture portrait(const Sitter& sitter) {
     return picture;
 }
 
-Picture portrait(const Species& species) {
-    return portrait(Sitter{.species = species});
+// In the open sea, which is quickly made.
+Picture portrait(const Species& species, std::uint32_t id = 0) {
+    return portrait(Sitter{
+        .species = species, .id = id, .place = PlaceKind::OpenSea, .quality = QualityTier::Low});
 }
 
 TEST(PaintedFish, goldDarkAndBrightAreWhereTheyBelong) {
@@ -190,22 +192,16 @@ glm::vec3 meanOf(const Picture& picture) {
     return sum / static_cast<float>(picture.pixels.size());
 }
 
-// In the open sea, which is quickly made.
-Picture sketch(const Species& species, std::uint32_t id) {
-    return portrait(Sitter{
-        .species = species, .id = id, .place = PlaceKind::OpenSea, .quality = QualityTier::Low});
-}
-
 // What an id changes is the fish alone, and always in the same way.
 TEST(PaintedFish, individualsDifferAndStayThemselves) {
     const auto context = makeOffscreenContext("mesa", kSize);
     for (const char* name : kSpecies) {
         const Species species = castMember(name);
-        const Picture one = sketch(species, 3), other = sketch(species, 8);
+        const Picture one = portrait(species, 3), other = portrait(species, 8);
         EXPECT_GT(glm::distance(meanOf(one), meanOf(other)), 2.0e-5F) << name;
     }
     const Species scad = castMember("bigeye_scad");
-    EXPECT_EQ(sketch(scad, 3).pixels, sketch(scad, 3).pixels);
+    EXPECT_EQ(portrait(scad, 3).pixels, portrait(scad, 3).pixels);
 }
 
 // A painted fish sends back no more light than a white one in the same place: matte ones, as a
@@ -213,11 +209,11 @@ TEST(PaintedFish, individualsDifferAndStayThemselves) {
 TEST(PaintedFish, noMatteFishIsBrighterThanAWhiteOne) {
     const auto context = makeOffscreenContext("mesa", kSize);
     for (const char* name : {"clownfish", "moorish_idol", "blue_tang", "parrotfish"}) {
-        const Picture painted = sketch(castMember(name), 0);
+        const Picture painted = portrait(castMember(name));
         Species white = castMember(name);
         white.name = "white_fish";
         white.palette = {{"back", glm::vec3(1)}, {"flank", glm::vec3(1)}, {"belly", glm::vec3(1)}};
-        const Picture plain = sketch(white, 0);
+        const Picture plain = portrait(white);
         int brighter = 0;
         for (std::size_t i = 0; i < painted.pixels.size(); ++i)
             if (luminance(painted.pixels[i]) > luminance(plain.pixels[i]) + 0.08F) ++brighter;
