@@ -31,4 +31,7 @@ using RestTriangle = std::array<glm::vec3, 3>;  // (s, y, z)
 [[nodiscard]] Attachments makeAttachments(const FishBody& body,
                                           std::span<const RestTriangle> head);
 
+// Into so many pieces a thread is cut from root to tip; each is a tube of four sides.
+[[nodiscard]] std::size_t threadSteps(const BodyThread& thread);
+
 }  // namespace aquarama

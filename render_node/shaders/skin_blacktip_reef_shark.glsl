@@ -69,6 +69,10 @@ Fin finOf(FinPoint fin, Skin root) {
     }
     colour = mix(colour, kInk, smoothstep(tip - 0.035, tip + 0.035, q));
     colour = mix(root.albedo, colour, smoothstep(0.0, 0.25, q));
-    return Fin(colour, 1.0, 0.0, 0.0, 0.0);
+    // A notch parts the tip of the upper lobe from the rest of the tail.
+    vec2 inNotch = mat2(0.35, 0.94, -0.94, 0.35) * (vec2(fin.at.s, fin.at.y) - vec2(0.936, 0.104));
+    float notch = 0.42 * inNotch.x - abs(inNotch.y);
+    float opacity = fin.part == kCaudal ? falling(-0.001, 0.001, notch) : 1.0;
+    return Fin(colour, opacity, 0.0, 0.0, 0.0);
 }
 #endif
