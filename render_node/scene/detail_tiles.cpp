@@ -81,12 +81,12 @@ Relief rockAt(glm::vec2 uv) {
     const float grain = 1.0F - toNearest(19, uv, 84);
     const float grit = tiled(15, uv, 128);
     Relief relief;
-    relief.height = 0.022F * lumps + 0.020F * knob + 0.014F * pit + 0.016F * crack +
-                    0.004F * grain + 0.0012F * grit;
+    relief.height = 0.022F * lumps + 0.013F * knob + 0.006F * pit + 0.008F * crack +
+                    0.0025F * grain + 0.0006F * grit;
     relief.crest =
         glm::clamp(0.16F * lumps + 0.50F * knob + 0.30F * pit + 0.24F * crack - 0.16F, 0.0F, 1.0F);
-    relief.albedo = 0.62F + 0.30F * knob + 0.16F * pit + 0.14F * crack + 0.16F * grain +
-                    0.10F * grit + 0.16F * tiled(16, uv, 26);
+    relief.albedo = 0.30F + 0.42F * knob + 0.26F * pit + 0.20F * crack + 0.30F * grain +
+                    0.12F * grit + 0.26F * tiled(16, uv, 26);
     return relief;
 }
 

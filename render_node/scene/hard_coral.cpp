@@ -187,7 +187,11 @@ void growTable(Mesh& mesh, std::size_t level, Dice dice) {
                            Ring{0.0F, foot + 0.03F, 0.9F, 0.75F, 0.0F}};
     const Turning turning{
         .around = kAround.at(level), .seed = seed, .wide = 0.26F, .high = 0.07F, .lobes = 1.8F};
-    addTurned(mesh, rings, turning, tissue(1.0F));
+    const std::array few{rings[1], rings[3], rings[5], rings[8]};
+    if (level == 3)
+        addTurned(mesh, few, turning, tissue(1.0F));
+    else
+        addTurned(mesh, rings, turning, tissue(1.0F));
     const int carpet = kCarpet.at(level);
     const float broader = carpet > 0 ? std::sqrt(560.0F / static_cast<float>(carpet)) : 0.0F;
     for (int i = 0; i < carpet; ++i) {
@@ -222,8 +226,8 @@ void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
              .rings = kRings.at(level),
              .around = kAround.at(level),
              .seed = dice.seed(),
-             .lumps = 0.13F,
-             .cells = 1.6F},
+             .lumps = 0.24F,
+             .cells = 2.0F},
             tissue(1.0F, 1.0F));
 }
 

@@ -12,31 +12,31 @@ using Colours = std::array<glm::vec3, 5>;
 
 // Living hard coral is brown with its algae, towards ochre, olive, cream, lavender or rose.
 constexpr std::array<Colours, 5> kHard{
-    Colours{glm::vec3{0.50F, 0.34F, 0.14F},
-            {0.56F, 0.38F, 0.12F},
-            {0.64F, 0.54F, 0.34F},
-            {0.34F, 0.22F, 0.11F},
-            {0.40F, 0.36F, 0.13F}},
-    Colours{glm::vec3{0.42F, 0.29F, 0.44F},
-            {0.36F, 0.24F, 0.24F},
-            {0.62F, 0.54F, 0.46F},
-            {0.34F, 0.30F, 0.50F},
-            {0.50F, 0.36F, 0.24F}},
-    Colours{glm::vec3{0.58F, 0.29F, 0.23F},
-            {0.44F, 0.26F, 0.15F},
-            {0.66F, 0.52F, 0.36F},
-            {0.52F, 0.34F, 0.14F},
-            {0.36F, 0.24F, 0.16F}},
-    Colours{glm::vec3{0.36F, 0.36F, 0.10F},
-            {0.48F, 0.40F, 0.14F},
-            {0.26F, 0.26F, 0.10F},
-            {0.62F, 0.52F, 0.28F},
-            {0.44F, 0.28F, 0.13F}},
-    Colours{glm::vec3{0.52F, 0.42F, 0.26F},
-            {0.38F, 0.25F, 0.13F},
-            {0.68F, 0.58F, 0.42F},
-            {0.46F, 0.30F, 0.34F},
-            {0.30F, 0.22F, 0.13F}},
+    Colours{glm::vec3{0.66F, 0.38F, 0.10F},
+            {0.72F, 0.44F, 0.10F},
+            {0.80F, 0.60F, 0.28F},
+            {0.42F, 0.22F, 0.08F},
+            {0.54F, 0.40F, 0.09F}},
+    Colours{glm::vec3{0.56F, 0.28F, 0.40F},
+            {0.48F, 0.24F, 0.18F},
+            {0.80F, 0.60F, 0.42F},
+            {0.52F, 0.32F, 0.48F},
+            {0.64F, 0.38F, 0.18F}},
+    Colours{glm::vec3{0.76F, 0.30F, 0.18F},
+            {0.58F, 0.27F, 0.10F},
+            {0.82F, 0.54F, 0.28F},
+            {0.68F, 0.36F, 0.10F},
+            {0.46F, 0.24F, 0.12F}},
+    Colours{glm::vec3{0.50F, 0.40F, 0.07F},
+            {0.64F, 0.44F, 0.10F},
+            {0.38F, 0.28F, 0.07F},
+            {0.78F, 0.56F, 0.20F},
+            {0.56F, 0.28F, 0.09F}},
+    Colours{glm::vec3{0.68F, 0.44F, 0.20F},
+            {0.50F, 0.26F, 0.09F},
+            {0.84F, 0.64F, 0.36F},
+            {0.62F, 0.32F, 0.28F},
+            {0.40F, 0.22F, 0.09F}},
 };
 // Fans, sponges and soft corals: one hue rules a patch.
 constexpr std::array<Colours, 5> kSoft{
@@ -95,12 +95,12 @@ glm::vec3 oneOf(const Colours& colours, Dice& dice) {
 
 glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice) {
     const float bright = dice.between(0.82F, 1.15F);
-    if (form == Form::Kelp) return glm::vec3{0.50F, 0.34F, 0.055F} * bright;
+    if (form == Form::Kelp) return glm::vec3{0.74F, 0.40F, 0.045F} * bright;
     if (form == Form::Seagrass) return glm::vec3{0.19F, 0.26F, 0.055F} * bright;
     if (form == Form::Turf) return oneOf(kTurf, dice) * bright;
     if (form == Form::Anemone) return glm::vec3{0.58F, 0.46F, 0.24F} * bright;
     const bool soft = isSoft(form);
-    if (dice.unit() < (soft ? 0.14F : 0.03F)) return oneOf(kAccents, dice) * bright;
+    if (soft && dice.unit() < 0.16F) return oneOf(kAccents, dice) * bright;
     return oneOf((soft ? kSoft : kHard).at(patch % kHard.size()), dice) * bright;
 }
 

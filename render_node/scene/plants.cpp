@@ -43,6 +43,13 @@ void addBlade(
         mesh, joints, {.side = side, .ruffle = 0.55F, .waves = 22.0F, .phase = 6.0F * dice.unit()});
 }
 
+// The stipe gives way to the drift, in x.
+glm::vec3 stipeAt(float share) {
+    return {0.05F * share * share + 0.012F * std::sin(7.0F * share),
+            share,
+            0.010F * std::sin(9.0F * share)};
+}
+
 }  // namespace
 
 // A tuft of filaments and small leaves: what covers rock where nothing else does.
@@ -82,7 +89,7 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
     std::vector<Joint> stem;
     for (int i = 0; i < kStem.at(level); ++i) {
         const float v = static_cast<float>(i) / static_cast<float>(kStem.at(level) - 1);
-        stem.push_back({{0, v, 0},
+        stem.push_back({stipeAt(v),
                         0.0028F * (1.0F - 0.5F * v),
                         {.albedo = glm::vec3{0.33F}, .translucency = 0.2F, .sway = v},
                         0.45F + 0.55F * v});
@@ -94,9 +101,9 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
         const float share =
             std::pow((static_cast<float>(i) + 0.8F) / static_cast<float>(blades), 0.8F);
         const float turn = kGoldenAngle * static_cast<float>(i) + dice.unit();
-        const glm::vec3 out =
-            glm::normalize(glm::vec3{std::cos(turn), dice.between(0.1F, 0.9F), std::sin(turn)});
-        const glm::vec3 foot{0, share, 0};
+        const glm::vec3 out = glm::normalize(
+            glm::vec3{std::cos(turn) + 0.7F, dice.between(-0.1F, 0.8F), std::sin(turn)});
+        const glm::vec3 foot = stipeAt(share);
         if (level < 2)
             addBall(mesh,
                     {.centre = foot + out * 0.007F,
@@ -108,7 +115,7 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
         addBlade(mesh,
                  foot + out * 0.009F,
                  out,
-                 dice.between(0.050F, 0.088F) * (1.05F - 0.25F * share),
+                 dice.between(0.070F, 0.125F) * (1.1F - 0.35F * share),
                  0.0052F * broader,
                  kRows.at(level),
                  dice);

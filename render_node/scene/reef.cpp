@@ -14,7 +14,8 @@ namespace aquarama {
 
 namespace {
 
-constexpr unsigned kGroupSize = 64;  // as in place_cull.comp
+constexpr unsigned kGroupSize = 64;                                  // as in place_cull.comp
+constexpr GLsizeiptr kWakeBytes = GLsizeiptr{40} * 16 * 40 * 3 * 4;  // as in wake.glsl
 constexpr unsigned kGrowths = kPrototypes - kRockShapes;
 
 // As glMultiDrawElementsIndirect reads it.
@@ -37,7 +38,7 @@ struct Prototype {
 };
 static_assert(sizeof(Prototype) == 32);
 
-// Commands in the order of drawing: rock before what grows on it, fine levels before coarse ones.
+// In one run for rock and one for what grows; fine levels, which are near, before coarse ones.
 std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
     if (prototype < kRockShapes) return static_cast<std::uint32_t>(level * kRockShapes + prototype);
     return static_cast<std::uint32_t>(kLevels * kRockShapes + level * kGrowths + prototype -
@@ -46,7 +47,7 @@ std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
 
 // A facet fills some 7 pixels, one of rock, which is large and smooth, some 12.
 std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
-    if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 1.5F};
+    if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 4.0F};
     if (prototype >= prototypeOf(Form::Seagrass, 0)) return {150.0F, 60.0F, 24.0F, 3.0F};
     if (prototype >= prototypeOf(Form::Kelp, 0)) return {900.0F, 420.0F, 190.0F, 6.0F};
     if (prototype >= prototypeOf(Form::Turf, 0)) return {60.0F, 26.0F, 11.0F, 3.0F};
@@ -100,10 +101,13 @@ Library growLibrary() {
 Reef::Reef(const PlaceKey& place, const Quality& quality)
     : quality_{quality},
       cull_{gl::makeProgram({"place_cull.comp"})},
-      stone_{gl::makeProgram({"rock.vert", "rock.frag"})},
+      stone_{quality.rockScales > 1 ? gl::makeProgram({"rock.vert", "rock.frag"})
+                                    : gl::makeProgram({"rock_plain.vert", "rock_plain.frag"})},
       growth_{gl::makeProgram({"coral.vert", "coral.frag"})},
       farGrowth_{gl::makeProgram({"coral_far.vert", "lit.frag"})},
+      stir_{gl::makeProgram({"wake.comp"})},
       detail_{makeTexture(rockTile())} {
+    glNamedBufferStorage(wake_.name(), kWakeBytes, nullptr, 0);
     const Library library = growLibrary();
     std::array<Levels, kRockShapes> rocks;
     std::copy_n(library.begin(), rocks.size(), rocks.begin());
@@ -151,6 +155,21 @@ void Reef::fillLibrary(const Library& library, const std::vector<Instance>& inst
     glVertexArrayAttribBinding(array_.name(), kChosen, kChosen);
 }
 
+void Reef::stir(std::size_t fish, float fraction) const {
+    if (!quality_.plantsGiveWay) return;
+    constexpr std::int32_t kStill = 0;
+    glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 12, wake_.name());
+    const auto count = static_cast<unsigned>(fish);
+    if (count == 0) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(stir_.name());
+    glUniform1f(0, fraction);
+    glUniform1ui(1, count);
+    glDispatchCompute((count + kGroupSize - 1) / kGroupSize, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void Reef::cull(const ReefRule& rule) const {
     glCopyNamedBufferSubData(none_.name(),
                              commands_.name(),
@@ -173,26 +192,31 @@ void Reef::draw() const {
     glBindTextureUnit(14, detail_.name());
     glBindVertexArray(array_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 12, wake_.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     const auto drawFrom = [](std::size_t command, GLsizei count) {
         glMultiDrawElementsIndirect(
             GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(Command)), count, 0);
     };
-    glEnable(GL_CULL_FACE);
-    glUseProgram(stone_.name());
-    glUniform1i(0, quality_.rockScales);
-    drawFrom(0, commandCount(kRockShapes, kLevels));
-    glDisable(GL_CULL_FACE);
-    constexpr unsigned kFine = 2;  // levels that are shaded at each pixel
+    constexpr unsigned kFine = 3;  // levels that are lit at each pixel
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
         glUniform1f(0, quality_.placeDetail);
+        glUniform1i(1, quality_.plantsGiveWay ? 1 : 0);
         drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
     }
     const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
     glUseProgram(farGrowth_.name());
     glUniform1f(0, quality_.placeDetail);
+    glUniform1i(1, 0);  // too far off to be seen to give way
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
+    // What grows hides much of the rock, and is cheaper.
+    glEnable(GL_CULL_FACE);
+    glUseProgram(stone_.name());
+    glUniform1f(0, quality_.placeDetail);
+    if (quality_.rockScales > 1) glUniform1i(1, quality_.rockScales);
+    drawFrom(0, commandCount(kRockShapes, kLevels));
+    glDisable(GL_CULL_FACE);
 }
 
 }  // namespace aquarama

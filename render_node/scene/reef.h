@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,9 @@ class Reef {
   public:
     Reef(const PlaceKey& place, const Quality& quality);
 
+    // Once a frame: what the school, whose records are bound, stirs of the water about the shared
+    // eye.
+    void stir(std::size_t fish, float fraction) const;
     // For the view of the frame's uniforms, which are bound.
     void cull(const ReefRule& rule) const;
     // What the last cull has chosen, what fills most of the view first.
@@ -39,9 +43,9 @@ class Reef {
 
     Quality quality_;
     unsigned instanceCount_ = 0;
-    gl::Buffer vertices_, indices_, instances_, prototypes_, chosen_, none_, commands_;
+    gl::Buffer vertices_, indices_, instances_, prototypes_, chosen_, none_, commands_, wake_;
     gl::VertexArray array_;
-    gl::ProgramHandle cull_, stone_, growth_, farGrowth_;
+    gl::ProgramHandle cull_, stone_, growth_, farGrowth_, stir_;
     gl::Texture detail_;
 };
 

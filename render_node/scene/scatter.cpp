@@ -33,11 +33,11 @@ constexpr std::array kWays{
     Way{Form::Bush, 4.0F, 2.0F, 0.0F, 0.12F, 0.40F, 0.4F, 0.0F},
     Way{Form::Fingers, 2.2F, 1.2F, 0.0F, 0.12F, 0.42F, 0.6F, 0.0F},
     Way{Form::Table, 2.4F, 1.0F, 0.0F, 0.24F, 0.85F, 0.9F, 0.0F},
-    Way{Form::Brain, 1.8F, 0.8F, 0.0F, 0.12F, 0.48F, 0.2F, 0.0F},
-    Way{Form::Lobes, 2.4F, 1.4F, 0.0F, 0.18F, 0.62F, 0.3F, 0.0F},
+    Way{Form::Brain, 1.4F, 0.15F, 0.0F, 0.10F, 0.40F, 0.7F, 0.0F},
+    Way{Form::Lobes, 2.0F, 0.7F, 0.0F, 0.16F, 0.58F, 0.6F, 0.0F},
     Way{Form::Leaves, 2.0F, 2.4F, 0.0F, 0.20F, 0.60F, 0.5F, 0.0F},
-    Way{Form::Crust, 1.0F, 2.4F, 3.0F, 0.08F, 0.24F, 0.0F, 0.0F},
-    Way{Form::Fan, 0.9F, 2.4F, 0.3F, 0.28F, 0.95F, 0.5F, 0.05F},
+    Way{Form::Crust, 0.8F, 1.2F, 2.0F, 0.08F, 0.24F, 0.0F, 0.0F},
+    Way{Form::Fan, 1.0F, 3.0F, 0.3F, 0.28F, 0.95F, 0.5F, 0.05F},
     Way{Form::Whips, 0.5F, 0.5F, 0.0F, 0.45F, 1.20F, 0.8F, 0.10F},
     Way{Form::Tubes, 0.6F, 1.0F, 0.6F, 0.22F, 0.60F, 0.6F, 0.0F},
     Way{Form::Barrel, 0.4F, 0.2F, 0.0F, 0.35F, 0.85F, 0.8F, 0.0F},
@@ -319,7 +319,9 @@ void sow(std::vector<Instance>& all, const PlaceKey& place, std::span<const Rock
         const float lean = kelp ? 0.07F : 0.15F;
         const glm::vec3 up =
             glm::normalize(glm::vec3{dice.between(-lean, lean), 1.0F, dice.between(-lean, lean)});
-        const glm::quat turn = glm::quat_cast(frameAbout(up, kTwoPi * dice.unit()));
+        // Kelp leans with the drift, grass anyhow.
+        const float about = kelp ? dice.between(-0.7F, 0.7F) : kTwoPi * dice.unit();
+        const glm::quat turn = glm::quat_cast(frameAbout(up, about));
         const glm::vec4 tint{tintOf(form, 0, dice), kelp ? 0.12F : 0.45F};
         all.push_back(instanceOf(
             place, rocks, form, {one.root, {0, 1, 0}}, one.heightMetres, turn, tint, dice));

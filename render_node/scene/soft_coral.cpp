@@ -108,13 +108,14 @@ void growFan(Mesh& mesh, std::size_t level, Dice dice) {
                    kSides.at(level),
                    1.0F + 0.45F * static_cast<float>(level),
                    dice.between(-0.25F, 0.25F)};
-    const float shorter = level < 2 ? 1.0F : level == 2 ? 1.2F : 1.95F;
+    const float shorter = level < 2 ? 1.0F : level == 2 ? 1.2F : 2.2F;
     fanBranch(mesh,
               habit,
               {{0, -0.05F, 0}, 0.028F * habit.broader, flesh(0.6F, 0.2F, 0.0F), 0.5F},
               0.0F,
               0.19F * shorter,
               habit.generations);
+    if (level == 3) return;
     for (const float lean : {-0.75F, 0.7F})
         fanBranch(mesh,
                   habit,
@@ -149,7 +150,7 @@ void growWhips(Mesh& mesh, std::size_t level, Dice dice) {
 }
 
 void growTubes(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kAround{14, 9, 6, 4};
+    constexpr std::array kAround{14, 9, 5, 3};
     const int tubes = 4 + static_cast<int>(3.0F * dice.unit());
     for (int tube = 0; tube < tubes; ++tube) {
         const float turn = kGoldenAngle * static_cast<float>(tube);
@@ -198,7 +199,7 @@ void growBarrel(Mesh& mesh, std::size_t level, Dice dice) {
 
 // A stalk and a folded cap, downy with polyps.
 void growLeather(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kAround{34, 20, 11, 7};
+    constexpr std::array kAround{34, 20, 10, 5};
     const float folds = dice.between(0.10F, 0.20F);
     const std::array rings{Ring{0.30F, -0.10F, 0.3F, 0.6F, 0.2F},
                            Ring{0.20F, 0.15F, 0.4F, 0.7F, 0.2F},
@@ -234,7 +235,7 @@ void growSoftTree(Mesh& mesh, std::size_t level, Dice dice) {
 }
 
 void growAnemone(Mesh& mesh, std::size_t level, Dice dice) {
-    constexpr std::array kTentacles{190, 110, 56, 22};
+    constexpr std::array kTentacles{190, 110, 56, 14};
     constexpr std::array kSides{4, 3, 0, 0};
     const int tentacles = kTentacles.at(level);
     const float broader = std::sqrt(190.0F / static_cast<float>(tentacles));

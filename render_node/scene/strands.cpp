@@ -125,7 +125,8 @@ void addBall(Mesh& mesh, const Ball& ball, const Surface& surface) {
             addVertex(mesh,
                       ball.centre + out * ball.radii * (1.0F + lump),
                       out,
-                      shaded(surface, 1.0F + 1.2F * lump),
+                      shaded(surface,
+                             1.0F + 1.6F * lump + 0.16F * solidNoise(ball.seed ^ 3U, out * 5.0F)),
                       glm::mix(0.35F, 1.0F, glm::smoothstep(-0.6F, 0.5F, out.y)));
         }
     joinRows(mesh, first, ball.rings + 1, ball.around + 1);

@@ -1,12 +1,13 @@
 // Coral, sponge and leaf near by: polyps as a fine relief, or the meanders of a brain coral.
 #include "light.glsl"
+// Centroids: beyond the edge of a thin leaf there is nothing to be guessed.
 layout(binding = 14) uniform sampler2D relief;  // slopes, albedo, crest
-layout(location = 0) in vec3 place;
-layout(location = 1) in vec3 rest;
-layout(location = 2) in vec4 normal;
-layout(location = 3) in vec3 albedo;
-layout(location = 4) in vec2 open;
-layout(location = 5) in vec3 matter;  // translucency, fluorescence, relief
+layout(location = 0) centroid in vec3 place;
+layout(location = 1) centroid in vec3 rest;
+layout(location = 2) centroid in vec4 normal;
+layout(location = 3) centroid in vec3 albedo;
+layout(location = 4) centroid in vec2 open;
+layout(location = 5) centroid in vec3 matter;  // translucency, fluorescence, relief
 layout(location = 0) out vec4 radiance;
 const float kPolypTile = 0.16;
 // Height of a ridge between grooves, 0 to 1.
@@ -35,7 +36,8 @@ void main() {
         vec2 uv = (side.y > max(side.x, side.z) ? rest.xz : side.x > side.z ? rest.zy : rest.xy) / kPolypTile;
         float lod = log2(max(range * (512.0 / kPolypTile) / pixelsARadian(), 1.0));
         vec4 fine = textureLod(relief, uv, lod);
-        colour *= mix(1.0, 2.0 * fine.z * (0.6 + 0.7 * fine.w), 0.6 * normal.w + 0.3);
+        colour *= mix(1.0, 2.0 * fine.z * (0.35 + 1.1 * fine.w), 0.7 * normal.w + 0.3);
+        sky *= mix(1.0, 0.4 + fine.w, normal.w);
         vec3 slope = vec3(fine.x - 0.5, 0.0, fine.y - 0.5);
         n = normalize(n - 1.2 * normal.w * (slope - n * dot(slope, n)));
     }

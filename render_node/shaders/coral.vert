@@ -1,11 +1,11 @@
 // What grows, near by: lit at each pixel.
 #include "grown.glsl"
-layout(location = 0) out vec3 place;
-layout(location = 1) out vec3 rest;
-layout(location = 2) out vec4 normal;
-layout(location = 3) out vec3 albedo;
-layout(location = 4) out vec2 open;
-layout(location = 5) out vec3 matter;  // translucency, fluorescence, relief
+layout(location = 0) centroid out vec3 place;
+layout(location = 1) centroid out vec3 rest;
+layout(location = 2) centroid out vec4 normal;
+layout(location = 3) centroid out vec3 albedo;
+layout(location = 4) centroid out vec2 open;
+layout(location = 5) centroid out vec3 matter;  // translucency, fluorescence, relief
 void main() {
     Grown it = grown();
     place = it.place;

@@ -1,6 +1,6 @@
 // What grows, far off: lit at its corners, as a pixel holds several of them.
 #include "grown.glsl"
-layout(location = 0) out vec3 light;
+layout(location = 0) centroid out vec3 light;
 void main() {
     Grown it = grown();
     vec3 own = litAt(1.0, it.open, it.albedo, it.place, normalize(it.normal), response.y) +

@@ -3,12 +3,32 @@
 #include "plant_bend.h"
 #include "shading.glsl"
 #include "sea_now.glsl"
+#include "wake.glsl"
+layout(std430, binding = 12) readonly buffer Wake { int wake[]; };
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normalAndRoughness;
 layout(location = 2) in vec4 albedoAndSky;
 layout(location = 3) in vec4 response;  // share of the sway, translucency, fluorescence, relief
 layout(location = 4) in uint chosen;
 layout(location = 0) uniform float detail;
+layout(location = 1) uniform bool stirred;  // by fish that pass
+
+// How far passing fish push what is free to move, metres: between the middles of eight cells.
+vec2 pushedAt(vec3 place) {
+    vec3 at = place / kWakeCellMetres - 0.5;
+    ivec3 low = ivec3(floor(at));
+    vec3 share = at - vec3(low);
+    vec2 sum = vec2(0.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        ivec3 offset = ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+        int index = wakeIndex(low + offset);
+        if (index < 0) continue;
+        vec3 weight = mix(1.0 - share, share, vec3(offset));
+        sum += weight.x * weight.y * weight.z * vec2(wake[index], wake[index + 2]);
+    }
+    sum *= 0.5 * kWakeUnit;
+    return 0.35 * sum / (0.35 + length(sum));  // however many pass, a leaf gives way no further
+}
 struct Grown {
     vec3 place, rest, normal, albedo;
     Openness open;
@@ -26,15 +46,20 @@ Grown grown() {
     if (sway > 0.0) {
         float share = response.x;
         vec2 push = sway * scale * surge(mix(root, it.rest, 0.7));
+        if (stirred) push += min(4.0 * sway, 1.0) * min(scale, 1.0) * pushedAt(it.rest);
         it.place += bentStem(share, scale, push) - vec3(0.0, scale * share, 0.0);
     }
     it.normal = turned(one.turn, normalAndRoughness.xyz);
-    it.albedo = min(2.0 * albedoAndSky.rgb * one.tintAndSway.rgb, vec3(0.92));
+    it.albedo = min(1.75 * albedoAndSky.rgb * one.tintAndSway.rgb, vec3(0.80));
     // A leaf has two sides: the one that looks at us is lit.
     if (response.y > 0.3 && dot(it.normal, eyeAndTime.xyz - it.place) < 0.0) it.normal = -it.normal;
     // The sand takes light from what stands close above it.
     float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.light.z));
     float own = albedoAndSky.w;
     it.open = Openness(one.light.x * mix(0.35, 1.0, own), one.light.y * own * contact);
+    if (kFine) {
+        Openness mapped = openAt(it.place, it.normal);
+        it.open = Openness(min(it.open.sun, mapped.sun), min(it.open.sky, mapped.sky));
+    }
     return it;
 }

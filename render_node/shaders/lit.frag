@@ -1,4 +1,4 @@
 // For what is small and many, and lit at its corners.
-layout(location = 0) in vec3 light;
+layout(location = 0) centroid in vec3 light;
 layout(location = 0) out vec4 radiance;
 void main() { radiance = vec4(light, 1.0); }

@@ -311,8 +311,8 @@ void seeMate(const Onlooker& onlooker) {
                                   });
 }
 
-// The way that is felt ahead is the one past the submarine, which comes to meet the fish or overtakes
-// it; one that comes on is felt from farther.
+// The way that is felt ahead is the one past the submarine, which comes to meet the fish or
+// overtakes it; one that comes on is felt from farther.
 glm::vec3 submarinePush(const Submarine& submarine, const Senses& senses, float reach) {
     const glm::vec3 velocity = submarine.velocityMetresPerSecond;
     if (velocity == glm::vec3{})

@@ -1,0 +1,31 @@
+// Rock for those who must save: light and water at the corners, grit and the net of the waves at
+// the pixels.
+#include "instance.glsl"
+#include "shading.glsl"
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 normalAndRoughness;
+layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; openness
+layout(location = 4) in uint chosen;
+layout(location = 0) uniform float detail;
+layout(location = 0) out vec3 place;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec3 mottle;
+layout(location = 3) out vec3 sunlit;  // what of white stone in the sun reaches the eye
+layout(location = 4) out vec3 skylit;  // and in the light from above
+layout(location = 5) out vec3 veil;
+#include "rock_corner.glsl"
+void main() {
+    RockCorner it = rockCorner();
+    place = it.place;
+    normal = it.normal;
+    mottle = mottleAndSky.rgb;
+    vec3 n = normalize(normal), way = place - eyeAndTime.xyz;
+    float range = length(way), depth = max(-place.y, 0.1);
+    // The whole light less the sun's, at the mean of the waves.
+    vec3 all = litAt(5.0, Openness(0.0, it.open.y), it.tint, place, n, 0.0);
+    vec3 sun = it.tint * (unscatteredShare(depth) * it.open.x * daylight.x * max(dot(n, sunAndFilterDepth.xyz), 0.0) / kPi);
+    sunlit = direct(sun, range, depth);
+    skylit = direct(all, range, depth);
+    veil = inscatter(way / range, range);
+    gl_Position = clipFromWorld * vec4(place, 1.0);
+}
