@@ -51,7 +51,7 @@ vec3 iridescent(vec3 albedo, float amount, float facing) {
 // A platelet that faces the lamp gives its light back at once. They stand at all angles about the
 // upright axis, so some do.
 vec3 lampFlash(vec3 plate, vec3 place) {
-    vec3 toLamp = normalize(eyeAndTime.xyz - place);
+    vec3 toLamp = normalize(lamp.xyz - place);
     float c = max(dot(plate, toLamp), 0.0);
     c *= c; c *= c; c *= c; c *= c;
     return lampLight(place, toLamp) * (0.04 * c * c);

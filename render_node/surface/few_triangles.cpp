@@ -283,6 +283,8 @@ class Maker {
                     glm::normalize(weights.x * normals_[t[0]] + weights.y * normals_[t[1]] +
                                    weights.z * normals_[t[2]] + 1e-6F * normals_[corner]),
                     mixed(part, t, weights)};
+            // On the body nobody looks where on a fin it is, but fins that grow out of it do.
+            if (part == CagePart::Body) best.place.fin = mesh_.vertices[corner].fin;
         }
         return best;
     }
