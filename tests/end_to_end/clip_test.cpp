@@ -36,8 +36,8 @@ class ClipOfAShow : public testing::Test {
 
     int run(const std::string& arguments) const {
         const std::string command = std::string(getenv("AQUARAMA_BIN")) + "/aquarama run " +
-                                    path("rig.txtpb") + " --headless " + arguments + " > " +
-                                    path("log") + " 2>&1";
+                                    path("rig.txtpb") + " --headless --quality low " + arguments +
+                                    " > " + path("log") + " 2>&1";
         return WEXITSTATUS(std::system(command.c_str()));
     }
     [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }

@@ -133,7 +133,7 @@ TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
     frame.eye.positionMetres = {4, -6, 0};
     FakeSession session(events_, {{frame, Release::Present}});
     Controls controls(session);
-    controls.press('d');
+    controls.press('c');
     controls.click({0, 180});
     controls.click({480, 180});  // just outside
     ChannelShow(session, context_, controls, options()).run(admissionTo(Pattern::Grey));

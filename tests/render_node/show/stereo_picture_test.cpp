@@ -3,6 +3,7 @@
 // parallax that the geometry asks for.
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -170,22 +171,20 @@ TEST_F(StereoPictureTest, whatIsSeenLiesAsFarApartAsItsDistanceAsks) {
 }
 
 TEST_F(StereoPictureTest, swappedEyesChangePlacesOnTheDisplayAlone) {
-    const StateFrame frame = frameWithAFish({0, 0, -1.5});
-    Admission admission = admissionInStereo(StereoMode::TopBottom, 0.063, PlaceKind::OpenSea);
-    ChannelPicture straight(admission, kMiddle, QualityTier::Low);
-    admission.rig.stereo.swapEyes = true;
-    ChannelPicture swapped(admission, kMiddle, QualityTier::Low);
-    straight.drawScene(frame, {});
-    swapped.drawScene(frame, {});
-    const auto take = [](ChannelPicture& picture, Shown shown) {
-        return takePicture(picture, PictureBits::Deep16, shown).rgb;
+    const auto taken = [](bool swapped) {
+        Admission admission = admissionInStereo(StereoMode::TopBottom, 0.063, PlaceKind::OpenSea);
+        admission.rig.stereo.swapEyes = swapped;
+        ChannelPicture picture(admission, kMiddle, QualityTier::Low);
+        picture.drawScene(frameWithAFish({0, 0, -1.5}), {});
+        return std::pair{takePicture(picture, PictureBits::Deep16, Shown::LeftEye).rgb,
+                         takePicture(picture, PictureBits::Deep16, Shown::Display).rgb};
     };
-    EXPECT_EQ(take(straight, Shown::LeftEye), take(swapped, Shown::LeftEye));
-    const auto one = take(straight, Shown::Display);
-    const auto other = take(swapped, Shown::Display);
-    const auto half = static_cast<std::ptrdiff_t>(one.size() / 2);
-    EXPECT_TRUE(std::equal(one.begin(), one.begin() + half, other.begin() + half));
-    EXPECT_NE(one, other);
+    const auto [left, display] = taken(false);
+    const auto [leftOfSwapped, swapped] = taken(true);
+    EXPECT_EQ(left, leftOfSwapped);
+    const auto half = static_cast<std::ptrdiff_t>(display.size() / 2);
+    EXPECT_TRUE(std::equal(display.begin(), display.begin() + half, swapped.begin() + half));
+    EXPECT_NE(display, swapped);
 }
 
 TEST_F(StereoPictureTest, aPairAndItsAnaglyphAreTheGoldenOnes) {
