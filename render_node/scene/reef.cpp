@@ -108,6 +108,8 @@ Reef::Reef(const PlaceKey& place, const Quality& quality)
       stir_{gl::makeProgram({"wake.comp"})},
       detail_{makeTexture(rockTile())} {
     glNamedBufferStorage(wake_.name(), kWakeBytes, nullptr, 0);
+    constexpr GLint kStill = 0;  // also for who draws before any fish has passed: the shadows' maps
+    glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
     const Library library = growLibrary();
     std::array<Levels, kRockShapes> rocks;
     std::copy_n(library.begin(), rocks.size(), rocks.begin());
