@@ -41,11 +41,7 @@ files=("${cast[@]/%/.txtpb}")
 build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/}"
 
 # One reef in each of Jerlov's types of water, the clearest first.
-cmake --build build/show --target aquarama_draw_still
-for type in I IA IB II III 1C 3C; do
-    build/show/bin/aquarama_draw_still --quality high --width 360 --height 202 --fov 60 --water "$type" --out "$drawn/$type.png"
-done
-montage "$drawn"/{I,IA,IB,II,III,1C,3C}.png -tile 4x -geometry +3+3 docs/pictures/water_types.png
+montage tests/golden/water/{I,IA,IB,II,III,1C,3C}.png -tile 4x -geometry +3+3 docs/pictures/water_types.png
 
 # Prints the tables of docs/fidelity.md besides.
 build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"
