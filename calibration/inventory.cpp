@@ -48,6 +48,15 @@ std::string lineOf(const Species& species) {
     return line;
 }
 
+std::string lineOfTour(const Scene& scene) {
+    if (!scene.tour) return "submarine: stays at the eye until somebody steers\n";
+    const std::size_t stops = scene.tour->stops.size();
+    return said("submarine: tours %s at %.3g m/s after %.4g s without a hand\n",
+                stops > 0 ? said("%zu stops", stops).c_str() : "round the water",
+                scene.tour->metresPerSecond,
+                scene.idleSeconds);
+}
+
 std::string lineOf(const Day& day) {
     if (day.lengthSeconds <= 0) return said("light: always as at %.3g of a day\n", day.startsAt);
     return said("light: a day of %.4g s, from %.3g on, down to %.3g at midnight\n",
@@ -84,7 +93,7 @@ std::string inventoryOfScene(const std::string& path) {
                  top + size.y,
                  mostFishIn(scene, length));
     text += said("food: %u plankton, %zu drops\n", scene.plankton, scene.drops.size());
-    return text + lineOf(scene.day) + path + ": good\n";
+    return text + lineOfTour(scene) + lineOf(scene.day) + path + ": good\n";
 }
 
 std::string inventoryOfSpecies(const std::string& path) {

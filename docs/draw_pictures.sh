@@ -13,6 +13,10 @@ cmake --build build/show --target aquarama_draw_species
 
 mkdir -p docs/pictures
 
+cmake --build build/show --target aquarama_draw_still
+build/show/bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
+    --out docs/pictures/portraits.png
+
 # The routines as they are seen on the wall.
 while read -r scene frames every; do
     build/show/bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$scene.txtpb" --headless \
@@ -35,6 +39,13 @@ done
 cast=(blacktip_reef_shark trumpetfish parrotfish bigeye_scad blue_tang moorish_idol clownfish)
 files=("${cast[@]/%/.txtpb}")
 build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/}"
+
+# One reef in each of Jerlov's types of water, the clearest first.
+cmake --build build/show --target aquarama_draw_still
+for type in I IA IB II III 1C 3C; do
+    build/show/bin/aquarama_draw_still --quality high --width 360 --height 202 --fov 60 --water "$type" --out "$drawn/$type.png"
+done
+montage "$drawn"/{I,IA,IB,II,III,1C,3C}.png -tile 4x -geometry +3+3 docs/pictures/water_types.png
 
 # Prints the tables of docs/fidelity.md besides.
 build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"

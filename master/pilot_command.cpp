@@ -66,8 +66,7 @@ void pilot(const std::string& address) {
     for (std::string keys; keyboard.read(keys) && !telegraph.ended();) {
         telegraph.press(keys);
         const Steering& held = telegraph.steering();
-        if (held != said || held != Steering{})
-            master.tell(Input{InputKind::Steer, {}, held});
+        if (held != said || held != Steering{}) master.tell(Input{InputKind::Steer, {}, held});
         said = held;
         const auto status = master.ask<StatusReply>(StatusRequest{});
         // On a screen one line that changes, else one after the other.

@@ -40,6 +40,11 @@ ColumnPlace placeOf(int column) {
     return {kDown[k], kAngle[k] * kDegree, isRight ? 1.0F : -1.0F, static_cast<float>(k) / 5};
 }
 
+// The sine or cosine of an ellipse's angle, on a superellipse.
+float superellipse(float circular, float fullness) {
+    return std::copysign(std::pow(std::abs(circular), 2 / fullness), circular);
+}
+
 bool isRidge(int column) {
     return column <= 1 || column == 6 || column == 7;
 }
@@ -84,6 +89,8 @@ CageShape::CageShape(const Species& species)
     : dorsal_(species.profile.stations, species.profile.dorsal),
       ventral_(species.profile.stations, species.profile.ventral),
       halfWidth_(species.profile.stations, species.profile.halfWidth),
+      fullnessUp_(species.profile.stations, species.profile.fullnessUp),
+      fullnessDown_(species.profile.stations, species.profile.fullnessDown),
       firstDorsal_(species.fins.firstDorsal),
       secondDorsal_(species.fins.secondDorsal.value_or(species.fins.firstDorsal)),
       anal_(species.fins.anal),
@@ -141,7 +148,8 @@ CageVertex CageShape::place(const CageSite& site) const {
 }
 
 CageShape::Section CageShape::sectionAt(float s) const {
-    return {dorsal_.at(s), ventral_.at(s), halfWidth_.at(s)};
+    return {
+        dorsal_.at(s), ventral_.at(s), halfWidth_.at(s), fullnessUp_.at(s), fullnessDown_.at(s)};
 }
 
 glm::vec3 CageShape::onNose(int row, int column) const {
@@ -158,6 +166,7 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
                                 : glm::mix(flank_.at(r), belly_.at(r), at.down - 1);
     const Section section = sectionAt(s);
     const float height = at.down < 1 ? section.dorsal : section.ventral;
+    const float fullness = at.down < 1 ? section.fullnessUp : section.fullnessDown;
     // No fin grows from the belly there: it rounds off what the pectoral root takes from the flank.
     if (isPectoralRing(ring) && isRidge(column) && at.down > 1)
         return {s, -0.98F * section.ventral, at.side * 0.3F * section.halfWidth};
@@ -167,8 +176,8 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
                 at.side * std::min(kRidgeHalfWidth, 0.45F * section.halfWidth)};
     if (!isPectoralRoot(ring, column))
         return {s,
-                height * std::sin(at.angle) * kGrow,
-                at.side * section.halfWidth * std::cos(at.angle) * kGrow};
+                height * superellipse(std::sin(at.angle), fullness) * kGrow,
+                at.side * section.halfWidth * superellipse(std::cos(at.angle), fullness) * kGrow};
     return onPectoralRoot(ring, column);
 }
 
@@ -176,11 +185,13 @@ glm::vec3 CageShape::onPectoralRoot(int ring, int column) const {
     const glm::vec2 base = pectoral_.at(pectoralRay(column), 0);
     const float s = base.x + (ring == 5 ? -kRootHalfLength : kRootHalfLength);
     const Section section = sectionAt(s);
-    const float relative = base.y / (base.y > 0 ? section.dorsal : section.ventral);
+    const bool isAbove = base.y > 0;
+    const float relative = std::abs(base.y) / (isAbove ? section.dorsal : section.ventral);
+    const float fullness = isAbove ? section.fullnessUp : section.fullnessDown;
     return {s,
             base.y,
             placeOf(column).side * section.halfWidth *
-                std::sqrt(std::max(0.05F, 1 - relative * relative))};
+                std::pow(std::max(0.05F, 1 - std::pow(relative, fullness)), 1 / fullness)};
 }
 
 // Its rays start where the body ends.
@@ -220,7 +231,7 @@ CageVertex CageShape::onPairedFin(const CageSite& site) const {
     const float q = static_cast<float>(site.level) / static_cast<float>(site.levels);
     const glm::vec2 hinge = glm::normalize(fin.baseRear() - fin.baseFront());
     const glm::vec2 outwards = awayFrom(hinge, fin);
-    const glm::vec2 drawn = fin.at(p, q) - fin.baseFront();
+    const glm::vec2 drawn = fin.paddleAt(p, q) - fin.baseFront();
     const float reach = glm::dot(drawn, outwards);
     const float root = (isPelvic ? 0.35F : 0.97F) * sectionAt(fin.at(0.5F, 0).x).halfWidth;
     // Its root twists by a quarter, so that the front of the root of a fin that points back becomes

@@ -20,6 +20,7 @@ class CageShape {
   private:
     struct Section {
         float dorsal, ventral, halfWidth;
+        float fullnessUp, fullnessDown;
     };
     using RingStations = std::array<float, kBodyEndRing + 1>;
 
@@ -32,7 +33,7 @@ class CageShape {
     [[nodiscard]] CageVertex onMedianFin(const CageSite& site) const;
     [[nodiscard]] CageVertex onPairedFin(const CageSite& site) const;
 
-    MonotoneCurve dorsal_, ventral_, halfWidth_;
+    MonotoneCurve dorsal_, ventral_, halfWidth_, fullnessUp_, fullnessDown_;
     FinPatch firstDorsal_, secondDorsal_, anal_, caudal_, pelvic_, pectoral_;
     bool isOneDorsal_;
     // Rings slant, so that the base of every fin lies on them: their stations on back, flank,

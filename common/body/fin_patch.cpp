@@ -2,6 +2,8 @@
 #include "common/body/fin_patch.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <glm/common.hpp>
 
@@ -38,12 +40,19 @@ FinPatch::FinPatch(const Fin& fin)
       baseY_(sampled(fin.base, 1)),
       edgeS_(sampled(fin.edge, 0)),
       edgeY_(sampled(fin.edge, 1)),
-      angleRadians_(fin.angleRadians) {}
+      angleRadians_(fin.angleRadians),
+      round_(fin.round) {}
 
 glm::vec2 FinPatch::at(float p, float q) const {
     const glm::vec2 base{interpolate(p_, baseS_, p), interpolate(p_, baseY_, p)};
     const glm::vec2 edge{interpolate(p_, edgeS_, p), interpolate(p_, edgeY_, p)};
     return glm::mix(base, edge, q);
+}
+
+glm::vec2 FinPatch::paddleAt(float p, float q) const {
+    const float paddle = 1 + 0.3F * std::sin(std::numbers::pi_v<float> * q) - 0.42F * q * q;
+    const glm::vec2 middle = at(0.5F, q);
+    return middle + glm::mix(1.0F, paddle, round_) * (at(p, q) - middle);
 }
 
 float FinPatch::rayAtStation(float s) const {

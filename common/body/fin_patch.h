@@ -15,6 +15,8 @@ class FinPatch {
     explicit FinPatch(const Fin& fin);
     [[nodiscard]] glm::vec2 at(float p, float q) const;  // (s, y)
     [[nodiscard]] float rayAtStation(float s) const;     // the p whose base is at s
+    // The same of a paddle: as round as the fin is, it is widest at half its length.
+    [[nodiscard]] glm::vec2 paddleAt(float p, float q) const;
     [[nodiscard]] float angleRadians() const { return angleRadians_; }
     [[nodiscard]] glm::vec2 baseFront() const { return at(0, 0); }
     [[nodiscard]] glm::vec2 baseRear() const { return at(1, 0); }
@@ -24,6 +26,7 @@ class FinPatch {
     std::vector<float> p_;
     std::vector<float> baseS_, baseY_, edgeS_, edgeY_;
     float angleRadians_;
+    float round_;
 };
 
 }  // namespace aquarama

@@ -132,9 +132,8 @@ SceneTour readTour(const TextPlace& at, PlaceKind place) {
     if (count > 0 && count < kFewestStops)
         at.refuse("stops", "a closed path needs three stops: add some", 0);
     if (count > kMostStops)
-        at.refuse("stops",
-                  "more than " + std::to_string(kMostStops) + " stops: take fewer",
-                  kMostStops);
+        at.refuse(
+            "stops", "more than " + std::to_string(kMostStops) + " stops: take fewer", kMostStops);
     for (int i = 0; i < count; ++i) tour.stops.push_back(readStop(at.in("stops", i)));
     return tour;
 }

@@ -22,6 +22,8 @@ struct BodyProfile {
     std::vector<float> dorsal;
     std::vector<float> ventral;  // positive
     std::vector<float> halfWidth;
+    // Of the section above and below the axis: the exponent of a superellipse, |z|^n + |y|^n = 1.
+    std::vector<float> fullnessUp, fullnessDown;
 };
 
 // A ruled patch of points (s, y): ray by ray from the base on the body to the edge.
@@ -29,6 +31,7 @@ struct Fin {
     std::vector<glm::vec2> base;
     std::vector<glm::vec2> edge;
     float angleRadians = 0.0F;  // paired fins: how far it stands off the flank
+    float round = 0.0F;         // paired fins: 1 makes a paddle of what is drawn
     float flex = 1.0F;          // median fins and tail: how far it ripples
 };
 

@@ -12,6 +12,7 @@ namespace {
 constexpr Range kStation{0, 1.4};  // threads trail behind the tail
 constexpr float kHead = 0.05F;  // no fin stands before it
 constexpr Range kHeight{-1, 1};
+constexpr Range kFullness{1.4, 3.5};
 constexpr Range kExtent{0.0005, 0.5};  // body lengths; thinner would fold the skin
 
 float real(const TextPlace& at, const std::string& field, Range range) {
@@ -34,6 +35,7 @@ Fin readFin(const TextPlace& fins, const std::string& field) {
     return {.base = readPolyline(at, "base"),
             .edge = readPolyline(at, "edge"),
             .angleRadians = static_cast<float>(radiansOf(at.numberOr("angle_deg", {0, 90}, 0))),
+            .round = static_cast<float>(at.numberOr("round", {0, 1}, 0)),
             .flex = static_cast<float>(at.numberOr("flex", {0, 2}, 1))};
 }
 
@@ -98,6 +100,8 @@ BodyProfile readProfile(const TextPlace& root) {
         profile.dorsal.push_back(real(at, "up", kExtent));
         profile.ventral.push_back(real(at, "down", kExtent));
         profile.halfWidth.push_back(real(at, "half_width", kExtent));
+        profile.fullnessUp.push_back(static_cast<float>(at.numberOr("full_up", kFullness, 2)));
+        profile.fullnessDown.push_back(static_cast<float>(at.numberOr("full_down", kFullness, 2)));
     }
     return profile;
 }

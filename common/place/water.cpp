@@ -112,8 +112,7 @@ void checkRoom(const Scene& scene,
         throw Error(
             placed(scenePath, scene.waterPlace, "the water reaches into the sand: raise it"));
     if (!scene.tour) return;
-    const Region roaming =
-        roamingRegion({scene.water.centre, scene.water.halfExtent}, scene.eye);
+    const Region roaming = roamingRegion({scene.water.centre, scene.water.halfExtent}, scene.eye);
     for (const TourStop& stop : scene.tour->stops) {
         const std::string wrong = wrongWith(scene, roaming, stop);
         if (!wrong.empty()) throw Error(placed(scenePath, stop.place, wrong));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -29,13 +30,14 @@ constexpr float kLastBinding = 0.6F;  // a whip trails behind the body's middle,
 void add(std::vector<StencilEntry>& entries,
          const RestBinding& binding,
          const RestBinding::Weights& weights,
-         float StencilEntry::* component,
+         float StencilEntry::*component,
          float factor = 1) {
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t point = binding.points().at(k);
         const auto found = std::ranges::find(entries, point, &StencilEntry::controlPoint);
-        StencilEntry& entry =
-            found != entries.end() ? *found : entries.emplace_back(StencilEntry{.controlPoint = point});
+        StencilEntry& entry = found != entries.end()
+                                  ? *found
+                                  : entries.emplace_back(StencilEntry{.controlPoint = point});
         entry.*component += factor * weights.at(k);
     }
 }
@@ -87,10 +89,12 @@ class Ball {
     [[nodiscard]] glm::vec3 at(glm::vec2 radii) const {
         const float rho = glm::length(radii);
         const float flat = middle_ + glm::dot(slope_, radii);
-        const float drape = glm::mix(flat, skin(radii), glm::mix(kDraped, 1.0F, std::min(rho, 1.0F)));
+        const float drape =
+            glm::mix(flat, skin(radii), glm::mix(kDraped, 1.0F, std::min(rho, 1.0F)));
         const float dome = std::pow(std::max(1 - rho * rho, 0.0F), 0.6F) * bulge_;
         const float sunk = kSunk * glm::smoothstep(0.96F, 1.12F, rho);
-        return {eye_.x + radii.x * eye_.z, eye_.y + radii.y * eye_.z, drape + (dome - sunk) * eye_.z};
+        return {
+            eye_.x + radii.x * eye_.z, eye_.y + radii.y * eye_.z, drape + (dome - sunk) * eye_.z};
     }
 
   private:
@@ -104,11 +108,16 @@ class Ball {
     glm::vec2 slope_{};
 };
 
-Attachments::Vertex eyeVertex(const Ball& ball, const RestBinding& binding, glm::vec2 at, float side) {
+Attachments::Vertex eyeVertex(const Ball& ball,
+                              const RestBinding& binding,
+                              glm::vec2 at,
+                              float side) {
     constexpr float kStep = 0.04F;
     const glm::vec3 mirror(1, 1, side);
-    const glm::vec3 tailwards = (ball.at(at + glm::vec2(kStep, 0)) - ball.at(at - glm::vec2(kStep, 0)));
-    const glm::vec3 upwards = (ball.at(at + glm::vec2(0, kStep)) - ball.at(at - glm::vec2(0, kStep)));
+    const glm::vec3 tailwards =
+        (ball.at(at + glm::vec2(kStep, 0)) - ball.at(at - glm::vec2(kStep, 0)));
+    const glm::vec3 upwards =
+        (ball.at(at + glm::vec2(0, kStep)) - ball.at(at - glm::vec2(0, kStep)));
     // On the right side up, then tailwards turn outwards: tailwards is -x.
     const glm::vec3 u = mirror * (side > 0 ? upwards : tailwards);
     const glm::vec3 v = mirror * (side > 0 ? tailwards : upwards);
@@ -144,25 +153,45 @@ void addEye(const FishBody& body, const Ball& ball, float side, Attachments& att
     }
 }
 
-// The ripple of the first dorsal fin's margin at p, which a whip passes on.
-void addRipple(const FishBody& body, float p, float gain, std::vector<StencilEntry>& entries) {
+// The margin of the first dorsal fin, from its front.
+std::vector<std::uint32_t> marginOf(const FishBody& body) {
     const auto& vertices = body.cage.vertices;
-    std::size_t nearest = vertices.size();
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (vertices[i].part != CagePart::FirstDorsal || vertices[i].fin.y < 1) continue;
-        if (nearest == vertices.size() ||
-            std::abs(vertices[i].fin.x - p) < std::abs(vertices[nearest].fin.x - p))
-            nearest = i;
-    }
-    const RestBinding binding(body.cage, vertices[nearest].rest.x);
-    add(entries, binding, binding.ofPlace(vertices[nearest].rest), &StencilEntry::position, -gain);
-    entries.push_back({.controlPoint = static_cast<std::uint32_t>(nearest), .position = gain});
+    std::vector<std::uint32_t> margin;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i)
+        if (vertices[i].part == CagePart::FirstDorsal && vertices[i].fin.y == 1 &&
+            vertices[i].rest.z > 0)
+            margin.push_back(i);
+    std::ranges::sort(margin, {}, [&](std::uint32_t i) { return vertices[i].fin.x; });
+    return margin;
 }
 
+// The ripple of the first dorsal fin's margin at p, which a whip passes on.
+void addRipple(const FishBody& body, float p, float gain, std::vector<StencilEntry>& entries) {
+    const std::vector<std::uint32_t> margin = marginOf(body);
+    const auto rayOf = [&](std::size_t k) { return body.cage.vertices[margin[k]].fin.x; };
+    std::size_t k = 0;
+    while (k + 2 < margin.size() && rayOf(k + 1) < p) ++k;
+    const float between = std::max(rayOf(k + 1) - rayOf(k), 1e-3F);
+    const float share = std::clamp((p - rayOf(k)) / between, 0.0F, 1.0F);
+    for (const auto& [point, weight] :
+         {std::pair{margin[k], gain * (1 - share)}, std::pair{margin[k + 1], gain * share}}) {
+        const glm::vec3 rest = body.cage.vertices[point].rest;
+        const RestBinding binding(body.cage, rest.x);
+        add(entries, binding, binding.ofPlace(rest), &StencilEntry::position, -weight);
+        entries.push_back({.controlPoint = point, .position = weight});
+    }
+}
+
+// A curve through the points (Catmull & Rom 1974).
 glm::vec2 along(const std::vector<glm::vec2>& points, float share) {
     const float at = share * static_cast<float>(points.size() - 1);
     const auto k = std::min(static_cast<std::size_t>(at), points.size() - 2);
-    return glm::mix(points[k], points[k + 1], at - static_cast<float>(k));
+    const float t = at - static_cast<float>(k);
+    const glm::vec2 b = points[k], c = points[k + 1];
+    const glm::vec2 a = k == 0 ? 2.0F * b - c : points[k - 1];
+    const glm::vec2 d = k + 2 == points.size() ? 2.0F * c - b : points[k + 2];
+    return 0.5F * (2.0F * b + (c - a) * t + (2.0F * a - 5.0F * b + 4.0F * c - d) * (t * t) +
+                   (3.0F * b - 3.0F * c + d - a) * (t * t * t));
 }
 
 // Where on the first dorsal fin a thread begins.
@@ -179,7 +208,7 @@ float dorsalRayOf(const FishBody& body, glm::vec2 root) {
 }
 
 void addThread(const FishBody& body, const BodyThread& thread, Attachments& attachments) {
-    const std::size_t steps = 3 * (thread.at.size() - 1) / (thread.at.size() > 3 ? 2 : 1);
+    const std::size_t steps = threadSteps(thread);
     const std::size_t first = attachments.vertices.size();
     const float ray = dorsalRayOf(body, thread.at.front());
     for (std::size_t i = 0; i <= steps; ++i) {
@@ -190,8 +219,7 @@ void addThread(const FishBody& body, const BodyThread& thread, Attachments& atta
         const glm::vec2 run = glm::normalize(ahead);
         const float width = 0.5F * glm::mix(thread.rootWidth, thread.tipWidth, share);
         const float depth = std::min(kThreadDepth * width, kMostThreadDepth);
-        const float station =
-            std::min(glm::mix(thread.at.front().x, at.x, 0.5F), kLastBinding);
+        const float station = std::min(glm::mix(thread.at.front().x, at.x, 0.5F), kLastBinding);
         const RestBinding binding(body.cage, station);
         for (std::size_t k = 0; k < kSides; ++k) {
             constexpr std::array<glm::vec2, kSides> kRound{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
@@ -221,6 +249,10 @@ void addThread(const FishBody& body, const BodyThread& thread, Attachments& atta
 }
 
 }  // namespace
+
+std::size_t threadSteps(const BodyThread& thread) {
+    return 2 * (thread.at.size() - 1);
+}
 
 Attachments makeAttachments(const FishBody& body, std::span<const RestTriangle> head) {
     Attachments attachments;

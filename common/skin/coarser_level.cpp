@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "common/skin/face_grid.h"
@@ -18,17 +17,21 @@ Pair ordered(std::uint32_t a, std::uint32_t b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-// The edges that only the two triangles of one quad share. A quad's triangles follow each other.
+// The edges that only the two triangles of one quad share. A quad's triangles follow each other, and
+// those of attachments stand between.
 std::set<Pair> diagonalsOf(const LimitTable& table) {
+    std::vector<std::array<std::uint32_t, 3>> skin;
+    for (std::size_t t = 0; t < table.indices.size(); t += 3) {
+        const std::array triangle{table.indices[t], table.indices[t + 1], table.indices[t + 2]};
+        if (std::ranges::max(triangle) < table.skinVertices) skin.push_back(triangle);
+    }
     std::set<Pair> diagonals;
-    for (std::size_t t = 0; t + 5 < table.indices.size(); t += 6) {
-        const auto one = std::span(table.indices).subspan(t, 3);
-        const auto other = std::span(table.indices).subspan(t + 3, 3);
-        std::array<std::uint32_t, 3> shared{};
-        auto end = shared.begin();
-        for (const std::uint32_t vertex : one)
-            if (std::ranges::find(other, vertex) != other.end()) *end++ = vertex;
-        diagonals.insert(ordered(shared[0], shared[1]));
+    for (std::size_t t = 0; t + 1 < skin.size(); t += 2) {
+        std::vector<std::uint32_t> shared;
+        for (const std::uint32_t vertex : skin[t])
+            if (std::ranges::find(skin[t + 1], vertex) != skin[t + 1].end())
+                shared.push_back(vertex);
+        diagonals.insert(ordered(shared.at(0), shared.at(1)));
     }
     return diagonals;
 }

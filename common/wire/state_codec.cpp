@@ -79,8 +79,7 @@ void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers) {
     const auto& position = eye.positionMetres;
     const auto& rotation = eye.worldFromWall;
     for (const float number : {position.x, position.y, position.z}) numbers.Add(number);
-    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z})
-        numbers.Add(number);
+    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z}) numbers.Add(number);
 }
 
 std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& e) {

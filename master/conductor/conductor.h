@@ -132,7 +132,7 @@ class Conductor {
     Instant lastPublished_{};            // of anything, also of a beacon
     Instant lastRepeat_{};
     Helm helm_;
-    Eye eye_;             // of the last state that was published
+    Eye eye_;              // of the last state that was published
     double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
     float speedMetresPerSecond_ = 0;
     std::optional<Present> lastPresent_;

@@ -37,14 +37,15 @@ int headingDegrees(const Eye& eye) {
 
 std::string submarineText(const StatusReply& status) {
     const glm::vec3 at = status.eye.positionMetres;
-    return fmt::format("at {:.1f} {:.1f} {:.1f} m   depth {:.1f} m   heading {:03}   {:.2f} m/s   {}",
-                       at.x,
-                       at.y,
-                       at.z,
-                       -at.y,
-                       headingDegrees(status.eye),
-                       status.speedMetresPerSecond,
-                       status.pilot.empty() ? "nobody steers" : status.pilot + " steers");
+    return fmt::format(
+        "at {:.1f} {:.1f} {:.1f} m   depth {:.1f} m   heading {:03}   {:.2f} m/s   {}",
+        at.x,
+        at.y,
+        at.z,
+        -at.y,
+        headingDegrees(status.eye),
+        status.speedMetresPerSecond,
+        status.pilot.empty() ? "nobody steers" : status.pilot + " steers");
 }
 
 std::string statusText(const StatusReply& status) {

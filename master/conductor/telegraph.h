@@ -25,7 +25,8 @@ class Telegraph {
 };
 
 inline constexpr std::string_view kTelegraphHelp =
-    "w s ahead, back   a d aside   left right turn   up down rise, sink   r f nose up, down   space "
+    "w s ahead, back   a d aside   left right turn   up down rise, sink   r f nose up, down   "
+    "space "
     "lets go   q leaves";
 
 }  // namespace aquarama

@@ -18,7 +18,7 @@ namespace {
 constexpr float kStemRadiusMetres = 0.15F;         // of a kelp plant with its fronds, as for fish
 constexpr float kFeltMetres = 2;                   // of obstacles: what is farther is not asked
 constexpr float kLeadAwayMetresPerSecond = 0.12F;  // within the stand-off, at most
-constexpr int kPasses = 4;  // where several obstacles meet, each once more
+constexpr int kPasses = 4;                         // where several obstacles meet, each once more
 
 // An obstacle's nearest face: unit vector away from it, and how far from it the hull is.
 struct Face {

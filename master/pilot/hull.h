@@ -12,9 +12,9 @@
 
 namespace aquarama {
 
-inline constexpr float kHullRadiusMetres = 0.5F;     // about the eye: nothing comes nearer to it
-inline constexpr float kStandOffMetres = 0.25F;      // off the hull, where it is pushed back
-inline constexpr float kBrakingMetres = 1.1F;        // a second squared, before an obstacle
+inline constexpr float kHullRadiusMetres = 0.5F;  // about the eye: nothing comes nearer to it
+inline constexpr float kStandOffMetres = 0.25F;   // off the hull, where it is pushed back
+inline constexpr float kBrakingMetres = 1.1F;     // a second squared, before an obstacle
 
 // Where the submarine may go.
 struct Waters {
@@ -28,9 +28,9 @@ struct Waters {
 // How far the hull is from all of it; negative inside something.
 [[nodiscard]] float gapAt(const Waters& waters, glm::vec3 position);
 
-// One tick of movement. What leads at an obstacle is braked in time, so that it comes to rest at the
-// stand-off, and within that it is led away gently. Never ends inside anything that the hull was
-// outside of.
+// One tick of movement. What leads at an obstacle is braked in time, so that it comes to rest at
+// the stand-off, and within that it is led away gently. Never ends inside anything that the hull
+// was outside of.
 void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity);
 
 }  // namespace aquarama

@@ -34,8 +34,7 @@ void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now
     const bool alone = !steered && now >= pilot.autopilotFrom;
     // Where it stays, nothing moves it: not even water that it would be led out of.
     if (!pilot.everSteered && (voyage.stays || !alone)) return;
-    if (alone && !pilot.touring)
-        pilot.along = nearestAlong(voyage.tour, pilot.vessel.position);
+    if (alone && !pilot.touring) pilot.along = nearestAlong(voyage.tour, pilot.vessel.position);
     pilot.touring = alone;
     const Push wanted = steered ? pushOf(pilot.steering)
                         : alone ? followTour(voyage.tour, pilot.vessel, school, pilot.along)

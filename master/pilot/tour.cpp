@@ -15,10 +15,10 @@ namespace {
 constexpr float kFastestMetresPerSecond = 0.6F;
 constexpr float kCorrectionPerSecond = 0.25F;  // of what is missing to the path
 constexpr float kTimeToSpeedSeconds = 2;
-constexpr float kMostThrust = 0.6F;         // of the thrusters'
-constexpr float kFastestLook = 0.14F;       // radians a second
-constexpr float kLookPerSecond = 0.35F;     // of what is missing to the direction
-constexpr float kMostTilt = 0.6F;           // of the steepest pitch
+constexpr float kMostThrust = 0.6F;      // of the thrusters'
+constexpr float kFastestLook = 0.14F;    // radians a second
+constexpr float kLookPerSecond = 0.35F;  // of what is missing to the direction
+constexpr float kMostTilt = 0.6F;        // of the steepest pitch
 // So far behind the place that it makes for, it waits for the submarine wholly.
 constexpr float kWaitsFromMetres = 0.5F;
 constexpr float kWaitsWhollyMetres = 1.5F;
@@ -126,10 +126,8 @@ Push followTour(const Tour& tour, const Vessel& vessel, glm::vec3 school, float&
     const TourPoint point = pointOf(tour, along, school);
     const glm::vec3 missing = point.at - vessel.position;
     const float behind = lengthOf(missing);
-    const float pace =
-        std::clamp((kWaitsWhollyMetres - behind) / (kWaitsWhollyMetres - kWaitsFromMetres),
-                   0.0F,
-                   1.0F);
+    const float pace = std::clamp(
+        (kWaitsWhollyMetres - behind) / (kWaitsWhollyMetres - kWaitsFromMetres), 0.0F, 1.0F);
     const float metresPerStop = lengthOf(point.perStop);
     const glm::vec3 course = directionOf(point.perStop, {}) * (tour.metresPerSecond * pace);
     glm::vec3 wanted = atMost(course + missing * kCorrectionPerSecond, kFastestMetresPerSecond);

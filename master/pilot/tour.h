@@ -24,8 +24,8 @@ struct Tour {
     float metresPerSecond = 0;
 };
 
-// The scene's tour; without stops of its own, round the middle of the water through the eye. A scene
-// without a tour: to its eye, looking along -z.
+// The scene's tour; without stops of its own, round the middle of the water through the eye. A
+// scene without a tour: to its eye, looking along -z.
 [[nodiscard]] Tour tourOf(const Scene& scene);
 
 // Of the path, at a number of stops from the first.

@@ -34,8 +34,8 @@ void turn(Vessel& vessel) {
     settle(kSteepestPitch * vessel.push.tilt, kPitchFrequency, is.pitch, rate.pitch);
     is.pitch = std::clamp(is.pitch, -kSteepestPitch, kSteepestPitch);
     const float speedAhead = dot(vessel.velocity, noseOf(is));
-    const float bank = std::clamp(
-        kBankPerTurn * rate.yaw * speedAhead, -kStrongestBank, kStrongestBank);
+    const float bank =
+        std::clamp(kBankPerTurn * rate.yaw * speedAhead, -kStrongestBank, kStrongestBank);
     settle(bank, kRollFrequency, is.roll, rate.roll);
 }
 

@@ -19,11 +19,11 @@ inline constexpr float kSideThrustNewtons = 800;  // to the side, up and down
 // Drag is a v + b v^2: slow water clings, fast water is pushed away.
 inline constexpr float kDragNewtonsPerSpeed = 720;
 inline constexpr float kDragNewtonsPerSpeedSquared = 400;
-inline constexpr float kFastestTurn = 0.35F;       // radians a second
-inline constexpr float kTurnDamping = 2;           // a second
-inline constexpr float kSteepestPitch = 0.436F;    // 25 degrees
-inline constexpr float kStrongestBank = 0.087F;    // 5 degrees
-inline constexpr float kHandsSlew = 2.5F;          // how fast a push may change, a second
+inline constexpr float kFastestTurn = 0.35F;     // radians a second
+inline constexpr float kTurnDamping = 2;         // a second
+inline constexpr float kSteepestPitch = 0.436F;  // 25 degrees
+inline constexpr float kStrongestBank = 0.087F;  // 5 degrees
+inline constexpr float kHandsSlew = 2.5F;        // how fast a push may change, a second
 
 // What thrusters and rudders give, each -1 to 1; as Steering has them.
 struct Push {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "common/units/error.h"
 #include "render_node/gl/embedded_shaders.h"
@@ -11,6 +12,8 @@
 namespace aquarama::gl {
 
 namespace {
+
+thread_local std::string definitions;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 const EmbeddedShader& embedded(std::string_view name) {
     const auto shaders = embeddedShaders();
@@ -32,12 +35,27 @@ std::string trimmed(std::string log) {
     return log;
 }
 
+// After the #version, which comes first; the lines of the files keep their places.
+void addDefinitions(ShaderText& shader, const std::string& file) {
+    shader.text.insert(shader.text.find('\n') + 1, definitions);
+    const auto lines = static_cast<std::size_t>(std::ranges::count(definitions, '\n'));
+    shader.sources.insert(shader.sources.begin() + 1, lines, {file, 0});
+}
+
 }  // namespace
+
+Definitions::Definitions(std::string lines)
+    : outer_{std::exchange(definitions, std::move(lines))} {}
+
+Definitions::~Definitions() {
+    definitions = std::move(outer_);
+}
 
 ShaderHandle compileShader(const std::string& file,
                            std::span<const Replacement> replacements,
                            const ReadShader& read) {
-    const ShaderText source = expand(file, read, replacements);
+    ShaderText source = expand(file, read, replacements);
+    addDefinitions(source, file);
     const char* text = source.text.c_str();
     ShaderHandle shader{stageOf(file)};
     glShaderSource(shader.name(), 1, &text, nullptr);

@@ -16,6 +16,21 @@ namespace aquarama::gl {
 [[nodiscard]] std::string_view shaderSource(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> shaderNames();  // every embedded file
 
+// While it lives, every program that this thread makes begins with these lines of #define: what a
+// tier leaves out costs nothing, also where a driver runs both sides of every branch.
+class Definitions {
+  public:
+    explicit Definitions(std::string lines);
+    ~Definitions();
+    Definitions(const Definitions&) = delete;
+    Definitions& operator=(const Definitions&) = delete;
+    Definitions(Definitions&&) = delete;
+    Definitions& operator=(Definitions&&) = delete;
+
+  private:
+    std::string outer_;
+};
+
 struct ShaderTraits {
     static unsigned create(GLenum stage) { return glCreateShader(stage); }
     static void destroy(unsigned name) { glDeleteShader(name); }

@@ -6,12 +6,58 @@
 
 namespace aquarama {
 
+namespace {
+
+constexpr LightQuality kMediumLight{.waveTexels = 128,
+                                    .rippleTexels = 128,
+                                    .surfaceTaps = 2,
+                                    .causticLayers = 2,
+                                    .causticTexels = 512,
+                                    .causticCells = 120,
+                                    .shaftTexels = 256,
+                                    .shaftSteps = 32,
+                                    .shadowTexels = 1024,
+                                    .fishShadowTexels = 512,
+                                    .flakes = 14000,
+                                    .isFine = true};
+constexpr LightQuality kHighLight{.waveTexels = 192,
+                                  .rippleTexels = 256,
+                                  .surfaceTaps = 4,
+                                  .causticLayers = 4,
+                                  .causticTexels = 512,
+                                  .causticCells = 160,
+                                  .shaftTexels = 512,
+                                  .shaftSteps = 48,
+                                  .shadowTexels = 2048,
+                                  .fishShadowTexels = 1024,
+                                  .flakes = 20000,
+                                  .isFine = true};
+constexpr LightQuality kUltraLight{.waveTexels = 192,
+                                   .rippleTexels = 256,
+                                   .surfaceTaps = 8,
+                                   .causticLayers = 4,
+                                   .causticTexels = 1024,
+                                   .causticCells = 200,
+                                   .shaftTexels = 768,
+                                   .shaftSteps = 64,
+                                   .shadowTexels = 2048,
+                                   .fishShadowTexels = 1024,
+                                   .flakes = 20000,
+                                   .isFine = true};
+
+}  // namespace
+
+std::string definitionsOf(const LightQuality& light) {
+    return light.isFine ? "#define FINE_LIGHT\n" : "";
+}
+
 Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{
-        Quality{.samples = 1, .placeDetail = 0.42F},
+        Quality{.samples = 1, .light = {}, .placeDetail = 0.42F},
         Quality{.samples = 1,
                 .softening = true,
                 .bloom = true,
+                .light = kMediumLight,
                 .placeDetail = 0.9F,
                 .rockScales = 2,
                 .plantsGiveWay = true,
@@ -21,6 +67,7 @@ Quality qualityOf(QualityTier tier) {
                 .bloom = true,
                 .closeUps = true,
                 .fishFineness = 1.25F,
+                .light = kHighLight,
                 .placeDetail = 1.4F,
                 .rockScales = 3,
                 .plantsGiveWay = true,
@@ -30,6 +77,7 @@ Quality qualityOf(QualityTier tier) {
                 .bloom = true,
                 .closeUps = true,
                 .fishFineness = 1.6F,
+                .light = kUltraLight,
                 .placeDetail = 2.5F,
                 .rockScales = 3,
                 .plantsGiveWay = true,

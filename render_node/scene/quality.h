@@ -2,9 +2,31 @@
 // How much a frame may cost: what each tier of quality buys, in one place.
 #pragma once
 
+#include <string>
+
 #include "common/config/quality.h"
 
 namespace aquarama {
+
+// Of the sunlight in the sea: waves, caustics, shafts, shadows, snow. Texels are of one side.
+struct LightQuality {
+    int waveTexels = 96;
+    int rippleTexels = 64;
+    int surfaceTaps = 1;    // of the surface along a pixel's long side
+    int causticLayers = 1;  // depths at which the net of light is drawn
+    int causticTexels = 256;
+    int causticCells = 72;  // of the light front, a side
+    int shaftTexels = 128;  // of the map of all directions
+    int shaftSteps = 24;    // along a direction
+    int shadowTexels = 64;  // of the place's shadows; drawn where isFine
+    int fishShadowTexels = 128;
+    int flakes = 9000;  // of marine snow
+    // Soft shadows, of fish too; a mirrored reef, clouds, coloured rims of the net of light.
+    bool isFine = false;
+};
+
+// What shaders of the tier begin with: see gl::Definitions.
+[[nodiscard]] std::string definitionsOf(const LightQuality& light);
 
 struct Quality {
     int samples = 1;            // of multisampling
@@ -12,6 +34,7 @@ struct Quality {
     bool bloom = false;         // 18 fetches a pixel, and smaller copies of the picture
     bool closeUps = false;      // fish that fill much of the picture are refined a third time
     float fishFineness = 1.0F;  // of fishes' meshes: detailLimits() of surface/visibility.h
+    LightQuality light;
     // How finely the place is cut: at 1 a facet of a coral fills some 7 of the wall's finest
     // pixels.
     float placeDetail = 1.0F;

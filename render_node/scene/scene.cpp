@@ -23,8 +23,6 @@ namespace aquarama {
 
 namespace {
 
-constexpr int kFlakes = 9000;
-
 // The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
 // sun is mirrored away; what is left then comes from above, and is bluer. Never nothing: a wall
 // that is dark is broken. Exactly 1 at noon.
@@ -32,6 +30,16 @@ glm::vec4 daylightOf(float daylight) {
     const glm::vec4 night{0.02F, 0.16F, 0.24F, 0.36F};
     const float sun = daylight * daylight;
     return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
+}
+
+// Over the submarine's bow. Weak by day near the surface, where it would only flatten what the sun
+// models; stronger where the sun does not reach. In the deep the exposure has risen for what is
+// left of the sun, so the lamp needs as much less power; at night it has not.
+glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
+    const glm::vec3 above{0.0F, 1.0F, 0.0F};
+    const float deep = glm::smoothstep(9.0F, 24.0F, -frame.eyePositionMetres.y);
+    const float power = glm::mix(4.0F, 8.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
+    return {frame.eyePositionMetres + above, power};
 }
 
 // What is the same for all views of a frame.
@@ -43,6 +51,7 @@ FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, floa
         sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
     uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
     uniforms.daylight = daylightOf(frame.daylight);
+    uniforms.lamp = lampOf(frame, uniforms.kdAndExposure.w);
     return uniforms;
 }
 
@@ -68,7 +77,7 @@ struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SchoolSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
-          light{chosen.seed, chosen.water},
+          light{{chosen.seed, chosen.water, quality.light}},
           picture{quality},
           school{cast,
                  {.culling = chosen.culling,
@@ -82,9 +91,11 @@ struct SceneRenderer::Parts {
         if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed, quality);
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
+        if (bottom && quality.light.isFine) bakeShadows();
     }
 
     void setUniforms() const;
+    void bakeShadows();
     void drawSolids(const Viewpoint& viewpoint);
     void drawWater() const;
     void drawSnow() const;
@@ -106,6 +117,22 @@ struct SceneRenderer::Parts {
 void SceneRenderer::Parts::setUniforms() const {
     glNamedBufferSubData(frameBlock.name(), 0, sizeof(uniforms), &uniforms);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock.name());
+}
+
+// Of the place as it stands, as rays of light see it; as fine as the maps' texels.
+void SceneRenderer::Parts::bakeShadows() {
+    constexpr glm::vec4 kFarAboveWithCoarsePixels{0.0F, 30.0F, 0.0F, 0.002F};
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    uniforms.sharedEyeAndPixel = kFarAboveWithCoarsePixels;
+    light.shade().setPlace([&](const glm::mat4& clipFromWorld) {
+        uniforms.clipFromWorld = clipFromWorld;
+        setUniforms();
+        light.bind();
+        bottom->reef.cull({.culling = false, .levelsOfDetail = options.levelsOfDetail});
+        bottom->reef.draw();
+        bottom->ground.draw(
+            Viewpoint{Frustum{clipFromWorld}, kEyePosition, false, options.levelsOfDetail});
+    });
 }
 
 // Near things first, so that what they hide is never shaded.
@@ -131,19 +158,22 @@ void SceneRenderer::Parts::drawSnow() const {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
     glEnable(GL_PROGRAM_POINT_SIZE);
-    glDrawArrays(GL_POINTS, 0, kFlakes);
+    glDrawArrays(GL_POINTS, 0, quality.light.flakes);
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
 }
 
-SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SchoolSpecies> cast)
-    : parts_{std::make_unique<Parts>(options, cast)} {}
+SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SchoolSpecies> cast) {
+    const gl::Definitions tier{definitionsOf(qualityOf(options.quality).light)};
+    parts_ = std::make_unique<Parts>(options, cast);
+}
 
 SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
     parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
+    parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
     parts.school.update(frame.fish);
@@ -151,6 +181,7 @@ void SceneRenderer::update(const SceneFrame& frame) {
     if (parts.bottom)
         parts.bottom->reef.stir(parts.school.fishInRecords(), parts.school.fraction());
     parts.light.update(frame.timeSeconds, frame.eyePositionMetres);
+    parts.light.shade().updateFish(parts.school);
 }
 
 unsigned SceneRenderer::draw(const View& view) {

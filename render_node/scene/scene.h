@@ -30,7 +30,7 @@ struct View {
 struct SceneFrame {
     double timeSeconds = 0;
     glm::vec3 eyePositionMetres{};  // the shared eye: of the submarine, for levels of detail
-    SchoolMoment fish;              // of each species in turn, as many as it has
+    SchoolMoment fish = {};         // of each species in turn, as many as it has
     std::span<const FoodParticle> food = {};
     float daylight = 1.0F;  // of the sky: 1 at noon, towards 0 at night
 };

@@ -10,14 +10,23 @@
 #include <glm/vec4.hpp>
 
 #include "render_node/gl/handle.h"
+#include "render_node/scene/quality.h"
+#include "render_node/scene/sea_shade.h"
 #include "render_node/scene/water_tables.h"
 #include "render_node/scene/waves.h"
 
 namespace aquarama {
 
+struct SeaLightOptions {
+    std::uint32_t seed = 1;
+    WaterType water = WaterType::IB;
+    LightQuality quality;
+    bool calm = false;  // a surface without waves
+};
+
 class SeaLight {
   public:
-    SeaLight(std::uint32_t seed, WaterType water);
+    explicit SeaLight(const SeaLightOptions& options);
 
     // For the frame's uniforms: Kd of the primaries, and the exposure of an eye there.
     [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
@@ -28,26 +37,29 @@ class SeaLight {
     void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
     void bind() const;  // to the units that water.glsl names
 
-    [[nodiscard]] const gl::Texture& causticTile() const { return causticTile_; }
+    [[nodiscard]] SeaShade& shade() { return shade_; }
+    [[nodiscard]] const gl::Texture& causticLayers() const { return causticLayers_; }
     [[nodiscard]] const gl::Texture& shaftMap() const { return shaftMap_; }
 
   private:
     void drawWaves();
     void drawCaustics();
 
-    Waves waves_;
+    LightQuality quality_;
+    Sea sea_;
     WaterSpectra water_;
     Inscatter inscatter_;
     float tableDepthMetres_;
     Table atEye_;
     glm::vec3 primariesKd_;
-    gl::Texture direct_, inscatterTable_, openWater_;
-    gl::Texture waveTile_, causticTile_, shaftMap_;
-    gl::Framebuffer waveTarget_, causticTarget_, shaftTarget_;
+    gl::Texture direct_, inscatterTable_, openWater_, cloudTile_;
+    gl::Texture waveTile_, rippleTile_, causticLayers_, shaftMap_;
+    gl::Framebuffer waveTarget_, rippleTarget_, causticTarget_, shaftTarget_;
     gl::ProgramHandle waveProgram_, causticProgram_, shaftProgram_;
     gl::Buffer seaBlock_, causticIndices_;
     gl::VertexArray empty_, causticGrid_;
     int causticIndexCount_ = 0;
+    SeaShade shade_;
 };
 
 }  // namespace aquarama

@@ -106,9 +106,9 @@ double eyePlace(double depth) {
 
 // Straight between a mean of near sand and the water beyond it, in their logarithms.
 double exposureOf(const WaterSpectra& water, double eyeDepth) {
-    constexpr double kKey = 0.165, kWater = 0.6;
+    constexpr double kKey = 0.124, kWater = 0.6;
     constexpr double kDusk = 0.018;  // the deep is darker, 1/m
-    constexpr double kSandAway = 5.0, kSandBelow = 2.0, kSandAlbedo = 0.4;
+    constexpr double kSandAway = 5.0, kSandBelow = 5.0, kSandAlbedo = 0.4;
     const double lit = eyeDepth - filterDepthMetres(eyeDepth);
     const glm::dvec3 sand = transmitted(water, kSandAway, lit + kSandBelow) * glm::dvec3{1.0};
     const glm::dvec3 across =
@@ -124,8 +124,9 @@ double exposureOf(const WaterSpectra& water, double eyeDepth) {
 }  // namespace
 
 double filterDepthMetres(double eyeDepthMetres) {
-    constexpr double kMost = 22.0, kGrowth = 23.0;
-    return kMost * (1.0 - std::exp(-std::max(eyeDepthMetres, 0.0) / kGrowth));
+    constexpr double kMost = 21.0;
+    const double depth = std::max(eyeDepthMetres, 0.0);
+    return depth / std::hypot(1.0, depth / kMost);
 }
 
 Table bakeDirect(const WaterSpectra& water) {

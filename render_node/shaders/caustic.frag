@@ -1,9 +1,9 @@
 // Light is kept: as an area shrinks it brightens.
+layout(location = 2) uniform float texelMetres;
 layout(location = 0) in vec2 before;
 layout(location = 0) out float light;
-const float kTexelArea = (12.0 / 256.0) * (12.0 / 256.0);
-const float kSharpest = 20.0;  // the sun's disc has a width: no focus is infinitely bright
+const float kSharpest = 32.0;  // the sun's disc has a width: no focus is infinitely bright
 void main() {
     vec2 a = dFdx(before), b = dFdy(before);
-    light = min(abs(a.x * b.y - a.y * b.x) / kTexelArea, kSharpest);
+    light = min(abs(a.x * b.y - a.y * b.x) / (texelMetres * texelMetres), kSharpest);
 }

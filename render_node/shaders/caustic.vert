@@ -1,24 +1,24 @@
-// A grid over the surface, moved to where the refracted sun carries it on the sand, less the mean
+// A grid over the surface, moved to where the refracted sun carries it at one depth, less the mean
 // shift: so the tile is indexed by where the straight ray meets the surface.
 #include "frame_uniforms.h"
 layout(binding = 13) uniform sampler2D waveTile;
+layout(location = 0) uniform float receiverMetres;
+layout(location = 1) uniform int cells;
 layout(location = 0) out vec2 before;
-const int kCells = 72;       // as in sea_light.cpp
-const float kMargin = 0.10;  // of the tile: light that comes in over the edge
-const float kReceiverMetres = 8.6;
+const float kMargin = 0.12;  // of the tile: light that comes in over the edge
 const float kTileMetres = 12.0;
 const float kIndex = 1.335;
 void main() {
-    ivec2 corner = ivec2(gl_VertexID % (kCells + 1), gl_VertexID / (kCells + 1));
-    vec2 place = (vec2(corner) / float(kCells) * (1.0 + 2.0 * kMargin) - kMargin) * kTileMetres;
+    ivec2 corner = ivec2(gl_VertexID % (cells + 1), gl_VertexID / (cells + 1));
+    vec2 place = (vec2(corner) / float(cells) * (1.0 + 2.0 * kMargin) - kMargin) * kTileMetres;
     vec3 wave = textureLod(waveTile, place / kTileMetres, 0.0).xyz;
     vec3 normal = normalize(vec3(-wave.x, 1.0, -wave.y));
     vec3 sun = sunAndFilterDepth.xyz;
     vec2 across = sun.xz * kIndex;  // of the sun in the air
     vec3 sunInAir = vec3(across.x, sqrt(max(1.0 - dot(across, across), 0.05)), across.y);
     vec3 ray = refract(-sunInAir, normal, 1.0 / kIndex);
-    vec2 hit = place + ray.xz / max(-ray.y, 0.1) * (kReceiverMetres + wave.z) +
-               sun.xz / sun.y * kReceiverMetres;
+    vec2 hit = place + ray.xz / max(-ray.y, 0.1) * (receiverMetres + wave.z) +
+               sun.xz / sun.y * receiverMetres;
     before = place;
     gl_Position = vec4(hit / kTileMetres * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -7,6 +7,8 @@ layout(location = 0) in vec4 vertexRest;
 layout(location = 1) in vec2 vertexFin;
 layout(location = 2) in uint vertexPart;
 layout(location = 3) in uint slot;  // of the instance: its place in the school
+layout(location = 4) in vec4 coarserRest;  // what is painted where the coarser level has it
+layout(location = 5) in vec2 coarserFin;
 
 layout(location = 0) out vec3 place;   // world, metres
 layout(location = 1) out vec3 normal;
@@ -16,21 +18,23 @@ layout(location = 4) flat out uint part;
 layout(location = 5) flat out uint id;
 layout(location = 6) flat out vec3 dorsal;  // the fish's own up, in the world
 layout(location = 7) out float opacity;     // 1 but where a level of detail fades
+layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
 
 // Of DetailLevel, and of CagePart.
-const uint kControlMesh = 3u, kPelvic = 5u;
+const uint kControlMesh = 3u, kMesh = 4u, kPelvic = 5u;
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
     place = uintBitsToFloat(vertex.xyz);
     normal = unpackNormal(vertex.w);
-    rest = vertexRest;
-    fin = vertexFin;
+    rest = mix(coarserRest, vertexRest, fish[slot].blend);
+    fin = mix(coarserFin, vertexFin, fish[slot].blend);
     part = vertexPart;
     id = fish[slot].id;
     dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));
     // Few triangles have no paired fins.
     bool grows = fish[slot].detail == kControlMesh && vertexPart >= kPelvic;
     opacity = grows ? fish[slot].blend : 1.0;
+    nearness = fish[slot].detail == kMesh ? fish[slot].blend : 1.0;
     gl_Position = clipFromWorld * vec4(place, 1.0);
 }

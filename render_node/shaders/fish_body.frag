@@ -7,15 +7,20 @@
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest;
+layout(location = 4) flat in uint part;
 layout(location = 5) flat in uint id;
 layout(location = 6) flat in vec3 dorsal;
+layout(location = 8) flat in float nearness;  // 0: as fish_far.frag has it
 layout(location = 0) out vec4 colour;
 
 void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
     SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id);
-    Skin skin = groundOf(at);
+    Skin far = groundOf(at);
+    Skin skin = far;
     addDetails(skin, at);
+    skin.albedo = mix(far.albedo, skin.albedo, nearness);
+    skin.silver = mix(far.silver, skin.silver, nearness);
 
     vec3 toEye = normalize(eyeAndTime.xyz - place);
     vec3 skinNormal = normalize(normal);
@@ -24,25 +29,26 @@ void main() {
     vec3 upwards = normalize(dorsal - dot(dorsal, skinNormal) * skinNormal + 1.0e-6);
     vec3 look = vec3(dot(toEye, tailwards), dot(toEye, upwards), dot(toEye, skinNormal));
     // Towards the outline scales are seen edge on: their tilts fade before they sparkle.
-    float outline = smoothstep(0.05, 0.40, look.z);
+    float outline = nearness * smoothstep(0.05, 0.40, look.z);
     skin.tilt *= outline;
     skin.flicker *= outline;
-    float eye = paintEye(skin, at, kIris, look);
-    skin.albedo = min(skin.albedo * tintOf(id), vec3(1.0));
+    skin.albedo = wetAlbedo(skin.albedo, id);
+    float eye = paintEye(skin, at, kIris, part == kEye ? 0.3 : 0.85, look);
 
     vec3 n = normalize(skinNormal + skin.tilt.x * tailwards + skin.tilt.y * upwards);
     float facing = clamp(dot(n, toEye), 0.0, 1.0);
-    skin.albedo = iridescent(skin.albedo, skin.iridescence, facing);
+    skin.albedo = iridescent(skin.albedo, nearness * skin.iridescence, facing);
     vec3 radiance = litSkin(skin, place, n);
 
-    vec3 flickering = skinNormal + (0.35 * skin.tilt.x + 0.10 * skin.flicker.x) * tailwards +
-                      (0.35 * skin.tilt.y + 0.10 * skin.flicker.y) * upwards;
+    vec3 flickering = skinNormal + (0.35 * skin.tilt.x + 0.16 * skin.flicker.x) * tailwards +
+                      (0.35 * skin.tilt.y + 0.36 * skin.flicker.y) * upwards;
     vec3 plate = plateletNormal(normalize(flickering), dorsal, toEye);
     // One look into the mirror serves platelets where there are some, and the wet skin elsewhere.
-    vec3 facet = normalize(mix(n, plate, skin.silver));
-    vec3 shown = max(mirrored(reflect(-toEye, facet), place), 0.0);
-    float silver = skin.silver * smoothstep(0.0, 0.25, look.z);
-    radiance = mix(radiance, silvered(shown, facet, skin.albedo, place, facing), silver);
-    radiance += sheenOf(shown, skin.gloss, facing, n.y, pixel) + eye * cornea(shown, facing);
+    vec3 facet = normalize(mix(n, plate, mix(1.0, skin.silver, nearness)));
+    vec3 shown = around(reflect(-toEye, facet), place);
+    float silver = skin.silver * smoothstep(0.0, 0.06, look.z);
+    radiance = underSilver(radiance, silvered(shown, facet, skin.albedo, place, facing), silver);
+    radiance += nearness * (sheenOf(shown, skin.gloss, facing, n.y, pixel) +
+                            eye * cornea(reflect(-toEye, n), facing));
     colour = vec4(seen(radiance, place), 1.0);
 }

@@ -19,18 +19,18 @@ void main() {
     float eye = falling(1.0 - soft, 1.0 + soft, d);
     float pupil = falling(kIris.pupil - soft, kIris.pupil + soft, d);
     skin.albedo = mix(skin.albedo, kIris.colour * (0.85 - 0.80 * pupil), eye);
-    skin.albedo = min(skin.albedo * tintOf(id), vec3(1.0));
+    skin.albedo = wetAlbedo(skin.albedo, id);
     skin.silver *= 1.0 - eye;
 
     vec3 toEye = normalize(eyeAndTime.xyz - place);
     vec3 n = normalize(normal);
     float facing = clamp(dot(n, toEye), 0.0, 1.0);
     vec3 radiance = litSkin(skin, place, n);
-    float silver = skin.silver * smoothstep(0.0, 0.25, facing);
+    float silver = skin.silver * smoothstep(0.0, 0.06, facing);
     if (silver > 0.0) {
         vec3 plate = plateletNormal(n, dorsal, toEye);
-        vec3 shown = max(mirrored(reflect(-toEye, plate), place), 0.0);
-        radiance = mix(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
+        vec3 shown = around(reflect(-toEye, plate), place);
+        radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
     colour = vec4(seen(radiance, place), opacity);
 }

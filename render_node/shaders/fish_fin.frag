@@ -21,8 +21,8 @@ float rayAt(Fin made, float pixel) {
     float single = abs(acrossRays(fin.x, made.rays));
     float forked = max(single, abs(acrossRays(fin.x, 2.0 * made.rays)));
     float forks = smoothstep(0.40, 0.85, fin.y) * step(made.spined, fin.x);
-    float ray = smoothstep(0.55, 0.95, mix(single, forked, forks));
-    return mix(ray, 0.25, clamp(2.5 * pixel - 0.4, 0.0, 1.0));
+    float ray = smoothstep(0.70, 0.97, mix(single, forked, forks));
+    return mix(ray, 0.15, clamp(2.5 * pixel - 0.4, 0.0, 1.0));
 }
 
 void main() {
@@ -33,6 +33,7 @@ void main() {
     // A membrane is flat: its normal is its triangle's, and the small terms keep it from vanishing.
     vec3 facet = normalize(cross(dFdx(place), dFdy(place)) + 1.0e-14 * normal);
     if (dot(facet, fromEye) > 0.0) facet = -facet;
+    float throughIt = max(-dot(facet, fromEye), 0.12);
     float under = smoothstep(0.05, -0.15, dot(facet, dorsal));
     // Median fins stand upright, also where a far one's triangles are thinner than a pixel.
     if (!isPaired) facet -= 0.85 * dot(facet, dorsal) * dorsal;
@@ -45,11 +46,13 @@ void main() {
     // The edge of a membrane is thin and clear, its rays are bone.
     made.albedo *= (1.05 - 0.15 * fin.y) * (1.0 - made.ribbing * ray);
     made.opacity = clamp(made.opacity - (isFleshy ? 0.0 : 0.10 * fin.y) + 0.25 * ray, 0.0, 1.0);
+    // Seen from its edge one looks the longer way through it.
+    made.opacity = 1.0 - pow(1.0 - made.opacity, 1.0 / throughIt);
     // At its root a fin is muscle under the skin; those of the paired fins reach further out.
-    float reach = isPaired ? 0.36 : (part == kCaudal ? 0.20 : 0.12);
-    float grown = smoothstep(isPaired ? 0.08 : 0.0, reach, fin.y);
+    float reach = isPaired ? mix(0.55, 0.20, made.opacity) : 0.12;
+    float grown = smoothstep(0.0, reach, fin.y);
     Skin skin = root;
-    skin.albedo = min(mix(root.albedo, made.albedo, grown) * tintOf(id), vec3(1.0));
+    skin.albedo = wetAlbedo(mix(root.albedo, made.albedo, grown), id);
 
     vec3 n = mix(normalize(normal), facet, grown);
     // Rays stand out like ribs.
@@ -67,8 +70,10 @@ void main() {
     if (silver > 0.0) {
         float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
         vec3 plate = plateletNormal(n, dorsal, -fromEye);
-        vec3 shown = max(mirrored(reflect(fromEye, plate), place), 0.0);
-        radiance = mix(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
+        vec3 shown = around(reflect(fromEye, plate), place);
+        radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
-    colour = vec4(seen(radiance, place), opacity * mix(1.0, made.opacity, grown));
+    // Behind the root of a paired fin the body is open: that part is never clear.
+    float clear = isPaired ? smoothstep(0.30, 0.60, fin.y) : smoothstep(0.0, 2.0 * reach, fin.y);
+    colour = vec4(seen(radiance, place), opacity * mix(1.0, made.opacity, clear));
 }

@@ -4,17 +4,33 @@
 #include "light.glsl"
 #include "skin.glsl"
 
+// The palettes are those of plates in daylight, drawn for paper: under water skin is darker by this.
+const float kWet = 0.66;
+vec3 wetAlbedo(vec3 albedo, uint id) { return min(kWet * albedo * tintOf(id), vec3(1.0)); }
+
 // Light goes a little way through skin, so that the border of its shadow is soft: the sun's
-// cosine c becomes (c + w) / |n + w s|.
+// cosine c becomes (c + w) / |n + w s|. What looks down has the fish's own shadow below it, and
+// sees less of the lit sand.
 vec3 litSkin(Skin skin, vec3 place, vec3 n) {
     vec3 wrapped = normalize(n + 0.35 * skin.soft * sunAndFilterDepth.xyz);
-    return lit(skin.albedo, place, wrapped, 0.10 * skin.soft);
+    float open = mix(0.55, 1.0, smoothstep(-1.0, 0.6, n.y));
+    return lit(skin.albedo, place, wrapped, 0.10 * skin.soft) * open;
+}
+
+// What a mirror in the skin shows: the open water and the surface; over a sea floor, towards the level
+// and below, more and more of the sunlit sand and rock.
+const float kBottomAlbedo = 0.30;
+vec3 around(vec3 direction, vec3 place) {
+    float share = unscatteredShare(max(-place.y, 0.1));
+    vec3 light = 0.8 * share * daylight.x + (1.0 - share) * daylight.yzw;
+    float bottomShare = 0.85 * bottom.x * smoothstep(0.30, -0.40, direction.y);
+    return mix(max(mirrored(direction, place), 0.0), light * (kBottomAlbedo / kPi), bottomShare);
 }
 
 // Stacks of guanine platelets hang upright whatever the curve of the skin (Denton 1970), so that a
 // flank shows the level water around it: it vanishes, and flashes when the fish rolls. A platelet
 // that would face away is seen by its other side.
-const float kUpright = 0.74;
+const float kUpright = 0.78;
 vec3 plateletNormal(vec3 skinNormal, vec3 dorsal, vec3 toEye) {
     vec3 plate = skinNormal - kUpright * dot(skinNormal, dorsal) * dorsal;
     float behind = min(dot(plate, toEye), 0.0);
@@ -35,10 +51,15 @@ vec3 iridescent(vec3 albedo, float amount, float facing) {
 // A platelet that faces the lamp gives its light back at once. They stand at all angles about the
 // upright axis, so some do.
 vec3 lampFlash(vec3 plate, vec3 place) {
-    vec3 toLamp = normalize(eyeAndTime.xyz - place);
+    vec3 toLamp = normalize(lamp.xyz - place);
     float c = max(dot(plate, toLamp), 0.0);
     c *= c; c *= c; c *= c; c *= c;
-    return lampLight(place, toLamp) * (0.10 * c * c);
+    return lampLight(place, toLamp) * (0.04 * c * c);
+}
+
+// What the platelets let through, the flesh below swallows: the more silver, the darker it is.
+vec3 underSilver(vec3 matte, vec3 mirror, float silver) {
+    return mirror * silver + matte * ((1.0 - silver) * (1.0 - 0.85 * silver));
 }
 
 // What a mirror of platelets sends to the eye. shown: what lies where it points.
@@ -55,10 +76,13 @@ vec3 sheenOf(vec3 shown, float gloss, float facing, float up, float pixel) {
     return min(shown * (wet * (0.6 + 0.4 * up)), vec3(0.10 * resolved));
 }
 
-// The cornea mirrors the bright window above and the sun: more than that of a real eye, which is
+// The cornea mirrors Snell's window above and the sun in it: more than that of a real eye, which is
 // nearly as dense as water, but eyes without a catch light look dead.
-vec3 cornea(vec3 shown, float facing) {
+vec3 cornea(vec3 direction, float facing) {
+    float towardsSun = dot(direction, sunAndFilterDepth.xyz) - 1.0;
+    float window = 0.09 * smoothstep(0.86, 0.93, direction.y);
     float grazing = 1.0 - facing;
-    return min(shown * (0.10 + 0.5 * grazing * grazing * grazing), vec3(0.25));
+    float share = 0.8 + 2.0 * grazing * grazing * grazing;
+    return share * (window * daylight.yzw + 0.8 * exp(110.0 * towardsSun) * daylight.x);
 }
 #endif

@@ -9,7 +9,7 @@ layout(location = 0) out vec4 radiance;
 const float kTile = 2.6;
 const float kRubbleTile = 1.3;
 const float kShadeSide = 72.0;
-const vec3 kSand = vec3(0.50, 0.44, 0.35);
+const vec3 kSand = vec3(0.44, 0.39, 0.31);
 void main() {
     vec4 fine = texture(detail, place.xz / kTile);
     // A second look, larger and turned, so that the tile is not seen to repeat.
@@ -34,5 +34,10 @@ void main() {
         sky *= mix(1.0, 0.35 + 0.8 * stones.w, lies);
     }
     vec3 n = normalize(normal - vec3(slope.x, 0.0, slope.y));
-    radiance = vec4(seen(litUnder(Openness(open.r, sky), albedo, place, n, 0.0), place), 1.0);
+    Openness openness = Openness(open.r, sky);
+    if (kFine) {
+        openness = openAt(place, normal);
+        openness.sky *= sky / max(open.g, 0.01);
+    }
+    radiance = vec4(seen(litUnder(openness, albedo, place, n, 0.0), place), 1.0);
 }

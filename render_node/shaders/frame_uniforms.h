@@ -23,8 +23,11 @@ layout(std140, binding = 0) uniform FrameUniforms {
     vec4 viewport;           // width, height in pixels, 1/width, 1/height
     vec4 daylight;           // what there is of noon's light: of the sun's (x), and of the sky's
                              // red, green and blue (yzw)
+    vec4 lamp;               // the submarine's floodlight in world metres; w: its power at 1 m, the
+                             // sun's at the surface being 1
     vec4 kdAndExposure;      // Kd of the three primaries where the filter looks, 1/m; w: what light
                              // is multiplied by before the tone
+    vec4 bottom;             // x: 1 over a sea floor, 0 in the open sea
 #ifdef __cplusplus
 };
 }  // namespace aquarama

@@ -57,5 +57,9 @@ Grown grown() {
     float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.light.z));
     float own = albedoAndSky.w;
     it.open = Openness(one.light.x * mix(0.35, 1.0, own), one.light.y * own * contact);
+    if (kFine) {
+        Openness mapped = openAt(it.place, it.normal);
+        it.open = Openness(min(it.open.sun, mapped.sun), min(it.open.sky, mapped.sky));
+    }
     return it;
 }

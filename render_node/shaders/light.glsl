@@ -11,7 +11,8 @@ vec3 litUnder(Openness open, vec3 albedo, vec3 place, vec3 normal, float translu
     return litAt(log2(1.0 + footprint), open, albedo, place, normal, translucency);
 }
 
+// What swims, past other fish.
 vec3 lit(vec3 albedo, vec3 worldPosition, vec3 normal, float translucency) {
-    return litUnder(Openness(1.0, 1.0), albedo, worldPosition, normal, translucency);
+    return litUnder(pastFish(worldPosition), albedo, worldPosition, normal, translucency);
 }
 #endif

@@ -11,12 +11,12 @@ inline constexpr float
 const float
 #endif
     // Water scatters by sigma = 0.0016 sqrt(r) rad over r metres; taps go to two sigma.
-    kScatterSigma = 0.0016,
-    kScatterMostSigma = 0.0080,
+    kScatterSigma = 0.0016F,
+    kScatterMostSigma = 0.0080F,
     // The glow about what is bright: rings of taps of so wide a mean.
-    kBloomNear = 0.0035,
-    kBloomFar = 0.0095,
-    kPostReach = 0.0170;
+    kBloomNear = 0.0035F,
+    kBloomFar = 0.0095F,
+    kPostReach = 0.0170F;
 #ifdef __cplusplus
 }  // namespace aquarama
 #endif

@@ -28,14 +28,14 @@ vec3 pairOf(bool right, ivec2 first, ivec2 step) {
 
 void main() {
     ivec2 pixel = projectorPixel();
-    ivec2 half_ = size / 2;
+    ivec2 halves = size / 2;
     if (mode == kSideBySide) {
-        bool right = pixel.x >= half_.x;
-        ivec2 own = ivec2(pixel.x % half_.x, pixel.y);
+        bool right = pixel.x >= halves.x;
+        ivec2 own = ivec2(pixel.x % halves.x, pixel.y);
         encoded = finished(pairOf(right, own * ivec2(2, 1), ivec2(1, 0)), own);
     } else if (mode == kTopBottom) {
-        bool right = pixel.y >= half_.y;
-        ivec2 own = ivec2(pixel.x, pixel.y % half_.y);
+        bool right = pixel.y >= halves.y;
+        ivec2 own = ivec2(pixel.x, pixel.y % halves.y);
         encoded = finished(pairOf(right, own * ivec2(1, 2), ivec2(0, 1)), own);
     } else if (mode == kInterlaced) {
         encoded = finished(eyesLight(pixel.y % 2 == 1, pixel), pixel);

@@ -46,5 +46,9 @@ void main() {
     vec3 colour = rockColour(mottle, tone, patches, middle.tone.y);
     colour = mix(colour, sponge, 0.8 * smoothstep(0.86, 0.94, patches + 0.15 * (fine.tone.y - 0.5)) * step(n.y, 0.6));
     Openness openness = Openness(open.x * mix(0.6, 1.0, pits), open.y * pits);
+    if (kFine) {
+        Openness mapped = openAt(place, normalize(normal));
+        openness = Openness(min(openness.sun, mapped.sun), min(openness.sky, mapped.sky));
+    }
     radiance = vec4(seen(litUnder(openness, colour * tint, place, n, 0.0), place), 1.0);
 }

@@ -2,9 +2,21 @@
 #ifndef SEA_NOW_GLSL
 #define SEA_NOW_GLSL
 layout(std140, binding = 1) uniform SeaNow {
-    vec4 waves[32];    // k.x, k.z, amplitude, phase
-    vec4 swellPhases;  // of the long and the short swell, and of two flutters, rad
+    vec4 waves[32];     // k.x, k.z, amplitude, phase
+    vec4 ripples[32];   // the same, much shorter
+    vec4 longWaves[4];  // the same, longer than the tile
+    vec4 swellPhases;   // of the long and the short swell, and of two flutters, rad
+    vec4 causticAxis;    // see waves.h
+    vec4 surfaceDetail;
+    vec4 fishWindow;
 };
+
+// Tiers that can pay for it: soft shadows of several reaches, a mirrored reef, clouds, dispersion.
+#ifdef FINE_LIGHT
+const bool kFine = true;
+#else
+const bool kFine = false;
+#endif
 
 // How far the swell has carried the water at a place, metres: deep-water waves of 7 and 4.3 s,
 // whose orbits shrink with depth, and a flutter.

@@ -3,22 +3,19 @@
 #define SHADING_GLSL
 #include "water.glsl"
 
-// How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
-struct Openness {
-    float sun;
-    float sky;
-};
-
-// The submarine's own floodlight, at the eye: near things show the reds that the sea has taken from
-// the sun. Power relative to the sun at the surface, at 1 m; attenuation of the three primaries, 1/m.
-const float kLampPower = 8.0;
+// The submarine's own floodlights, either side of the eye, bring back the reds that the sea has taken
+// from the sun. They fall off with the square of the distance and by the water on their way. Their
+// beams cross a few metres ahead, so that what swims at the glass is not burnt white: metres within
+// which they pass by; attenuation of the three primaries, 1/m.
+const float kLampCrossing = 2.45;
 const vec3 kLampAttenuation = vec3(0.28, 0.075, 0.045);
 vec3 lampLight(vec3 place, vec3 normal) {
-    vec3 way = eyeAndTime.xyz - place;
+    vec3 way = lamp.xyz - place;
     float range2 = dot(way, way), range = sqrt(range2);
     float facing = 0.15 + 0.85 * max(dot(normal, way) / range, 0.0);
+    float crossed = range2 / (range2 + kLampCrossing * kLampCrossing);
     return vec3(1.0, 0.93, 0.82) * exp(-kLampAttenuation * range) *
-           (kLampPower * facing / (range2 + 2.0));
+           (lamp.w * facing * crossed * crossed / (range2 + 1.0));
 }
 
 // Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the
@@ -28,7 +25,7 @@ vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float
     float depth = max(-place.y, 0.1);
     float share = unscatteredShare(depth);
     float towardsSun = dot(normal, sunAndFilterDepth.xyz);
-    float sun = share * open.sun * caustic(place, lod) * daylight.x;
+    vec3 sun = causticColour(place, lod) * (share * open.sun * daylight.x);
     vec3 sky = (1.0 - share) * open.sky * daylight.yzw;
     vec3 sand = 0.6 * open.sky * (0.5 * (daylight.x + daylight.yzw));
     float up = 0.5 + 0.5 * normal.y;

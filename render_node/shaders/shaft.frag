@@ -1,11 +1,13 @@
 // How much more or less than the mean the sun lights the water before 3, 8, 18 and 45 m along each
-// direction. Never added light: a weighted mean of the caustics on the way.
+// direction. Never added light: a weighted mean of the caustics on the way, less what rock and fish
+// keep away.
 #include "water.glsl"
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 upTo;
+layout(location = 0) uniform int texels;
+layout(location = 1) uniform int steps;
 
-const float kGain = 2.3;
-const int kSteps = 26;
+const float kGain = 2.2;
 
 vec3 directionOf(vec2 p) {
     // Beyond the edge the map goes on at the mirrored place: one texel of border for the filter.
@@ -17,23 +19,35 @@ vec3 directionOf(vec2 p) {
     return normalize(d);
 }
 
+// At a place, of the light's mean there. apart: how far from one step to the next the rays of the sun
+// come through the surface: the net is blurred by as much, or steps would show as clouds. Towards the
+// sun they come through one place, and shafts are sharp.
+float lightAt(vec3 place, float range, float apart) {
+    float depth = -place.y;
+    float spread = 0.06 + range * (4.0 / float(texels)) + 0.35 * apart;
+    float lod = log2(spread * (256.0 / kTileMetres));
+    float gathered = net(surfacePoint(place), depth, lod) - 1.0;
+    float light = max(1.0 + kGain * gathered * exp(-0.022 * depth), 0.0);
+    if (!kFine) return light;
+    vec2 fishUv = fishPlace(place);
+    if (all(lessThan(abs(fishUv - 0.5), vec2(0.49)))) light *= pastFish(fishUv, place.y, 1.5);
+    return light * sunPast(place);
+}
+
 void main() {
-    vec3 direction = directionOf((uv * 2.0 - 1.0) * (kShaftTexels / (kShaftTexels - 2.0)));
+    vec3 direction = directionOf((uv * 2.0 - 1.0) * (float(texels) / float(texels - 2)));
     vec3 eye = eyeAndTime.xyz;
+    float drift = length(surfacePoint(direction));
     vec4 sums = vec4(0.0), weights = vec4(1.0e-5);
-    for (int i = 0; i < kSteps; ++i) {
-        float x = (float(i) + 0.5) / float(kSteps);
+    for (int i = 0; i < steps; ++i) {
+        float x = (float(i) + 0.5) / float(steps);
         float range = 45.0 * x * x * (0.35 + 0.65 * x);
         float stride = 45.0 * (0.7 * x + 1.95 * x * x);
         vec3 place = eye + direction * range;
-        float depth = -place.y;
-        if (depth < 0.0) break;
-        vec2 tile = (place.xz + sunAndFilterDepth.xz / sunAndFilterDepth.y * depth) / kTileMetres;
-        float light = textureLod(causticTile, tile, 1.4 + 0.06 * range).r - 1.0;
-        light = 1.0 + kGain * light * (1.0 - exp(-0.5 * depth)) * exp(-0.022 * depth);
+        if (place.y > 0.0) break;
         float weight = stride * exp(-0.075 * range);
         vec4 within = step(vec4(range), vec4(3.0, 8.0, 18.0, 45.0)) * weight;
-        sums += within * max(light, 0.0);
+        sums += within * lightAt(place, range, stride / float(steps) * drift);
         weights += within;
     }
     upTo = (sums + 1.0e-5) / weights;

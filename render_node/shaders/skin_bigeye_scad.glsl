@@ -3,8 +3,8 @@
 #define SKIN_BIGEYE_SCAD_GLSL
 #include "skin_anatomy.glsl"
 
-const Iris kIris = Iris(vec3(0.56, 0.53, 0.42), vec3(0.80, 0.72, 0.42), 0.50, 1.0);
-const vec3 kBack = vec3(0.008, 0.052, 0.080), kFlank = vec3(0.56, 0.62, 0.64),
+const Iris kIris = Iris(vec3(0.34, 0.33, 0.27), vec3(0.70, 0.62, 0.36), 0.56, 1.0);
+const vec3 kBack = vec3(0.006, 0.030, 0.044), kFlank = vec3(0.46, 0.59, 0.65),
            kBelly = vec3(0.78, 0.80, 0.80), kGold = vec3(0.70, 0.46, 0.050);
 
 float goldenLine(SkinPoint at) {
@@ -17,9 +17,13 @@ Skin groundOf(SkinPoint at) {
     float back = smoothstep(0.36, 0.62, at.v);
     vec3 colour = mix(mix(kBelly, kFlank, smoothstep(-0.75, -0.2, at.v)), kBack, back);
     colour = mix(colour, kGold * ownBetween(at.id, 4u, 0.70, 1.15), 0.95 * golden);
-    Skin skin = skinOf(colour, 0.75, 0.6);
-    skin.silver = 0.93 * falling(0.22, 0.66, at.v) * smoothstep(0.015, 0.05, at.s) *
+    Skin skin = skinOf(colour, 0.70 - 0.35 * back, 0.6);
+    skin.silver = 0.98 * falling(0.22, 0.66, at.v) * smoothstep(0.015, 0.05, at.s) *
                   (1.0 - 0.75 * golden);
+    // From near one sees the light of the reef and the sand in the platelets, of which the open
+    // water that they mirror knows nothing.
+    float near = seenAt(0.034, at.pixel);
+    skin.silver *= 1.0 - near * (0.54 + 0.3 * falling(-1.0, -0.6, at.v));
     skin.iridescence = 0.10 + 0.30 * back;
     // The dark crown of the head.
     float crown = smoothstep(0.52, 0.85, at.v) * falling(0.18, 0.26, at.s);
@@ -47,7 +51,10 @@ void addDetails(inout Skin skin, SkinPoint at) {
     layScales(skin, at, 0.06, 0.0115, 0.16, on);
     // Platelets lie in bundles, brighter and duller in streaks along the flank.
     float streak = noise(vec2(at.s * 38.0, at.y * 260.0 + 90.0 * own(at.id, 5u)));
-    skin.flicker.y += on * 1.1 * (streak - 0.5) * seenAt(0.010, at.pixel);
+    float leaning = 0.45 + 2.2 * streak * streak * streak * mix(0.5, 1.0, on);
+    float seen_ = seenAt(0.010, at.pixel);
+    skin.flicker.y += leaning * seen_;
+    skin.albedo *= 1.0 + 0.35 * (streak - 0.5) * seen_ * on;
     paintLateralLine(skin, at, 0.051 - 0.050 * smoothstep(0.34, 0.60, at.s), 0.25, 0.30);
     paintScutes(skin, at);
     paintGill(skin, at, 0.245, 0.024);
@@ -66,19 +73,19 @@ void addDetails(inout Skin skin, SkinPoint at) {
 
 Fin finOf(FinPoint fin, Skin root) {
     float q = fin.q;
-    Fin made = Fin(vec3(0.38, 0.40, 0.34), 0.26 + 0.2 * falling(0.0, 0.4, q), 21.0, 0.0, 0.45);
+    Fin made = Fin(vec3(0.30, 0.32, 0.28), 0.20 + 0.2 * falling(0.0, 0.4, q), 21.0, 0.0, 0.45);
     if (fin.part == kCaudal) {
         vec3 dusk = vec3(0.055, 0.06, 0.06);
-        made.albedo = mix(vec3(0.40, 0.37, 0.15), dusk, 0.75 * smoothstep(0.55, 1.0, q));
+        made.albedo = mix(vec3(0.34, 0.30, 0.12), dusk, 0.75 * smoothstep(0.55, 1.0, q));
         made.opacity = 0.74;
         made.rays = 17.0;
     } else if (fin.part == kFirstDorsal || fin.part == kSecondDorsal) {
-        made.albedo = mix(made.albedo, vec3(0.10, 0.11, 0.11), smoothstep(0.55, 1.0, q));
+        made.albedo = mix(vec3(0.15, 0.17, 0.16), vec3(0.08, 0.09, 0.09), smoothstep(0.4, 1.0, q));
         made.opacity += 0.18 * smoothstep(0.5, 1.0, q);
         made.rays = fin.part == kFirstDorsal ? 8.0 : 26.0;
         made.spined = fin.part == kFirstDorsal ? 1.0 : 0.0;
     } else if (fin.part == kPectoral) {
-        made.albedo = vec3(0.48, 0.47, 0.33);
+        made.albedo = vec3(0.42, 0.41, 0.28);
     } else {
         made.rays = fin.part == kAnal ? 25.0 : 6.0;
     }

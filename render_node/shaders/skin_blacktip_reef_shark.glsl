@@ -4,7 +4,7 @@
 #include "skin_anatomy.glsl"
 
 const Iris kIris = Iris(vec3(0.24, 0.20, 0.11), vec3(0.36, 0.30, 0.16), 0.60, 0.38);
-const vec3 kBronze = vec3(0.200, 0.158, 0.112), kWhite = vec3(0.74, 0.73, 0.69);
+const vec3 kBronze = vec3(0.180, 0.146, 0.118), kWhite = vec3(0.54, 0.52, 0.52);
 
 // The border of bronze and white, and the pale wedge that rises along the flank.
 vec3 counterShaded(SkinPoint at, float ragged) {
@@ -69,6 +69,10 @@ Fin finOf(FinPoint fin, Skin root) {
     }
     colour = mix(colour, kInk, smoothstep(tip - 0.035, tip + 0.035, q));
     colour = mix(root.albedo, colour, smoothstep(0.0, 0.25, q));
-    return Fin(colour, 1.0, 0.0, 0.0, 0.0);
+    // A notch parts the tip of the upper lobe from the rest of the tail.
+    vec2 inNotch = mat2(0.35, 0.94, -0.94, 0.35) * (vec2(fin.at.s, fin.at.y) - vec2(0.936, 0.104));
+    float notch = 0.42 * inNotch.x - abs(inNotch.y);
+    float opacity = fin.part == kCaudal ? falling(-0.001, 0.001, notch) : 1.0;
+    return Fin(colour, opacity, 0.0, 0.0, 0.0);
 }
 #endif

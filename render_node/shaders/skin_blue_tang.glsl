@@ -4,8 +4,8 @@
 #include "skin_anatomy.glsl"
 
 const Iris kIris = Iris(vec3(0.05, 0.09, 0.25), vec3(0.22, 0.30, 0.55), 0.58, 1.0);
-const vec3 kBlue = vec3(0.012, 0.095, 0.68), kDeep = vec3(0.006, 0.040, 0.38),
-           kSky = vec3(0.030, 0.21, 0.80), kBlack = vec3(0.003, 0.005, 0.018),
+const vec3 kBlue = vec3(0.006, 0.115, 0.62), kDeep = vec3(0.004, 0.050, 0.34),
+           kSky = vec3(0.016, 0.20, 0.72), kBlack = vec3(0.003, 0.005, 0.018),
            kYellow = vec3(0.92, 0.64, 0.012);
 
 // From the eye along the back to the tail, with a lower arm from behind the pectoral fin, round an
@@ -43,7 +43,7 @@ Skin groundOf(SkinPoint at) {
 }
 
 void addDetails(inout Skin skin, SkinPoint at) {
-    paintTang(skin, at, 0.05 * (grain(at, 0.011) - 0.5));
+    paintTang(skin, at, 0.03 * (grain(at, 0.011) - 0.5));
     // Scales too fine to count: a shagreen that catches the light.
     float fine = grain(at, 0.0030), coarse = grain(at, 0.0075);
     skin.albedo *= 0.84 + 0.20 * fine + 0.12 * coarse;

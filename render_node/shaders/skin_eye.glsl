@@ -3,9 +3,10 @@
 #define SKIN_EYE_GLSL
 #include "skin.glsl"
 
+// dome: how much the painted eye bulges: less where the mesh has a ball for it.
 // look: unit vector to the eye of the beholder, towards the tail, upwards and out of the skin.
 // Returns how much of the pixel the fish's eye covers.
-float paintEye(inout Skin skin, SkinPoint at, Iris iris, vec3 look) {
+float paintEye(inout Skin skin, SkinPoint at, Iris iris, float dome, vec3 look) {
     vec2 from = (vec2(at.s, at.y) - eyeOfSpecies.xy) / eyeOfSpecies.z;
     float d = length(from);
     // Around the eye the skin sinks and darkens.
@@ -32,7 +33,7 @@ float paintEye(inout Skin skin, SkinPoint at, Iris iris, vec3 look) {
     skin.silver *= 1.0 - coverage;
     skin.iridescence *= 1.0 - coverage;
     skin.gloss = mix(skin.gloss, 1.0, coverage);
-    skin.tilt = mix(skin.tilt, 0.85 * from * smoothstep(0.1, 1.0, d), coverage);
+    skin.tilt = mix(skin.tilt, dome * from * smoothstep(0.1, 1.0, d), coverage);
     skin.flicker *= 1.0 - coverage;
     return coverage;
 }

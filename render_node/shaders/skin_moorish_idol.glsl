@@ -5,7 +5,7 @@
 
 const Iris kIris = Iris(vec3(0.13, 0.085, 0.03), vec3(0.45, 0.26, 0.05), 0.55, 1.0);
 const vec3 kMilk = vec3(0.82, 0.81, 0.68), kLemon = vec3(0.86, 0.58, 0.035),
-           kBlack = vec3(0.009, 0.010, 0.013), kPale = vec3(0.58, 0.72, 0.78);
+           kBlack = vec3(0.014, 0.015, 0.018), kPale = vec3(0.58, 0.72, 0.78);
 
 // The front bar's rear edge leans; it broadens downwards over half of the belly.
 float slantOf(SkinPoint at) { return at.s + 0.075 * at.v - 0.018 * (1.0 - at.v * at.v); }
@@ -40,7 +40,7 @@ Skin groundOf(SkinPoint at) {
     float chin = falling(-0.52, -0.30, at.v) * smoothstep(0.035, 0.06, at.s) * falling(0.13, 0.17, at.s);
     colour = mix(colour, kBlack, chin);
     colour = mix(colour, vec3(0.10, 0.06, 0.04), falling(0.004, 0.012, at.s));
-    Skin skin = skinOf(colour, 0.35, 0.8);
+    Skin skin = skinOf(colour, 0.55, 0.8);
     return skin;
 }
 

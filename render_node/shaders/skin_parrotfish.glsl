@@ -41,9 +41,14 @@ vec3 headColour(SkinPoint at) {
 }
 
 void paintBeak(inout Skin skin, SkinPoint at) {
-    float beak = falling(0.86, 1.0, length(vec2(at.s / 0.024, (at.y + 0.010) / 0.032)));
-    float gape = line(at.y + 0.010, 0.0026, at.pixel) + 0.25 * line(at.z, 0.0016, at.pixel);
-    vec3 colour = vec3(0.52, 0.80, 0.72) * (1.0 - 0.75 * min(gape, 1.0));
+    vec3 from = vec3(at.s / 0.024, (at.y + 0.010) / 0.030, at.z / 0.026);
+    float beak = falling(0.86, 1.0, length(from));
+    // Two plates of fused teeth that meet in the middle, and the gape between the jaws.
+    float gape = line(at.y + 0.010, 0.0026, at.pixel) + 0.4 * line(at.z, 0.0014, at.pixel);
+    vec3 colour = vec3(0.40, 0.66, 0.58) * (1.0 - 0.75 * min(gape, 1.0));
+    colour *= 0.75 + 0.35 * grain(at, 0.003);
+    float lips = falling(1.0, 1.35, length(from)) * (1.0 - beak);
+    skin.albedo = mix(skin.albedo, kTurquoise, 0.7 * lips);
     skin.albedo = mix(skin.albedo, colour, beak);
     skin.gloss = mix(skin.gloss, 0.9, beak);
     skin.tilt *= 1.0 - beak;

@@ -4,8 +4,8 @@
 #include "skin_anatomy.glsl"
 
 const Iris kIris = Iris(vec3(0.78, 0.50, 0.03), vec3(0.92, 0.72, 0.20), 0.45, 1.0);
-const vec3 kLemon = vec3(0.87, 0.58, 0.012), kDeep = vec3(0.58, 0.31, 0.006),
-           kPale = vec3(0.93, 0.77, 0.24);
+const vec3 kLemon = vec3(0.80, 0.53, 0.010), kDeep = vec3(0.42, 0.21, 0.005),
+           kPale = vec3(0.88, 0.68, 0.16);
 
 Skin groundOf(SkinPoint at) {
     vec3 colour = mix(kPale, kLemon, smoothstep(-0.85, 0.0, at.v));
@@ -14,7 +14,7 @@ Skin groundOf(SkinPoint at) {
     float along = smoothstep(0.36, 0.42, at.s) * falling(0.74, 0.80, at.s) * falling(0.6, 0.95, abs(at.v));
     float bar = line(fract(at.s / 0.042) * 0.042 - 0.021, 0.0050, at.pixel);
     colour = mix(colour, kPale, 0.60 * along * bar * ownBetween(at.id, 5u, 0.4, 1.0));
-    colour = mix(colour, 0.75 * kDeep, 0.55 * band(at.v - 0.16, 0.05, 0.04) * smoothstep(0.30, 0.35, at.s) *
+    colour = mix(colour, 0.75 * kDeep, 0.55 * band(at.v - 0.16, 0.05, 0.04) * smoothstep(0.40, 0.46, at.s) *
                                            falling(0.88, 0.92, at.s));
     // The dark stripe of the jaw; the spot where the pelvic fins are rooted.
     float jaw = band(at.v + 0.25, 0.20, 0.08) * smoothstep(0.015, 0.03, at.s) * falling(0.08, 0.11, at.s);
@@ -46,7 +46,7 @@ void addDetails(inout Skin skin, SkinPoint at) {
 }
 
 Fin finOf(FinPoint fin, Skin root) {
-    vec3 lemon = vec3(0.88, 0.62, 0.03);
+    vec3 lemon = vec3(0.80, 0.53, 0.02);
     if (fin.part == kPectoral) return Fin(lemon, 0.32, 15.0, 0.0, 0.45);
     if (fin.part == kFirstDorsal) return Fin(mix(root.albedo, kPale, fin.q), 0.55, 9.0, 1.0, 0.5);
     if (fin.part == kCaudal) {

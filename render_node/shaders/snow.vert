@@ -3,7 +3,7 @@
 #include "sea_now.glsl"
 layout(location = 0) out vec3 light;
 const float kBoxMetres = 9.0;
-const float kLensMetres = 0.0035, kFocusMetres = 6.0;  // a little out of focus when near
+const float kLensMetres = 0.0055, kFocusMetres = 6.0;  // a little out of focus when near
 uint mixed(uint x) {
     x ^= x >> 16; x *= 0x7feb352du; x ^= x >> 15; x *= 0x846ca68bu; return x ^ (x >> 16);
 }
@@ -18,14 +18,15 @@ void main() {
     vec3 place = eye + away;
     float range = length(away);
     float e = unit(3u);
-    float diameter = mix(0.0006, 0.0030, e * e * e * e * e);
+    float diameter = mix(0.0005, 0.0026, e * e * e * e * e);
     float perRadian = pixelsARadian();
     float sharp = diameter / range * perRadian;
     float blur = kLensMetres * abs(1.0 / range - 1.0 / kFocusMetres) * perRadian;
-    float size = sqrt(sharp * sharp + blur * blur + 1.4);
-    float fade = smoothstep(0.5, 1.1, range) * smoothstep(0.5, 0.36, range / kBoxMetres);
+    // In pixels; never so small that it twinkles as it drifts across them.
+    float size = sqrt(sharp * sharp + blur * blur + 2.2);
+    float fade = smoothstep(0.7, 1.6, range) * smoothstep(0.5, 0.36, range / kBoxMetres);
     float phase = 1.4 * lobe(dot(away / range, sunAndFilterDepth.xyz), 0.75) + 0.12;
-    float lit = unscatteredShare(-place.y) * caustic(place, 1.0) * daylight.x + 0.35 * daylight.z;
+    float lit = unscatteredShare(-place.y) * caustic(place, 1.0) * pastFish(place).sun * daylight.x + 0.35 * daylight.z;
     light = direct(vec3(0.95, 0.97, 1.0) * (phase * lit / kPi), range, max(-place.y, 0.1)) *
             (0.5 * fade * sharp * sharp / (size * size));
     gl_Position = place.y < -0.1 ? clipFromWorld * vec4(place, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);

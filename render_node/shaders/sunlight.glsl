@@ -3,24 +3,26 @@
 #ifndef SUNLIGHT_GLSL
 #define SUNLIGHT_GLSL
 #include "frame_uniforms.h"
+#include "sea_now.glsl"
+#include "shadow.glsl"
 
-layout(binding = 11) uniform sampler2D causticTile;  // sunlight on the sand, mean 1
+layout(binding = 11) uniform sampler2DArray causticLayers;  // sunlight at some depths, mean 1
 layout(binding = 12) uniform sampler2D shaftMap;  // by direction: sunlight in the water before 3, 8, 18, 45 m
 
 const float kPi = 3.14159265;
 const float kTileMetres = 12.0;  // side of the caustic tile; waves have whole numbers on it
 
 // Octahedral map of the directions, the zenith in its middle; one texel of border continues it.
-const float kShaftTexels = 128.0;
 vec2 shaftPlace(vec3 direction) {
+    float texels = float(textureSize(shaftMap, 0).x);
     vec2 p = direction.xz / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     if (direction.y < 0.0)
         p = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
-    return 0.5 + 0.5 * p * ((kShaftTexels - 2.0) / kShaftTexels);
+    return 0.5 + 0.5 * p * ((texels - 2.0) / texels);
 }
 
 // More or less than the mean that the sun lights the water along a ray: mean 1, so that light is
-// neither made nor lost.
+// neither made nor lost, less what rock and fish keep away.
 float shaft(vec3 direction, float range) {
     vec4 upTo = texture(shaftMap, shaftPlace(direction));
     vec3 share = clamp((vec3(range) - vec3(3.0, 8.0, 18.0)) / vec3(5.0, 10.0, 27.0), 0.0, 1.0);
@@ -28,15 +30,41 @@ float shaft(vec3 direction, float range) {
     return mix(mix(mix(near, upTo.y, share.x), upTo.z, share.y), upTo.w, share.z);
 }
 
-// How the waves gather the sunlight at a place, mean 1. The tile is indexed by where the straight
-// ray of the sun met the surface. Above the sand the net is not yet in focus.
-float caustic(vec3 place, float lod) {
-    vec3 sun = sunAndFilterDepth.xyz;
+// How the waves gather the sunlight where the straight ray of the sun met the surface here, mean 1.
+// lod: of texels of 47 mm. Layers by the logarithm of depth; above the first the net is not yet in
+// focus, below the last it is spread.
+float net(vec2 surfaceMetres, float depth, float lod) {
+    float layer = log2(max(depth, 0.05) / causticAxis.x) * causticAxis.y;
+    float last = causticAxis.z;
+    float fine = max(lod + causticAxis.w, 0.0) + max(layer - last, 0.0);
+    if (!kFine) fine = round(fine);
+    float below = clamp(floor(layer), 0.0, last);
+    vec2 uv = surfaceMetres / kTileMetres;
+    float light = textureLod(causticLayers, vec3(uv, below), fine).r;
+    if (last > 0.0) {
+        float next = textureLod(causticLayers, vec3(uv, min(below + 1.0, last)), fine).r;
+        light = mix(light, next, clamp(layer - below, 0.0, 1.0));
+    }
+    float strength = min(depth / causticAxis.x, 1.0);
+    // Groups of higher and lower waves, wider than the tile: no two stretches of sand are alike.
+    if (kFine)
+        strength *= 0.94 + 0.16 * sin(dot(surfaceMetres, vec2(0.31, 0.17)) + swellPhases.x) +
+                    0.12 * sin(dot(surfaceMetres, vec2(-0.13, 0.27)) - swellPhases.y);
+    return max(1.0 + strength * (light - 1.0), 0.0);
+}
+
+float caustic(vec3 place, float lod) { return net(surfacePoint(place), max(-place.y, 0.0), lod); }
+
+// Water bends blue more than red: what the mean ray of each is moved by (indices 1.331, 1.335,
+// 1.341), a share of it, as more looks cheap.
+vec3 causticColour(vec3 place, float lod) {
+    vec2 at = surfacePoint(place);
     float depth = max(-place.y, 0.0);
-    vec2 uv = (place.xz + sun.xz / sun.y * depth) / kTileMetres;
-    float focus = smoothstep(0.0, 7.0, depth);
-    float blur = lod + 2.0 * (1.0 - focus);
-    return max(mix(1.0, textureLod(causticTile, uv, blur).r, focus), 0.0);
+    float green = net(at, depth, lod);
+    if (!kFine) return vec3(green);
+    vec3 sun = sunAndFilterDepth.xyz;
+    vec2 moved = sun.xz / (sun.y * sun.y * sun.y) * (depth * surfaceDetail.y / 1.335);
+    return vec3(net(at + 0.004 * moved, depth, lod), green, net(at - 0.006 * moved, depth, lod));
 }
 
 float unscatteredShare(float depth) { return 0.80 * exp(-0.030 * depth); }

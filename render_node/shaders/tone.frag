@@ -6,16 +6,16 @@ layout(binding = 0) uniform sampler2D scene;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display;
 // A magenta filter before the lens, as divers have for green water: luminance stays.
-const vec3 kFilter = vec3(1.11, 0.955, 1.10);
-const float kSaturation = 1.02;
+const vec3 kFilter = vec3(1.09, 0.96, 1.09);
+const float kSaturation = 1.04;
 
-// Water is bluer than the display can show (red below 0): a soft floor at 3.5 % of the brightest
+// Water is bluer than the display can show (red below 0): a soft floor at 4.5 % of the brightest
 // channel, which keeps the ratio of green to blue.
 vec3 intoGamut(vec3 c) {
     float top = max(c.r, max(c.g, c.b));
-    vec3 above = c - 0.035 * top;
-    float knee = 0.06 * top + 1.0e-6;
-    return 0.035 * top + 0.5 * (above + sqrt(above * above + knee * knee));
+    vec3 above = c - 0.045 * top;
+    float knee = 0.075 * top + 1.0e-6;
+    return 0.045 * top + 0.5 * (above + sqrt(above * above + knee * knee));
 }
 
 // x^a / (b x^a + c) through .18 -> .19 and 9 -> 1: a toe that keeps 2.5 stops of blue above a

@@ -1,49 +1,104 @@
-// The surface from below: Snell's window where the slope lets light in, else the mirrored sea.
-#include "water.glsl"
-layout(binding = 13) uniform sampler2D waveTile;  // slopes, height
+// The surface from below: Snell's window where a facet lets light in, else the mirrored sea and reef.
+#include "shading.glsl"
+#include "sky.glsl"
+layout(binding = 13) uniform sampler2D waveTile;    // slopes, height, squared slope
+layout(binding = 19) uniform sampler2D rippleTile;  // the same
 layout(location = 0) in vec3 place;
 layout(location = 0) out vec4 radiance;
-const float kIndex = 1.34;
-const float kBrightening = 1.7956;  // index squared: a beam narrows as it enters the water
+const float kBrightening = kIndex * kIndex;  // a beam narrows as it enters the water
+const float kCritical = 0.66566;             // cosine of the angle of total reflection
+const float kRippleTileMetres = 2.9;
+// The net of light wants waves less steep than the sea's: seen from below they are as steep.
+const float kSteeper = 1.5;
 
-vec3 sky(vec3 direction) {
-    vec2 across = sunAndFilterDepth.xz * kIndex;
-    vec3 sun = vec3(across.x, sqrt(max(1.0 - dot(across, across), 0.05)), across.y);
-    float away = dot(direction, sun) - 1.0;
-    vec3 blue = mix(vec3(0.060, 0.076, 0.095), vec3(0.030, 0.050, 0.090),
-                    smoothstep(0.0, 0.9, direction.y));
-    return blue * daylight.yzw +
-           daylight.x * vec3(1.0, 0.93, 0.82) * (2.2 * exp(260.0 * away) + 0.16 * exp(14.0 * away));
+struct Facets {
+    vec2 slope;
+    float variance;  // of the slopes that a pixel cannot show, along one axis
+};
+
+float levelOf(float texels) {
+    float level = log2(max(texels, 1.0));
+    return kFine ? level : round(level);
+}
+
+Facets facetsAt(vec2 xz, float footprint) {
+    vec4 wave = textureLod(waveTile, xz / kTileMetres, levelOf(footprint * surfaceDetail.z));
+    // Turned, so that the two tiles never meet in step.
+    const mat2 turn = mat2(0.83, 0.558, -0.558, 0.83);
+    vec4 ripple = textureLod(rippleTile, (turn * xz) / kRippleTileMetres,
+                             levelOf(footprint * surfaceDetail.w));
+    vec2 slope = kSteeper * wave.xy + ripple.xy * turn;
+    float lost = kSteeper * kSteeper * max(wave.w - dot(wave.xy, wave.xy), 0.0) +
+                 max(ripple.w - dot(ripple.xy, ripple.xy), 0.0);
+    for (int i = 0; i < (kFine ? 4 : 1); ++i) {
+        vec4 wide = longWaves[i];
+        slope += wide.z * wide.xy * cos(dot(wide.xy, xz) + wide.w);
+    }
+    return Facets(slope, 0.5 * lost);
+}
+
+float fresnel(float inward) {
+    float outward = sqrt(max(1.0 - kIndex * kIndex * (1.0 - inward * inward), 0.0));
+    float s = (kIndex * inward - outward) / (kIndex * inward + outward);
+    float p = (kIndex * outward - inward) / (kIndex * outward + inward);
+    return 0.5 * (s * s + p * p);
+}
+
+// What lies below, mirrored: the sea's floor as far as the water lets it through, then the water.
+// Water has coloured the latter on its way already: seen as if from where the filter takes nothing.
+vec3 mirroredSea(vec3 down, vec2 xz, float range) {
+    vec3 water = openWater(down, sunAndFilterDepth.w);
+    float depth = 8.0;
+    vec2 hit = xz;
+    for (int i = 0; i < 2; ++i) {
+        hit = xz + down.xz * (depth / max(-down.y, 0.05));
+        depth = -textureLod(topHeights, hit / kPlaceMetres + 0.5, placeLod(0.6)).x;
+    }
+    float further = depth / max(-down.y, 0.05);
+    vec3 bottom = vec3(hit.x, -depth, hit.y);
+    vec3 sand = litAt(2.0, Openness(sunPast(bottom), 1.0), vec3(0.30, 0.27, 0.22), bottom,
+                      vec3(0.0, 1.0, 0.0), 0.0);
+    return direct(sand, range + further, depth) +
+           direct(water * (0.9 - 0.9 * exp(-0.11 * further)), range, sunAndFilterDepth.w);
+}
+
+vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
+    Facets facets = facetsAt(xz, footprint);
+    vec3 normal = normalize(vec3(-facets.slope.x, 1.0, -facets.slope.y));
+    float inward = max(dot(w, normal), 0.02);
+    // Of the facets in a pixel only those within the critical angle let light in.
+    float width = sqrt(facets.variance * max(1.0 - inward * inward, 0.0)) + 0.001;
+    float open = smoothstep(-1.8, 1.8, (inward - kCritical) / width);
+    float within = max(inward, kCritical + 0.4 * width);
+    float enters = open * (1.0 - fresnel(within));
+    vec3 across = w - inward * normal;
+    vec3 level = across * inversesqrt(max(dot(across, across), 1.0e-6));
+    float sine = min(kIndex * sqrt(max(1.0 - within * within, 0.0)), 1.0);
+    vec3 outward = level * sine + normal * sqrt(1.0 - sine * sine);
+    vec3 above = sky(vec3(outward.x, abs(outward.y), outward.z), 0.4 * facets.variance) *
+                 (kBrightening * enters);
+    vec3 down = reflect(w, -normal);
+    down = normalize(vec3(down.x, -max(abs(down.y), 0.03), down.z));
+    if (!kFine)
+        return direct(above + (1.0 - enters) * 0.9 * openWater(down, sunAndFilterDepth.w), range,
+                      sunAndFilterDepth.w);
+    // The diver's filter undoes a way down that this light has not come: most of it is left out.
+    return direct(above, range, 0.75 * sunAndFilterDepth.w) + (1.0 - enters) * mirroredSea(down, xz, range);
 }
 
 void main() {
     vec3 way = place - eyeAndTime.xyz;
     float range = length(way);
     vec3 w = way / range;
-    // Waves, and the same pattern again as ripples on them.
-    vec2 turned = vec2(0.83 * place.x - 0.56 * place.z, 0.56 * place.x + 0.83 * place.z);
-    vec2 slope = 1.6 * texture(waveTile, place.xz / kTileMetres).xy +
-                 1.7 * texture(waveTile, turned / 3.7).xy;
-    // Steep facets would tear holes of sky into the mirror: waves break before.
-    slope *= inversesqrt(1.0 + 8.0 * dot(slope, slope));
-    vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
-    float inward = max(dot(w, normal), 0.02);
-    vec3 up = vec3(0.0);
-    float mirror = 1.0;
-    float sine2 = kIndex * kIndex * (1.0 - inward * inward);
-    float outward = sqrt(max(1.0 - sine2, 0.0));
-    if (sine2 < 1.0) {
-        float s = (kIndex * inward - outward) / (kIndex * inward + outward);
-        float p = (kIndex * outward - inward) / (kIndex * outward + inward);
-        mirror = 0.5 * (s * s + p * p);
-    }
-    vec3 out_ = normalize(kIndex * w + (outward - kIndex * inward) * normal);
-    up = sky(vec3(out_.x, max(out_.y, 0.02), out_.z)) * (kBrightening * (1.0 - mirror));
-    vec3 down = reflect(w, -normal);
-    down.y = -abs(down.y);
-    // Water has coloured the mirrored light already: what `direct` will add is taken out.
-    vec3 undone = exp(kdAndExposure.xyz * -sunAndFilterDepth.w);
-    vec3 below = openWater(down, 0.4) * (0.9 * mirror) * undone;
+    // A pixel covers a long strip of the surface: one tap for each stretch of it.
+    float across = range * sharedEyeAndPixel.w;
+    float along = across / max(w.y, 0.02);
+    int taps = int(clamp(round(along / across), 1.0, surfaceDetail.x));
+    vec2 stretch = along / float(taps) * normalize(w.xz + 1.0e-5);
+    float footprint = 1.6 * sqrt(across * along / float(taps));
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < taps; ++i)
+        sum += surfaceSeen(w, place.xz + stretch * (float(i) - 0.5 * float(taps - 1)), range, footprint);
     // As far as the open water behind it is seen (water.frag), or a line would show where it ends.
-    radiance = vec4(direct(up + below, range, 0.0) + inscatter(w, min(range, 80.0)), 1.0);
+    radiance = vec4(sum / float(taps) + inscatter(w, min(range, 80.0)), 1.0);
 }

@@ -1,14 +1,21 @@
-// Slopes and height of the surface on one tile.
+// Slopes, height and squared slope of the surface on one tile: of the waves or of the ripples.
 #include "sea_now.glsl"
 layout(location = 0) in vec2 uv;
-layout(location = 0) out vec4 slopesAndHeight;
+layout(location = 0) out vec4 slopesHeightSquare;
+layout(location = 0) uniform float tileMetres;
+layout(location = 1) uniform bool drawsRipples;
+layout(location = 2) uniform float texelMetres;
 void main() {
-    vec2 place = uv * 12.0;  // kTileMetres
     vec3 sum = vec3(0.0);
+    float lost = 0.0;
     for (int i = 0; i < 32; ++i) {
-        vec4 wave = waves[i];
-        float angle = dot(wave.xy, place) + wave.w;
-        sum += wave.z * vec3(wave.xy * cos(angle), sin(angle));
+        vec4 wave = drawsRipples ? ripples[i] : waves[i];
+        // A wave that texels are too coarse for only adds to how rough the surface is.
+        float k = length(wave.xy);
+        float kept = 1.0 - smoothstep(1.4, 2.4, k * texelMetres);
+        float angle = dot(wave.xy, uv * tileMetres) + wave.w;
+        sum += kept * wave.z * vec3(wave.xy * cos(angle), sin(angle));
+        lost += 0.5 * (1.0 - kept * kept) * k * k * wave.z * wave.z;
     }
-    slopesAndHeight = vec4(sum, 0.0);
+    slopesHeightSquare = vec4(sum, dot(sum.xy, sum.xy) + lost);
 }

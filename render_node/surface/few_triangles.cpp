@@ -86,16 +86,52 @@ std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
     return triangles;
 }
 
+// A fin without thickness. Where a vertex of the fin is on it goes by its place in the cage, not by
+// nearness: else the fin would not fill the sheet.
 struct Sheet {
-    CagePart part;
+    CagePart part = CagePart::Body;
     std::vector<Triangle> triangles;
+    Corner foot = 0, heel = 0;         // its base, front and rear; of the tail its root, from the back down
+    std::vector<Corner> edge;          // as its base runs
+    float firstRing = 0, lastRing = 0;  // of a fin of the midline
 };
+
+// A point of a line of corners, 0 .. 1.
+glm::vec3 alongEdge(const Sheet& sheet, std::span<const glm::vec3> points, float share) {
+    const float at = share * static_cast<float>(sheet.edge.size() - 1);
+    const auto before = std::min(static_cast<std::size_t>(at), sheet.edge.size() - 2);
+    return glm::mix(points[sheet.edge[before]],
+                    points[sheet.edge[before + 1]],
+                    at - static_cast<float>(before));
+}
+
+// From the back (0) to the belly (1), down either side of the tube.
+float downTube(int column) {
+    const int steps = column == 0 ? 0 : column <= 6 ? column - 1 : kTubeColumns - column;
+    return static_cast<float>(steps) / 5.0F;
+}
+
+glm::vec3 placeOnSheet(const Sheet& sheet, const CageSite& site, std::span<const glm::vec3> points) {
+    const bool isTail = sheet.part == CagePart::Caudal;
+    const float rings = std::max(sheet.lastRing - sheet.firstRing, 1.0F);
+    const float along = isTail ? downTube(site.column)
+                               : (static_cast<float>(site.ring) - sheet.firstRing) / rings;
+    const float outwards =
+        isTail ? static_cast<float>(site.ring - kBodyEndRing) / float{kTubeRings - 1 - kBodyEndRing}
+               : static_cast<float>(site.level) / static_cast<float>(site.levels);
+    const glm::vec3 base = glm::mix(points[sheet.foot], points[sheet.heel], along);
+    return glm::mix(base, alongEdge(sheet, points, along), outwards);
+}
 
 Sheet tailSheet() {
     constexpr int kEnd = kTubeRings - 1;
     const Corner back = tubeCorner(kBodyEndRing, 0), belly = tubeCorner(kBodyEndRing, 6);
     const Corner upper = tubeCorner(kEnd, 0), lower = tubeCorner(kEnd, 6), fork = tubeCorner(kEnd, 3);
-    return {CagePart::Caudal, {{back, fork, upper}, {back, belly, fork}, {belly, lower, fork}}};
+    return {CagePart::Caudal,
+            {{back, fork, upper}, {back, belly, fork}, {belly, lower, fork}},
+            back,
+            belly,
+            {upper, fork, lower}};
 }
 
 // From the first to the last ring that carries the fin, from its base to its edge.
@@ -112,7 +148,13 @@ std::optional<Sheet> midlineSheet(CagePart part, const std::vector<CageSite>& si
     const Corner topFront = static_cast<Corner>(*front), topRear = static_cast<Corner>(*rear);
     const Corner foot = tubeCorner(sites[*front].ring, sites[*front].column);
     const Corner heel = tubeCorner(sites[*rear].ring, sites[*rear].column);
-    return Sheet{part, {{foot, heel, topRear}, {foot, topRear, topFront}}};
+    return Sheet{part,
+                 {{foot, heel, topRear}, {foot, topRear, topFront}},
+                 foot,
+                 heel,
+                 {topFront, topRear},
+                 static_cast<float>(sites[*front].ring),
+                 static_cast<float>(sites[*rear].ring)};
 }
 
 // The nearest point of a triangle, as weights of its corners.
@@ -150,7 +192,7 @@ class Maker {
   public:
     Maker(const FishBody& body, const LimitTable& controlMesh)
         : body_{body}, mesh_{controlMesh}, points_{atRest(body)} {
-        for (std::size_t i = 0; i < points_.size(); ++i)
+        for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
             normals_.push_back(skinPoint(controlMesh, i, points_).normal);
     }
 
@@ -159,17 +201,28 @@ class Maker {
         const std::vector<Triangle> body = bodyTriangles(bestRings(points_), sites);
         for (const Triangle& triangle : body) add(outward(triangle), CagePart::Body);
         few_.bodyIndices = few_.indices.size();
-        std::map<CagePart, std::vector<Triangle>> sheets;
+        std::map<CagePart, Sheet> sheets;
         const auto addSheet = [&](const Sheet& sheet) {
             for (const Triangle& triangle : sheet.triangles) add(triangle, sheet.part);
-            sheets[sheet.part] = sheet.triangles;
+            sheets[sheet.part] = sheet;
         };
         addSheet(tailSheet());
         for (const CagePart part : {CagePart::FirstDorsal, CagePart::SecondDorsal, CagePart::Anal})
             if (const auto sheet = midlineSheet(part, sites)) addSheet(*sheet);
-        for (Corner i = 0; i < points_.size(); ++i) {
+        for (Corner i = 0; i < mesh_.vertices.size(); ++i) {
+            if (i >= points_.size()) {  // an eye's or a whip's, which shrink into the body
+                const glm::vec4 rest = mesh_.vertices[i].rest;
+                few_.cage.push_back(placeOn(CagePart::Body, body, i, {-rest.x, rest.y, rest.z}));
+                continue;
+            }
             const auto sheet = sheets.find(body_.cage.vertices[i].part);
-            few_.cage.push_back(placeOn(sheet == sheets.end() ? body : sheet->second, i));
+            few_.cage.push_back(
+                sheet == sheets.end()
+                    ? placeOn(CagePart::Body, body, i, points_[i])
+                    : placeOn(sheet->first,
+                              sheet->second.triangles,
+                              i,
+                              placeOnSheet(sheet->second, sites[i], points_)));
         }
         return std::move(few_);
     }
@@ -210,24 +263,40 @@ class Maker {
         }
     }
 
-    [[nodiscard]] FewTriangles::Place placeOn(std::span<const Triangle> triangles,
-                                              Corner corner) const {
+    // On the triangles of a part, as near as can be to a place.
+    [[nodiscard]] FewTriangles::Place placeOn(CagePart part,
+                                              std::span<const Triangle> triangles,
+                                              Corner corner,
+                                              glm::vec3 wanted) const {
         FewTriangles::Place best;
         float least = std::numeric_limits<float>::infinity();
         for (const Triangle& t : triangles) {
             const glm::vec3 weights =
-                nearestOn({points_[t[0]], points_[t[1]], points_[t[2]]}, points_[corner]);
+                nearestOn({points_[t[0]], points_[t[1]], points_[t[2]]}, wanted);
             const glm::vec3 place = weights.x * points_[t[0]] + weights.y * points_[t[1]] +
                                     weights.z * points_[t[2]];
-            const float away = glm::distance(place, points_[corner]);
+            const float away = glm::distance(place, wanted);
             if (away >= least) continue;
             least = away;
             best = {t,
                     {weights.x, weights.y, weights.z},
                     glm::normalize(weights.x * normals_[t[0]] + weights.y * normals_[t[1]] +
-                                   weights.z * normals_[t[2]] + 1e-6F * normals_[corner])};
+                                   weights.z * normals_[t[2]] + 1e-6F * normals_[corner]),
+                    mixed(part, t, weights)};
+            // On the body nobody looks where on a fin it is, but fins that grow out of it do.
+            if (part == CagePart::Body) best.place.fin = mesh_.vertices[corner].fin;
         }
         return best;
+    }
+
+    [[nodiscard]] SkinPlace mixed(CagePart part, const Triangle& t, glm::vec3 weights) const {
+        SkinPlace place;
+        for (int k = 0; k < 3; ++k) {
+            const SkinPlace corner = placeOf(t.at(static_cast<std::size_t>(k)), part, t);
+            place.rest += weights[k] * corner.rest;
+            place.fin += weights[k] * corner.fin;
+        }
+        return place;
     }
 
     const FishBody& body_;

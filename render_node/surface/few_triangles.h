@@ -27,11 +27,12 @@ struct FewTriangles {
         std::array<std::uint32_t, 3> controlPoints{};
         std::array<float, 3> weights{};
         glm::vec3 normal{};
+        SkinPlace place;  // what is painted there
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;  // counter-clockwise: the body's, then the fins', seen from
     std::size_t bodyIndices = 0;         // either side
-    std::vector<Place> cage;             // one a control point
+    std::vector<Place> cage;             // one a vertex of the control mesh
 };
 
 // controlMesh: makeLimitTable(body, 0).

@@ -156,7 +156,7 @@ class Gatherer {
         tables.meshes[0] = add(few);
         for (std::size_t surface = 0; surface <= finest; ++surface) {
             const LimitTable table = makeLimitTable(species.body, static_cast<int>(surface));
-            tables.meshes.at(1 + surface) = add(species.body, surface, table, coarser);
+            tables.meshes.at(1 + surface) = add(species.body, surface, table, coarser, few);
             if (surface == 0) addPlaces(few);
             if (surface == 1) measure(table, points, tables);
             coarser = table;
@@ -168,7 +168,7 @@ class Gatherer {
     std::vector<RecordedPoint> recorded;
     std::vector<std::uint32_t> firstEntry, parents, indices;
     std::vector<StencilEntry> entries;
-    std::vector<SkinPlace> places;
+    std::vector<SurfaceVertex> places;
     std::vector<FewTriangles::Vertex> fewVertices;
     std::vector<std::uint32_t> fewIndices;
 
@@ -197,20 +197,49 @@ class Gatherer {
     SpeciesTables::Mesh add(const FishBody& body,
                             std::size_t surface,
                             const LimitTable& table,
-                            const LimitTable& coarser) {
+                            const LimitTable& coarser,
+                            const FewTriangles& few) {
         SpeciesTables::Mesh mesh{};
         mesh.vertices = static_cast<std::uint32_t>(table.vertices.size());
         mesh.firstEntry = addStencils(surface, table);
         mesh.firstParent = static_cast<std::uint32_t>(parents.size());
-        if (surface > 0)
-            for (const auto& [a, b] : coarserParents(body, static_cast<int>(surface), coarser))
-                parents.push_back(a | b << 16U);
-        mesh.firstVertex = append<SkinPlace>(places, table.vertices);
+        mesh.firstVertex = static_cast<std::uint32_t>(places.size());
+        if (surface == 0)
+            addVertices(table, few);
+        else
+            addVertices(table,
+                        surface == 1 ? coarser : table,
+                        coarserParents(body, static_cast<int>(surface), coarser));
         mesh.firstBodyIndex = append<std::uint32_t>(indices, table.indices);
         mesh.bodyIndices = static_cast<std::uint32_t>(table.bodyIndices);
         mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
         mesh.finIndices = static_cast<std::uint32_t>(table.indices.size() - table.bodyIndices);
         return mesh;
+    }
+
+    void addVertices(const LimitTable& controlMesh, const FewTriangles& few) {
+        for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
+            places.push_back({controlMesh.vertices[i],
+                              few.cage.at(i).place.rest,
+                              few.cage.at(i).place.fin});
+    }
+    // coarser: where the parents are painted as the coarser level has them.
+    void addVertices(const LimitTable& table,
+                     const LimitTable& coarser,
+                     std::span<const std::array<std::uint32_t, 2>> pairs) {
+        for (std::uint32_t i = 0; i < table.vertices.size(); ++i) {
+            if (i >= table.skinVertices) {  // an attachment, the same at every level
+                parents.push_back(i | i << 16U);
+                places.push_back({table.vertices[i], table.vertices[i].rest, table.vertices[i].fin});
+                continue;
+            }
+            const auto& [a, b] = pairs[i];
+            parents.push_back(a | b << 16U);
+            const SkinPlace &one = coarser.vertices.at(a), &other = coarser.vertices.at(b);
+            places.push_back({table.vertices[i],
+                              0.5F * (one.rest + other.rest),
+                              0.5F * (one.fin + other.fin)});
+        }
     }
 
     // All cages hang together alike, so that one species' stencils serve the others.

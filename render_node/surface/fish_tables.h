@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "common/body/fish_body.h"
@@ -69,6 +70,14 @@ gl::Buffer makeBuffer(const std::vector<T>& values, const char* label) {
     glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
     return buffer;
 }
+
+// A vertex of a surface, and what is painted where the next coarser level has it.
+struct SurfaceVertex {
+    SkinPlace place;
+    glm::vec4 coarserRest{};
+    glm::vec2 coarserFin{};
+};
+static_assert(sizeof(SurfaceVertex) == 52);
 
 struct FishTables {
     // finest: of the surfaces, 0 .. kSurfaces - 1; there are none beyond.

@@ -160,7 +160,16 @@ void SchoolSurface::Parts::makeBuffers(std::span<const SchoolSpecies> members) {
 
 void SchoolSurface::Parts::makeVertexArrays() const {
     describe(surfaceArray, tables.indices, slots);
-    addPlaces(surfaceArray, tables.places, sizeof(SkinPlace));
+    addPlaces(surfaceArray, tables.places, sizeof(SurfaceVertex));
+    const unsigned surfaces = surfaceArray.name();
+    for (const unsigned attribute : {4U, 5U}) {
+        glEnableVertexArrayAttrib(surfaces, attribute);
+        glVertexArrayAttribBinding(surfaces, attribute, 0);
+    }
+    glVertexArrayAttribFormat(
+        surfaces, 4, 4, GL_FLOAT, GL_FALSE, offsetof(SurfaceVertex, coarserRest));
+    glVertexArrayAttribFormat(
+        surfaces, 5, 2, GL_FLOAT, GL_FALSE, offsetof(SurfaceVertex, coarserFin));
     describe(fewArray, tables.fewIndices, slots);
     addPlaces(fewArray, tables.fewVertices, sizeof(FewTriangles::Vertex));
     const unsigned few = fewArray.name();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the surface of a school costs: control points and limit surface in compute shaders, without
-// drawing.
+// What the surface of a school costs: culling, control points, limit surface and vertices, without a
+// pixel.
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -17,26 +17,40 @@ using namespace aquarama;
 
 constexpr int kFish = 51;
 
-// So far from the eye that the fish is drawn at this level.
-float metresFor(std::int64_t level) {
-    return level == 0 ? 6.0F : level == 1 ? 1.5F : 0.5F;
+// Inside of the level where nothing is left of the coarser one.
+float metresFor(DetailLevel level) {
+    const SharedView view;
+    const float pixels = 1.5F * detailLimits(1.0F).at(std::size_t(level));
+    return 0.24F / (pixels * view.pixelRadians);
 }
 
 void surfaceUpdate(benchmark::State& state) {
     const auto context = makeOffscreenContext("auto", {64, 64});
+    const auto level = static_cast<DetailLevel>(std::size_t(DetailLevel::ControlMesh) +
+                                                static_cast<std::size_t>(state.range(0)));
     const FishBody body = test::scad();
-    SchoolSurface surface{body, test::swaying(body, 0.1F), {.culling = false}, makeSkinPrograms()};
-    std::vector<PresentedFish> school;
+    std::vector<PresentedFish> fish;
     for (int i = 0; i < kFish; ++i) {
-        school.push_back(test::fishAt({0, 0, -metresFor(state.range(0))}, {1, 0, 0, 0}));
-        school.back().phase = static_cast<float>(i) / kFish;
+        fish.push_back(test::fishAt({0, 0, -metresFor(level)}, {1, 0, 0, 0}));
+        fish.back().phase = static_cast<float>(i) / kFish;
     }
+    const test::RecordedSchool school{fish};
+    const std::vector<SchoolSpecies> cast{{body, {}, test::swaying(body, 0.1F), school.traits}};
+    SchoolSurface surface{cast, {.culling = false}, makeSkinPrograms()};
+    const gl::Framebuffer nowhere;
+    glNamedFramebufferParameteri(nowhere.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 8);
+    glNamedFramebufferParameteri(nowhere.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 8);
+    glBindFramebuffer(GL_FRAMEBUFFER, nowhere.name());
+    glEnable(GL_RASTERIZER_DISCARD);
     for (auto _ : state) {
-        surface.update(school, glm::mat4{1.0F}, glm::vec3{0});
+        surface.update(school.moment());
+        surface.look(glm::mat4{1.0F}, {});
+        surface.drawBodies();
         glFinish();
     }
-    const SurfaceCounts counts = surface.counts();
-    if (counts.perLevel[state.range(0)] != kFish) state.SkipWithError("not at the wanted level");
+    glDisable(GL_RASTERIZER_DISCARD);
+    if (surface.counts().atLevel.at(std::size_t(level)) != kFish)
+        state.SkipWithError("not at the wanted level");
     state.counters["per_fish"] = benchmark::Counter(
         kFish, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A real master; this test is its only node (a live show goes on without the others), and does with
 // its hands what a visitor does.
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -119,6 +120,43 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     });
     ASSERT_TRUE(later);
     EXPECT_LE(pelletsIn(*later).size(), 12U);
+    session->send(NodeInput::Quit);
+}
+
+// Ahead, and turned to the left: the eye goes on and looks elsewhere; who lets go glides to rest.
+TEST(Visitor, steersTheSubmarine) {
+    const Master master({});
+    const auto session = master.connect();
+    ASSERT_TRUE(session->join());
+    session->prepared(QualityTier::Low);
+    const auto first = await(*session, [](const StateFrame&) { return true; });
+    ASSERT_TRUE(first);
+    const glm::vec3 begin = first->eye.positionMetres;
+    const auto ahead = [](const Eye& eye) { return eye.worldFromWall * glm::vec3(0, 0, -1); };
+    EXPECT_GT(glm::dot(ahead(first->eye), glm::vec3(0, 0, -1)), 0.9999F);
+    const auto moved = await(*session, [&](const StateFrame& state) {
+        session->steer({.ahead = 127, .turn = 127});
+        return glm::distance(state.eye.positionMetres, begin) > 0.5F;
+    });
+    ASSERT_TRUE(moved);
+    EXPECT_LT(moved->eye.positionMetres.z, begin.z);
+    EXPECT_LT(ahead(moved->eye).x, -0.05F);
+    // No jump between two frames, however far apart they are.
+    auto last = *moved;
+    float fastest = 0;
+    const auto seconds = [](const StateFrame& state) {
+        return (static_cast<float>(state.tick.value) - 1 + state.fraction) / 60;
+    };
+    const auto rested = await(*session, [&](const StateFrame& state) {
+        const float metres = glm::distance(state.eye.positionMetres, last.eye.positionMetres);
+        const float time = seconds(state) - seconds(last);
+        if (time < 0.1F) return false;
+        fastest = std::max(fastest, metres / time);
+        last = state;
+        return metres / time < 0.05F;
+    });
+    ASSERT_TRUE(rested) << "its last word holds for half a second";
+    EXPECT_LT(fastest, 1.3F);
     session->send(NodeInput::Quit);
 }
 

@@ -69,6 +69,11 @@ TEST(House, protobufStaysInConfigAndWire) {
               std::vector<std::string>{});
 }
 
+TEST(House, ffmpegStaysInTheTheatre) {
+    EXPECT_EQ(strangers(std::regex("^lib(av|sw)"), {"calibration/theatre/"}),
+              std::vector<std::string>{});
+}
+
 TEST(House, openGlStaysInTheRenderNode) {
     const std::regex library("^(epoxy|GL|EGL|GLFW)/");
     EXPECT_EQ(strangers(library, {"render_node/"}), std::vector<std::string>{});

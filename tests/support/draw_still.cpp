@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
 
 #include "common/wall/png_file.h"
 #include "render_node/context/context.h"
@@ -20,13 +21,46 @@ using namespace aquarama;
 struct Wish {
     std::vector<float> eye{0.0F, -6.0F, 0.0F};
     std::vector<std::string> portraits;
-    float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F, phase = 0.1F,
-          speed = 0.8F;
+    float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F, phase = 0.1F, speed = 0.8F;
     int ball = 0;
     float ballMetres = 6.0F;
     std::string tier = "ultra", water = "IA", out = "still.png";
+    bool plate = false;
     bool openSea = false;
 };
+
+// The whole cast at its true size, for docs/look.md: where each swims, metres right and up.
+struct Placed {
+    const char* species;
+    float lengthMetres;
+    glm::vec2 at;
+};
+constexpr float kPlateMetres = 2.1F;
+constexpr Placed kPlate[]{{"blacktip_reef_shark", 1.30F, {-0.10F, 0.46F}},
+                          {"trumpetfish", 0.50F, {-0.85F, 0.12F}},
+                          {"parrotfish", 0.32F, {-0.22F, 0.08F}},
+                          {"moorish_idol", 0.18F, {0.34F, 0.12F}},
+                          {"moorish_idol", 0.17F, {0.66F, 0.02F}},
+                          {"blue_tang", 0.22F, {-0.85F, -0.24F}},
+                          {"blue_tang", 0.24F, {-0.50F, -0.36F}},
+                          {"bigeye_scad", 0.24F, {0.02F, -0.24F}},
+                          {"bigeye_scad", 0.23F, {0.36F, -0.22F}},
+                          {"bigeye_scad", 0.25F, {0.24F, -0.40F}},
+                          {"bigeye_scad", 0.24F, {0.66F, -0.32F}},
+                          {"clownfish", 0.10F, {-0.20F, -0.52F}},
+                          {"clownfish", 0.08F, {-0.02F, -0.57F}}};
+
+void addPlate(test::Still& still) {
+    const glm::vec3 centre =
+        test::portraitOf("clownfish", still.camera, kPlateMetres, 0, 1).placeMetres;
+    const glm::vec3 ahead = (centre - still.camera.eyeMetres) / kPlateMetres;
+    const glm::vec3 right = glm::cross(ahead, glm::vec3{0, 1, 0});
+    for (const Placed& one : kPlate) {
+        still.fish.push_back(
+            test::portraitOf(one.species, still.camera, kPlateMetres, 8, one.lengthMetres));
+        still.fish.back().placeMetres += one.at.x * right + glm::vec3{0, one.at.y, 0};
+    }
+}
 
 test::Still stillOf(const Wish& wish, test::Still still) {
     still.camera.eyeMetres = {wish.eye.at(0), wish.eye.at(1), wish.eye.at(2)};
@@ -35,6 +69,7 @@ test::Still stillOf(const Wish& wish, test::Still still) {
     still.options.quality = static_cast<QualityTier>(tier - kTierNames.begin());
     const auto water = std::ranges::find(kWaterTypeNames, wish.water);
     still.options.water = static_cast<WaterType>(water - kWaterTypeNames.begin());
+    if (wish.plate) addPlate(still);
     // Side by side, the first in the middle.
     test::Camera camera = still.camera;
     for (const std::string& species : wish.portraits) {
@@ -82,6 +117,7 @@ int main(int argc, char** argv) try {
     app.add_option("--ball-away", wish.ballMetres, "metres");
     app.add_flag_callback(
         "--no-lod", [&] { still.options.levelsOfDetail = false; }, "all fish are heroes");
+    app.add_flag("--plate", wish.plate, "the whole cast at its true size, 2 m away");
     app.add_flag("--open-sea", wish.openSea, "no floor");
     app.add_option("--out", wish.out, "PNG file");
     CLI11_PARSE(app, argc, argv);

@@ -94,7 +94,9 @@ Portrait::Extent Portrait::extent(const View& view) const {
 
 glm::vec3 Portrait::colourOf(std::uint32_t part, const SkinPlace& place) const {
     if (part == static_cast<std::uint32_t>(CagePart::Caudal)) return palette_.tail;
-    if (part != static_cast<std::uint32_t>(CagePart::Body)) return palette_.fin;
+    if (part != static_cast<std::uint32_t>(CagePart::Body) &&
+        part != static_cast<std::uint32_t>(CagePart::Eye))
+        return palette_.fin;
     const float fromEye = glm::distance(glm::vec2(place.rest), glm::vec2(eye_)) / eye_.z;
     if (fromEye < 0.5F) return glm::vec3(0.004F);
     if (fromEye < 1) return palette_.iris;

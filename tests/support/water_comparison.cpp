@@ -70,7 +70,8 @@ std::vector<double> differences(const ForwardPhase& phase,
     const Inscatter inscatter{water};
     const double clear = std::min(0.13 / beamAttenuation(water, 10), 1.0);
     std::vector<double> all;
-    for (const double depth : comparison.depths) {
+    for (const double inClear : comparison.depths) {
+        const double depth = inClear * std::sqrt(clear);
         std::vector<double> irradiances;
         for (std::size_t band = 0; band < kBands; band += kEvery) {
             const Band at = bandOf(phase, water, band);
@@ -84,11 +85,13 @@ std::vector<double> differences(const ForwardPhase& phase,
         }
         const double exposure = inscatter.exposureAt(depth);
         for (const Way& way : kWays)
-            for (const double range : comparison.ranges) {
+            for (const double inClearWater : comparison.ranges) {
                 const Sight sight{depth, way.rise, way.azimuthDegrees};
+                const double surface = way.rise > 0 ? depth / way.rise : 1e9;
+                const double range = std::min(inClearWater * clear, surface);
                 const glm::dvec3 truth =
-                    traced(phase, water, sight, range * clear, irradiances, comparison);
-                const glm::dvec3 table = tabled(water, sight, range * clear);
+                    traced(phase, water, sight, range, irradiances, comparison);
+                const glm::dvec3 table = tabled(water, sight, range);
                 all.push_back(ciede2000(labOf(truth * exposure), labOf(table * exposure)));
             }
     }

@@ -12,8 +12,10 @@
 namespace aquarama::test {
 
 struct Comparison {
-    std::vector<double> depths, ranges;  // metres; ranges in type IA, less in hazier water
-    int paths = 0;                       // for each of the bands
+    // Metres in type IA; in water that is hazier by a factor, ranges less by it, depths by its
+    // root.
+    std::vector<double> depths, ranges;
+    int paths = 0;  // for each of the bands
     std::uint64_t seed = 0;
 };
 // Of all depths, ranges and of five directions. The irradiance at the eye is Jerlov's, as it is

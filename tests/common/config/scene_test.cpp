@@ -95,6 +95,54 @@ TEST(Scene, fillsInWhatIsLeftOut) {
     EXPECT_DOUBLE_EQ(scene.cast[1].start->hunger, 0);
 }
 
+std::string withTour(const std::string& tour) {
+    return kScene + tour;
+}
+
+TEST(Scene, aTourIsReadAndWritten) {
+    EXPECT_FALSE(parseScene(kScene, "small.txtpb").tour);
+    EXPECT_DOUBLE_EQ(parseScene(kScene, "small.txtpb").idleSeconds, 20);
+    const Scene round = parseScene(withTour("tour {} idle_s: 5"), "small.txtpb");
+    ASSERT_TRUE(round.tour);
+    EXPECT_TRUE(round.tour->stops.empty());
+    EXPECT_DOUBLE_EQ(round.tour->metresPerSecond, 0.4);
+    EXPECT_DOUBLE_EQ(round.idleSeconds, 5);
+    const std::string stop = "stops { at { x_m: 1 y_m: -9 z_m: -2 } } ";
+    const Scene stops = parseScene(
+        withTour("tour { speed_m_s: 0.3 " + stop + stop +
+                 "stops { at { x_m: 0 y_m: -8 z_m: -3 } look_at { x_m: 4 y_m: -5 z_m: -6 } } }"),
+        "small.txtpb");
+    ASSERT_EQ(stops.tour->stops.size(), 3U);
+    EXPECT_FALSE(stops.tour->stops[0].lookAt);
+    EXPECT_EQ(stops.tour->stops[2].at, glm::vec3(0, -8, -3));
+    EXPECT_EQ(stops.tour->stops[2].lookAt, glm::vec3(4, -5, -6));
+    EXPECT_EQ(writeScene(parseScene(writeScene(stops), "written")), writeScene(stops));
+}
+
+TEST(Scene, aTourThatCannotBeIsRefusedWithItsPlace) {
+    const auto refusal = [](const std::string& tour, bool onAReef = false) -> std::string {
+        std::string text = withTour("\n" + tour);
+        if (onAReef) text.replace(text.find("OPEN_SEA"), 8, "REEF");
+        if (onAReef) text.replace(text.find("fish: 0"), 7, "fish: 1");
+        try {
+            (void)parseScene(text, "small.txtpb");
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    const std::string stop = "stops { at { x_m: 1 y_m: -9 z_m: -2 } } ";
+    EXPECT_THAT(refusal("tour { " + stop + stop + "}"), HasSubstr("needs three stops"));
+    EXPECT_THAT(refusal("tour { speed_m_s: 3 }"), HasSubstr("speed_m_s"));
+    EXPECT_THAT(refusal("idle_s: 0"), HasSubstr("idle_s"));
+    EXPECT_THAT(refusal("tour { " + stop + stop + "stops { at { x_m: 1 y_m: -0.5 z_m: 0 } } }"),
+                HasSubstr("lower it"));
+    EXPECT_THAT(refusal("tour { " + stop + stop + "stops { } }"), HasSubstr("at"));
+    EXPECT_EQ(refusal("tour { }"), "accepted");
+    EXPECT_THAT(refusal("tour { }", true), HasSubstr("a tour of a reef needs stops"));
+    EXPECT_THAT(refusal("tour { }", true), StartsWith("small.txtpb:"));
+}
+
 std::vector<std::string> shippedScenes() {
     std::vector<std::string> paths;
     for (const auto& entry : fs::recursive_directory_iterator(kConfig + "/scenes"))

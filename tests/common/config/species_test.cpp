@@ -90,7 +90,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "rings { s: 0.850 half_height: 0.040 half_width: 0.010 node_mass: 1.1 }",
                 "",
                 "give five"},
-        Mistake{"aBodyWithoutHeight", "s: 0.38 up: 0.113", "s: 0.38 up: 0", "up is 0: it must be"},
+        Mistake{"aBodyWithoutHeight", "s: 0.380 up: 0.113", "s: 0.380 up: 0", "up is 0: it must be"},
+        Mistake{"aSectionWithCorners", "full_up: 2.1", "full_up: 9", "full_up is 9: it must be"},
+        Mistake{"aFinThatTurnsOver", "stroke_deg: 8", "stroke_deg: 180", "stroke_deg is 180: it must be"},
+        Mistake{"aFinThatNeverFolds", "fold_above: 1.2", "", "rowing lacks fold_above: add it"},
+        Mistake{"aRippleWithoutWaves", "waves: 1.5", "", "hovering lacks waves: add it"},
+        Mistake{"aThreadOfOnePoint", "eye {", "threads { at { s: 0.5 y: 0 } root_width: 0.01 } eye {", "at needs 2 to 32 points"},
+        Mistake{"anEyeOnAStalk", "bulge: 0.2", "bulge: 3", "bulge is 3: it must be"},
         Mistake{"profileOutOfOrder", "profile { s: 0.10", "profile { s: 0.01", "sort them"},
         Mistake{"profileThatStartsLate",
                 "profile { s: 0.00",
@@ -133,6 +139,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"aColourBeyondWhite", "blue: 0.79", "blue: 1.79", "blue is 1.79: it must be"},
         Mistake{"aNameThatIsNoFileName", "\"bigeye_scad\"", "\"../scad\"", "rename it"}),
     [](const auto& mistake) { return std::string(mistake.param.name); });
+
+TEST(Species, howFinsMoveIsReadInRadiansAndChangesNoCapture) {
+    const std::string text = edited("stroke_deg: 8", "stroke_deg: 45");
+    const FinMotion motion = parseSpecies(text, "fish.txtpb").finMotion;
+    EXPECT_FLOAT_EQ(motion.rowing.strokeRadians, 0.7853982F);
+    EXPECT_FLOAT_EQ(motion.hovering.waves, 1.5F);
+    EXPECT_FALSE(motion.hovering.isOpposed);
+    EXPECT_EQ(motionText(text, "fish.txtpb"), motionText(edited("eye", "eye"), "fish.txtpb"));
+}
 
 TEST(Species, theOnlyDorsalFinMayNotReachTheTail) {
     std::string text = scadText();

@@ -82,6 +82,21 @@ TEST(Room, ofAReefEndsSomewhereAndThatOfTheOpenSeaDoesNot) {
                 testing::HasSubstr("take fewer"));
 }
 
+TEST(Room, theTourStaysWhereTheSubmarineMayGo) {
+    Scene scene = sceneAt(PlaceKind::Reef);
+    const Region roaming = roamingRegion({scene.water.centre, scene.water.halfExtent}, scene.eye);
+    EXPECT_LT(roaming.centre.y + roaming.halfExtent.y, -0.5F) << "below the surface";
+    const auto refusalOfStop = [&](glm::vec3 at) {
+        scene.tour = SceneTour{};
+        scene.tour->stops = {{.at = at, .lookAt = {}, .place = {9, 3}}};
+        return refusalOf(scene, 60);
+    };
+    EXPECT_EQ(refusalOfStop(scene.eye), "accepted");
+    EXPECT_THAT(refusalOfStop(scene.eye + glm::vec3(0, 0, 5)),
+                testing::StartsWith("sea.txtpb:9:3: the stop is out of"));
+    EXPECT_THAT(refusalOfStop({0, -7.5F, -4}), testing::HasSubstr("too near to the sand"));
+}
+
 TEST(Room, isNotInTheSand) {
     Scene scene = sceneAt(PlaceKind::Reef);
     scene.eye.y = -8.5F;

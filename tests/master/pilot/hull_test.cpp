@@ -86,8 +86,7 @@ TEST(Hull, isNeverInsideAnythingWhateverHandsDo) {
             const glm::vec3 before = pilot.vessel.velocity;
             advancePilot(pilot, voyage, {}, tick);
             least = std::min(least, gapAt(voyage.waters, pilot.vessel.position));
-            hardest =
-                std::max(hardest, lengthOf(pilot.vessel.velocity - before) / kTickSeconds);
+            hardest = std::max(hardest, lengthOf(pilot.vessel.velocity - before) / kTickSeconds);
             roamed = std::max(roamed, lengthOf(pilot.vessel.position - scene.eye));
         }
         EXPECT_GT(least, 0.8F * kStandOffMetres) << seed;

@@ -315,8 +315,8 @@ TEST(Reef, allMakeWayForASubmarineOnItsTour) {
         farthest = std::max(farthest, lengthOf(submarine.position - kEyePosition));
         for (std::uint32_t fish = 0; i % 4 == 0 && fish < world.view().size(); ++fish)
             if (!world.view().shows(fish, kAway))
-                nearest = std::min(
-                    nearest, lengthOf(world.view().position(fish) - submarine.position));
+                nearest =
+                    std::min(nearest, lengthOf(world.view().position(fish) - submarine.position));
     }
     print("from the touring submarine's eye, m", double{nearest});
     EXPECT_GT(farthest, 4) << "it went through";

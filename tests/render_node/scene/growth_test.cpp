@@ -15,7 +15,6 @@
 #include "render_node/scene/rock_mesh.h"
 #include "render_node/scene/scatter.h"
 #include "render_node/scene/shade.h"
-#include "render_node/scene/waves.h"
 #include "render_node/shaders/plant_bend.h"
 
 namespace aquarama {
@@ -185,32 +184,6 @@ TEST(Shade, aBoulderShadesWhatLiesBehindIt) {
     EXPECT_EQ(sunOpenness(rocks, rocks[0].centre + 2.0F * sunInWater()), 1.0F);
     EXPECT_LT(skyOpenness(rocks, {0.9F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.75F);
     EXPECT_GT(skyOpenness(rocks, {7.0F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.95F);
-}
-
-TEST(Waves, fitTheirTileAndFocusOnTheSand) {
-    const Waves waves = wavesOf(kSeed, kMeanFloorDepthMetres);
-    for (const Wave& wave : waves) {
-        const glm::dvec2 onTile =
-            wave.number * (static_cast<double>(kTileMetres) / (2.0 * std::numbers::pi));
-        EXPECT_NEAR(onTile.x, std::round(onTile.x), 1e-9);
-        EXPECT_NEAR(onTile.y, std::round(onTile.y), 1e-9);
-        EXPECT_NEAR(wave.frequency * wave.frequency, 9.81 * glm::length(wave.number), 1e-9);
-    }
-    const double focus = focusNumber(waves, static_cast<double>(kMeanFloorDepthMetres));
-    EXPECT_GT(focus, 0.35);
-    EXPECT_LT(focus, 0.70);
-}
-
-TEST(Waves, keepTheirPhaseForMonths) {
-    const Waves waves = wavesOf(kSeed, kMeanFloorDepthMetres);
-    constexpr double kMonth = 30.0 * 86400.0;
-    for (std::size_t i = 0; i < waves.size(); ++i) {
-        const float phase = seaAt(waves, kMonth).waves[i].w;
-        const double exact = std::remainder(
-            waves[i].phase - waves[i].frequency * kMonth - static_cast<double>(phase),
-            2.0 * std::numbers::pi);
-        EXPECT_NEAR(exact, 0.0, 1e-5);
-    }
 }
 
 TEST(Tiles, reliefIsLevelOnTheWhole) {

@@ -15,9 +15,6 @@
 
 #include "common/place/place.h"
 #include "render_node/context/context.h"
-#include "render_node/scene/sea_light.h"
-#include "render_node/scene/shade.h"
-#include "render_node/shaders/frame_uniforms.h"
 
 namespace aquarama {
 namespace {
@@ -267,31 +264,6 @@ TEST_F(Place, neighboursAgreeWhereTheyOverlap) {
     // Blades of grass thinner than a pixel fall between the samples now of one view, now of the
     // other.
     EXPECT_LT(codes.back(), 6.0F);
-}
-
-TEST_F(Place, wavesGatherLightAndMakeNone) {
-    SeaLight light{1, WaterType::IB};
-    FrameUniforms uniforms{};
-    uniforms.eyeAndTime = glm::vec4(kEyePosition, 0.0F);
-    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), 5.0F);
-    const gl::Buffer block;
-    glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
-    for (const double time : {0.0, 2.7, 1000.3}) {
-        light.update(time, kEyePosition);
-        constexpr int kTexels = 256 * 256;
-        std::vector<float> texels(kTexels);
-        glGetTextureImage(light.causticTile().name(),
-                          0,
-                          GL_RED,
-                          GL_FLOAT,
-                          static_cast<GLsizei>(texels.size() * sizeof(float)),
-                          texels.data());
-        double sum = 0;
-        for (const float texel : texels) sum += static_cast<double>(texel);
-        EXPECT_NEAR(sum / kTexels, 1.0, 0.05) << time;
-        EXPECT_GT(*std::ranges::max_element(texels), 3.0F) << "no net of light";
-    }
 }
 
 }  // namespace

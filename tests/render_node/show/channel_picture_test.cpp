@@ -231,6 +231,59 @@ TEST_F(ChannelPictureTest, neighboursShowAFishInTheirOverlapAtOnePlace) {
     EXPECT_LT(glm::length(sum / double{kFish}), 0.5);
 }
 
+// How many pixels a column of a picture goes without a change of code, in green and blue.
+std::vector<int> flatRuns(const std::vector<std::uint8_t>& rgb, glm::ivec2 size) {
+    std::vector<int> runs;
+    for (int x = 4; x < size.x; x += 7)
+        for (const int channel : {1, 2}) {
+            int since = -1;
+            for (int y = size.y / 2; y + 1 < size.y - size.y / 10; ++y) {
+                const auto code = [&](int row) {
+                    return rgb[static_cast<std::size_t>(3 * (row * size.x + x) + channel)];
+                };
+                if (code(y) == code(y + 1)) continue;
+                if (since >= 0) runs.push_back(y - since);
+                since = y;
+            }
+        }
+    std::ranges::sort(runs);
+    return runs;
+}
+
+// The lower half of open water is one dark gradient: without noise it would show steps of a code,
+// which an eye sees there. In the mean of 8 x 8 pixels the noise is gone.
+TEST_F(ChannelPictureTest, theGradientOfOpenWaterShowsNoBands) {
+    Admission open = stage->admission;
+    open.scene.place = PlaceKind::OpenSea;
+    ChannelPicture picture(open, kMiddle, QualityTier::Low);
+    StateFrame frame = emptySea();
+    frame.eye.positionMetres.y = -20.0F;
+    picture.drawScene(frame, {});
+    picture.project(stage->target.framebuffer(), Encoding::Dithered8, {});
+    const auto codes = gl::readRgb<std::uint8_t>(stage->target);
+    const std::vector<int> runs = flatRuns(codes, picture.sizePixels());
+    ASSERT_GT(runs.size(), 1000U);
+    EXPECT_LE(runs[runs.size() * 95 / 100], 6);
+    picture.project(stage->deep.framebuffer(), Encoding::Plain, {});
+    const auto exact = gl::readRgb<std::uint16_t>(stage->deep);
+    const glm::ivec2 size = picture.sizePixels();
+    int off = 0;
+    int blocks = 0;
+    for (int top = 0; top + 8 <= size.y; top += 8)
+        for (int left = 0; left + 8 <= size.x; left += 8)
+            for (int channel = 0; channel < 3; ++channel) {
+                double difference = 0;
+                for (int i = 0; i < 64; ++i) {
+                    const auto at = static_cast<std::size_t>(
+                        3 * ((top + i / 8) * size.x + left + i % 8) + channel);
+                    difference += codes[at] - exact[at] / 257.0;
+                }
+                off += std::abs(difference / 64) > 0.3 ? 1 : 0;
+                ++blocks;
+            }
+    EXPECT_LT(off, blocks / 500);
+}
+
 TEST(TextOverlay, drawsTheFontsDots) {
     const auto context = makeOffscreenContext("auto", {64, 32});
     const gl::Target target(GL_RGBA8, {64, 32});

@@ -15,6 +15,8 @@
 #include "render_node/scene/scene.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
+#include "tests/support/flip.h"
+#include "tests/support/golden.h"
 #include "tests/support/still.h"
 
 namespace aquarama {
@@ -22,6 +24,12 @@ namespace {
 
 constexpr float kLength = 0.24F;
 const glm::vec3 kEye{0, -6, 0};
+
+// Of the difference that the fish makes at all. Rounding moves some pixels of the outline too.
+constexpr double kMostJump = 0.05;
+// Without multisampling, edges that run otherwise by a part of a pixel change whole pixels, and a
+// fish of 14 pixels has as many on its outline as within it.
+constexpr double kMostJumpOfFew = 0.25;
 
 using Pixels = std::vector<glm::vec3>;  // display light
 
@@ -108,46 +116,110 @@ PresentedFish fishAway(float metres) {
     return fish;
 }
 
+// A fish on one side of a limit and on the other, hardly any further away: what differs is what the
+// level alone does.
 TEST_F(DetailTest, noLimitLeavesAJump) {
     constexpr float kNear = 2e-4F;
     for (const std::string species : {"bigeye_scad", "moorish_idol"})
         for (const float limit : {2.5F, 4.0F, 14.0F, 60.0F, 180.0F}) {
             Wall wall(species, cameraFor(limit), 1);
             const Pixels water = wall.shown({});
-            const auto at = [&](float pixels) { return wall.shown({fishAway(wall.metresFor(pixels))}); };
+            const auto at = [&](float pixels) {
+                return wall.shown({fishAway(wall.metresFor(pixels))});
+            };
             const Pixels before = at(limit * (1.0F - kNear)), after = at(limit * (1.0F + kNear));
-            const double fish = difference(after, water);
-            const Pixels later = at(limit * (1.0F + 3 * kNear));
-            printf("%s %g: fish %g jump %g control %g\n", species.c_str(), (double)limit, fish,
-                   difference(before, after) / fish, difference(later, after) / fish);
+            const double jump = difference(before, after) / difference(after, water);
+            RecordProperty(species + "_" + std::to_string(limit), std::to_string(jump));
+            EXPECT_LT(jump, limit == 14.0F ? kMostJumpOfFew : kMostJump) << species << " at " << limit << " pixels";
         }
 }
 
-// Many fish, so that which pixels' centres are hit is averaged out.
+// Many fish, so that which pixels' centres are hit is averaged out. What they change of the picture
+// for their area goes down with the water between, never by steps.
 TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
     constexpr std::size_t kFish = 150;
     test::Camera camera;
     camera.sizePixels = {192, 108};
     camera.heightDegrees = 60.0F;
-    for (const std::string species : {"bigeye_scad", "moorish_idol"}) {
-        Wall wall(species, camera, kFish);
-        const Pixels water = wall.shown({});
-        double last = 0;
-        for (float pixels = 24.0F; pixels > 1.2F; pixels /= 1.1F) {
-            std::vector<PresentedFish> fish;
-            for (std::size_t i = 0; i < kFish; ++i) {
-                const float k = static_cast<float>(i);
-                const float metres = wall.metresFor(pixels);
-                const glm::vec2 slope{0.9F * std::sin(12.9898F * k), 0.5F * std::sin(78.233F * k)};
-                const glm::vec3 towards = glm::normalize(glm::vec3{slope, -1.0F});
-                const glm::quat turn = glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0});
-                fish.push_back(test::fishAt(kEye + metres * towards, turn, kLength));
-                fish.back().id = static_cast<std::uint32_t>(i);
-            }
-            const double light = difference(wall.shown(fish), water) / (pixels * pixels);
-            printf("%s %.2f px %.2f m: %.3f  ratio %.3f\n", species.c_str(), (double)pixels, (double)wall.metresFor(pixels), light, last > 0 ? light / last : 1);
-            last = light;
+    Wall wall("moorish_idol", camera, kFish);
+    const Pixels water = wall.shown({});
+    double last = 0;
+    for (float pixels = 18.0F; pixels > 1.6F; pixels /= 1.1F) {
+        std::vector<PresentedFish> fish;
+        for (std::size_t i = 0; i < kFish; ++i) {
+            const float k = static_cast<float>(i);
+            const glm::vec2 slope{0.9F * std::sin(12.9898F * k), 0.5F * std::sin(78.233F * k)};
+            const glm::vec3 towards = glm::normalize(glm::vec3{slope, -1.0F});
+            const glm::quat turn = glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0});
+            fish.push_back(test::fishAt(kEye + wall.metresFor(pixels) * towards, turn, kLength));
+            fish.back().id = static_cast<std::uint32_t>(i);
         }
+        const double light = difference(wall.shown(fish), water) / static_cast<double>(pixels * pixels);
+        if (last > 0) {
+            EXPECT_NEAR(light / last, 0.95, 0.17) << pixels << " pixels";
+        }
+        last = light;
+    }
+}
+
+// The same frame with and without culling and levels of detail, by a metric of what people see. See
+// table2 in tests/bench for what it saves.
+TEST_F(DetailTest, peopleDoNotSeeWhatIsSaved) {
+    test::Still still;
+    still.camera.sizePixels = {480, 270};
+    still.options.place = PlaceKind::OpenSea;
+    for (int i = 0; i < 40; ++i) {
+        const float k = static_cast<float>(i);
+        test::Camera towards = still.camera;
+        towards.azimuthDegrees = 36.0F * std::sin(12.9898F * k);
+        towards.elevationDegrees = 20.0F * std::sin(78.233F * k);
+        const std::string species = i % 8 == 0 ? "moorish_idol" : "bigeye_scad";
+        still.fish.push_back(
+            test::portraitOf(species, towards, 1.0F + 0.3F * k, 137.5F * k, 0.24F));
+    }
+    const Picture on = test::pictureOf(still);
+    still.options.levelsOfDetail = still.options.culling = false;
+    const Picture off = test::pictureOf(still);
+    const double apart = test::meanFlip(off, on);
+    RecordProperty("flip", std::to_string(apart));
+    EXPECT_LE(apart, 0.02);
+    EXPECT_GT(apart, 0.0) << "nothing was saved";
+}
+
+// Each level as it was when somebody last looked and found it right.
+TEST_F(DetailTest, eachLevelIsAsItWas) {
+    struct Shown {
+        const char* name;
+        float pixels;
+        QualityTier tier;
+    };
+    for (const Shown& level : {Shown{"point", 2.0F, QualityTier::Low},
+                               Shown{"fading", 3.2F, QualityTier::Low},
+                               Shown{"few_triangles", 9.0F, QualityTier::Low},
+                               Shown{"control_mesh", 40.0F, QualityTier::Low},
+                               Shown{"mesh", 120.0F, QualityTier::Low},
+                               Shown{"hero", 170.0F, QualityTier::High},
+                               Shown{"close_up", 640.0F, QualityTier::High}}) {
+        test::Still still;
+        // So wide or narrow that the fish is some metres away.
+        const bool isSmall = level.pixels < 10.0F;
+        still.camera.sizePixels = isSmall ? glm::ivec2{96, 54} : glm::ivec2{224, 126};
+        still.camera.heightDegrees = isSmall ? 75.0F : 10.0F;
+        still.options.place = PlaceKind::OpenSea;
+        still.options.quality = level.tier;
+        const float metres = 0.24F / (level.pixels * test::pixelRadiansOf(still.camera));
+        const int fish = isSmall ? 12 : 1;
+        for (int i = 0; i < fish; ++i) {
+            test::Camera towards = still.camera;
+            if (fish > 1) {
+                towards.azimuthDegrees = 20.0F * static_cast<float>(i % 4) - 30.0F;
+                towards.elevationDegrees = 18.0F * static_cast<float>(i / 4) - 18.0F;
+            }
+            const std::string species = i % 2 == 0 ? "moorish_idol" : "bigeye_scad";
+            still.fish.push_back(test::portraitOf(
+                species, towards, metres, 20.0F + 30.0F * static_cast<float>(i), 0.24F));
+        }
+        test::expectGolden(test::pictureOf(still), std::string("lod/") + level.name);
     }
 }
 

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scad before the eye, in the light of the scene: gold, dark and bright where they belong.
+// Fish before the eye, in the light of the scene: what tells each species, what tells individuals,
+// silver that vanishes and flashes.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <epoxy/gl.h>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtx/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
 #include "render_node/context/context.h"
 #include "render_node/scene/scene.h"
+#include "render_node/scene/shade.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 
@@ -18,6 +26,13 @@ namespace aquarama {
 namespace {
 
 constexpr glm::ivec2 kSize{600, 300};
+constexpr std::array kSpecies{"bigeye_scad",
+                              "clownfish",
+                              "moorish_idol",
+                              "blue_tang",
+                              "parrotfish",
+                              "trumpetfish",
+                              "blacktip_reef_shark"};
 constexpr float kLength = 0.24F, kAway = 0.7F;
 
 struct Picture {
@@ -46,31 +61,49 @@ float luminance(glm::vec3 c) {
     return glm::dot(c, glm::vec3{0.2126F, 0.7152F, 0.0722F});
 }
 
-// The fish swims to the left, so the eye sees its left side.
-Picture portrait(const Species& species) {
-    const FishBody body = makeBody(species);
-    const PresentedFish fish = test::fishAt(kEyePosition + glm::vec3{0, 0, -kAway},
-                                            glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0}),
-                                            kLength);
-    const test::RecordedSchool school{{&fish, 1}};
-    const std::vector<SchoolSpecies> cast{{.body = body,
-                                           .skin = skinOf(species),
-                                           .repertoire = test::swaying(body, 0.0F),
-                                           .fish = school.traits}};
-    SceneRenderer scene{{.seed = 1, .quality = QualityTier::High}, cast};
+const glm::quat kShowsLeftSide = glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0});
+
+struct Sitter {
+    Species species;
+    std::uint32_t id = 0;
+    glm::quat worldFromBody = kShowsLeftSide;  // it swims to the left
+    glm::vec3 fromEye{0, 0, -kAway};           // the camera looks there
+    PlaceKind place = PlaceKind::Reef;
+    float lengthMetres = kLength;
+    QualityTier quality = QualityTier::High;
+};
+
+View viewTowards(glm::vec3 direction) {
+    constexpr float kTangent = 0.2F, kNear = 0.05F;
     View view;
     view.sizePixels = kSize;
-    view.cameraFromWorld = glm::translate(glm::mat4{1.0F}, -kEyePosition);
+    view.cameraFromWorld = glm::lookAt(kEyePosition, kEyePosition + direction, glm::vec3{0, 1, 0});
     view.clipFromCamera = glm::mat4{0.0F};
-    view.clipFromCamera[0][0] = static_cast<float>(kSize.y) / static_cast<float>(kSize.x) / 0.2F;
-    view.clipFromCamera[1][1] = 1.0F / 0.2F;
+    view.clipFromCamera[0][0] =
+        static_cast<float>(kSize.y) / static_cast<float>(kSize.x) / kTangent;
+    view.clipFromCamera[1][1] = 1.0F / kTangent;
     view.clipFromCamera[2][3] = -1.0F;
-    view.clipFromCamera[3][2] = 0.05F;
+    view.clipFromCamera[3][2] = kNear;
+    return view;
+}
+
+Picture portrait(const Sitter& sitter) {
+    const FishBody body = makeBody(sitter.species);
+    PresentedFish fish =
+        test::fishAt(kEyePosition + sitter.fromEye, sitter.worldFromBody, sitter.lengthMetres);
+    fish.id = sitter.id;
+    const test::RecordedSchool school{{&fish, 1}};
+    const std::vector<SchoolSpecies> cast{{.body = body,
+                                           .skin = skinOf(sitter.species),
+                                           .repertoire = test::swaying(body, 0.0F),
+                                           .fish = school.traits}};
+    SceneRenderer scene{{.seed = 1, .place = sitter.place, .quality = sitter.quality}, cast};
     SceneFrame frame;
     frame.eyePositionMetres = kEyePosition;
     frame.fish = school.moment();
+    frame.timeSeconds = 12.0;
     scene.update(frame);
-    const unsigned texture = scene.draw(view);
+    const unsigned texture = scene.draw(viewTowards(sitter.fromEye));
     Picture picture;
     picture.pixels.resize(static_cast<std::size_t>(kSize.x) * static_cast<std::size_t>(kSize.y));
     glGetTextureImage(texture,
@@ -80,6 +113,12 @@ Picture portrait(const Species& species) {
                       static_cast<GLsizei>(picture.pixels.size() * sizeof(glm::vec4)),
                       picture.pixels.data());
     return picture;
+}
+
+// In the open sea, which is quickly made.
+Picture portrait(const Species& species, std::uint32_t id = 0) {
+    return portrait(Sitter{
+        .species = species, .id = id, .place = PlaceKind::OpenSea, .quality = QualityTier::Low});
 }
 
 TEST(PaintedFish, goldDarkAndBrightAreWhereTheyBelong) {
@@ -145,6 +184,83 @@ TEST(PaintedFish, aNewSpeciesWearsTheColoursOfItsFile) {
     const glm::vec3 flank = picture.onFish(0.50F, 0.0F);
     EXPECT_GT(back.r, back.g);
     EXPECT_GT(flank.g, 2 * flank.r);
+}
+
+glm::vec3 meanOf(const Picture& picture) {
+    glm::vec3 sum{};
+    for (const glm::vec4& pixel : picture.pixels) sum += glm::vec3(pixel);
+    return sum / static_cast<float>(picture.pixels.size());
+}
+
+// What an id changes is the fish alone, and always in the same way.
+TEST(PaintedFish, individualsDifferAndStayThemselves) {
+    const auto context = makeOffscreenContext("mesa", kSize);
+    for (const char* name : kSpecies) {
+        const Species species = castMember(name);
+        const Picture one = portrait(species, 3), other = portrait(species, 8);
+        EXPECT_GT(glm::distance(meanOf(one), meanOf(other)), 2.0e-5F) << name;
+    }
+    const Species scad = castMember("bigeye_scad");
+    EXPECT_EQ(portrait(scad, 3).pixels, portrait(scad, 3).pixels);
+}
+
+// A painted fish sends back no more light than a white one in the same place: matte ones, as a
+// mirror may show the sun.
+TEST(PaintedFish, noMatteFishIsBrighterThanAWhiteOne) {
+    const auto context = makeOffscreenContext("mesa", kSize);
+    for (const char* name : {"clownfish", "moorish_idol", "blue_tang", "parrotfish"}) {
+        const Picture painted = portrait(castMember(name));
+        Species white = castMember(name);
+        white.name = "white_fish";
+        white.palette = {{"back", glm::vec3(1)}, {"flank", glm::vec3(1)}, {"belly", glm::vec3(1)}};
+        const Picture plain = portrait(white);
+        int brighter = 0;
+        for (std::size_t i = 0; i < painted.pixels.size(); ++i)
+            if (luminance(painted.pixels[i]) > luminance(plain.pixels[i]) + 0.08F) ++brighter;
+        // Tilted scales and the catch light of the eye glint here and there.
+        EXPECT_LT(brighter, static_cast<int>(painted.pixels.size() / 500)) << name;
+    }
+}
+
+// The flank of a scad that swims across the view in the open sea, and the water behind it.
+struct FlankAndWater {
+    float flank, water;
+};
+FlankAndWater acrossTheView(glm::vec3 direction, float rollRadians) {
+    constexpr float kBeyondTheLamp = 14.0F;  // metres; a fish that is large enough to be measured
+    const glm::vec3 forwards = glm::normalize(glm::cross(glm::vec3{0, 1, 0}, direction));
+    const glm::quat level = glm::rotation(glm::vec3{1, 0, 0}, forwards);
+    const Picture picture =
+        portrait(Sitter{.species = castMember("bigeye_scad"),
+                        .worldFromBody = glm::angleAxis(rollRadians, forwards) * level,
+                        .fromEye = kBeyondTheLamp * direction,
+                        .place = PlaceKind::OpenSea,
+                        .lengthMetres = 0.08F * kBeyondTheLamp});
+    const glm::ivec2 middle = kSize / 2;
+    const auto meanAbout = [&](glm::ivec2 centre) {
+        float sum = 0;
+        for (int x = -6; x <= 6; ++x)
+            for (int y = -2; y <= 2; ++y) sum += luminance(picture.at(centre + glm::ivec2{x, y}));
+        return sum / 65;
+    };
+    return {meanAbout(middle + glm::ivec2{0, -2}),
+            0.5F * (meanAbout(middle + glm::ivec2{0, 40}) + meanAbout(middle - glm::ivec2{0, 40}))};
+}
+
+// Denton 1970: platelets stand upright and mirror the level water, which is as bright on both sides
+// of the sun; rolled towards the sun they mirror the surface. A quarter of the
+// radiance is 0.4 of the display's light, whose curve has a toe; shafts and the lamp are in it.
+TEST(PaintedFish, silverVanishesUprightAndFlashesWhenItRolls) {
+    const auto context = makeOffscreenContext("mesa", kSize);
+    const glm::vec3 sun = sunInWater();
+    for (const float side : {-1.0F, 1.0F}) {
+        const glm::vec3 across = side * glm::normalize(glm::vec3{-sun.z, 0, sun.x});
+        const FlankAndWater upright = acrossTheView(across, 0);
+        EXPECT_NEAR(upright.flank, upright.water, 0.4F * upright.water);
+    }
+    const glm::vec3 awayFromSun = glm::normalize(glm::vec3{-sun.x, 0, -sun.z});
+    const float upright = acrossTheView(awayFromSun, 0).flank;
+    EXPECT_GT(acrossTheView(awayFromSun, 0.52F).flank, 4 * upright) << "rolled by 30 degrees";
 }
 
 }  // namespace

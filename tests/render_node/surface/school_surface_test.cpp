@@ -6,12 +6,14 @@
 #include <cmath>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/motion/living_cage.h"
 #include "tests/render_node/surface/surface_fixture.h"
+#include "tests/support/cast.h"
 
 namespace aquarama {
 namespace {
@@ -67,6 +69,47 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
         const auto expected = expectedPositions(present(record, record, 1.0F, traits[0]), level);
         EXPECT_LT(largestDistance(surfacePositions(expected.size()), expected), 1e-4F * 0.24F)
             << "level " << static_cast<int>(level);
+    }
+}
+
+// Fins that row, flutter and ripple: of each species the GPU's are those of the reference.
+TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
+    std::vector<SchoolSpecies> cast;
+    std::vector<PresentedFish> fish;
+    for (const std::string& name : kCast) {
+        const FishBody body = makeBody(castMember(name));
+        PresentedFish one = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
+        one.id = static_cast<std::uint32_t>(fish.size());
+        one.speed = 0.25F * static_cast<float>(fish.size());
+        one.phase = 0.625F;
+        one.segment = static_cast<std::uint32_t>(fish.size());
+        fish.push_back(one);
+        cast.push_back({body, {}, test::swaying(body, 0.12F), {test::traitsOf(one)}});
+    }
+    const test::RecordedSchool recorded{fish};
+    SchoolSurface surface{
+        cast,
+        SurfaceOptions{.culling = false, .levelsOfDetail = false},
+        programs()};
+    surface.update(recorded.moment());
+    surface.look(clip_, {});
+    evaluate(surface);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        const LimitTable table = makeLimitTable(cast[i].body, 2);
+        const PresentedFish shown =
+            present(recorded.records[i], recorded.records[i], 1.0F, cast[i].fish[0]);
+        std::vector<glm::vec3> cage(kControlPoints), expected;
+        livingCage(cast[i].body, cast[i].repertoire, shown, test::kSeconds, cage);
+        for (std::size_t v = 0; v < table.vertices.size(); ++v) {
+            glm::vec3& place = expected.emplace_back(0.0F);
+            for (std::uint32_t k = table.firstEntry[v]; k < table.firstEntry[v + 1]; ++k)
+                place += table.entries[k].position * cage[table.entries[k].controlPoint];
+        }
+        EXPECT_LT(largestDistance(surfacePositions(expected.size(), first), expected),
+                  2e-4F * shown.lengthMetres)
+            << kCast.at(i);
+        first += expected.size();
     }
 }
 

@@ -168,6 +168,26 @@ TEST_F(VisibilityTest, aFishIsWhereTheReferencePresentsIt) {
     }
 }
 
+TEST_F(VisibilityTest, aQuarterOfAMillionFishAreSorted) {
+    const TwoTicks school(250'000, 13);
+    SchoolSurface surface = surfaceOf(school, {});
+    surface.update({school.before, school.after, 1.0F});
+    surface.look(clip_, kShared);
+    const FrustumPlanes frustum = frustumOf(clip_);
+    const float reach = reachOf(recordedPoints(body_, repertoire_));
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < school.traits.size(); ++i) {
+        if (isAway(school.before[i]) || isAway(school.after[i])) continue;
+        const glm::vec3 place = bodyFrameOf(school.after[i]).position;
+        const float length = 0.001F * static_cast<float>(school.traits[i].lengthMillimetres);
+        expected += reaches(frustum, place, marginOf(kShared, place, length, reach)) ? 1 : 0;
+    }
+    const auto found = static_cast<double>(surface.counts().visible);
+    EXPECT_NEAR(found, static_cast<double>(expected), 3);  // some lie on a plane
+    EXPECT_GT(found, 10'000);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
 TEST_F(VisibilityTest, withoutATickBeforeFishAreAtTheTick) {
     const TwoTicks school(50, 3);
     SchoolSurface surface = surfaceOf(school, {.culling = false});

@@ -1,0 +1,94 @@
+// What stands between a place and the light from above: the sea floor with all that stands on it,
+// and the fish. Every map is indexed by where a straight ray from the place meets the surface, and
+// holds heights, so that a shadow is soft by how far its thrower is above it.
+#ifndef SHADOW_GLSL
+#define SHADOW_GLSL
+#include "frame_uniforms.h"
+#include "sea_now.glsl"
+
+layout(binding = 21) uniform sampler2D sunHeights;  // topmost height along the sun's ray, and its square
+layout(binding = 22) uniform sampler2D topHeights;  // the same straight from above
+layout(binding = 18) uniform sampler2D fishOnTheWay;  // optical depth along the sun's ray; times height; times its square
+
+// How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
+struct Openness {
+    float sun;
+    float sky;
+};
+
+const float kPlaceMetres = 80.0;  // side of the maps of the place, round the origin; as in sea_shade.cpp
+vec2 surfacePoint(vec3 place) {
+    return place.xz - sunAndFilterDepth.xz / sunAndFilterDepth.y * place.y;
+}
+
+// The share of what the map holds here that is not above a height: Chebyshev's bound (Donnelly and
+// Lauritzen 2006), less its tail, which would let light bleed in.
+float shareNotAbove(vec2 moments, float height) {
+    float above = moments.x - height;
+    float variance = max(moments.y - moments.x * moments.x, 0.0) + 0.0015;
+    float bound = variance / (variance + above * above);
+    return above <= 0.0 ? 1.0 : clamp((bound - 0.25) / 0.75, 0.0, 1.0);
+}
+
+float placeLod(float blurMetres) {
+    return log2(max(blurMetres * float(textureSize(sunHeights, 0).x) / kPlaceMetres, 1.0));
+}
+
+// Sunlight at a place past rock, coral and sand. Half the light of the sun's ray is spread by a
+// degree or two: edges soften with the distance to what throws the shadow.
+float sunPast(vec3 place) {
+    vec2 uv = surfacePoint(place) / kPlaceMetres + 0.5;
+    float height = place.y + 0.06;
+    if (!kFine) return shareNotAbove(textureLod(sunHeights, uv, 0.0).xy, height);
+    float throwerMetres = max(textureLod(sunHeights, uv, placeLod(0.5)).x - height, 0.0);
+    return shareNotAbove(textureLod(sunHeights, uv, placeLod(0.05 + 0.05 * throwerMetres)).xy, height);
+}
+
+// Light from above past the same: how much of the surroundings stands higher, near and far.
+float skyPast(vec3 place, vec3 normal) {
+    if (!kFine) {
+        vec2 moments = textureLod(topHeights, place.xz / kPlaceMetres + 0.5, 3.0).xy;
+        return shareNotAbove(moments, place.y + 0.1);
+    }
+    float open = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        float reach = 0.18 * exp2(1.6 * float(i));
+        vec3 from = place + normal * (0.2 * reach + 0.03);
+        vec2 moments = textureLod(topHeights, from.xz / kPlaceMetres + 0.5, placeLod(2.0 * reach)).xy;
+        open += shareNotAbove(moments, from.y);
+    }
+    return open / 3.0;
+}
+
+// Light past the fish above, as if those on the way were spread like a bell about their mean height.
+// The light from above comes through a wider part of the school than the sun's.
+float pastFish(vec2 uv, float height, float lod) {
+    vec3 sums = textureLod(fishOnTheWay, uv, lod).xyz;
+    if (sums.x < 1.0e-3) return 1.0;
+    float mean = sums.y / sums.x;
+    float spread = sqrt(max(sums.z / sums.x - mean * mean, 0.0) + 0.01);
+    float above = 1.0 / (1.0 + exp(-1.7 * (mean - height - 0.18) / spread));
+    return exp(-sums.x * above);
+}
+vec2 fishPlace(vec3 place) { return (surfacePoint(place) - fishWindow.xy) * fishWindow.z + 0.5; }
+Openness pastFish(vec3 place) {
+    vec2 uv = fishPlace(place);
+    if (any(greaterThan(abs(uv - 0.5), vec2(0.49)))) return Openness(1.0, 1.0);
+    if (!kFine) {
+        float both = pastFish(uv, place.y, 0.0);
+        return Openness(both, 0.4 + 0.6 * both);
+    }
+    float perMetre = fishWindow.z * float(textureSize(fishOnTheWay, 0).x);
+    float sun = pastFish(uv, place.y, log2(max(0.05 * perMetre, 1.0)));
+    float sky = pastFish(uv, place.y, log2(max(0.9 * perMetre, 1.0)));
+    return Openness(sun, sky);
+}
+
+// For what stands in the place, past all of it and the fish; of its own hollows it knows itself.
+Openness openAt(vec3 place, vec3 normal) {
+    Openness open = Openness(sunPast(place + 0.05 * normal), mix(0.25, 1.0, skyPast(place, normal)));
+    if (!kFine) return open;
+    Openness school = pastFish(place);
+    return Openness(open.sun * school.sun, open.sky * school.sky);
+}
+#endif

@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES detail_bench.cpp LINK aquarama_scene aquarama_surface aquarama_context)
