@@ -38,9 +38,9 @@ void main() {
     if (scales > 2) fine = reliefAt(place, weight, 0.31, pixelMetres);
     vec3 slope = 1.1 * broad.slope + 0.9 * middle.slope + 0.5 * fine.slope;
     n = normalize(n - (slope - n * dot(slope, n)));
-    float tone = 2.0 * middle.tone.x * mix(1.0, 2.0 * fine.tone.x, 0.9);
+    float tone = 2.0 * middle.tone.x * mix(1.0, 2.0 * fine.tone.x, 0.9) * mix(1.0, 2.0 * broad.tone.x, 0.8);
     float pits = mix(0.30, 1.0, smoothstep(0.15, 0.75, middle.tone.y)) * mix(0.35, 1.0, smoothstep(0.15, 0.55, fine.tone.y)) *
-                 mix(0.65, 1.0, smoothstep(0.1, 0.6, broad.tone.y));
+                 mix(0.45, 1.0, smoothstep(0.15, 0.6, broad.tone.y));
     float patches = broad.tone.y + 0.35 * (middle.tone.y - 0.5);
     vec3 sponge = vec3(0.58, 0.27, 0.07) * (0.7 + 0.5 * middle.tone.y);
     vec3 colour = rockColour(mottle, tone, patches, middle.tone.y);

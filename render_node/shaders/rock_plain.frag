@@ -1,4 +1,4 @@
-// As rock.frag, with one scale of grit.
+// As rock.frag, with two scales of grit from one side.
 #include "light.glsl"
 layout(binding = 14) uniform sampler2D grit;  // slopes, albedo, crest
 layout(location = 0) in vec3 place;
@@ -13,8 +13,9 @@ void main() {
     vec3 side = abs(normal);
     vec2 uv = side.y > max(side.x, side.z) ? place.xz : side.x > side.z ? place.zy : place.xy;
     vec4 relief = texture(grit, uv / 1.1);
-    float pits = mix(0.35, 1.0, smoothstep(0.15, 0.75, relief.w));
-    vec3 colour = rockColour(mottle, 2.0 * relief.z, relief.w, relief.w);
+    vec4 broad = texture(grit, uv / 3.7);
+    float pits = mix(0.30, 1.0, smoothstep(0.15, 0.75, relief.w)) * mix(0.5, 1.0, smoothstep(0.2, 0.6, broad.w));
+    vec3 colour = rockColour(mottle, 4.0 * relief.z * broad.z, broad.w + 0.35 * (relief.w - 0.5), relief.w);
     vec3 light = colour * (sunlit * caustic(place, 2.0) + skylit * pits);
     radiance = vec4(light + veil, 1.0);
 }
