@@ -14,7 +14,7 @@ cmake --build build/show --target aquarama_draw_species
 mkdir -p docs/pictures
 
 cmake --build build/show --target aquarama_draw_still
-build/show/bin/aquarama_draw_still --plate --open-sea --fov 36 --azimuth 100 --width 1280 --height 720 --quality ultra \
+build/show/bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
     --out docs/pictures/portraits.png
 
 # The routines as they are seen on the wall.
@@ -43,9 +43,9 @@ build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/
 # One reef in each of Jerlov's types of water, the clearest first.
 cmake --build build/show --target aquarama_draw_still
 for type in I IA IB II III 1C 3C; do
-    build/show/bin/aquarama_draw_still --quality high --width 480 --height 270 --fov 60 --water "$type" --out "$drawn/$type.png"
+    build/show/bin/aquarama_draw_still --quality high --width 360 --height 202 --fov 60 --water "$type" --out "$drawn/$type.png"
 done
-montage -label %t "$drawn"/{I,IA,IB,II,III,1C,3C}.png -tile 4x -geometry +3+3 docs/pictures/water_types.png
+montage "$drawn"/{I,IA,IB,II,III,1C,3C}.png -tile 4x -geometry +3+3 docs/pictures/water_types.png
 
 # Prints the tables of docs/fidelity.md besides.
 build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"

@@ -148,7 +148,8 @@ CageVertex CageShape::place(const CageSite& site) const {
 }
 
 CageShape::Section CageShape::sectionAt(float s) const {
-    return {dorsal_.at(s), ventral_.at(s), halfWidth_.at(s), fullnessUp_.at(s), fullnessDown_.at(s)};
+    return {
+        dorsal_.at(s), ventral_.at(s), halfWidth_.at(s), fullnessUp_.at(s), fullnessDown_.at(s)};
 }
 
 glm::vec3 CageShape::onNose(int row, int column) const {

@@ -23,7 +23,7 @@ constexpr float kMarginLag = kTurn / 6;
 constexpr float kTipLag = 0.12F;  // cycles
 // Below the first speed a fish stands, above the second it swims. Body lengths a second.
 constexpr float kStands = 0.2F, kSwims = 0.6F;
-constexpr float kFolded = 1.5F;   // above it pelvic fins lie as near to the belly as they go
+constexpr float kFolded = 1.5F;    // above it pelvic fins lie as near to the belly as they go
 constexpr float kFoldBand = 0.2F;  // of the speed at which fins fold, to either side
 constexpr float kTrimGain = 3;     // a slope of a third is steep
 
@@ -34,9 +34,9 @@ glm::vec3 rotated(glm::vec3 axis, float angle, glm::vec3 v) {
 
 // The axes of a paired fin of the right side.
 struct Hinge {
-    glm::vec3 root{};  // its middle
-    glm::vec3 axis{};  // about it the fin leaves the flank
-    glm::vec3 ray{};   // from the root to the middle of the margin
+    glm::vec3 root{};   // its middle
+    glm::vec3 axis{};   // about it the fin leaves the flank
+    glm::vec3 ray{};    // from the root to the middle of the margin
     glm::vec3 chord{};  // from there to the margin's front
 };
 
@@ -55,6 +55,12 @@ Hinge hingeOf(const Fin& fin, float flank) {
             .axis = {out.y, -out.x, 0},
             .ray = glm::normalize(lifted(ray)),
             .chord = lifted(patch.at(0, 1) - patch.at(0.5F, 1))};
+}
+
+// In whole tenths of a hertz every fin is where it was ten seconds ago: time may begin anew there,
+// and keeps its precision in a show of days.
+float tenths(float hertz) {
+    return std::round(10 * hertz) / 10;
 }
 
 float flankAt(const Species& species, const Fin& fin) {
@@ -83,7 +89,7 @@ FinStyle styleOf(const Species& species, const Hinge& hinge) {
         style.strokeAngle = rowing.strokeRadians;
         style.featherAngle = leads ? rowing.featherRadians : -rowing.featherRadians;
         style.trimAngle = leads ? rowing.trimRadians : -rowing.trimRadians;
-        style.rowHertz = rowing.beatHertz;
+        style.rowHertz = tenths(rowing.beatHertz);
         style.alternateBelow = rowing.alternateBelow;
         style.foldAbove = rowing.foldAbove;
     }
@@ -92,7 +98,7 @@ FinStyle styleOf(const Species& species, const Hinge& hinge) {
     style.swimWaves = motion.swimming.waves;
     style.hoverRipple = motion.hovering.amplitude;
     style.hoverWaves = motion.hovering.waves;
-    style.hoverHertz = motion.hovering.beatHertz;
+    style.hoverHertz = tenths(motion.hovering.beatHertz);
     style.opposed = motion.hovering.isOpposed ? kTurn / 2 : 0;
     style.cupping = motion.cuppingRadians;
     return style;
@@ -123,18 +129,21 @@ float beyond(float speed, float limit) {
     return glm::smoothstep(limit - band, limit + band, std::abs(speed) + 1e-3F);
 }
 
+// By which a fish differs from others.
+float ownCycles(std::uint32_t id) {
+    return glm::fract(0.37F * static_cast<float>(id));
+}
+
 glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
     const bool isRight = point.side > 0;
-    const float apart =
-        isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
-    const float beat = style.rowHertz * drive.seconds + 0.37F * static_cast<float>(drive.id) + apart;
+    const float apart = isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
+    const float beat = style.rowHertz * drive.seconds + ownCycles(drive.id) + apart;
     // On the outer side of a turn the fin is laid to the flank.
     const float outer = drive.turning[isRight ? 0 : 1];
     const float rows = (1 - beyond(drive.speed, style.foldAbove)) * (1 - outer);
     const float twist = rows * style.featherAngle * std::cos(kTurn * beat) +
                         style.trimAngle * std::clamp(kTrimGain * drive.climb, -1.0F, 1.0F);
-    const float angle =
-        rows * style.strokeAngle * std::sin(kTurn * (beat - kTipLag * point.q));
+    const float angle = rows * style.strokeAngle * std::sin(kTurn * (beat - kTipLag * point.q));
     glm::vec3 arm = rotated(style.ray, twist * point.q, point.arm);
     arm = rotated(style.hinge, glm::mix(style.fold, style.open, rows), arm);
     return rotated(style.stroke, angle, arm) - point.arm;
@@ -144,12 +153,10 @@ float rippled(const FinStyle& style, const FinPoint& point, const FinDrive& driv
     const auto wave = [&](float cycles, float waves) {
         return std::sin(kTurn * (waves * point.p - cycles) - kMarginLag * point.q);
     };
-    const float swimming = glm::mix(wave(drive.fromPhase, style.swimWaves),
-                                    wave(drive.phase, style.swimWaves),
-                                    drive.weight);
+    const float swimming = glm::mix(
+        wave(drive.fromPhase, style.swimWaves), wave(drive.phase, style.swimWaves), drive.weight);
     const bool isAnal = point.part == static_cast<std::uint32_t>(CagePart::Anal);
-    const float hovering = wave(style.hoverHertz * drive.seconds +
-                                    0.37F * static_cast<float>(drive.id) +
+    const float hovering = wave(style.hoverHertz * drive.seconds + ownCycles(drive.id) +
                                     (isAnal ? style.opposed / kTurn : 0),
                                 style.hoverWaves);
     return point.sway * glm::mix(style.hoverRipple * hovering,
@@ -165,9 +172,8 @@ FinTable makeFinTable(const Species& species, const ControlCage& cage) {
     const Hinge pelvic = hingeOf(fins.pelvic, 0.35F * flankAt(species, fins.pelvic));
     FinTable table{.style = styleOf(species, pectoral), .points = {}};
     for (const CageVertex& vertex : cage.vertices) {
-        FinPoint point{.p = vertex.fin.x,
-                       .q = vertex.fin.y,
-                       .part = static_cast<std::uint32_t>(vertex.part)};
+        FinPoint point{
+            .p = vertex.fin.x, .q = vertex.fin.y, .part = static_cast<std::uint32_t>(vertex.part)};
         if (vertex.part == CagePart::Pectoral || vertex.part == CagePart::Pelvic) {
             const glm::vec3 root = vertex.part == CagePart::Pectoral ? pectoral.root : pelvic.root;
             point.side = vertex.rest.z > 0 ? 1.0F : -1.0F;
@@ -180,10 +186,7 @@ FinTable makeFinTable(const Species& species, const ControlCage& cage) {
     return table;
 }
 
-glm::vec3 finOffset(const FinTable& fins,
-                    std::size_t i,
-                    const FinDrive& drive,
-                    float drift) {
+glm::vec3 finOffset(const FinTable& fins, std::size_t i, const FinDrive& drive, float drift) {
     const FinPoint& point = fins.points[i];
     const FinStyle& style = fins.style;
     switch (static_cast<CagePart>(point.part)) {

@@ -19,11 +19,13 @@ namespace aquarama {
 // cage: of this species at rest.
 [[nodiscard]] FinTable makeFinTable(const Species& species, const ControlCage& cage);
 
+inline constexpr float kFinSeconds = 10;  // after which all fins that go by the clock are as before
+
 // What drives the fins of one fish.
 struct FinDrive {
-    float seconds = 0;  // of the show
-    float speed = 0;    // body lengths a second; backwards is negative
-    float climb = 0;    // sine of its pitch, up is positive
+    float seconds = 0;               // of the show, modulo kFinSeconds
+    float speed = 0;                 // body lengths a second; backwards is negative
+    float climb = 0;                 // sine of its pitch, up is positive
     std::array<float, 2> turning{};  // 0 to 1: how far it is in a turn to the left, to the right
     std::uint32_t id = 0;
     // Of its beat, in cycles; and of the one that it comes from, until the weight is 1.

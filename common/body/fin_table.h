@@ -32,11 +32,11 @@ static_assert(sizeof(FinStyle) == 112);
 
 // Of a control point.
 struct FinPoint {
-    glm::vec3 arm{};          // on a paired fin: from the middle of its root, at rest
-    float side = 0;           // right 1, left -1
-    float p = 0, q = 0;       // along the fin's base, and from base to edge
-    float sway = 0;           // on a median fin: ray length * flex * q^1.5, body lengths
-    std::uint32_t part = 0;   // CagePart; the body's and those of a fin's root stay where they are
+    glm::vec3 arm{};         // on a paired fin: from the middle of its root, at rest
+    float side = 0;          // right 1, left -1
+    float p = 0, q = 0;      // along the fin's base, and from base to edge
+    float sway = 0;          // on a median fin: ray length * flex * q^1.5, body lengths
+    std::uint32_t part = 0;  // CagePart; the body's and those of a fin's root stay where they are
 };
 static_assert(sizeof(FinPoint) == 32);
 

@@ -2,6 +2,7 @@
 #include "common/motion/living_cage.h"
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -65,14 +66,14 @@ CagePose poseAt(const FishBody& body, const ActionSegment& segment, float phase)
 // How far a segment is a turn to the left (0) or right (1).
 float turnOf(std::uint32_t segment, std::size_t side) {
     constexpr float kGradual = 0.4F;
-    const auto first = static_cast<std::uint32_t>(side == 0 ? Action::TurnLeftGradual
-                                                            : Action::TurnRightGradual);
+    const auto first =
+        static_cast<std::uint32_t>(side == 0 ? Action::TurnLeftGradual : Action::TurnRightGradual);
     return segment == first ? kGradual : segment == first + 1 ? 1.0F : 0.0F;
 }
 
 FinDrive driveOf(const PresentedFish& fish, float seconds) {
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
-    FinDrive drive{.seconds = seconds,
+    FinDrive drive{.seconds = seconds - kFinSeconds * std::floor(seconds / kFinSeconds),
                    .speed = fish.speed,
                    .climb = (rotation * glm::vec3(1, 0, 0)).y,
                    .id = fish.id,

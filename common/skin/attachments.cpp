@@ -30,13 +30,14 @@ constexpr float kLastBinding = 0.6F;  // a whip trails behind the body's middle,
 void add(std::vector<StencilEntry>& entries,
          const RestBinding& binding,
          const RestBinding::Weights& weights,
-         float StencilEntry::* component,
+         float StencilEntry::*component,
          float factor = 1) {
     for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t point = binding.points().at(k);
         const auto found = std::ranges::find(entries, point, &StencilEntry::controlPoint);
-        StencilEntry& entry =
-            found != entries.end() ? *found : entries.emplace_back(StencilEntry{.controlPoint = point});
+        StencilEntry& entry = found != entries.end()
+                                  ? *found
+                                  : entries.emplace_back(StencilEntry{.controlPoint = point});
         entry.*component += factor * weights.at(k);
     }
 }
@@ -88,10 +89,12 @@ class Ball {
     [[nodiscard]] glm::vec3 at(glm::vec2 radii) const {
         const float rho = glm::length(radii);
         const float flat = middle_ + glm::dot(slope_, radii);
-        const float drape = glm::mix(flat, skin(radii), glm::mix(kDraped, 1.0F, std::min(rho, 1.0F)));
+        const float drape =
+            glm::mix(flat, skin(radii), glm::mix(kDraped, 1.0F, std::min(rho, 1.0F)));
         const float dome = std::pow(std::max(1 - rho * rho, 0.0F), 0.6F) * bulge_;
         const float sunk = kSunk * glm::smoothstep(0.96F, 1.12F, rho);
-        return {eye_.x + radii.x * eye_.z, eye_.y + radii.y * eye_.z, drape + (dome - sunk) * eye_.z};
+        return {
+            eye_.x + radii.x * eye_.z, eye_.y + radii.y * eye_.z, drape + (dome - sunk) * eye_.z};
     }
 
   private:
@@ -105,11 +108,16 @@ class Ball {
     glm::vec2 slope_{};
 };
 
-Attachments::Vertex eyeVertex(const Ball& ball, const RestBinding& binding, glm::vec2 at, float side) {
+Attachments::Vertex eyeVertex(const Ball& ball,
+                              const RestBinding& binding,
+                              glm::vec2 at,
+                              float side) {
     constexpr float kStep = 0.04F;
     const glm::vec3 mirror(1, 1, side);
-    const glm::vec3 tailwards = (ball.at(at + glm::vec2(kStep, 0)) - ball.at(at - glm::vec2(kStep, 0)));
-    const glm::vec3 upwards = (ball.at(at + glm::vec2(0, kStep)) - ball.at(at - glm::vec2(0, kStep)));
+    const glm::vec3 tailwards =
+        (ball.at(at + glm::vec2(kStep, 0)) - ball.at(at - glm::vec2(kStep, 0)));
+    const glm::vec3 upwards =
+        (ball.at(at + glm::vec2(0, kStep)) - ball.at(at - glm::vec2(0, kStep)));
     // On the right side up, then tailwards turn outwards: tailwards is -x.
     const glm::vec3 u = mirror * (side > 0 ? upwards : tailwards);
     const glm::vec3 v = mirror * (side > 0 ? tailwards : upwards);
@@ -165,8 +173,8 @@ void addRipple(const FishBody& body, float p, float gain, std::vector<StencilEnt
     while (k + 2 < margin.size() && rayOf(k + 1) < p) ++k;
     const float between = std::max(rayOf(k + 1) - rayOf(k), 1e-3F);
     const float share = std::clamp((p - rayOf(k)) / between, 0.0F, 1.0F);
-    for (const auto& [point, weight] : {std::pair{margin[k], gain * (1 - share)},
-                                        std::pair{margin[k + 1], gain * share}}) {
+    for (const auto& [point, weight] :
+         {std::pair{margin[k], gain * (1 - share)}, std::pair{margin[k + 1], gain * share}}) {
         const glm::vec3 rest = body.cage.vertices[point].rest;
         const RestBinding binding(body.cage, rest.x);
         add(entries, binding, binding.ofPlace(rest), &StencilEntry::position, -weight);
@@ -211,8 +219,7 @@ void addThread(const FishBody& body, const BodyThread& thread, Attachments& atta
         const glm::vec2 run = glm::normalize(ahead);
         const float width = 0.5F * glm::mix(thread.rootWidth, thread.tipWidth, share);
         const float depth = std::min(kThreadDepth * width, kMostThreadDepth);
-        const float station =
-            std::min(glm::mix(thread.at.front().x, at.x, 0.5F), kLastBinding);
+        const float station = std::min(glm::mix(thread.at.front().x, at.x, 0.5F), kLastBinding);
         const RestBinding binding(body.cage, station);
         for (std::size_t k = 0; k < kSides; ++k) {
             constexpr std::array<glm::vec2, kSides> kRound{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};

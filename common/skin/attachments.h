@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the cage has no room for, bound to it and drawn with the skin: eyes as balls that are set into
-// the head, whips, lone spines and barbels. The same at every level of detail.
+// What the cage has no room for, bound to it and drawn with the skin: eyes as balls that are set
+// into the head, whips, lone spines and barbels. The same at every level of detail.
 #pragma once
 
 #include <array>
@@ -28,8 +28,7 @@ struct Attachments {
 using RestTriangle = std::array<glm::vec3, 3>;  // (s, y, z)
 
 // head: the skin of its right side, where the eye is.
-[[nodiscard]] Attachments makeAttachments(const FishBody& body,
-                                          std::span<const RestTriangle> head);
+[[nodiscard]] Attachments makeAttachments(const FishBody& body, std::span<const RestTriangle> head);
 
 // Into so many pieces a thread is cut from root to tip; each is a tube of four sides.
 [[nodiscard]] std::size_t threadSteps(const BodyThread& thread);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places beside the cage as weighted sums of four control points of the body, which take them along.
+// Places beside the cage as weighted sums of four control points of the body, which take them
+// along.
 #pragma once
 
 #include <array>

@@ -32,7 +32,7 @@ std::string reason() {
 // A pipe that nobody reads cannot be opened for writing without being held up for ever.
 int openForWriting(const std::string& pipe) {
     constexpr auto kBetweenTries = 10ms;
-    constexpr int kTries = 1000;
+    constexpr int kTries = 3000;
     for (int i = 0; i < kTries; ++i) {
         const int descriptor = open(pipe.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
         if (descriptor >= 0) {

@@ -33,14 +33,13 @@ glm::vec4 daylightOf(float daylight) {
 }
 
 // Over the submarine's bow. Weak by day near the surface, where it would only flatten what the sun
-// models; strong where the sun does not reach.
-glm::vec4 lampOf(glm::vec3 eyeMetres, float daylight) {
-    constexpr float kByDay = 0.5F;
-    constexpr float kInTheDark = 14.0F;
-    const glm::vec3 fromEye{0.0F, 1.0F, 0.0F};
-    const float dark =
-        std::max(glm::smoothstep(9.0F, 24.0F, -eyeMetres.y), 0.6F * (1.0F - daylight));
-    return {eyeMetres + fromEye, glm::mix(kByDay, kInTheDark, dark)};
+// models; stronger where the sun does not reach. In the deep the exposure has risen for what is
+// left of the sun, so the lamp needs as much less power; at night it has not.
+glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
+    const glm::vec3 above{0.0F, 1.0F, 0.0F};
+    const float deep = glm::smoothstep(9.0F, 24.0F, -frame.eyePositionMetres.y);
+    const float power = glm::mix(4.0F, 8.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
+    return {frame.eyePositionMetres + above, power};
 }
 
 // What is the same for all views of a frame.
@@ -52,7 +51,7 @@ FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, floa
         sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
     uniforms.kdAndExposure = light.kdAndExposure(frame.eyePositionMetres);
     uniforms.daylight = daylightOf(frame.daylight);
-    uniforms.lamp = lampOf(frame.eyePositionMetres, frame.daylight);
+    uniforms.lamp = lampOf(frame, uniforms.kdAndExposure.w);
     return uniforms;
 }
 
@@ -174,6 +173,7 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::update(const SceneFrame& frame) {
     Parts& parts = *parts_;
     parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
+    parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
     parts.specks.assign(frame.food.begin(), frame.food.end());
     parts.setUniforms();
     parts.school.update(frame.fish);

@@ -106,7 +106,7 @@ double eyePlace(double depth) {
 
 // Straight between a mean of near sand and the water beyond it, in their logarithms.
 double exposureOf(const WaterSpectra& water, double eyeDepth) {
-    constexpr double kKey = 0.145, kWater = 0.6;
+    constexpr double kKey = 0.124, kWater = 0.6;
     constexpr double kDusk = 0.018;  // the deep is darker, 1/m
     constexpr double kSandAway = 5.0, kSandBelow = 5.0, kSandAlbedo = 0.4;
     const double lit = eyeDepth - filterDepthMetres(eyeDepth);

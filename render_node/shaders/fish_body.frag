@@ -45,7 +45,7 @@ void main() {
     vec3 plate = plateletNormal(normalize(flickering), dorsal, toEye);
     // One look into the mirror serves platelets where there are some, and the wet skin elsewhere.
     vec3 facet = normalize(mix(n, plate, mix(1.0, skin.silver, nearness)));
-    vec3 shown = max(mirrored(reflect(-toEye, facet), place), 0.0);
+    vec3 shown = around(reflect(-toEye, facet), place);
     float silver = skin.silver * smoothstep(0.0, 0.06, look.z);
     radiance = underSilver(radiance, silvered(shown, facet, skin.albedo, place, facing), silver);
     radiance += nearness * (sheenOf(shown, skin.gloss, facing, n.y, pixel) +

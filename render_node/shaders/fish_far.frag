@@ -29,7 +29,7 @@ void main() {
     float silver = skin.silver * smoothstep(0.0, 0.06, facing);
     if (silver > 0.0) {
         vec3 plate = plateletNormal(n, dorsal, toEye);
-        vec3 shown = max(mirrored(reflect(-toEye, plate), place), 0.0);
+        vec3 shown = around(reflect(-toEye, plate), place);
         radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
     colour = vec4(seen(radiance, place), opacity);

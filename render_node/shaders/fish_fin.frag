@@ -70,7 +70,7 @@ void main() {
     if (silver > 0.0) {
         float facing = clamp(-dot(n, fromEye), 0.0, 1.0);
         vec3 plate = plateletNormal(n, dorsal, -fromEye);
-        vec3 shown = max(mirrored(reflect(fromEye, plate), place), 0.0);
+        vec3 shown = around(reflect(fromEye, plate), place);
         radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
     // Behind the root of a paired fin the body is open: that part is never clear.

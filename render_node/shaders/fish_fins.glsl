@@ -28,6 +28,7 @@ struct FinPoint {
 const uint kBodyPart = 0u, kCaudalPart = 1u, kAnalPart = 4u, kPelvicPart = 5u, kPectoralPart = 6u;
 
 const float kWholeTurn = 6.2831853;
+const float kFinSeconds = 10.0;
 const float kMarginLag = kWholeTurn / 6.0, kTipLag = 0.12;
 const float kStands = 0.2, kSwims = 0.6, kFolded = 1.5;  // body lengths a second
 const float kFoldBand = 0.2, kTrimGain = 3.0;

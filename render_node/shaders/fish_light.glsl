@@ -17,6 +17,16 @@ vec3 litSkin(Skin skin, vec3 place, vec3 n) {
     return lit(skin.albedo, place, wrapped, 0.10 * skin.soft) * open;
 }
 
+// What a mirror in the skin shows: the open water and the surface; over a sea floor, towards the level
+// and below, more and more of the sunlit sand and rock.
+const float kBottomAlbedo = 0.30;
+vec3 around(vec3 direction, vec3 place) {
+    float share = unscatteredShare(max(-place.y, 0.1));
+    vec3 light = 0.8 * share * daylight.x + (1.0 - share) * daylight.yzw;
+    float bottomShare = 0.85 * bottom.x * smoothstep(0.30, -0.40, direction.y);
+    return mix(max(mirrored(direction, place), 0.0), light * (kBottomAlbedo / kPi), bottomShare);
+}
+
 // Stacks of guanine platelets hang upright whatever the curve of the skin (Denton 1970), so that a
 // flank shows the level water around it: it vanishes, and flashes when the fish rolls. A platelet
 // that would face away is seen by its other side.
@@ -41,7 +51,7 @@ vec3 iridescent(vec3 albedo, float amount, float facing) {
 // A platelet that faces the lamp gives its light back at once. They stand at all angles about the
 // upright axis, so some do.
 vec3 lampFlash(vec3 plate, vec3 place) {
-    vec3 toLamp = normalize(eyeAndTime.xyz - place);
+    vec3 toLamp = normalize(lamp.xyz - place);
     float c = max(dot(plate, toLamp), 0.0);
     c *= c; c *= c; c *= c; c *= c;
     return lampLight(place, toLamp) * (0.04 * c * c);

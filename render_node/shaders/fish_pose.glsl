@@ -63,9 +63,9 @@ vec2 turnOf(uint segment) {
 }
 
 FinDrive finDriveOf(Fish self) {
-    return FinDrive(eyeAndTime.w, self.speed, rotate(self.rotation, vec3(1.0, 0.0, 0.0)).y,
+    return FinDrive(mod(eyeAndTime.w, kFinSeconds), self.speed, rotate(self.rotation, vec3(1.0, 0.0, 0.0)).y,
                     mix(turnOf(self.fromSegment), turnOf(self.segment), self.warpWeight),
-                    0.37 * float(self.id), self.phase, self.fromPhase, self.warpWeight);
+                    fract(0.37 * float(self.id)), self.phase, self.fromPhase, self.warpWeight);
 }
 
 vec3 controlPointOf(Fish self, uint i) {

@@ -27,6 +27,7 @@ layout(std140, binding = 0) uniform FrameUniforms {
                              // sun's at the surface being 1
     vec4 kdAndExposure;      // Kd of the three primaries where the filter looks, 1/m; w: what light
                              // is multiplied by before the tone
+    vec4 bottom;             // x: 1 over a sea floor, 0 in the open sea
 #ifdef __cplusplus
 };
 }  // namespace aquarama

@@ -20,6 +20,10 @@ Skin groundOf(SkinPoint at) {
     Skin skin = skinOf(colour, 0.70 - 0.35 * back, 0.6);
     skin.silver = 0.98 * falling(0.22, 0.66, at.v) * smoothstep(0.015, 0.05, at.s) *
                   (1.0 - 0.75 * golden);
+    // From near one sees the light of the reef and the sand in the platelets, of which the open
+    // water that they mirror knows nothing.
+    float near = seenAt(0.034, at.pixel);
+    skin.silver *= 1.0 - near * (0.54 + 0.3 * falling(-1.0, -0.6, at.v));
     skin.iridescence = 0.10 + 0.30 * back;
     // The dark crown of the head.
     float crown = smoothstep(0.52, 0.85, at.v) * falling(0.18, 0.26, at.s);
@@ -47,10 +51,6 @@ void addDetails(inout Skin skin, SkinPoint at) {
     layScales(skin, at, 0.06, 0.0115, 0.16, on);
     // Platelets lie in bundles, brighter and duller in streaks along the flank.
     float streak = noise(vec2(at.s * 38.0, at.y * 260.0 + 90.0 * own(at.id, 5u)));
-    // From near one sees the light of the reef and the sand in them, of which the open water that
-    // they mirror knows nothing.
-    float near = seenAt(0.020, at.pixel);
-    skin.silver *= 1.0 - near * (0.54 + 0.3 * falling(-1.0, -0.6, at.v));
     float leaning = 0.45 + 2.2 * streak * streak * streak * mix(0.5, 1.0, on);
     float seen_ = seenAt(0.010, at.pixel);
     skin.flicker.y += leaning * seen_;

@@ -128,7 +128,7 @@ TEST(Visitor, steersTheSubmarine) {
     const Master master({});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared();
+    session->prepared(QualityTier::Low);
     const auto first = await(*session, [](const StateFrame&) { return true; });
     ASSERT_TRUE(first);
     const glm::vec3 begin = first->eye.positionMetres;

@@ -9,7 +9,7 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, CHANNELS, ROOT, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
+from show import BIN, CHANNELS, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace, wait_until
 
 
 class Display:
@@ -37,6 +37,10 @@ class Display:
     def press(self, window, key):
         subprocess.run(["xdotool", "windowfocus", "--sync", window, "key", "--window", window, key],
                        env=self.environment, check=True, timeout=20)
+
+    def hold(self, window, *words):
+        """xdotool's keydown and keyup, with the keyboard in the window."""
+        subprocess.run(["xdotool", "windowfocus", "--sync", window, *words], env=self.environment, check=True, timeout=20)
 
     def screenshot(self):
         """The root window as rows of (r, g, b)."""
@@ -88,6 +92,22 @@ class Windows(unittest.TestCase):
             colours = {pixel(x + i * width // 24, y + j * height // 18) for i in range(2, 23) for j in range(2, 17)}
             self.assertGreater(len(colours), 50, "a window shows a flat picture")
         self.assertEqual(self.show.wait(90), 0)
+
+    def test_a_key_that_is_held_steers_until_it_is_let_go(self):
+        self.run_show()
+        wait_until(lambda: self.frames_shown() >= 3, 60, "the first frames")
+        window = sorted(self.display.windows().values())[1][4]
+
+        def steered():
+            return re.search(r"m/s +(.*)", aquarama("status", self.rig).stdout)[1]
+
+        self.assertEqual(steered(), "nobody steers")
+        self.display.hold(window, "keydown", "w")
+        wait_until(lambda: steered() == "middle steers", 30, "the window's hand at the helm")
+        self.display.hold(window, "keyup", "w")
+        wait_until(lambda: steered() == "nobody steers", 30, "the hand to let go")
+        self.display.press(window, "q")
+        self.assertEqual(self.show.wait(30), 0)
 
     def test_keys(self):
         self.run_show()

@@ -45,9 +45,12 @@ Course avoidObstacle(const Situation& situation, const Mind& mind) {
         return school(situation);
     const Senses& senses = situation.senses;
     const float back = std::max(0.0F, -dot(senses.push, senses.heading));
-    return heading(situation,
-                   senses.heading + roomFrom(situation),
-                   situation.nature.slow * std::max(0.0F, 1 - back / kStopsAt));
+    const Nature& nature = situation.nature;
+    // Who is run into must not stop.
+    const float pace = senses.hurry > 0
+                           ? nature.slow + (nature.fast - nature.slow) * senses.hurry
+                           : nature.slow * std::max(0.0F, 1 - back / kStopsAt);
+    return heading(situation, senses.heading + roomFrom(situation), pace);
 }
 
 }  // namespace aquarama

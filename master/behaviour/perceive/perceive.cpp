@@ -332,8 +332,11 @@ void feelSurroundings(const Environment& environment, Senses& senses) {
     const Surroundings& around = *environment.surroundings;
     const float reach = kReachMetres + senses.speed * kReachSeconds;
     const Submarine& submarine = around.submarine;
-    senses.push = avoidance(around.obstacles, senses.position, senses.heading, reach) +
-                  submarinePush(submarine, senses, reach);
+    const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
+    senses.push =
+        avoidance(around.obstacles, senses.position, senses.heading, reach) + fromSubmarine;
+    if (submarine.velocityMetresPerSecond != glm::vec3{})
+        senses.hurry = std::min(1.0F, lengthOf(fromSubmarine));
     senses.urgency = lengthOf(senses.push);
     senses.submarineMetres = lengthOf(submarine.position - senses.position);
 }

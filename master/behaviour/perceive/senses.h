@@ -45,6 +45,7 @@ struct Senses {
     // turning away matters.
     glm::vec3 push{};
     float urgency = 0;
+    float hurry = 0;  // of who is in the way of a submarine that comes on, 0 to 1
     float light = 1;  // 0 to 1, where it is
     float celsius = 26;
     // How far light or warmth are outside what its habits like, in the whole light or in ten

@@ -21,7 +21,9 @@ constexpr float kCruise = 0.8F;  // body lengths a second: between standing and 
 
 class FinsOf : public testing::TestWithParam<std::string> {
   protected:
-    [[nodiscard]] glm::vec3 offset(std::size_t point, const FinDrive& drive, float drift = 0) const {
+    [[nodiscard]] glm::vec3 offset(std::size_t point,
+                                   const FinDrive& drive,
+                                   float drift = 0) const {
         return finOffset(body_.fins, point, drive, drift);
     }
     [[nodiscard]] std::vector<std::size_t> pointsOf(CagePart part) const {
@@ -90,13 +92,14 @@ TEST_P(FinsOf, rowThroughTheAngleThatTheFileStates) {
     glm::vec3 least = tip({.speed = kCruise}), most = least;
     float widest = 0;
     for (int k = 0; k < 64; ++k) {
-        const glm::vec3 here = tip({.seconds = static_cast<float>(k) / 64 / rowing_.beatHertz,
-                                    .speed = kCruise});
+        const glm::vec3 here =
+            tip({.seconds = static_cast<float>(k) / 64 / rowing_.beatHertz, .speed = kCruise});
         const auto across = [&](glm::vec3 v) {
             return glm::normalize(v - glm::dot(v, style_.stroke) * style_.stroke);
         };
         for (const glm::vec3 other : {least, most}) {
-            const float angle = std::acos(std::clamp(glm::dot(across(here), across(other)), -1.0F, 1.0F));
+            const float angle =
+                std::acos(std::clamp(glm::dot(across(here), across(other)), -1.0F, 1.0F));
             if (angle <= widest) continue;
             widest = angle;
             (other == least ? most : least) = here;
@@ -114,7 +117,8 @@ TEST_P(FinsOf, foldFlatInAHurryAndOnTheOuterSideOfATurn) {
         const glm::vec3 arm = tip(drive);
         const float off = std::atan2(arm.z, -glm::dot(arm, root));
         EXPECT_LT(std::abs(off), 9 * kDegree);
-        const glm::vec3 later = tip({.seconds = 1.5F, .speed = drive.speed, .turning = drive.turning});
+        const glm::vec3 later =
+            tip({.seconds = 1.5F, .speed = drive.speed, .turning = drive.turning});
         EXPECT_LT(glm::distance(arm, later), 1e-4F) << "it lies still";
     }
 }
@@ -142,7 +146,8 @@ TEST_P(FinsOf, rippleByTheAmplitudeThatTheFileStates) {
                 const float cycle = static_cast<float>(k) / 40;
                 const float seconds =
                     motion.hovering.beatHertz > 0 ? cycle / motion.hovering.beatHertz : 0;
-                const glm::vec3 off = offset(i, {.seconds = seconds, .speed = speed, .phase = cycle});
+                const glm::vec3 off =
+                    offset(i, {.seconds = seconds, .speed = speed, .phase = cycle});
                 EXPECT_EQ(glm::vec2(off), glm::vec2(0));
                 most = std::max(most, std::abs(off.z));
             }
@@ -169,8 +174,12 @@ TEST_P(FinsOf, tailCupsAgainstItsDrift) {
         const FinPoint& point = body_.fins.points[i];
         const float here = offset(i, {}, 0.1F).z;
         EXPECT_FLOAT_EQ(offset(i, {}, -0.1F).z, -here);
-        if (point.q == 1 && (point.p == 0 || point.p == 1)) EXPECT_GT(here, 0);
-        if (point.q == 1 && std::abs(point.p - 0.5F) < 0.15F) EXPECT_LT(here, 0);
+        if (point.q == 1 && (point.p == 0 || point.p == 1)) {
+            EXPECT_GT(here, 0);
+        }
+        if (point.q == 1 && std::abs(point.p - 0.5F) < 0.15F) {
+            EXPECT_LT(here, 0);
+        }
     }
 }
 
@@ -195,6 +204,14 @@ TEST_P(FinsOf, moveWithoutAJump) {
                           0.012F)
                     << i << " at " << t;
     }
+}
+
+// So that time may begin anew there.
+TEST_P(FinsOf, areAfterTenSecondsWhereTheyWere) {
+    for (std::size_t i = 0; i < body_.fins.points.size(); ++i)
+        ASSERT_LT(glm::distance(offset(i, {.seconds = 0.3F, .speed = 0.1F, .id = 5}),
+                                offset(i, {.seconds = kFinSeconds + 0.3F, .speed = 0.1F, .id = 5})),
+                  2e-4F);
 }
 
 TEST_P(FinsOf, headingsAreThoseOfTheBody) {

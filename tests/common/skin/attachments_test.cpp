@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Eyes, whips, spines and barbels stay on the fish that bears them.
+#include "common/skin/attachments.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +13,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/skin/attachments.h"
 #include "common/skin/limit_table.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
@@ -43,9 +44,8 @@ glm::vec3 nearestOf(const std::array<glm::vec3, 3>& t, glm::vec3 p) {
     const float v = glm::dot(glm::cross(p - t[0], c), normal) / square;
     const float w = glm::dot(glm::cross(b, p - t[0]), normal) / square;
     if (v >= 0 && w >= 0 && v + w <= 1) return t[0] + v * b + w * c;
-    const std::array edges{nearestOnEdge(t[0], t[1], p),
-                           nearestOnEdge(t[1], t[2], p),
-                           nearestOnEdge(t[2], t[0], p)};
+    const std::array edges{
+        nearestOnEdge(t[0], t[1], p), nearestOnEdge(t[1], t[2], p), nearestOnEdge(t[2], t[0], p)};
     return *std::ranges::min_element(
         edges, {}, [&](glm::vec3 one) { return glm::distance(one, p); });
 }
@@ -63,7 +63,8 @@ class AttachmentsOf : public testing::TestWithParam<std::string> {
     [[nodiscard]] std::vector<NodalPoints> poses() const {
         std::vector<NodalPoints> all{body_.restNodes};
         for (int k = 0; k < 4; ++k)
-            all.push_back(test::sway(body_, 0.12F, 0.15F * static_cast<float>(k - 2), 0.17F * static_cast<float>(k)));
+            all.push_back(test::sway(
+                body_, 0.12F, 0.15F * static_cast<float>(k - 2), 0.17F * static_cast<float>(k)));
         return all;
     }
     [[nodiscard]] bool isEye(std::size_t vertex) const {
@@ -124,8 +125,7 @@ TEST_P(AttachmentsOf, eyesStayRoundAndLookOutwards) {
             const glm::vec2 at = table_.vertices[i].fin;
             if (at == glm::vec2(0)) {
                 middle = points[i].position;
-                EXPECT_GT(over(points, middle + 0.001F * points[i].normal),
-                          over(points, middle));
+                EXPECT_GT(over(points, middle + 0.001F * points[i].normal), over(points, middle));
                 continue;
             }
             const float across = glm::distance(points[i].position, middle) / body_.eye.z;
@@ -143,9 +143,11 @@ TEST_P(AttachmentsOf, threadsAreRootedInTheirFish) {
         while (first < points.size() && isEye(first)) ++first;
         for (const BodyThread& thread : body_.threads) {
             const glm::vec3 root = 0.5F * (points[first].position + points[first + 2].position);
-            EXPECT_LT(std::abs(over(points, root)), 0.012F) << "root of a thread at s " << thread.at.front().x;
+            EXPECT_LT(std::abs(over(points, root)), 0.012F)
+                << "root of a thread at s " << thread.at.front().x;
             const std::uint32_t part = table_.vertices[first].part;
-            EXPECT_EQ(part == static_cast<std::uint32_t>(CagePart::FirstDorsal), thread.isOfFirstDorsal);
+            EXPECT_EQ(part == static_cast<std::uint32_t>(CagePart::FirstDorsal),
+                      thread.isOfFirstDorsal);
             first += kSides * (threadSteps(thread) + 1);
         }
     }
@@ -154,7 +156,8 @@ TEST_P(AttachmentsOf, threadsAreRootedInTheirFish) {
 TEST_P(AttachmentsOf, goWithTheWholeFish) {
     const auto rest = posed(body_.restNodes);
     const auto move = [](glm::vec3 p) {
-        return glm::vec3(0.6F * p.x + 0.8F * p.z, p.y, -0.8F * p.x + 0.6F * p.z) + glm::vec3(1, -2, 3);
+        return glm::vec3(0.6F * p.x + 0.8F * p.z, p.y, -0.8F * p.x + 0.6F * p.z) +
+               glm::vec3(1, -2, 3);
     };
     NodalPoints nodes = body_.restNodes;
     for (glm::vec3& node : nodes) node = move(node);
@@ -167,7 +170,8 @@ TEST_P(AttachmentsOf, areTheSameAtEveryLevel) {
     const LimitTable coarse = makeLimitTable(body_, 0);
     ASSERT_EQ(coarse.vertices.size() - coarse.skinVertices,
               table_.vertices.size() - table_.skinVertices);
-    for (std::size_t i = coarse.skinVertices, j = table_.skinVertices; i < coarse.vertices.size(); ++i, ++j)
+    for (std::size_t i = coarse.skinVertices, j = table_.skinVertices; i < coarse.vertices.size();
+         ++i, ++j)
         ASSERT_EQ(coarse.vertices[i].rest, table_.vertices[j].rest);
 }
 
@@ -180,7 +184,8 @@ TEST(MoorishIdol, whipWavesWithItsFin) {
     const glm::vec3 still = skinPoint(table, tip, cage).position;
     EXPECT_NEAR(still.x, -1.31F, 0.01F);
     for (std::size_t i = 0; i < cage.size(); ++i)
-        if (body.cage.vertices[i].part == CagePart::FirstDorsal) cage[i].z += 0.02F * body.cage.vertices[i].fin.y;
+        if (body.cage.vertices[i].part == CagePart::FirstDorsal)
+            cage[i].z += 0.02F * body.cage.vertices[i].fin.y;
     EXPECT_NEAR(skinPoint(table, tip, cage).position.z - still.z, 0.04F, 0.005F);
 }
 

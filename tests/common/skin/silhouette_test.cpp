@@ -92,8 +92,7 @@ TEST(Silhouette, everyBodyHasItsWidth) {
     for (const std::string& name : kCast) {
         const Drawn fish(name);
         const Range across = fish.along(2, CagePart::Body);
-        const float widest =
-            2 * *std::ranges::max_element(fish.body.profileHalfWidth);
+        const float widest = 2 * *std::ranges::max_element(fish.body.profileHalfWidth);
         EXPECT_NEAR((across.most - across.least) / widest, 1, 0.08F) << name;
     }
 }

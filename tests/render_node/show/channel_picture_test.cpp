@@ -255,7 +255,7 @@ std::vector<int> flatRuns(const std::vector<std::uint8_t>& rgb, glm::ivec2 size)
 TEST_F(ChannelPictureTest, theGradientOfOpenWaterShowsNoBands) {
     Admission open = stage->admission;
     open.scene.place = PlaceKind::OpenSea;
-    ChannelPicture picture(open, kMiddle);
+    ChannelPicture picture(open, kMiddle, QualityTier::Low);
     StateFrame frame = emptySea();
     frame.eye.positionMetres.y = -20.0F;
     picture.drawScene(frame, {});
