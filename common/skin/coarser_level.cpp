@@ -17,8 +17,8 @@ Pair ordered(std::uint32_t a, std::uint32_t b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-// The edges that only the two triangles of one quad share. A quad's triangles follow each other, and
-// those of attachments stand between.
+// The edges that only the two triangles of one quad share. A quad's triangles follow each other,
+// and those of attachments stand between.
 std::set<Pair> diagonalsOf(const LimitTable& table) {
     std::vector<std::array<std::uint32_t, 3>> skin;
     for (std::size_t t = 0; t < table.indices.size(); t += 3) {
@@ -48,9 +48,12 @@ std::vector<std::array<std::uint32_t, 2>> coarserParents(const FishBody& body,
     const int n = fine.cuts();
     const auto parentsAt = [&](std::size_t face, int i, int j) -> std::array<std::uint32_t, 2> {
         const int di = i % 2, dj = j % 2;
-        if (di == 0 || dj == 0) return {fine.at(face, i - di, j - dj), fine.at(face, i + di, j + dj)};
-        const Pair rising = ordered(coarse.at(face, i / 2, j / 2), coarse.at(face, i / 2 + 1, j / 2 + 1));
-        if (diagonals.contains(rising)) return {fine.at(face, i - 1, j - 1), fine.at(face, i + 1, j + 1)};
+        if (di == 0 || dj == 0)
+            return {fine.at(face, i - di, j - dj), fine.at(face, i + di, j + dj)};
+        const Pair rising =
+            ordered(coarse.at(face, i / 2, j / 2), coarse.at(face, i / 2 + 1, j / 2 + 1));
+        if (diagonals.contains(rising))
+            return {fine.at(face, i - 1, j - 1), fine.at(face, i + 1, j + 1)};
         return {fine.at(face, i + 1, j - 1), fine.at(face, i - 1, j + 1)};
     };
     for (std::size_t face = 0; face < body.cage.faces.size(); ++face)

@@ -84,12 +84,14 @@ double finestPixelRadians(const Rig& rig) {
     for (const Channel& channel : rig.channels) {
         const glm::dvec2 size(channel.sizePixels);
         for (int i = 0; i < kProbes * kProbes; ++i) {
-            const glm::dvec2 pixel = size * (glm::dvec2(i % kProbes, i / kProbes) + 0.5) / double{kProbes};
+            const glm::dvec2 pixel =
+                size * (glm::dvec2(i % kProbes, i / kProbes) + 0.5) / double{kProbes};
             const auto here = screenPoint(rig.screen, channel, pixel);
             for (const glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
                 const auto next = screenPoint(rig.screen, channel, pixel + step);
                 if (!here || !next) continue;
-                const double angle = glm::length(glm::cross(glm::normalize(*here), glm::normalize(*next)));
+                const double angle =
+                    glm::length(glm::cross(glm::normalize(*here), glm::normalize(*next)));
                 finest = std::min(finest, angle);
             }
         }

@@ -56,10 +56,8 @@ std::vector<SchoolSpecies> castOf(const Admission& admission) {
         const Species species = parseSpecies(admitted.text, "the master's species file");
         const auto own = rest.first(std::min<std::size_t>(admitted.fish, rest.size()));
         rest = rest.subspan(own.size());
-        cast.push_back({makeBody(species),
-                        skinOf(species),
-                        admitted.repertoire,
-                        {own.begin(), own.end()}});
+        cast.push_back(
+            {makeBody(species), skinOf(species), admitted.repertoire, {own.begin(), own.end()}});
     }
     return cast;
 }
@@ -104,13 +102,13 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, 
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
     if (world)
-        scene_.emplace(SceneOptions{.seed = admission.welcome.seed,
-                                    .place = admission.scene.place,
-                                    .water = admission.scene.water.jerlov,
-                                    .quality = quality,
-                                    .pixelRadians =
-                                        static_cast<float>(finestPixelRadians(admission.rig))},
-                       castOf(admission));
+        scene_.emplace(
+            SceneOptions{.seed = admission.welcome.seed,
+                         .place = admission.scene.place,
+                         .water = admission.scene.water.jerlov,
+                         .quality = quality,
+                         .pixelRadians = static_cast<float>(finestPixelRadians(admission.rig))},
+            castOf(admission));
 }
 
 void ChannelPicture::drawScene(const StateFrame& frame,

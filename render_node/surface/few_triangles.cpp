@@ -52,7 +52,8 @@ float profileError(std::span<const glm::vec3> points, const std::array<int, 4>& 
                 const float kept = heightBetween(points[tubeCorner(rings.at(k), column)],
                                                  points[tubeCorner(rings.at(k + 1), column)],
                                                  here.x);
-                error += std::abs(kept - here.y) * (here.x - points[tubeCorner(ring + 1, column)].x);
+                error +=
+                    std::abs(kept - here.y) * (here.x - points[tubeCorner(ring + 1, column)].x);
             }
     return error;
 }
@@ -78,7 +79,8 @@ std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
                              tubeCorner(rings[0], next)});
         for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
             const Corner a = tubeCorner(rings.at(k), here), b = tubeCorner(rings.at(k), next);
-            const Corner c = tubeCorner(rings.at(k + 1), next), d = tubeCorner(rings.at(k + 1), here);
+            const Corner c = tubeCorner(rings.at(k + 1), next),
+                         d = tubeCorner(rings.at(k + 1), here);
             triangles.push_back({a, b, c});
             triangles.push_back({a, c, d});
         }
@@ -91,8 +93,9 @@ std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
 struct Sheet {
     CagePart part = CagePart::Body;
     std::vector<Triangle> triangles;
-    Corner foot = 0, heel = 0;         // its base, front and rear; of the tail its root, from the back down
-    std::vector<Corner> edge;          // as its base runs
+    Corner foot = 0,
+           heel = 0;           // its base, front and rear; of the tail its root, from the back down
+    std::vector<Corner> edge;  // as its base runs
     float firstRing = 0, lastRing = 0;  // of a fin of the midline
 };
 
@@ -111,11 +114,13 @@ float downTube(int column) {
     return static_cast<float>(steps) / 5.0F;
 }
 
-glm::vec3 placeOnSheet(const Sheet& sheet, const CageSite& site, std::span<const glm::vec3> points) {
+glm::vec3 placeOnSheet(const Sheet& sheet,
+                       const CageSite& site,
+                       std::span<const glm::vec3> points) {
     const bool isTail = sheet.part == CagePart::Caudal;
     const float rings = std::max(sheet.lastRing - sheet.firstRing, 1.0F);
-    const float along = isTail ? downTube(site.column)
-                               : (static_cast<float>(site.ring) - sheet.firstRing) / rings;
+    const float along =
+        isTail ? downTube(site.column) : (static_cast<float>(site.ring) - sheet.firstRing) / rings;
     const float outwards =
         isTail ? static_cast<float>(site.ring - kBodyEndRing) / float{kTubeRings - 1 - kBodyEndRing}
                : static_cast<float>(site.level) / static_cast<float>(site.levels);
@@ -126,7 +131,8 @@ glm::vec3 placeOnSheet(const Sheet& sheet, const CageSite& site, std::span<const
 Sheet tailSheet() {
     constexpr int kEnd = kTubeRings - 1;
     const Corner back = tubeCorner(kBodyEndRing, 0), belly = tubeCorner(kBodyEndRing, 6);
-    const Corner upper = tubeCorner(kEnd, 0), lower = tubeCorner(kEnd, 6), fork = tubeCorner(kEnd, 3);
+    const Corner upper = tubeCorner(kEnd, 0), lower = tubeCorner(kEnd, 6),
+                 fork = tubeCorner(kEnd, 3);
     return {CagePart::Caudal,
             {{back, fork, upper}, {back, belly, fork}, {belly, lower, fork}},
             back,
@@ -216,13 +222,12 @@ class Maker {
                 continue;
             }
             const auto sheet = sheets.find(body_.cage.vertices[i].part);
-            few_.cage.push_back(
-                sheet == sheets.end()
-                    ? placeOn(CagePart::Body, body, i, points_[i])
-                    : placeOn(sheet->first,
-                              sheet->second.triangles,
-                              i,
-                              placeOnSheet(sheet->second, sites[i], points_)));
+            few_.cage.push_back(sheet == sheets.end()
+                                    ? placeOn(CagePart::Body, body, i, points_[i])
+                                    : placeOn(sheet->first,
+                                              sheet->second.triangles,
+                                              i,
+                                              placeOnSheet(sheet->second, sites[i], points_)));
         }
         return std::move(few_);
     }
@@ -258,7 +263,8 @@ class Maker {
             const auto [known, isNew] = numbers_.try_emplace(
                 {part, corner}, static_cast<std::uint32_t>(few_.vertices.size()));
             if (isNew)
-                few_.vertices.push_back({placeOf(corner, part, triangle), corner, normals_[corner]});
+                few_.vertices.push_back(
+                    {placeOf(corner, part, triangle), corner, normals_[corner]});
             few_.indices.push_back(known->second);
         }
     }
@@ -273,8 +279,8 @@ class Maker {
         for (const Triangle& t : triangles) {
             const glm::vec3 weights =
                 nearestOn({points_[t[0]], points_[t[1]], points_[t[2]]}, wanted);
-            const glm::vec3 place = weights.x * points_[t[0]] + weights.y * points_[t[1]] +
-                                    weights.z * points_[t[2]];
+            const glm::vec3 place =
+                weights.x * points_[t[0]] + weights.y * points_[t[1]] + weights.z * points_[t[2]];
             const float away = glm::distance(place, wanted);
             if (away >= least) continue;
             least = away;

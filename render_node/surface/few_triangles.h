@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fish of some forty triangles: four rings of the control cage, the nose, and a sheet for the tail
-// fin and for each fin of the midline. Its corners are control points, so that it bends as the fish
-// does; and every vertex of the control mesh has a place on it, out of which it grows.
+// A fish of some forty triangles: four rings of the control cage, the nose, and a sheet for the
+// tail fin and for each fin of the midline. Its corners are control points, so that it bends as the
+// fish does; and every vertex of the control mesh has a place on it, out of which it grows.
 #pragma once
 
 #include <array>

@@ -12,8 +12,8 @@ namespace aquarama {
 
 inline constexpr std::size_t kMostSpecies = 64;
 // The surface buffer is filled so often at most for one view. With its 64 MiB that is room for
-// 78 000 control meshes, or 19 000 meshes, or 4 900 heroes; heroes come first. Fish beyond are drawn
-// as few triangles. It takes more than a fish in each cube of its length to get there.
+// 78 000 control meshes, or 19 000 meshes, or 4 900 heroes; heroes come first. Fish beyond are
+// drawn as few triangles. It takes more than a fish in each cube of its length to get there.
 inline constexpr std::size_t kTurns = 8;
 inline constexpr std::size_t kDetailStride = 8;  // numbers of a species, one a level of detail
 inline constexpr std::size_t kSurfaces = 4;      // levels that have a surface
@@ -29,7 +29,8 @@ struct FishPlan {
         std::uint32_t firstFish, fish, firstVertex;
     };
     struct Turn {
-        std::array<std::uint32_t, 3> bodyGroups, finGroups;  // as glDispatchComputeIndirect takes it
+        std::array<std::uint32_t, 3> bodyGroups,
+            finGroups;  // as glDispatchComputeIndirect takes it
         std::uint32_t firstFish, padding;
     };
     template <class T>

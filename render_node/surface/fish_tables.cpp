@@ -46,7 +46,9 @@ void addPosed(const FishBody& body, const NodalPoints& nodes, std::vector<Record
 }
 
 // To the last points, one pose's.
-void addHeadings(const FishBody& body, const NodalPoints& nodes, std::vector<RecordedPoint>& points) {
+void addHeadings(const FishBody& body,
+                 const NodalPoints& nodes,
+                 std::vector<RecordedPoint>& points) {
     std::array<float, kControlPoints> headings{};
     headingsOf(body, nodes, headings);
     const std::size_t first = points.size() - headings.size();
@@ -219,9 +221,8 @@ class Gatherer {
 
     void addVertices(const LimitTable& controlMesh, const FewTriangles& few) {
         for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
-            places.push_back({controlMesh.vertices[i],
-                              few.cage.at(i).place.rest,
-                              few.cage.at(i).place.fin});
+            places.push_back(
+                {controlMesh.vertices[i], few.cage.at(i).place.rest, few.cage.at(i).place.fin});
     }
     // coarser: where the parents are painted as the coarser level has them.
     void addVertices(const LimitTable& table,
@@ -230,24 +231,23 @@ class Gatherer {
         for (std::uint32_t i = 0; i < table.vertices.size(); ++i) {
             if (i >= table.skinVertices) {  // an attachment, the same at every level
                 parents.push_back(i | i << 16U);
-                places.push_back({table.vertices[i], table.vertices[i].rest, table.vertices[i].fin});
+                places.push_back(
+                    {table.vertices[i], table.vertices[i].rest, table.vertices[i].fin});
                 continue;
             }
             const auto& [a, b] = pairs[i];
             parents.push_back(a | b << 16U);
             const SkinPlace &one = coarser.vertices.at(a), &other = coarser.vertices.at(b);
-            places.push_back({table.vertices[i],
-                              0.5F * (one.rest + other.rest),
-                              0.5F * (one.fin + other.fin)});
+            places.push_back(
+                {table.vertices[i], 0.5F * (one.rest + other.rest), 0.5F * (one.fin + other.fin)});
         }
     }
 
     // All cages hang together alike, so that one species' stencils serve the others.
     std::uint32_t addStencils(std::size_t surface, const LimitTable& table) {
         Stencils& shared = shared_.at(surface);
-        const bool serves =
-            std::ranges::equal(table.entries, shared.entries, sameEntry) &&
-            table.firstEntry == shared.firstEntry;
+        const bool serves = std::ranges::equal(table.entries, shared.entries, sameEntry) &&
+                            table.firstEntry == shared.firstEntry;
         if (!isFirst_ && serves) return shared.at;
         const auto firstOfAll = static_cast<std::uint32_t>(entries.size());
         append<StencilEntry>(entries, table.entries);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the GPU keeps of the species of a cast: recorded control points, and the meshes of each level
-// of detail, all in the same few buffers. Made once.
+// What the GPU keeps of the species of a cast: recorded control points, and the meshes of each
+// level of detail, all in the same few buffers. Made once.
 #pragma once
 
 #include <array>

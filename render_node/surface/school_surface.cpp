@@ -15,10 +15,10 @@ namespace aquarama {
 
 namespace {
 
-// Bindings of shader storage. The kernels that sort fish and those that make surfaces share numbers,
-// as OpenGL promises only eight.
-constexpr GLuint kSchool = 0, kBefore = 1, kAfter = 2, kTraits = 3, kCast = 4, kChoices = 5, kPlan = 6,
-                 kCounts = 7;
+// Bindings of shader storage. The kernels that sort fish and those that make surfaces share
+// numbers, as OpenGL promises only eight.
+constexpr GLuint kSchool = 0, kBefore = 1, kAfter = 2, kTraits = 3, kCast = 4, kChoices = 5,
+                 kPlan = 6, kCounts = 7;
 constexpr GLuint kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 5, kParents = 7;
 
 // Uniforms of fish_record.glsl, fish_detail.glsl and of the kernels.
@@ -58,7 +58,9 @@ std::vector<std::uint32_t> upTo(std::size_t count) {
 }
 
 // NOLINTNEXTLINE(performance-no-int-to-ptr): GL takes an offset into a buffer as a pointer
-const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
+const void* at(std::size_t offset) {
+    return reinterpret_cast<const void*>(offset);
+}
 
 std::size_t surfaceOf(DetailLevel level) {
     return std::size_t(level) - std::size_t(DetailLevel::ControlMesh);
@@ -116,8 +118,9 @@ struct SchoolSurface::Parts {
     void evaluate(std::size_t turn, std::size_t groupsOffset) const;
     void drawSurfaces(std::size_t turn, bool isFins) const;
     void drawTurns(bool isFins) const;
-    void drawTails(std::size_t first, std::size_t commands, gl::ProgramHandle SkinPainter::*program)
-        const;
+    void drawTails(std::size_t first,
+                   std::size_t commands,
+                   gl::ProgramHandle SkinPainter::*program) const;
     void drawPoints() const;
     void drawFew() const;
 
@@ -130,7 +133,8 @@ struct SchoolSurface::Parts {
     std::size_t turns = 1;  // of the surface buffer, at most
     gl::Buffer before, after, traits, choices, counts, plan, school, surface, slots;
     gl::VertexArray surfaceArray, fewArray, pointArray;
-    gl::Buffer pointIndices{makeBuffer(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, "point indices")};
+    gl::Buffer pointIndices{makeBuffer(
+        std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, "point indices")};
     gl::ProgramHandle cull{gl::makeProgram({"fish_cull.comp"})};
     gl::ProgramHandle scan{gl::makeProgram({"fish_scan.comp"})};
     gl::ProgramHandle planner{gl::makeProgram({"fish_plan.comp"})};
@@ -381,16 +385,23 @@ void SchoolSurface::drawBlended() const {
     glDisable(GL_BLEND);
 }
 
-void SchoolSurface::bindRecords() const { parts_->bindRecords(); }
-std::size_t SchoolSurface::fishInRecords() const { return parts_->recordsUploaded; }
-float SchoolSurface::fraction() const { return parts_->fraction; }
+void SchoolSurface::bindRecords() const {
+    parts_->bindRecords();
+}
+std::size_t SchoolSurface::fishInRecords() const {
+    return parts_->recordsUploaded;
+}
+float SchoolSurface::fraction() const {
+    return parts_->fraction;
+}
 
 SurfaceCounts SchoolSurface::counts() const {
     SurfaceCounts counts;
     if (parts_->fish == 0) return counts;
     decltype(FishPlan::totals) totals{};
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(parts_->plan.name(), offsetof(FishPlan, totals), sizeof(totals), &totals);
+    glGetNamedBufferSubData(
+        parts_->plan.name(), offsetof(FishPlan, totals), sizeof(totals), &totals);
     for (std::size_t s = 0; s < parts_->painters.size(); ++s)
         for (std::size_t level = 0; level < kDetailLevels; ++level)
             counts.atLevel.at(level) += totals.at(s).at(level);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// All fish of a node on the GPU: from the wire's records to the surfaces that a view draws. Culling,
-// level of detail, control points and limit surface (eq. 13, paper sections 4.3 and 6) are compute
-// shaders, and the GPU draws what it found: what a frame costs the processor does not depend on the
-// number of fish, but for copying their bytes.
+// All fish of a node on the GPU: from the wire's records to the surfaces that a view draws.
+// Culling, level of detail, control points and limit surface (eq. 13, paper sections 4.3 and 6) are
+// compute shaders, and the GPU draws what it found: what a frame costs the processor does not
+// depend on the number of fish, but for copying their bytes.
 #pragma once
 
 #include <array>
@@ -82,9 +82,9 @@ class SchoolSurface {
 
     // Draw what the last look found, with its painted skin, lit and seen through the water by
     // light.glsl. Expect the frame's uniform block to be bound (shaders/frame_uniforms.h). Bodies
-    // are solid things. Points, fish of few triangles and fins are blended over what is behind them:
-    // draw them after the water and all solid things, before what floats in front. The order is that
-    // of the school, in every frame.
+    // are solid things. Points, fish of few triangles and fins are blended over what is behind
+    // them: draw them after the water and all solid things, before what floats in front. The order
+    // is that of the school, in every frame.
     void drawBodies() const;
     void drawBlended() const;
 

@@ -47,8 +47,8 @@ using DetailLimits = std::array<float, kDetailLevels>;
 // fineness: 1, or more to have the meshes finer than need be.
 [[nodiscard]] DetailLimits detailLimits(float fineness);
 
-// The shared eye, and the angle of the wall's finest pixel: what a level of detail may depend on, so
-// that neighbours, and a node that was just started, draw the same fish alike.
+// The shared eye, and the angle of the wall's finest pixel: what a level of detail may depend on,
+// so that neighbours, and a node that was just started, draw the same fish alike.
 struct SharedView {
     glm::vec3 eyeMetres{};
     float pixelRadians = 0.0016F;

@@ -52,8 +52,8 @@ std::vector<PresentedFish> fishOf(std::size_t count) {
         const glm::vec2 slope{(ahead ? 0.3F : 1.0F) * std::sin(12.9898F * k),
                               (ahead ? 0.3F : 0.5F) * std::sin(78.233F * k)};
         const glm::vec3 place = away * glm::normalize(glm::vec3{slope, ahead ? -1.0F : 1.0F});
-        school.push_back(test::fishAt(kEyePosition + place,
-                                      glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0})));
+        school.push_back(
+            test::fishAt(kEyePosition + place, glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0})));
         school.back().id = static_cast<std::uint32_t>(i);
         school.back().phase = std::fmod(0.377F * k, 1.0F);
     }
@@ -162,8 +162,8 @@ double secondsOfAFrame(std::size_t fish, bool savesWork, int frames) {
     return (processSeconds() - start) / frames;
 }
 
-// How many times a frame's fish cost without culling and levels of detail what they cost with. Above
-// 2000 fish, those without are extrapolated: `measured` of `fish` were drawn.
+// How many times a frame's fish cost without culling and levels of detail what they cost with.
+// Above 2000 fish, those without are extrapolated: `measured` of `fish` were drawn.
 void lodFactor(benchmark::State& state) {
     const auto context = contextFor();
     const auto fish = static_cast<std::size_t>(state.range(0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the surface of a school costs: culling, control points, limit surface and vertices, without a
-// pixel.
+// What the surface of a school costs: culling, control points, limit surface and vertices, without
+// a pixel.
 #include <vector>
 
 #include <benchmark/benchmark.h>

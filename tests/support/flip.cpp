@@ -71,7 +71,8 @@ glm::dvec3 perceived(glm::dvec3 rgb) {
         f[c] = n[c] > kDelta * kDelta * kDelta ? std::cbrt(n[c])
                                                : n[c] / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
     const double lightness = 116.0 * f.y - 16.0;
-    return {lightness, 0.01 * lightness * 500.0 * (f.x - f.y), 0.01 * lightness * 200.0 * (f.y - f.z)};
+    return {
+        lightness, 0.01 * lightness * 500.0 * (f.x - f.y), 0.01 * lightness * 200.0 * (f.y - f.z)};
 }
 
 double hyab(glm::dvec3 a, glm::dvec3 b) {
@@ -85,16 +86,17 @@ Image filtered(const Image& image,
                const std::vector<glm::dvec3>& alongY) {
     const int radius = static_cast<int>(alongX.size()) / 2;
     Image across{image.size, {}}, all{image.size, {}};
-    const auto pass = [&](const Image& from, Image& to, const std::vector<glm::dvec3>& weights, glm::ivec2 step) {
-        for (int y = 0; y < image.size.y; ++y)
-            for (int x = 0; x < image.size.x; ++x) {
-                glm::dvec3 sum{};
-                for (int k = -radius; k <= radius; ++k)
-                    sum += weights[static_cast<std::size_t>(k + radius)] *
-                           from.at(x + k * step.x, y + k * step.y);
-                to.values.push_back(sum);
-            }
-    };
+    const auto pass =
+        [&](const Image& from, Image& to, const std::vector<glm::dvec3>& weights, glm::ivec2 step) {
+            for (int y = 0; y < image.size.y; ++y)
+                for (int x = 0; x < image.size.x; ++x) {
+                    glm::dvec3 sum{};
+                    for (int k = -radius; k <= radius; ++k)
+                        sum += weights[static_cast<std::size_t>(k + radius)] *
+                               from.at(x + k * step.x, y + k * step.y);
+                    to.values.push_back(sum);
+                }
+        };
     pass(image, across, alongX, {1, 0});
     pass(across, all, alongY, {0, 1});
     return all;
@@ -117,12 +119,13 @@ std::vector<double> kernelOf(const Gaussian& g, int radius, double pixelsPerDegr
 Image sensed(const Image& opponent, double pixelsPerDegree) {
     constexpr Gaussian kLight{1.0, 0.0047}, kRedGreen{1.0, 0.0053}, kWide{34.1, 0.04},
         kNarrow{13.5, 0.025};
-    const int radius = static_cast<int>(
-        std::ceil(3.0 * std::sqrt(kWide.b / (2.0 * std::numbers::pi * std::numbers::pi)) * pixelsPerDegree));
+    const int radius = static_cast<int>(std::ceil(
+        3.0 * std::sqrt(kWide.b / (2.0 * std::numbers::pi * std::numbers::pi)) * pixelsPerDegree));
     const auto blurred = [&](const Gaussian& first, const Gaussian& second, const Gaussian& third) {
         std::vector<glm::dvec3> weights;
         glm::dvec3 sum{};
-        const auto x = kernelOf(first, radius, pixelsPerDegree), y = kernelOf(second, radius, pixelsPerDegree),
+        const auto x = kernelOf(first, radius, pixelsPerDegree),
+                   y = kernelOf(second, radius, pixelsPerDegree),
                    z = kernelOf(third, radius, pixelsPerDegree);
         for (std::size_t k = 0; k < x.size(); ++k) {
             weights.emplace_back(x[k], y[k], z[k]);
@@ -147,8 +150,7 @@ Image sensed(const Image& opponent, double pixelsPerDegree) {
 
 std::vector<double> colourDifference(const Image& a, const Image& b, double pixelsPerDegree) {
     constexpr double kExponent = 0.7, kKnee = 0.4, kKneeValue = 0.95;
-    const double most =
-        std::pow(hyab(perceived({0, 1, 0}), perceived({0, 0, 1})), kExponent);
+    const double most = std::pow(hyab(perceived({0, 1, 0}), perceived({0, 0, 1})), kExponent);
     const auto lab = [&](const Image& opponent) {
         return mapped(sensed(opponent, pixelsPerDegree),
                       [](glm::dvec3 c) { return perceived(linearFromOpponent(c)); });
@@ -158,8 +160,9 @@ std::vector<double> colourDifference(const Image& a, const Image& b, double pixe
     for (std::size_t i = 0; i < one.values.size(); ++i) {
         const double d = std::pow(hyab(one.values[i], other.values[i]), kExponent);
         const double knee = kKnee * most;
-        differences.push_back(d < knee ? d * kKneeValue / knee
-                                       : kKneeValue + (d - knee) / (most - knee) * (1.0 - kKneeValue));
+        differences.push_back(d < knee
+                                  ? d * kKneeValue / knee
+                                  : kKneeValue + (d - knee) / (most - knee) * (1.0 - kKneeValue));
     }
     return differences;
 }
@@ -194,7 +197,8 @@ Features featuresOf(const Image& opponent, double pixelsPerDegree) {
         for (const double weight : *kernel) (weight > 0 ? positive : negative) += weight;
         for (double& weight : *kernel) weight /= weight > 0 ? positive : -negative;
     }
-    const Image light = mapped(opponent, [](glm::dvec3 c) { return glm::dvec3((c.x + 16.0) / 116.0); });
+    const Image light =
+        mapped(opponent, [](glm::dvec3 c) { return glm::dvec3((c.x + 16.0) / 116.0); });
     const auto norm = [&](const std::vector<double>& kernel) {
         const Image x = filtered(light, sameForAll(kernel), sameForAll(smooth));
         const Image y = filtered(light, sameForAll(smooth), sameForAll(kernel));

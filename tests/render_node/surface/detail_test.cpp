@@ -93,7 +93,8 @@ class Wall {
 test::Camera cameraFor(float pixels) {
     const float pixelRadians = kLength / (2.0F * pixels);
     test::Camera camera;
-    camera.sizePixels = {static_cast<int>(1.3F * pixels) + 12, static_cast<int>(0.9F * pixels) + 12};
+    camera.sizePixels = {static_cast<int>(1.3F * pixels) + 12,
+                         static_cast<int>(0.9F * pixels) + 12};
     const float tangent = 0.5F * pixelRadians * static_cast<float>(camera.sizePixels.y);
     camera.heightDegrees = 2.0F * glm::degrees(std::atan(tangent));
     return camera;
@@ -111,7 +112,8 @@ class DetailTest : public testing::Test {
 
 PresentedFish fishAway(float metres) {
     const glm::quat turn = glm::angleAxis(glm::radians(200.0F), glm::vec3{0, 1, 0});
-    PresentedFish fish = test::fishAt(kEye + glm::vec3{0.3F * kLength / 8, 0, -metres}, turn, kLength);
+    PresentedFish fish =
+        test::fishAt(kEye + glm::vec3{0.3F * kLength / 8, 0, -metres}, turn, kLength);
     fish.phase = 0.1F;
     return fish;
 }
@@ -130,7 +132,8 @@ TEST_F(DetailTest, noLimitLeavesAJump) {
             const Pixels before = at(limit * (1.0F - kNear)), after = at(limit * (1.0F + kNear));
             const double jump = difference(before, after) / difference(after, water);
             RecordProperty(species + "_" + std::to_string(limit), std::to_string(jump));
-            EXPECT_LT(jump, limit == 14.0F ? kMostJumpOfFew : kMostJump) << species << " at " << limit << " pixels";
+            EXPECT_LT(jump, limit == 14.0F ? kMostJumpOfFew : kMostJump)
+                << species << " at " << limit << " pixels";
         }
 }
 
@@ -154,7 +157,8 @@ TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
             fish.push_back(test::fishAt(kEye + wall.metresFor(pixels) * towards, turn, kLength));
             fish.back().id = static_cast<std::uint32_t>(i);
         }
-        const double light = difference(wall.shown(fish), water) / static_cast<double>(pixels * pixels);
+        const double light =
+            difference(wall.shown(fish), water) / static_cast<double>(pixels * pixels);
         if (last > 0) {
             EXPECT_NEAR(light / last, 0.95, 0.17) << pixels << " pixels";
         }

@@ -20,7 +20,8 @@ Picture plain(std::uint16_t r, std::uint16_t g, std::uint16_t b) {
 Picture withADot(Picture picture, int side) {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
-            std::fill_n(picture.rgb.begin() + 3 * ((12 + y) * kSize.x + 20 + x), 3, std::uint16_t{255});
+            std::fill_n(
+                picture.rgb.begin() + 3 * ((12 + y) * kSize.x + 20 + x), 3, std::uint16_t{255});
     return picture;
 }
 

@@ -26,8 +26,8 @@ class SchoolSurfaceTest : public test::SurfaceTest {
                                                            DetailLevel level) const {
         std::vector<glm::vec3> cage(kControlPoints);
         livingCage(body_, repertoire_, fish, test::kSeconds, cage);
-        const LimitTable table =
-            makeLimitTable(body_, static_cast<int>(level) - static_cast<int>(DetailLevel::ControlMesh));
+        const LimitTable table = makeLimitTable(
+            body_, static_cast<int>(level) - static_cast<int>(DetailLevel::ControlMesh));
         std::vector<glm::vec3> positions(table.vertices.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
             for (std::uint32_t k = table.firstEntry[i]; k < table.firstEntry[i + 1]; ++k)
@@ -88,9 +88,7 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
     }
     const test::RecordedSchool recorded{fish};
     SchoolSurface surface{
-        cast,
-        SurfaceOptions{.culling = false, .levelsOfDetail = false},
-        programs()};
+        cast, SurfaceOptions{.culling = false, .levelsOfDetail = false}, programs()};
     surface.update(recorded.moment());
     surface.look(clip_, {});
     evaluate(surface);
@@ -158,10 +156,9 @@ TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
         school.back().id = static_cast<std::uint32_t>(i);
     }
     const test::RecordedSchool recorded{school};
-    SchoolSurface surface = surfaceFor(recorded.traits,
-                                       {.culling = false,
-                                        .levelsOfDetail = false,
-                                        .surfaceBytes = kRoomFor * vertices * 16});
+    SchoolSurface surface = surfaceFor(
+        recorded.traits,
+        {.culling = false, .levelsOfDetail = false, .surfaceBytes = kRoomFor * vertices * 16});
     surface.update(recorded.moment());
     surface.look(clip_, {});
     EXPECT_EQ(surface.counts().visible, school.size());

@@ -27,15 +27,16 @@ struct TwoTicks {
         for (std::size_t i = 0; i < fish; ++i) {
             // As many far as near.
             const float range = std::exp(3.5F * unit(random) + 1.5F);
-            const glm::vec3 place = range * glm::normalize(glm::vec3{
-                                                unit(random), unit(random), unit(random)});
+            const glm::vec3 place =
+                range * glm::normalize(glm::vec3{unit(random), unit(random), unit(random)});
             const glm::quat turn = test::anyRotation(random);
             setBodyFrame(states, 0, {place, turn});
             before.push_back(recordOf(states, 0));
             const glm::vec3 step{unit(random), unit(random), unit(random)};
-            setBodyFrame(states, 0,
-                         {place + 0.05F * step,
-                          glm::normalize(turn + 0.1F * test::anyRotation(random))});
+            setBodyFrame(
+                states,
+                0,
+                {place + 0.05F * step, glm::normalize(turn + 0.1F * test::anyRotation(random))});
             after.push_back(recordOf(states, 0));
             move(before.back(), after.back(), any, random);
             if (any(random) % 50 == 0) before.back().y = after.back().y = kAway;
@@ -62,7 +63,8 @@ struct TwoTicks {
         to.x = place.x, to.y = place.y, to.z = place.z;
         to.orientationLow = place.orientationLow, to.orientationHigh = place.orientationHigh;
         to.phase = static_cast<std::uint16_t>(from.phase + any(random) % 4000 - 2000);
-        to.warpFrame = std::min<std::uint8_t>(static_cast<std::uint8_t>(from.warpFrame + 1), to.warpLength);
+        to.warpFrame =
+            std::min<std::uint8_t>(static_cast<std::uint8_t>(from.warpFrame + 1), to.warpLength);
         if (any(random) % 3 != 0) return;
         // It leaves its segment in this tick: mid-cycle, or from within a warp.
         to.fromSegment = from.segment;
@@ -80,7 +82,8 @@ struct TwoTicks {
 
 class VisibilityTest : public test::SurfaceTest {
   protected:
-    [[nodiscard]] SchoolSurface surfaceOf(const TwoTicks& school, const SurfaceOptions& options) const {
+    [[nodiscard]] SchoolSurface surfaceOf(const TwoTicks& school,
+                                          const SurfaceOptions& options) const {
         // Two species, of which the first does not fill its last group.
         const auto half = static_cast<std::ptrdiff_t>(school.traits.size() / 3);
         const std::vector<SchoolSpecies> cast{
@@ -92,7 +95,8 @@ class VisibilityTest : public test::SurfaceTest {
 
 // Nearer to a limit than numbers are rounded, the two may choose differently.
 bool isOnALimit(const DetailLimits& limits, float pixels) {
-    return std::ranges::any_of(limits, [&](float limit) { return std::abs(pixels - limit) < 1e-3F * limit; });
+    return std::ranges::any_of(
+        limits, [&](float limit) { return std::abs(pixels - limit) < 1e-3F * limit; });
 }
 
 TEST_F(VisibilityTest, cullingAndLevelsAreThoseOfTheCpu) {
@@ -127,8 +131,9 @@ TEST_F(VisibilityTest, cullingAndLevelsAreThoseOfTheCpu) {
         }
         if (!isShown) continue;
         ++seen;
-        const float pixels = fish.lengthMetres /
-                             (glm::distance(fish.positionMetres, kShared.eyeMetres) * kShared.pixelRadians);
+        const float pixels =
+            fish.lengthMetres /
+            (glm::distance(fish.positionMetres, kShared.eyeMetres) * kShared.pixelRadians);
         if (isOnALimit(limits, pixels)) continue;
         const Detail expected =
             detailOf(kShared, limits, DetailLevel::CloseUp, fish.positionMetres, fish.lengthMetres);
@@ -153,7 +158,8 @@ TEST_F(VisibilityTest, aFishIsWhereTheReferencePresentsIt) {
             const PresentedFish expected =
                 present(school.before[i], school.after[i], fraction, school.traits[i]);
             const float bodyLength = expected.lengthMetres;
-            ASSERT_LT(glm::distance(fish.positionMetres, expected.positionMetres), 1e-4F * bodyLength);
+            ASSERT_LT(glm::distance(fish.positionMetres, expected.positionMetres),
+                      1e-4F * bodyLength);
             // Half a unit of a quaternion moves the nose by as many body lengths.
             ASSERT_LT(glm::distance(fish.rotation, expected.rotation), 1e-4F);
             ASSERT_FLOAT_EQ(fish.lengthMetres, bodyLength);
