@@ -5,7 +5,7 @@
 #include "skin.glsl"
 
 // The palettes are those of plates in daylight, drawn for paper: under water skin is darker by this.
-const float kWet = 0.66;
+const float kWet = 0.78;
 vec3 wetAlbedo(vec3 albedo, uint id) { return min(kWet * albedo * tintOf(id), vec3(1.0)); }
 
 // Light goes a little way through skin, so that the border of its shadow is soft: the sun's
