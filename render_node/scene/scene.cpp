@@ -38,7 +38,7 @@ glm::vec4 daylightOf(float daylight) {
 glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
     const glm::vec3 above{0.0F, 1.0F, 0.0F};
     const float deep = glm::smoothstep(9.0F, 24.0F, -frame.eyePositionMetres.y);
-    const float power = glm::mix(4.0F, 8.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
+    const float power = glm::mix(3.0F, 8.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
     return {frame.eyePositionMetres + above, power};
 }
 

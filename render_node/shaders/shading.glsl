@@ -30,7 +30,7 @@ vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float
     vec3 sand = 0.6 * open.sky * (0.5 * (daylight.x + daylight.yzw));
     float up = 0.5 + 0.5 * normal.y;
     vec3 front = sun * max(towardsSun, 0.0) + sky * mix(0.16, 1.0, up * sqrt(up));
-    vec3 bounce = 0.34 * (1.0 - up) * (sky + sand);
+    vec3 bounce = 0.24 * (1.0 - up) * (sky + sand);
     vec3 back = translucency * (sun * max(-towardsSun, 0.0) + 0.35 * sky);
     // The lamp's light has not come down from the surface: what `seen` takes for that is undone. Of
     // the diver's filter 2.5 m are left on it: with all of it the nearest reds would burn.
