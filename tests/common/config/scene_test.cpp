@@ -299,7 +299,7 @@ TEST(Cast, ofASpeciesThatIsNotThereIsRefusedAtItsPlaceInTheScene) {
         (void)readCastSpecies(scene, path);
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), StartsWith(path + ":17:8: "));
+        EXPECT_THAT(error.what(), StartsWith(path + ":18:8: "));
         EXPECT_THAT(error.what(), HasSubstr("config/scenes/scad.txtpb"));
     }
 }
