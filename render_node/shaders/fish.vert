@@ -21,7 +21,7 @@ layout(location = 7) out float opacity;     // 1 but where a level of detail fad
 layout(location = 8) flat out float nearness;  // of the skin's details, which come with the mesh
 
 // Of DetailLevel, and of CagePart.
-const uint kControlMesh = 3u, kMesh = 4u, kPelvic = 5u;
+const uint kControlMesh = 3u, kMesh = 4u, kPelvic = 5u, kPectoral = 6u;
 
 void main() {
     uvec4 vertex = surface[fish[slot].firstVertex + uint(gl_VertexID)];
@@ -33,7 +33,7 @@ void main() {
     id = fish[slot].id;
     dorsal = rotate(fish[slot].rotation, vec3(0.0, 1.0, 0.0));
     // Few triangles have no paired fins.
-    bool grows = fish[slot].detail == kControlMesh && vertexPart >= kPelvic;
+    bool grows = fish[slot].detail == kControlMesh && (vertexPart == kPelvic || vertexPart == kPectoral);
     opacity = grows ? fish[slot].blend : 1.0;
     nearness = fish[slot].detail == kMesh ? fish[slot].blend : 1.0;
     gl_Position = clipFromWorld * vec4(place, 1.0);
