@@ -13,7 +13,8 @@
 namespace {
 
 constexpr const char* kFooter =
-    "Keys in its window: w a s d, arrows and page up and down steer the submarine, q or Escape ends "
+    "Keys in its window: w a s d, arrows and page up and down steer the submarine, q or Escape "
+    "ends "
     "the show,\np or space pauses it, h lists them all.\n"
     "Software OpenGL draws with as many threads as LP_NUM_THREADS says; where several nodes share "
     "a "

@@ -18,8 +18,8 @@ std::vector<PanoramaMap::Sample> samplesOf(const Rig& rig, const Channel& channe
             const glm::dvec3 point = screenPointAt(rig.screen, at);
             const auto pixel = projector.pixelOf(point);
             if (pixel && lightsInside(projector, point))
-                samples.push_back({static_cast<std::uint32_t>(y * rig.panoramaPixels.x + x),
-                                   glm::vec2(*pixel)});
+                samples.push_back(
+                    {static_cast<std::uint32_t>(y * rig.panoramaPixels.x + x), glm::vec2(*pixel)});
         }
     return samples;
 }

@@ -75,7 +75,7 @@ struct FishBody {
     std::vector<float> profileDorsal;     // height above the axis (positive)
     std::vector<float> profileVentral;    // depth below the axis (positive)
     std::vector<float> profileHalfWidth;
-    glm::vec3 eye{};  // (s, y, radius)
+    glm::vec3 eye{};        // (s, y, radius)
     float eyeBulge = 0.0F;  // height over the skin, in radii
     std::vector<BodyThread> threads;
     ControlCage cage;

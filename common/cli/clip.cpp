@@ -30,8 +30,8 @@ std::vector<std::string> channelsFor(const Rig& rig, const std::string& of) {
     if (std::ranges::find(names, of) != names.end()) return {of};
     std::string known = "panorama, hall";
     for (const std::string& name : names) known += ", " + name;
-    throw Error("--clip-of " + of + ": rig \"" + rig.name + "\" has no such channel; choose one of " +
-                known);
+    throw Error("--clip-of " + of + ": rig \"" + rig.name +
+                "\" has no such channel; choose one of " + known);
 }
 
 void requireClipPath(const std::string& path) {

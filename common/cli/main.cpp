@@ -57,7 +57,8 @@ constexpr std::array kDelegations{
     Delegation{
         "check", "calibrate", "check", "validate a rig, a scene or a species: aquarama check FILE"},
     Delegation{"status", "master", "status", "what the running wall is doing"},
-    Delegation{"pilot", "master", "pilot", "steer the submarine of the running wall from a terminal"},
+    Delegation{
+        "pilot", "master", "pilot", "steer the submarine of the running wall from a terminal"},
     Delegation{"explain",
                "master",
                "explain",

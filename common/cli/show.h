@@ -20,20 +20,20 @@ struct ShowOptions {
     std::optional<std::uint64_t> frames;
     std::optional<std::uint32_t> seed;
     std::optional<std::uint32_t> fish;
-    std::string pattern;         // empty: the world
-    std::string quality;         // empty: the rig's
-    std::string snapshotFolder;  // empty: no pictures
-    bool deep = false;           // 16-bit pictures
-    std::string clipPath;            // a clip of the show, .mp4 or .webp; empty: none
+    std::string pattern;              // empty: the world
+    std::string quality;              // empty: the rig's
+    std::string snapshotFolder;       // empty: no pictures
+    bool deep = false;                // 16-bit pictures
+    std::string clipPath;             // a clip of the show, .mp4 or .webp; empty: none
     std::string clipOf = "panorama";  // or hall, or a channel's name
-    int filmEvery = 1;               // the clip has every so many frames
+    int filmEvery = 1;                // the clip has every so many frames
     std::string traceFolder;
     std::string recordPath;  // the show is written to this new file; empty: it is not
     std::string replayPath;  // the recording that is shown; empty: a new world
 
     [[nodiscard]] bool lockstep() const {
-        return !live && (headless || frames.has_value() || !snapshotFolder.empty() ||
-                         !clipPath.empty());
+        return !live &&
+               (headless || frames.has_value() || !snapshotFolder.empty() || !clipPath.empty());
     }
 };
 

@@ -104,7 +104,7 @@ struct Scene {
     std::uint32_t plankton = 300;  // particles; eaten ones drift in again
     Day day;
     std::vector<FoodDrop> drops;
-    std::vector<CastMember> cast;  // at least one; the school first, which an open sea may lack
+    std::vector<CastMember> cast;   // at least one; the school first, which an open sea may lack
     std::optional<SceneTour> tour;  // without: the submarine stays at the eye
     double idleSeconds = 20;        // without a hand, until it steers itself
 };

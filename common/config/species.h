@@ -68,7 +68,7 @@ struct FishEye {
 
 // Thinner than the cage can draw, in the middle plane of the body.
 struct Thread {
-    std::vector<glm::vec2> at;  // (s, y) from its root to its tip
+    std::vector<glm::vec2> at;                // (s, y) from its root to its tip
     float rootWidth = 0.0F, tipWidth = 0.0F;  // seen from the side
     bool isOfFirstDorsal = false;
 };

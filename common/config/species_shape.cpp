@@ -10,7 +10,7 @@ namespace aquarama {
 namespace {
 
 constexpr Range kStation{0, 1.4};  // threads trail behind the tail
-constexpr float kHead = 0.05F;  // no fin stands before it
+constexpr float kHead = 0.05F;     // no fin stands before it
 constexpr Range kHeight{-1, 1};
 constexpr Range kFullness{1.4, 3.5};
 constexpr Range kExtent{0.0005, 0.5};  // body lengths; thinner would fold the skin
@@ -164,11 +164,11 @@ std::vector<Thread> readThreads(const TextPlace& root) {
     std::vector<Thread> threads;
     for (int i = 0; i < root.count("threads"); ++i) {
         const TextPlace at = root.in("threads", i);
-        threads.push_back({.at = readPolyline(at, "at"),
-                           .rootWidth = real(at, "root_width", {0.0005, 0.05}),
-                           .tipWidth = real(at, "tip_width", {0, 0.05}),
-                           .isOfFirstDorsal =
-                               at.has("of_first_dorsal") && at.truth("of_first_dorsal")});
+        threads.push_back(
+            {.at = readPolyline(at, "at"),
+             .rootWidth = real(at, "root_width", {0.0005, 0.05}),
+             .tipWidth = real(at, "tip_width", {0, 0.05}),
+             .isOfFirstDorsal = at.has("of_first_dorsal") && at.truth("of_first_dorsal")});
     }
     return threads;
 }

@@ -109,8 +109,8 @@ PresentedFish present(const FishRecord& before,
     fish.rotation =
         presentedRotation(bodyFrameOf(before).rotation, bodyFrameOf(after).rotation, fraction);
     fish.id = traits.id;
-    const auto speedUnits = glm::mix(
-        static_cast<float>(before.speed), static_cast<float>(after.speed), fraction);
+    const auto speedUnits =
+        glm::mix(static_cast<float>(before.speed), static_cast<float>(after.speed), fraction);
     fish.speed = speedUnits / kSpeedUnitsPerBodyLength;
     pose(before, after, fraction, fish);
     return fish;

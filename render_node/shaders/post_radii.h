@@ -14,9 +14,7 @@ const float
     kScatterSigma = 0.0016F,
     kScatterMostSigma = 0.0080F,
     // The glow about what is bright: rings of taps of so wide a mean.
-    kBloomNear = 0.0035F,
-    kBloomFar = 0.0095F,
-    kPostReach = 0.0170F;
+    kBloomNear = 0.0035F, kBloomFar = 0.0095F, kPostReach = 0.0170F;
 #ifdef __cplusplus
 }  // namespace aquarama
 #endif

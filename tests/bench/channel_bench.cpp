@@ -61,10 +61,9 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
                     .sizePixels = scenePictureSize(map)};
     double seconds = 0;
     const auto drawFrame = [&] {
-        const SceneFrame frame{
-            .timeSeconds = seconds += 1.0 / 60,
-            .eyePositionMetres = kEyePosition,
-            .fish = fish.moment()};
+        const SceneFrame frame{.timeSeconds = seconds += 1.0 / 60,
+                               .eyePositionMetres = kEyePosition,
+                               .fish = fish.moment()};
         scene.update(frame);
         projection.draw(
             {.sceneTexture = scene.draw(view), .framebuffer = target.framebuffer(), .frame = {}});

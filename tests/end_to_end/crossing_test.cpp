@@ -154,7 +154,9 @@ TEST_F(Crossing, aNodeThatHasJustStartedDrawsWhatAVeteranDraws) {
     const float azimuth = overlap().front();
     const glm::vec3 direction(std::sin(azimuth), 0.0F, -std::cos(azimuth));
     for (int i = 0; i < 3; ++i)
-        middle_.drawScene(frameWithFish(kEyePosition + (4.0F - i) * direction, 0.0F), Overlays{});
+        middle_.drawScene(
+            frameWithFish(kEyePosition + (4.0F - static_cast<float>(i)) * direction, 0.0F),
+            Overlays{});
     const StateFrame frame = frameWithFish(kEyePosition + 2.0F * direction, azimuth);
     const auto pixelsOf = [&](ChannelPicture& picture) {
         picture.drawScene(frame, Overlays{});

@@ -75,9 +75,10 @@ SeenClip readClip(const std::string& path) {
     avcodec_parameters_to_context(decoder.get(), stream.codecpar);
     avcodec_open2(decoder.get(), codec, nullptr);
 
-    SeenClip clip{.codec = avcodec_get_name(stream.codecpar->codec_id),
-                  .sizePixels = {stream.codecpar->width, stream.codecpar->height},
-                  .durationSeconds = static_cast<double>(opened->duration) / AV_TIME_BASE};
+    SeenClip clip;
+    clip.codec = avcodec_get_name(stream.codecpar->codec_id);
+    clip.sizePixels = {stream.codecpar->width, stream.codecpar->height};
+    clip.durationSeconds = static_cast<double>(opened->duration) / AV_TIME_BASE;
     const std::unique_ptr<AVPacket, Free> packet{av_packet_alloc()};
     const std::unique_ptr<AVFrame, Free> frame{av_frame_alloc()};
     const auto take = [&] {

@@ -47,9 +47,8 @@ Course avoidObstacle(const Situation& situation, const Mind& mind) {
     const float back = std::max(0.0F, -dot(senses.push, senses.heading));
     const Nature& nature = situation.nature;
     // Who is run into must not stop.
-    const float pace = senses.hurry > 0
-                           ? nature.slow + (nature.fast - nature.slow) * senses.hurry
-                           : nature.slow * std::max(0.0F, 1 - back / kStopsAt);
+    const float pace = senses.hurry > 0 ? nature.slow + (nature.fast - nature.slow) * senses.hurry
+                                        : nature.slow * std::max(0.0F, 1 - back / kStopsAt);
     return heading(situation, senses.heading + roomFrom(situation), pace);
 }
 

@@ -198,6 +198,9 @@ TEST_P(CageOf, finsAreWhereTheyBelong) {
             case CagePart::Pectoral:
                 EXPECT_GT(std::abs(at.z), flank * 0.8F) << at.x;
                 break;
+            case CagePart::Eye:
+                ADD_FAILURE() << "eyes are no part of the cage";
+                break;
             case CagePart::Body:
                 EXPECT_LE(std::abs(at.z), flank * 1.05F + 0.001F) << at.x;
                 EXPECT_LE(at.y, back * 1.05F + 0.001F) << at.x;

@@ -110,7 +110,9 @@ TEST_P(AttachmentsOf, eyesSitInTheSkinInEveryPose) {
                 EXPECT_GT(height, 0.6F * body_.eyeBulge);
                 EXPECT_LT(height, 1.4F * body_.eyeBulge + 0.05F);
             }
-            if (rho > 1.05F) EXPECT_LT(height, 0.01F) << "the rim shows, at " << rho;
+            if (rho > 1.05F) {
+                EXPECT_LT(height, 0.01F) << "the rim shows, at " << rho;
+            }
         }
         EXPECT_EQ(balls, 2);
     }

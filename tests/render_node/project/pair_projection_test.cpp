@@ -58,13 +58,14 @@ class PairProjectionTest : public testing::Test {
         PairProjection(size_, kChannelId, mode)
             .draw(left_.eye(),
                   right_.eye(),
-                  {.framebuffer = target.framebuffer(), .encoding = Encoding::Plain});
+                  {.framebuffer = target.framebuffer(), .frame = {}, .encoding = Encoding::Plain});
         return gl::readRgb<std::uint16_t>(target);
     }
     [[nodiscard]] std::vector<std::uint16_t> alone(const EyeStage& eye) const {
         const gl::Target target(GL_RGBA16, size_);
         eye.projection.draw({.sceneTexture = eye.scene.texture(),
                              .framebuffer = target.framebuffer(),
+                             .frame = {},
                              .encoding = Encoding::Plain});
         return gl::readRgb<std::uint16_t>(target);
     }
@@ -157,7 +158,7 @@ TEST_F(PairProjectionTest, theDitherIsTheSameForBothEyes) {
     const gl::Target target(GL_RGBA8, size_);
     for (const StereoMode mode : {StereoMode::SideBySide, StereoMode::TopBottom}) {
         PairProjection(size_, kChannelId, mode)
-            .draw(left_.eye(), left_.eye(), {.framebuffer = target.framebuffer()});
+            .draw(left_.eye(), left_.eye(), {.framebuffer = target.framebuffer(), .frame = {}});
         const auto codes = gl::readRgb<std::uint8_t>(target);
         const glm::ivec2 half = mode == StereoMode::SideBySide ? glm::ivec2(size_.x / 2, 0)
                                                                : glm::ivec2(0, size_.y / 2);
