@@ -53,7 +53,7 @@ std::string definitionsOf(const LightQuality& light) {
 
 Quality qualityOf(QualityTier tier) {
     static constexpr std::array<Quality, kTierNames.size()> kTiers{
-        Quality{.samples = 1, .light = {}, .placeDetail = 0.42F},
+        Quality{.pictureShare = 0.85F, .fishFineness = 0.75F, .light = {}, .placeDetail = 0.32F},
         Quality{.samples = 1,
                 .softening = true,
                 .bloom = true,

@@ -16,11 +16,11 @@ struct LightQuality {
     int causticLayers = 1;  // depths at which the net of light is drawn
     int causticTexels = 256;
     int causticCells = 72;  // of the light front, a side
-    int shaftTexels = 128;  // of the map of all directions
-    int shaftSteps = 24;    // along a direction
+    int shaftTexels = 112;  // of the map of all directions
+    int shaftSteps = 18;    // along a direction
     int shadowTexels = 64;  // of the place's shadows; drawn where isFine
     int fishShadowTexels = 128;
-    int flakes = 9000;  // of marine snow
+    int flakes = 6000;  // of marine snow
     // Soft shadows, of fish too; a mirrored reef, clouds, coloured rims of the net of light.
     bool isFine = false;
 };
@@ -29,6 +29,7 @@ struct LightQuality {
 [[nodiscard]] std::string definitionsOf(const LightQuality& light);
 
 struct Quality {
+    float pictureShare = 1.0F;  // of the projector's pixels along either axis that are drawn
     int samples = 1;            // of multisampling
     bool softening = false;     // of the distance, by forward scattering: 32 fetches a pixel
     bool bloom = false;         // 18 fetches a pixel, and smaller copies of the picture

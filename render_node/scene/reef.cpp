@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <thread>
+#include <tuple>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "render_node/gl/program.h"
 #include "render_node/scene/solid_array.h"
@@ -74,6 +79,41 @@ Prototype boundsOf(const Mesh& mesh) {
     return prototype;
 }
 
+// Neighbours follow each other, so that a workgroup of the culling looks at one corner of the
+// place.
+std::vector<Instance> byCells(std::vector<Instance> instances) {
+    constexpr float kCellMetres = 3.0F;
+    const auto cellOf = [](const Instance& one) {
+        const glm::ivec3 cell(glm::floor(glm::vec3(one.placeAndScale) / kCellMetres));
+        return std::tuple{cell.x, cell.z, cell.y};
+    };
+    std::ranges::stable_sort(instances, {}, cellOf);
+    return instances;
+}
+
+// A ball about the instances of each workgroup.
+std::vector<glm::vec4> groupBalls(std::span<const Instance> instances,
+                                  std::span<const Prototype> prototypes) {
+    std::vector<glm::vec4> balls;
+    for (std::size_t first = 0; first < instances.size(); first += kGroupSize) {
+        const auto group =
+            instances.subspan(first, std::min<std::size_t>(kGroupSize, instances.size() - first));
+        glm::vec3 middle{0.0F};
+        for (const Instance& one : group) middle += glm::vec3(one.placeAndScale);
+        middle /= static_cast<float>(group.size());
+        float reach = 0.0F;
+        for (const Instance& one : group) {
+            const Prototype& prototype = prototypes[static_cast<std::size_t>(one.light.w)];
+            // As in place_cull.comp: what bends reaches further.
+            const float own = one.placeAndScale.w * (std::abs(prototype.middle) + prototype.reach +
+                                                     1.5F * one.tintAndSway.w);
+            reach = std::max(reach, glm::distance(middle, glm::vec3(one.placeAndScale)) + own);
+        }
+        balls.emplace_back(middle, reach);
+    }
+    return balls;
+}
+
 GLsizei commandCount(unsigned prototypes, unsigned levels) {
     return static_cast<GLsizei>(prototypes * levels);
 }
@@ -100,6 +140,7 @@ Library growLibrary() {
 
 Reef::Reef(const PlaceKey& place, const Quality& quality)
     : quality_{quality},
+      group_{gl::makeProgram({"place_groups.comp"})},
       cull_{gl::makeProgram({"place_cull.comp"})},
       stone_{quality.rockScales > 1 ? gl::makeProgram({"rock.vert", "rock.frag"})
                                     : gl::makeProgram({"rock_plain.vert", "rock_plain.frag"})},
@@ -116,7 +157,8 @@ Reef::Reef(const PlaceKey& place, const Quality& quality)
     fillLibrary(library, scatter(place, rocks));
 }
 
-void Reef::fillLibrary(const Library& library, const std::vector<Instance>& instances) {
+void Reef::fillLibrary(const Library& library, const std::vector<Instance>& scattered) {
+    const std::vector<Instance> instances = byCells(scattered);
     instanceCount_ = static_cast<unsigned>(instances.size());
     Mesh all;
     std::vector<Command> commands(kPrototypes * kLevels);
@@ -145,6 +187,11 @@ void Reef::fillLibrary(const Library& library, const std::vector<Instance>& inst
     setSolids(array_, vertices_, indices_, all);
     fill(instances_, std::span{instances});
     fill(prototypes_, std::span<const Prototype>{prototypes});
+    const std::vector<glm::vec4> balls = groupBalls(instances, prototypes);
+    fill(groups_, std::span{balls});
+    groupCount_ = static_cast<unsigned>(balls.size());
+    const std::vector<std::uint32_t> seen(3 + balls.size());  // a dispatch, and the groups of it
+    fill(seenGroups_, std::span{seen});
     fill(none_, std::span<const Command>{commands});
     fill(commands_, std::span<const Command>{commands});
     glNamedBufferStorage(
@@ -172,12 +219,31 @@ void Reef::stir(std::size_t fish, float fraction) const {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void Reef::cullGroups(const ReefRule& rule) const {
+    constexpr std::array<std::uint32_t, 3> kNone{0, 1, 1};
+    glClearNamedBufferSubData(seenGroups_.name(),
+                              GL_RGB32UI,
+                              0,
+                              sizeof(kNone),
+                              GL_RGB_INTEGER,
+                              GL_UNSIGNED_INT,
+                              kNone.data());
+    glUseProgram(group_.name());
+    glUniform1ui(0, groupCount_);
+    glUniform1i(1, rule.culling ? 1 : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 13, groups_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 14, seenGroups_.name());
+    glDispatchCompute((groupCount_ + kGroupSize - 1) / kGroupSize, 1, 1);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void Reef::cull(const ReefRule& rule) const {
     glCopyNamedBufferSubData(none_.name(),
                              commands_.name(),
                              0,
                              0,
                              static_cast<GLsizeiptr>(kPrototypes * kLevels * sizeof(Command)));
+    cullGroups(rule);
     glUseProgram(cull_.name());
     glUniform1ui(0, instanceCount_);
     glUniform1i(1, rule.culling ? 1 : 0);
@@ -186,7 +252,8 @@ void Reef::cull(const ReefRule& rule) const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9, prototypes_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 10, commands_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 11, chosen_.name());
-    glDispatchCompute((instanceCount_ + kGroupSize - 1) / kGroupSize, 1, 1);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, seenGroups_.name());
+    glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 

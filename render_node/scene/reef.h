@@ -39,13 +39,16 @@ class Reef {
     void draw() const;
 
   private:
-    void fillLibrary(const Library& library, const std::vector<Instance>& instances);
+    void cullGroups(const ReefRule& rule) const;
+    void fillLibrary(const Library& library, const std::vector<Instance>& scattered);
 
     Quality quality_;
+    unsigned groupCount_ = 0;
     unsigned instanceCount_ = 0;
-    gl::Buffer vertices_, indices_, instances_, prototypes_, chosen_, none_, commands_, wake_;
+    gl::Buffer vertices_, indices_, instances_, prototypes_, groups_, seenGroups_, chosen_, none_,
+        commands_, wake_;
     gl::VertexArray array_;
-    gl::ProgramHandle cull_, stone_, growth_, farGrowth_, stir_;
+    gl::ProgramHandle group_, cull_, stone_, growth_, farGrowth_, stir_;
     gl::Texture detail_;
 };
 

@@ -2,6 +2,7 @@
 #include "render_node/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -38,14 +39,19 @@ glm::vec4 daylightOf(float daylight) {
 glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
     const glm::vec3 above{0.0F, 1.0F, 0.0F};
     const float deep = glm::smoothstep(9.0F, 24.0F, -frame.eyePositionMetres.y);
-    const float power = glm::mix(3.0F, 8.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
+    const float power = glm::mix(8.0F, 12.0F, deep) / exposure + 8.0F * (1.0F - frame.daylight);
     return {frame.eyePositionMetres + above, power};
 }
+
+// Shaders count time in 32-bit floats, which months of show would make coarse: they begin anew
+// after so long, in which snow drifts whole boxes, clouds whole tiles, and fins beat whole times.
+constexpr double kClockSeconds = 9000;
 
 // What is the same for all views of a frame.
 FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, float pixelRadians) {
     FrameUniforms uniforms{};
-    uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, static_cast<float>(frame.timeSeconds));
+    const auto clock = static_cast<float>(std::fmod(frame.timeSeconds, kClockSeconds));
+    uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, clock);
     uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
     uniforms.sunAndFilterDepth = glm::vec4(
         sunInWater(), static_cast<float>(filterDepthMetres(-double{frame.eyePositionMetres.y})));
@@ -138,7 +144,6 @@ void SceneRenderer::Parts::bakeShadows() {
 // Near things first, so that what they hide is never shaded.
 void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
     if (!bottom) return;
-    bottom->reef.cull({viewpoint.culling, viewpoint.levelsOfDetail});
     bottom->reef.draw();
     bottom->ground.draw(viewpoint);
 }
@@ -190,10 +195,13 @@ unsigned SceneRenderer::draw(const View& view) {
     parts.setUniforms();
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     const glm::vec3 eye(parts.uniforms.eyeAndTime);
-    parts.light.drawShafts(eye, parts.uniforms.worldFromClip);
     parts.light.bind();
+    parts.light.drawShafts(eye, parts.uniforms.worldFromClip);
     parts.school.look(parts.uniforms.clipFromWorld,
                       {glm::vec3(parts.uniforms.sharedEyeAndPixel), parts.options.pixelRadians});
+    // All that is computed before all that is drawn: between the two a driver may have to wait.
+    if (parts.bottom)
+        parts.bottom->reef.cull({parts.options.culling, parts.options.levelsOfDetail});
     parts.picture.begin(view.sizePixels);
     const Viewpoint viewpoint{Frustum{parts.uniforms.clipFromWorld},
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),

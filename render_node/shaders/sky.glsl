@@ -28,7 +28,7 @@ vec3 sky(vec3 direction, float spread) {
         // A layer of clouds that drifts, denser towards the horizon.
         vec2 layer = direction.xz / (rise + 0.12);
         float lod = 2.0 + log2(1.0 + 40.0 * spread / (rise * rise));
-        float cover = textureLod(cloudTile, 0.11 * layer + 0.0006 * eyeAndTime.w, lod).r;
+        float cover = textureLod(cloudTile, 0.11 * layer + (6.0 / 9000.0) * eyeAndTime.w, lod).r;
         blue = mix(blue, vec3(0.085, 0.090, 0.095), smoothstep(0.42, 0.80, cover));
     }
     float away = dot(direction, sunInAir()) - 1.0;

@@ -6,8 +6,8 @@ layout(binding = 0) uniform sampler2D scene;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display;
 // A magenta filter before the lens, as divers have for green water: luminance stays.
-const vec3 kFilter = vec3(1.09, 0.96, 1.09);
-const float kSaturation = 1.04;
+const vec3 kFilter = vec3(1.15, 0.96, 1.07);
+const float kSaturation = 1.08;
 
 // Water is bluer than the display can show (red below 0): a soft floor at 4.5 % of the brightest
 // channel, which keeps the ratio of green to blue.

@@ -91,6 +91,8 @@ ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, 
     const WarpMap warp = warpMap(rig, channel);
     map_ = projectionMap(warp, channelFrustum(rig, channel, kMarginRadians));
     sceneSize_ = scenePictureSize(map_);
+    if (pattern_ == Pattern::World)
+        sceneSize_ = glm::ceil(glm::vec2(sceneSize_) * qualityOf(quality).pictureShare);
     const bool two = stereo_.mode != StereoMode::Mono;
     for (const EyeSide side :
          two ? std::vector{EyeSide::Left, EyeSide::Right} : std::vector{EyeSide::Between})

@@ -1,0 +1,13 @@
+// Which groups of instances a view may show: a ball about each against the frustum. Only these are
+// then culled one by one (place_cull.comp), so that what lies behind the eye costs next to nothing.
+#include "place_groups.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 14) buffer SeenGroups { uint groupsX, groupsY, groupsZ, seenGroups[]; };
+layout(location = 0) uniform uint groupCount;
+
+void main() {
+    uint id = gl_GlobalInvocationID.x;
+    if (id >= groupCount) return;
+    vec4 ball = groupBalls[id];
+    if (sees(ball.xyz, ball.w)) seenGroups[atomicAdd(groupsX, 1u)] = id;
+}

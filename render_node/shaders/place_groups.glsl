@@ -1,0 +1,18 @@
+// Balls against the view's frustum, and the balls about groups of instances.
+#ifndef PLACE_GROUPS_GLSL
+#define PLACE_GROUPS_GLSL
+#include "frame_uniforms.h"
+layout(std430, binding = 13) readonly buffer Groups { vec4 groupBalls[]; };
+layout(location = 1) uniform bool culling;
+
+// The four sides: things before and behind are few.
+bool sees(vec3 centre, float reach) {
+    if (!culling) return true;
+    mat4 rows = transpose(clipFromWorld);
+    for (int side = 0; side < 4; ++side) {
+        vec4 plane = rows[3] + ((side & 1) == 0 ? rows[side >> 1] : -rows[side >> 1]);
+        if (dot(plane.xyz, centre) + plane.w < -reach * length(plane.xyz)) return false;
+    }
+    return true;
+}
+#endif
