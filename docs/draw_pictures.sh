@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 drawn=$(mktemp -d)
 trap 'rm -rf "$drawn"' EXIT
 
-build/show/bin/aquarama run config/theatre.txtpb --headless --frames 150 --snapshot "$drawn/theatre"
+build/show/bin/aquarama run config/desk.txtpb --quality medium --headless --frames 60 --snapshot "$drawn/desk"
 build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
 
 build/show/bin/aquarama run config/desk_stereo.txtpb --headless --frames 150 --snapshot "$drawn/stereo"
@@ -16,6 +16,12 @@ mkdir -p docs/pictures
 cmake --build build/show --target aquarama_draw_still
 build/show/bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
     --out docs/pictures/portraits.png
+
+for tier in low medium high ultra; do
+    build/show/bin/aquarama_draw_still --quality $tier --azimuth -14 --elevation 2 --fov 60 --width 640 --height 360 \
+        --out "$drawn/tier-$tier.png"
+done
+montage "$drawn"/tier-{low,medium,high,ultra}.png -tile 2x -geometry +3+3 docs/pictures/tiers.png
 
 # The routines as they are seen on the wall.
 while read -r scene frames every; do
@@ -31,7 +37,7 @@ cp "$drawn/submarine/panorama.png" docs/pictures/submarine.png
 cp "$drawn/chase/panorama.png" docs/pictures/chase.png
 
 build/show/bin/aquarama-capture controllers --out docs/pictures
-cp "$drawn/theatre/hall.png" docs/pictures/
+cp "$drawn/desk/panorama.png" docs/pictures/
 cp "$drawn/stereo/panorama.png" docs/pictures/stereo.png
 for figure in forward_medium turn_right_sharp midlines_forward_medium; do
     sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"

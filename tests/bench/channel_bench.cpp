@@ -113,9 +113,9 @@ BENCHMARK_CAPTURE(channelFrame, culling, true, false)
 BENCHMARK_CAPTURE(channelFrame, neither, false, false)
     ->Name("channel_frame/culling:0/lod:0")
     ->Apply(inMilliseconds);
-BENCHMARK_CAPTURE(projectPass, desk, "desk")->Name("project_pass/desk")->Apply(inMilliseconds);
+BENCHMARK_CAPTURE(projectPass, desk, "desk")->Name("frame_part/warp/desk")->Apply(inMilliseconds);
 BENCHMARK_CAPTURE(projectPass, theatre, "theatre")
-    ->Name("project_pass/theatre")
+    ->Name("frame_part/warp/theatre")
     ->Apply(inMilliseconds);
 
 }  // namespace

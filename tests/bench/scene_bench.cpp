@@ -45,7 +45,7 @@ void sceneFrame(benchmark::State& state) {
     }
 }
 BENCHMARK(sceneFrame)
-    ->Name("scene_frame")
+    ->Name("frame_part/scene")
     ->ArgNames({"azimuth", "culling", "lod"})
     ->Args({-40, 1, 1})
     ->Args({0, 1, 1})
