@@ -68,13 +68,6 @@ void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& f
 
 }  // namespace
 
-void makeFolder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder))
-        throw Error(folder.string() + ": is no folder and cannot become one; choose another");
-}
-
 std::vector<std::byte> readWhole(const fs::path& path) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);

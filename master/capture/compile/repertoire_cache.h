@@ -12,9 +12,6 @@
 
 namespace aquarama {
 
-// Throws Error where there can be none.
-void makeFolder(const std::filesystem::path& folder);
-
 // Throws Error when the folder or the file cannot be written; a reader sees the old file or the
 // new one, never a part.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
