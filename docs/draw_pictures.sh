@@ -103,5 +103,5 @@ for name in "${names[@]}"; do
         exit 1
     fi
     cp "$drawn/$name" docs/pictures/
-    printf '%-32s %4d s\n' "docs/pictures/$name" "${seconds[$drawing]}"
+    printf '%-44s %4d s\n' "docs/pictures/$name" "${seconds[$drawing]}"
 done

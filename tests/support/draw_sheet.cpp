@@ -28,7 +28,8 @@ void paste(Picture& sheet, const Picture& picture, glm::ivec2 corner) {
 Picture sheetOf(const std::vector<std::string>& paths, int columns) {
     const glm::ivec2 size = readPng(paths.front()).sizePixels;
     const int rows = (static_cast<int>(paths.size()) + columns - 1) / columns;
-    Picture sheet{.sizePixels = (size + kGap) * glm::ivec2{columns, rows}};
+    Picture sheet;
+    sheet.sizePixels = (size + kGap) * glm::ivec2{columns, rows};
     sheet.rgb.resize(std::size_t{3} * static_cast<std::size_t>(sheet.sizePixels.x) *
                          static_cast<std::size_t>(sheet.sizePixels.y),
                      255);
