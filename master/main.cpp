@@ -12,7 +12,6 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <spdlog/spdlog.h>
 
 #include "common/cli/signals.h"
 #include "common/config/cast.h"
@@ -20,6 +19,7 @@
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/wall.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
@@ -127,7 +127,7 @@ void showAgain(const Rig& rig,
                std::unique_ptr<MasterChannels> channels) {
     const Recording recording = readRecording(options.replayPath);
     for (const std::string& doubt : doubtsAbout(recording))
-        spdlog::warn("{}: {}", options.replayPath, doubt);
+        logWarning("{}: {}", options.replayPath, doubt);
     LivingWorld world(worldOptionsOf(recording.production));
     ConductorOptions conducting = conductorOptions(rig, options);
     conducting.seed = recording.production.seed;
