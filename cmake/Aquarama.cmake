@@ -34,6 +34,7 @@ function(aquarama_library name)
     target_compile_options(aquarama_${name} PRIVATE -O3)
   endif()
   if(AQUARAMA_PCH)
+    target_compile_options(aquarama_${name} PRIVATE -Wno-stringop-overflow)  # GCC 12 has a false one for precompiled strings
     if(ARG_OPTIMISED)
       target_precompile_headers(aquarama_${name} REUSE_FROM aquarama_headers_optimised)
     else()
