@@ -6,9 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
 #include "common/units/error.h"
+#include "common/units/log.h"
 #include "render_node/show/measured_quality.h"
 #include "render_node/show/snapshot.h"
 #include "render_node/show/window_fit.h"
@@ -81,7 +80,7 @@ void ChannelShow::run(Admission first) {
         session_.prepared(bears_);
         const Release end = play();
         if (end == Release::Quit) break;
-        spdlog::info("lost the master; joining again");
+        logInfo("lost the master; joining again");
         admission = session_.join();
     }
     if (!shown_ || options_.snapshotFolder.empty()) return;
@@ -100,7 +99,7 @@ void ChannelShow::build(Admission admission) {
     if (picture_ && picture_->sizePixels() != size)
         throw Error("channel \"" + options_.channel +
                     "\" has another size than before; start its node again");
-    spdlog::info("building {} x {} pixels on {}", size.x, size.y, context_.description());
+    logInfo("building {} x {} pixels on {}", size.x, size.y, context_.description());
     pointing_.emplace(admission.rig, channel);
     watched_.reset();
     offscreen_.emplace(GL_RGBA8, size);
@@ -122,7 +121,7 @@ void ChannelShow::chooseQuality() {
     } else {
         bears_ = finestWithin(kBudgetShare / built_->rig.timing.refreshHertz,
                               [this](QualityTier quality) { return secondsAFrame(quality); });
-        spdlog::info("keeps up with quality {}", nameOf(bears_));
+        logInfo("keeps up with quality {}", nameOf(bears_));
     }
     if (!picture_ || quality_ != bears_) buildPicture(bears_);
 }
@@ -162,7 +161,7 @@ Release ChannelShow::play() {
             film_->write(state->frame.value,
                          takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
         undrawn_ = seen ? std::nullopt : state;
-        if (!std::exchange(shown_, true)) spdlog::info("showing");
+        if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
 }
