@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/solid_array.h"
 
@@ -205,6 +206,7 @@ void Reef::fillLibrary(const Library& library, const std::vector<Instance>& scat
 }
 
 void Reef::stir(std::size_t fish, float fraction) const {
+    const gl::Stage stage{"place stir"};
     if (!quality_.plantsGiveWay) return;
     constexpr std::int32_t kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
@@ -238,6 +240,7 @@ void Reef::cullGroups(const ReefRule& rule) const {
 }
 
 void Reef::cull(const ReefRule& rule) const {
+    const gl::Stage stage{"place cull"};
     glCopyNamedBufferSubData(none_.name(),
                              commands_.name(),
                              0,
