@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/signals.h"
-#include "common/net/blob.h"
+#include "common/files/files.h"
 #include "common/units/error.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
@@ -35,7 +35,7 @@ std::vector<RepertoireFile> captured(const std::vector<SpeciesText>& texts) {
     const SignalWatch watch([&] { isStopped = true; });
     ProgressBar bar("capturing");
     return repertoiresFor(texts,
-                          defaultBlobDirectory().parent_path() / "repertoires",
+                          cacheFolder() / "repertoires",
                           {.progress = [&](double share) { bar.show(share); },
                            .isStopped = [&] { return isStopped.load(); }});
 }

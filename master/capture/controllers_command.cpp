@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/repertoire_cache.h"

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/files.h"
 #include "common/units/error.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
@@ -56,7 +57,7 @@ FishBody bodyOf(const Repertoire& repertoire, const ExportOptions& options) {
 
 void exportSegment(const ExportOptions& options) {
     const Action action = actionNamed(options.segment);
-    const Repertoire repertoire = decodeRepertoire(readWhole(options.file), options.file);
+    const Repertoire repertoire = decodeRepertoire(readRepertoireFile(options.file), options.file);
     if (!options.gltf.empty()) {
         const GltfContainer container = containerOf(options.gltf);
         const FishBody body = bodyOf(repertoire, options);

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/files.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
