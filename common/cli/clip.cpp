@@ -34,17 +34,6 @@ std::vector<std::string> channelsFor(const Rig& rig, const std::string& of) {
                 "\" has no such channel; choose one of " + known);
 }
 
-void requireClipPath(const std::string& path) {
-    if (!path.ends_with(".mp4") && !path.ends_with(".webp"))
-        throw Error("--clip " + path + ": a clip is FILE.mp4 or FILE.webp; choose such a name");
-    const fs::path folder = fs::absolute(path).parent_path();
-    std::error_code failure;
-    fs::create_directories(folder, failure);
-    if (failure || access(folder.c_str(), W_OK | X_OK) != 0 || fs::is_directory(path))
-        throw Error("--clip " + path + ": cannot be written (" +
-                    (failure ? failure.message() : reason()) + "); choose another folder");
-}
-
 ClipPipes::ClipPipes(const std::vector<std::string>& channels) {
     std::string pattern = (fs::temp_directory_path() / "aquarama-clip-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr)

@@ -14,10 +14,6 @@ namespace aquarama {
 // that name. Throws Error where the rig has none.
 [[nodiscard]] std::vector<std::string> channelsFor(const Rig& rig, const std::string& of);
 
-// Throws Error unless a clip could be written there: another ending than .mp4 and .webp, no folder,
-// no leave to write.
-void requireClipPath(const std::string& path);
-
 // Named pipes in a folder of their own, which goes with them.
 class ClipPipes {
   public:

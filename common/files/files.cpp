@@ -55,13 +55,6 @@ void writeWhole(const fs::path& path, std::span<const std::byte> content) {
     }
 }
 
-void makeFolder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder))
-        throw Error(folder.string() + ": is no folder and cannot become one; choose another");
-}
-
 fs::path cacheFolder() {
     const fs::path cache = variable("XDG_CACHE_HOME");
     if (cache.is_absolute()) return cache / "aquarama";

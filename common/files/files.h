@@ -18,9 +18,6 @@ namespace aquarama {
 // Makes the folder of the file where there is none. Throws Error when it cannot be written.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
 
-// Makes the folder and those above it. Throws Error where there can be none.
-void makeFolder(const std::filesystem::path& folder);
-
 // Where this user's programs keep what they can make again: $XDG_CACHE_HOME/aquarama, or
 // ~/.cache/aquarama.
 [[nodiscard]] std::filesystem::path cacheFolder();

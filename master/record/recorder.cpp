@@ -27,11 +27,14 @@ std::string reason() {
 
 }  // namespace
 
+void requireNewRecording(const std::string& path) {
+    if (std::filesystem::exists(path))
+        throw Error(path + ": is there already; a recording never overwrites a file: name another");
+}
+
 RecordingFile::RecordingFile(std::string path, const Production& production)
     : path_(std::move(path)) {
-    if (std::filesystem::exists(path_))
-        throw Error(path_ +
-                    ": is there already; a recording never overwrites a file: name another");
+    requireNewRecording(path_);
     file_.open(path_, std::ios::binary);
     if (!file_ || !wrote(file_, beginningOf(production)))
         throw Error(path_ + ": cannot be written: " + reason());

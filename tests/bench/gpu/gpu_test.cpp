@@ -82,6 +82,19 @@ TEST(GpuBench, writesFiguresAndPicturesOfWhatItDrew) {
     EXPECT_GT(figures[wall + "frame_p50_ms"], 0);
     EXPECT_GE(figures[wall + "frame_p99_ms"], figures[wall + "frame_p50_ms"]);
     EXPECT_GT(figures[wall + "textures_mib"], 1);
+    for (const char* stage : {"fish_sort",
+                              "fish_surfaces",
+                              "fish_bodies",
+                              "fish_blended",
+                              "caustics",
+                              "shafts",
+                              "water",
+                              "tone",
+                              "warp",
+                              "other"})
+        EXPECT_TRUE(figures.contains("gpu/theatre/bait_ball_100000/medium/" + std::string(stage) +
+                                     " gpu_vertex_ms"))
+            << stage;
     EXPECT_EQ(figures["gpu/golden/surface/window within_bounds"], 1);
     const Picture picture = readPng((out / "gpu-theatre-bait_ball_100000-medium.png").string());
     EXPECT_EQ(picture.sizePixels, glm::ivec2(250, 62));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/gpu/stage_clock.h"
 
+#include <algorithm>
+
 #include <epoxy/gl.h>
 
 namespace aquarama {
@@ -77,7 +79,9 @@ std::map<std::string, double> StageClock::end() {
     for (std::size_t i = 0; i < marks_.size(); ++i) {
         GLuint64 now = 0;
         glGetQueryObjectui64v(marks_[i].query, GL_QUERY_RESULT, &now);
-        if (i > 0) milliseconds[marks_[i - 1].stage] += static_cast<double>(now - before) / 1e6;
+        if (i > 0)
+            milliseconds[marks_[i - 1].stage] +=
+                static_cast<double>(std::max(now, before) - before) / 1e6;
         before = now;
     }
     return milliseconds;
