@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/gpu/sea.h"
 
+#include <span>
+
 #include "common/config/scene.h"
+#include "common/units/digest.h"
 #include "master/production/living_world.h"
 #include "master/production/production.h"
 
@@ -15,9 +18,13 @@ Admission admissionTo(const Production& production, const World& world) {
     const auto school = world.traits();
     admission.welcome.school.assign(school.begin(), school.end());
     admission.scene = parseScene(production.scene, production.sceneFile);
-    for (const ProducedSpecies& species : production.cast)
+    for (const ProducedSpecies& species : production.cast) {
+        const auto text = std::as_bytes(std::span{species.text});
+        admission.welcome.cast.push_back(
+            {digestOf(text), digestOf(species.repertoire), species.fish});
         admission.cast.push_back(
             {species.text, decodeRepertoire(species.repertoire, species.file), species.fish});
+    }
     return admission;
 }
 
