@@ -83,11 +83,12 @@ void ChannelShow::run(Admission first) {
         logInfo("lost the master; joining again");
         admission = session_.join();
     }
-    if (shown_ && !options_.snapshotFolder.empty())
-        writeSnapshot(options_.snapshotFolder,
-                      options_.channel,
-                      *picture_,
-                      options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
+    if (!shown_ || options_.snapshotFolder.empty()) return;
+    if (undrawn_) draw(*undrawn_);
+    writeSnapshot(options_.snapshotFolder,
+                  options_.channel,
+                  *picture_,
+                  options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
 }
 
 // A show that goes on after an interruption is not built a second time.
@@ -143,17 +144,23 @@ Release ChannelShow::play() {
         FrameTimes times{.state = session_.stateArrival()};
         feed(state->eye);
         if (state->quality != quality_) buildPicture(state->quality);
-        draw(*state);
-        waitForGpu();
-        refuseLoss();
+        const bool seen = isSeen(state->frame);
+        if (seen) {
+            draw(*state);
+            waitForGpu();
+            refuseLoss();
+        }
         times.ready = now();
         const Release release = session_.readyThenWait(state->frame);
         if (release == Release::Rejoin || release == Release::Quit) return release;
         if (release == Release::Skip) continue;
-        context_.swap();
+        if (seen) context_.swap();
         times.present = now();
         trace_.write(state->frame, times);
-        film(state->frame);
+        if (film_ && isFilmed(state->frame))
+            film_->write(state->frame.value,
+                         takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
+        undrawn_ = seen ? std::nullopt : state;
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
@@ -214,9 +221,13 @@ std::optional<WatchedMind> ChannelShow::watchMind(const StateFrame& frame) {
     return mind;
 }
 
-void ChannelShow::film(Frame frame) {
-    if (!film_ || frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
-    film_->write(frame.value, takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
+bool ChannelShow::isFilmed(Frame frame) const {
+    return frame.value % static_cast<std::uint64_t>(options_.filmEvery) == 0;
+}
+
+// Without a window the clip alone looks at frames: those between its pictures need not be drawn.
+bool ChannelShow::isSeen(Frame frame) const {
+    return context_.hasWindow() || !film_ || isFilmed(frame);
 }
 
 }  // namespace aquarama
