@@ -10,7 +10,8 @@
 
 #include "common/cli/outputs.h"
 #include "common/cli/signals.h"
-#include "common/net/blob.h"
+#include "common/files/files.h"
+#include "common/units/error.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
@@ -35,7 +36,7 @@ std::vector<RepertoireFile> captured(const std::vector<SpeciesText>& texts) {
     const SignalWatch watch([&] { isStopped = true; });
     ProgressBar bar("capturing");
     return repertoiresFor(texts,
-                          defaultBlobDirectory().parent_path() / "repertoires",
+                          cacheFolder() / "repertoires",
                           {.progress = [&](double share) { bar.show(share); },
                            .isStopped = [&] { return isStopped.load(); }});
 }

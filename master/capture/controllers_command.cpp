@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
+#include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/repertoire_cache.h"

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
+#include "common/files/files.h"
 #include "common/units/error.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
@@ -60,7 +61,7 @@ void exportSegment(const ExportOptions& options) {
     requireFile("--gltf", options.gltf);
     requireFile("--csv", options.csv);
     const Action action = actionNamed(options.segment);
-    const Repertoire repertoire = decodeRepertoire(readWhole(options.file), options.file);
+    const Repertoire repertoire = decodeRepertoire(readRepertoireFile(options.file), options.file);
     if (!options.gltf.empty()) {
         const GltfContainer container = containerOf(options.gltf);
         const FishBody body = bodyOf(repertoire, options);

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
+#include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"

@@ -21,8 +21,7 @@ struct InspectOptions {
 };
 
 void inspect(const InspectOptions& options) {
-    requireFolder("--report", options.report);
-    const std::vector<std::byte> bytes = readWhole(options.file);
+    const std::vector<std::byte> bytes = readRepertoireFile(options.file);
     std::cout << inspectRepertoire(bytes, options.file);
     if (options.report.empty()) return;
     const Repertoire repertoire = decodeRepertoire(bytes, options.file);

@@ -11,6 +11,7 @@
 
 #include "common/cli/outputs.h"
 #include "common/cli/program.h"
+#include "common/files/files.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
