@@ -146,6 +146,12 @@ void describeClip(CLI::App& app, Clip& options, Job& job) {
     clip.add_option("--of", options.filming.of, "panorama, hall or a channel's name");
     clip.add_option("--every", options.filming.ticksBetween, "frames of the show to one picture")
         ->check(wholeNumber(1, 10000));
+    clip.add_option("--frames",
+                    options.filming.frames,
+                    "how many frames the show has, to say how long it takes");
+    clip.add_option("--first",
+                    options.filming.firstPictures,
+                    "folder for panorama.png and hall.png of the first frame, at once");
     clip.callback([&] {
         job = [&] {
             film(checkedRig(options.rig), options.filming);

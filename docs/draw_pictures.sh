@@ -87,8 +87,8 @@ for name in "${names[@]}"; do
     fi
 done
 
-cmake --preset show -DAQUARAMA_TESTS=ON >"$drawn/configure.log" 2>&1 || { cat "$drawn/configure.log" >&2; exit 1; }
-cmake --build --preset show --target aquarama_programs aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
+cmake --preset show-tests >"$drawn/configure.log" 2>&1 || { cat "$drawn/configure.log" >&2; exit 1; }
+cmake --build --preset show-tests --target aquarama_programs aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
 
 declare -A seconds=()
 for name in "${names[@]}"; do

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <spdlog/spdlog.h>
 
 #include "common/cli/outputs.h"
 #include "common/cli/program.h"
@@ -19,6 +18,7 @@
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/wall.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
@@ -126,7 +126,7 @@ void showAgain(const Rig& rig,
                std::unique_ptr<MasterChannels> channels) {
     const Recording recording = readRecording(options.replayPath);
     for (const std::string& doubt : doubtsAbout(recording))
-        spdlog::warn("{}: {}", options.replayPath, doubt);
+        logWarning("{}: {}", options.replayPath, doubt);
     LivingWorld world(worldOptionsOf(recording.production));
     ConductorOptions conducting = conductorOptions(rig, options);
     conducting.seed = recording.production.seed;

@@ -23,10 +23,14 @@ std::string reason() {
 
 }  // namespace
 
+bool showsAllChannels(const std::string& of) {
+    return of == "panorama" || of == "hall";
+}
+
 std::vector<std::string> channelsFor(const Rig& rig, const std::string& of) {
     std::vector<std::string> names;
     for (const Channel& channel : rig.channels) names.push_back(channel.name);
-    if (of == "panorama" || of == "hall") return names;
+    if (showsAllChannels(of)) return names;
     if (std::ranges::find(names, of) != names.end()) return {of};
     std::string known = "panorama, hall";
     for (const std::string& name : names) known += ", " + name;

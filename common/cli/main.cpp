@@ -98,10 +98,11 @@ void describeShow(CLI::App& run, ShowOptions& options) {
     run.add_flag("--headless", options.headless, "without a display; implies lockstep");
     run.add_option("--frames", options.frames, "end after so many frames; implies lockstep")
         ->check(wholeNumber(1, kMostShownFrames));
-    CLI::Option* snapshot =
-        run.add_option("--snapshot",
-                       options.snapshotFolder,
-                       "folder for pictures of the last frame; implies lockstep");
+    CLI::Option* snapshot = run.add_option(
+        "--snapshot",
+        options.snapshotFolder,
+        "folder for pictures of the last frame, and with --clip of the first as soon as "
+        "it is there; implies lockstep");
     run.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones")
         ->needs(snapshot);
     CLI::Option* clip =

@@ -27,10 +27,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kGoodbye = 5s;      // how long a process may take to end after it was asked to
-constexpr int kInterrupted = 130;  // what shells say of Ctrl-C
-constexpr auto kTooShort = 5s;     // one that dies sooner at its first start would only die again
-constexpr auto kBreath = 1s;       // before another start of one that keeps dying
+constexpr auto kGoodbye = 5s;        // how long a process may take to end after it was asked to
+constexpr auto kLastPictures = 60s;  // and how long a clip may, which ends when the nodes have
+constexpr int kInterrupted = 130;    // what shells say of Ctrl-C
+constexpr auto kTooShort = 5s;       // one that dies sooner at its first start would only die again
+constexpr auto kBreath = 1s;         // before another start of one that keeps dying
+
+constexpr const char* kClip = "clip";
 
 struct Process {
     std::string name;
@@ -78,18 +81,13 @@ Process masterProcess(const ShowOptions& options) {
 
 // Composes and encodes while the nodes draw.
 Process clipProcess(const ShowOptions& options, const std::string& pipes) {
-    return {.name = "clip",
-            .command = {siblingProgram("calibrate"),
-                        {"clip",
-                         options.rigPath,
-                         options.clipPath,
-                         "--pipes",
-                         pipes,
-                         "--of",
-                         options.clipOf,
-                         "--every",
-                         std::to_string(options.filmEvery)}},
-            .started = {}};
+    std::vector<std::string> arguments{"clip", options.rigPath, options.clipPath};
+    append(arguments, "--pipes", pipes);
+    append(arguments, "--of", options.clipOf);
+    append(arguments, "--every", std::to_string(options.filmEvery));
+    if (options.frames) append(arguments, "--frames", std::to_string(*options.frames));
+    if (showsAllChannels(options.clipOf)) append(arguments, "--first", options.snapshotFolder);
+    return {.name = kClip, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
 }
 
 Process nodeProcess(const ShowOptions& options,
@@ -143,13 +141,19 @@ std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
     return dead;
 }
 
-// Asks all to end, and makes sure of it.
+// Asks all to end, and makes sure of it; at once where somebody asks again. The clip ends by
+// itself, with the nodes: what was shown until then is kept.
 void endAll(std::vector<Process>& processes) {
     signalAll(processes, SIGTERM);
-    const auto deadline = Clock::now() + kGoodbye;
+    const auto asked = Clock::now();
     while (anyRunning(processes)) {
-        deaths(processes, waitForChildren(100ms));
-        if (Clock::now() > deadline) signalAll(processes, SIGKILL);
+        const Heard heard = waitForChildren(100ms);
+        deaths(processes, heard);
+        const auto waited = Clock::now() - asked;
+        for (const Process& process : processes)
+            if (process.running() &&
+                (heard.interrupted || waited > (process.name == kClip ? kLastPictures : kGoodbye)))
+                kill(process.child, SIGKILL);
     }
 }
 
@@ -234,8 +238,6 @@ bool compose(const ShowOptions& options, const Causes& causes) {
 }
 
 void sayWhatWasMade(const ShowOptions& options, const Rig& rig) {
-    if (!options.clipPath.empty())
-        std::cout << "clip of the " << options.clipOf << " in " << options.clipPath << '\n';
     if (options.snapshotFolder.empty()) return;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
     if (std::ranges::any_of(rig.channels, [&](const Channel& channel) {

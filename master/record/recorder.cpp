@@ -6,9 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
 #include "common/units/error.h"
+#include "common/units/log.h"
 #include "master/record/inputs.h"
 
 namespace aquarama {
@@ -42,7 +41,7 @@ RecordingFile::RecordingFile(std::string path, const Production& production)
 
 void RecordingFile::add(const Packet& entry) {
     if (!file_.is_open() || wrote(file_, entry)) return;
-    spdlog::error("{}: the show is recorded no further: {}", path_, reason());
+    logError("{}: the show is recorded no further: {}", path_, reason());
     file_.close();
 }
 

@@ -294,7 +294,8 @@ void countFish(std::span<const SchoolSpecies> cast, std::vector<SpeciesTables>& 
 }
 
 bool allHaveSources(std::span<const SchoolSpecies> cast) {
-    return std::ranges::all_of(cast, [](const SchoolSpecies& one) { return one.source.has_value(); });
+    return std::ranges::all_of(cast,
+                               [](const SchoolSpecies& one) { return one.source.has_value(); });
 }
 
 }  // namespace

@@ -101,7 +101,8 @@ TEST_F(Program, leavesNothingWhenItIsInterrupted) {
     const Outcome outcome = capture("", "timeout --signal=INT 0.2");
     EXPECT_NE(outcome.status, 0);
     for (const std::string& name : left())
-        static_cast<void>(decodeRepertoire(readRepertoireFile(out() / name), name));  // whole, if any
+        static_cast<void>(
+            decodeRepertoire(readRepertoireFile(out() / name), name));  // whole, if any
 }
 
 TEST_F(Program, refusesAFolderThatIsAFile) {
