@@ -5,14 +5,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-preset=show
 mostBytes=60000000
 bundle=build/gpu-bench
 
 mkdir -p build
-[ -f build/$preset/build.ninja ] || cmake --preset $preset >build/gpu.log 2>&1 || { cat build/gpu.log >&2; exit 1; }
-cmake --build --preset $preset --target aquarama_gpu_bench >build/gpu.log 2>&1 || { cat build/gpu.log >&2; exit 1; }
-program=build/$preset/bin/aquarama_gpu_bench
+{ cmake --preset show-tests && cmake --build --preset show-tests --target aquarama_gpu_bench; } >build/gpu.log 2>&1 ||
+    { cat build/gpu.log >&2; exit 1; }
+program=build/show/bin/aquarama_gpu_bench
 
 # The files of the libraries that these need, but for the C library, which belongs to the machine.
 libraries_of() {
