@@ -33,7 +33,8 @@ function(aquarama_test name)
   target_link_libraries(aquarama_${name}_test PRIVATE aquarama_test_support ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_options(aquarama_${name}_test PRIVATE -ffp-contract=off)
   set_target_properties(aquarama_${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND aquarama_${name}_test)
+  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name}
+    $<TARGET_FILE:aquarama_${name}_test>)
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_BUDGET} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin")
 endfunction()
