@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-calibrate: checks a rig, says what it does, and composes what its projectors show.
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -8,6 +10,7 @@
 #include "calibration/theatre/film.h"
 #include "calibration/theatre/snapshot.h"
 #include "calibration/theatre/survey.h"
+#include "common/cli/program.h"
 #include "common/config/angle.h"
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
@@ -52,7 +55,21 @@ void check(const std::string& path) {
     }
 }
 
-void inspect(const std::string& path) {
+// All of them; returns the exit status.
+int checkAll(const std::vector<std::string>& paths) {
+    int status = 0;
+    for (const std::string& path : paths) {
+        try {
+            check(path);
+        } catch (const Error& error) {
+            sayError("aquarama-calibrate", error.what());
+            status = 1;
+        }
+    }
+    return status;
+}
+
+void inspectRig(const std::string& path) {
     const Rig rig = checkedRig(path);
     std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
     std::printf("scene: %s\n", rig.scene.c_str());
@@ -88,56 +105,93 @@ void inspect(const std::string& path) {
     }
 }
 
-int run(int argc, char** argv) {
-    CLI::App app("Checks a rig and composes what its projectors show.", "aquarama-calibrate");
-    app.require_subcommand(1);
-    std::string path;
+void inspect(const std::string& path) {
+    if (fileKindAt(path) == FileKind::Rig) return inspectRig(path);
+    check(path);
+}
+
+struct Composition {
+    std::string rig;
     std::string folder;
     bool deep = false;
+};
 
-    CLI::App* checkCommand =
-        app.add_subcommand("check",
-                           "Validate a rig and say what its projectors light; or a scene or a "
-                           "species, and say what is in it");
-    checkCommand->add_option("FILE", path, "such as config/desk.txtpb")->required();
-    checkCommand->callback([&] { check(path); });
-
-    CLI::App* composeCommand = app.add_subcommand(
-        "compose", "Make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png");
-    composeCommand->add_option("RIG", path, "Rig file that the pictures were taken with")
-        ->required();
-    composeCommand->add_option("DIR", folder, "Folder of the pictures")->required();
-    composeCommand->add_flag("--deep", deep, "Write 16 bits instead of 8");
-    composeCommand->callback([&] { composeSnapshot(checkedRig(path), folder, deep ? 16 : 8); });
-
+struct Clip {
+    std::string rig;
     Filming filming;
-    CLI::App* clipCommand = app.add_subcommand(
-        "clip", "Make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
-    clipCommand->add_option("RIG", path, "Rig file that is shown")->required();
-    clipCommand->add_option("FILE", filming.clipPath, "The clip")->required();
-    clipCommand->add_option("--pipes", filming.pipes, "Folder of the nodes' named pipes")
+};
+
+void describeCompose(CLI::App& app, Composition& options, Job& job) {
+    CLI::App& compose = *app.add_subcommand(
+        "compose", "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png");
+    compose.add_option("RIG", options.rig, "rig file that the pictures were taken with")
         ->required();
-    clipCommand->add_option("--of", filming.of, "panorama, hall or a channel's name");
-    clipCommand->add_option("--every", filming.ticksBetween, "Frames of the show to one picture")
-        ->check(CLI::Range(1, 10000));
-    clipCommand->callback([&] { film(checkedRig(path), filming); });
+    compose.add_option("DIR", options.folder, "folder of the pictures")->required();
+    compose.add_flag("--deep", options.deep, "write 16 bits instead of 8");
+    compose.callback([&] {
+        job = [&] {
+            composeSnapshot(checkedRig(options.rig), options.folder, options.deep ? 16 : 8);
+            return 0;
+        };
+    });
+}
 
-    CLI::App* inspectCommand = app.add_subcommand("inspect", "Say what a rig file holds");
-    inspectCommand->add_option("FILE", path, "Rig file")->required();
-    inspectCommand->callback([&] { inspect(path); });
-
-    CLI11_PARSE(app, argc, argv);
-    return 0;
+void describeClip(CLI::App& app, Clip& options, Job& job) {
+    CLI::App& clip = *app.add_subcommand(
+        "clip", "make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
+    clip.add_option("RIG", options.rig, "rig file that is shown")->required();
+    clip.add_option("FILE", options.filming.clipPath, "the clip")->required();
+    clip.add_option("--pipes", options.filming.pipes, "folder of the nodes' named pipes")
+        ->required();
+    clip.add_option("--of", options.filming.of, "panorama, hall or a channel's name");
+    clip.add_option("--every", options.filming.ticksBetween, "frames of the show to one picture")
+        ->check(wholeNumber(1, 10000));
+    clip.add_option("--frames",
+                    options.filming.frames,
+                    "how many frames the show has, to say how long it takes");
+    clip.add_option("--first",
+                    options.filming.firstPictures,
+                    "folder for panorama.png and hall.png of the first frame, at once");
+    clip.callback([&] {
+        job = [&] {
+            film(checkedRig(options.rig), options.filming);
+            return 0;
+        };
+    });
 }
 
 }  // namespace
 }  // namespace aquarama
 
-int main(int argc, char** argv) {
-    try {
-        return aquarama::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
+int main(int count, char** arguments) {
+    using namespace aquarama;
+    CLI::App app("Checks a rig and composes what its projectors show.", "aquarama-calibrate");
+    app.require_subcommand(1);
+    Job job;
+
+    std::vector<std::string> checked;
+    CLI::App& checking =
+        *app.add_subcommand("check",
+                            "validate rigs and say what their projectors light; or scenes or "
+                            "species, and say what is in them");
+    checking.add_option("FILE", checked, "such as config/desk.txtpb; several are checked in turn")
+        ->required();
+    checking.callback([&] { job = [&] { return checkAll(checked); }; });
+
+    Composition composition;
+    describeCompose(app, composition, job);
+    Clip clip;
+    describeClip(app, clip, job);
+
+    std::string inspected;
+    CLI::App& inspecting =
+        *app.add_subcommand("inspect", "say what a rig, a scene or a species holds");
+    inspecting.add_option("FILE", inspected, "a rig, a scene or a species")->required();
+    inspecting.callback([&] {
+        job = [&] {
+            inspect(inspected);
+            return 0;
+        };
+    });
+    return runProgram(app, count, arguments, [&] { return job(); });
 }

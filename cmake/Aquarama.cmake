@@ -1,4 +1,25 @@
-# One static library a folder, one test program a folder: the two functions that every CMakeLists.txt here uses.
+# One static library a folder, one test program a folder: the functions that every CMakeLists.txt here uses.
+
+# Headers that most sources include, parsed once. A source still includes what it uses: the dev preset builds the programs
+# without this.
+option(AQUARAMA_PCH "precompile the headers that most sources include" OFF)
+set(AQUARAMA_COMMON_HEADERS
+  <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <memory> <numbers> <optional> <span> <string>
+  <string_view> <utility> <vector>
+  <glm/common.hpp> <glm/geometric.hpp> <glm/gtc/quaternion.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp> <glm/matrix.hpp>
+  <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
+
+# aquarama_precompiled(aquarama_headers HEADERS <vector> ... [LINK targets...] [OPTIONS flags...]): headers for others to
+# reuse that are compiled with the same flags.
+function(aquarama_precompiled name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
+  set(SOURCE ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${SOURCE} CONTENT "")
+  add_library(${name} STATIC ${SOURCE})
+  target_link_libraries(${name} PRIVATE aquarama_options glm::glm ${ARG_LINK})
+  target_compile_options(${name} PRIVATE -ffp-contract=off ${ARG_OPTIONS})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+endfunction()
 
 # aquarama_library(motion SOURCES a.cpp ... [LINK targets...] [PRIVATE targets...] [OPTIMISED])
 # Folders include each other as "common/motion/repertoire.h". OPTIMISED: fast in every preset, and no contraction
@@ -12,14 +33,92 @@ function(aquarama_library name)
   if(ARG_OPTIMISED)
     target_compile_options(aquarama_${name} PRIVATE -O3)
   endif()
+  if(AQUARAMA_PCH)
+    target_compile_options(aquarama_${name} PRIVATE -Wno-stringop-overflow)  # GCC 12 has a false one for precompiled strings
+    if(ARG_OPTIMISED)
+      target_precompile_headers(aquarama_${name} REUSE_FROM aquarama_headers_optimised)
+    else()
+      target_precompile_headers(aquarama_${name} REUSE_FROM aquarama_headers)
+    endif()
+  endif()
 endfunction()
 
-# aquarama_program(master SOURCES main.cpp LINK targets...): the executable aquarama-master in build/PRESET/bin
+# aquarama_program(master SOURCES main.cpp LINK targets...): the executable aquarama-master in build/PRESET/bin. Its own
+# sources are compiled as one: they read command lines, and each would take ten seconds for CLI11 alone.
 function(aquarama_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(aquarama-${name} ${ARG_SOURCES})
   target_link_libraries(aquarama-${name} PRIVATE aquarama_options ${ARG_LINK})
-  set_target_properties(aquarama-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  set_target_properties(aquarama-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin
+    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  aquarama_version(aquarama-${name})
+endfunction()
+
+# aquarama_version(aquarama-master): writes what its --version says. When everything is configured: then it is known what
+# the program links. The commit is compiled apart, so that a commit costs one small file and the linking of programs.
+function(aquarama_version program)
+  cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL aquarama_write_version ${program})")
+endfunction()
+
+function(aquarama_write_version program)
+  aquarama_collect_links(${program} links)
+  set(LIBRARIES "")
+  foreach(library IN ITEMS
+      "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen master/capture Eigen3_VERSION"
+      "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/theatre FFMPEG_libavcodec_VERSION" "GLFW glfw render_node glfw3_VERSION"
+      "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION" "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
+      "libpng PNG::PNG common PNG_VERSION_STRING" "libwebp PkgConfig::WEBP calibration/theatre WEBP_libwebp_VERSION"
+      "NLopt PkgConfig::NLOPT master/capture NLOPT_VERSION" "OpenSSL OpenSSL::Crypto common OPENSSL_VERSION"
+      "OpenSubdiv OpenSubdiv::osdCPU common OpenSubdiv_VERSION" "Protobuf protobuf::libprotobuf common Protobuf_VERSION"
+      "spdlog spdlog::spdlog . spdlog_VERSION" "TinyGLTF TinyGLTF::TinyGLTF master/capture TinyGLTF_VERSION"
+      "ZeroMQ cppzmq common ZeroMQ_VERSION")
+    separate_arguments(library)
+    list(GET library 0 name)
+    list(GET library 1 target)
+    list(GET library 2 folder)  # where it is found
+    list(GET library 3 variable)
+    if(target IN_LIST links)
+      get_directory_property(version DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DEFINITION ${variable})
+      string(APPEND LIBRARIES ", ${name} ${version}")
+    endif()
+  endforeach()
+  string(REGEX REPLACE "^, " "" LIBRARIES "${LIBRARIES}")
+  if(NOT TARGET aquarama_commit)
+    add_custom_target(aquarama_write_commit BYPRODUCTS ${CMAKE_BINARY_DIR}/commit.cpp
+      COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR} -DOUTPUT=${CMAKE_BINARY_DIR}/commit.cpp
+        -P ${PROJECT_SOURCE_DIR}/cmake/WriteCommit.cmake)
+    add_library(aquarama_commit OBJECT ${CMAKE_BINARY_DIR}/commit.cpp)
+    add_dependencies(aquarama_commit aquarama_write_commit)
+    target_link_libraries(aquarama_commit PRIVATE aquarama_options)
+    set_target_properties(aquarama_commit PROPERTIES CXX_CLANG_TIDY "")
+  endif()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/version.cpp.in ${CMAKE_BINARY_DIR}/${program}-version.cpp @ONLY)
+  target_sources(${program} PRIVATE ${CMAKE_BINARY_DIR}/${program}-version.cpp)
+  target_link_libraries(${program} PRIVATE aquarama_commit)
+endfunction()
+
+# Everything that a target links, itself or through others.
+function(aquarama_collect_links target result)
+  set(open ${target})
+  set(seen "")
+  while(open)
+    list(POP_FRONT open next)
+    string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" next "${next}")
+    if(next IN_LIST seen)
+      continue()
+    endif()
+    list(APPEND seen ${next})
+    if(NOT TARGET ${next})
+      continue()
+    endif()
+    foreach(property LINK_LIBRARIES INTERFACE_LINK_LIBRARIES)
+      get_target_property(more ${next} ${property})
+      if(more)
+        list(APPEND open ${more})
+      endif()
+    endforeach()
+  endwhile()
+  set(${result} ${seen} PARENT_SCOPE)
 endfunction()
 
 # aquarama_test(motion SOURCES a_test.cpp ... [LINK targets...] [BUDGET seconds]): one program, one ctest row.
@@ -32,6 +131,7 @@ function(aquarama_test name)
   add_executable(aquarama_${name}_test ${ARG_SOURCES})
   target_link_libraries(aquarama_${name}_test PRIVATE aquarama_test_support ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_options(aquarama_${name}_test PRIVATE -ffp-contract=off)
+  target_precompile_headers(aquarama_${name}_test REUSE_FROM aquarama_test_headers)
   set_target_properties(aquarama_${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name}
     $<TARGET_FILE:aquarama_${name}_test>)

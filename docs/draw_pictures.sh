@@ -1,58 +1,107 @@
 #!/usr/bin/env bash
-# Draws the pictures of the documents anew, with what ./run has built.
+# Draws the pictures of the documents: docs/draw_pictures.sh [NAME...], those of docs/pictures that are named (chase.webp), or
+# all. Builds what draws them, and prints the seconds that each took; those drawn in one go share them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 drawn=$(mktemp -d)
 trap 'rm -rf "$drawn"' EXIT
+bin=build/show/bin
 
-build/show/bin/aquarama run config/desk.txtpb --quality medium --headless --frames 60 --snapshot "$drawn/desk"
-build/show/bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
+# What draws each picture: a function below, with its arguments.
+declare -A way=(
+    [panorama.png]=panorama
+    [stereo.png]=stereo
+    [portraits.png]=portraits
+    [tiers.png]=tiers
+    [water_types.png]=water_types
+    [species.png]=species
+    [species_sizes.png]=species
+    [submarine.webp]="routine submarine 680 17 medium"
+    [submarine.png]="routine submarine 680 17 medium"
+    [chase.webp]="routine chase 490 14 medium"
+    [chase.png]="routine chase 490 14 medium"
+    [eat.webp]="routine eat 700 20 low"
+    [mate.webp]="routine mate 880 22 low"
+    [controllers.svg]=controllers
+    [forward_medium.svg]=report
+    [turn_right_sharp.svg]=report
+    [midlines_forward_medium.svg]=report
+    [fidelity_ways.svg]=fidelity
+    [fidelity_segments.svg]=fidelity
+    [adaptation.svg]=adaptation
+)
 
-build/show/bin/aquarama run config/desk_stereo.txtpb --headless --frames 150 --snapshot "$drawn/stereo"
-cmake --build build/show --target aquarama_draw_species
-
-mkdir -p docs/pictures
-
-cmake --build build/show --target aquarama_draw_still
-build/show/bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra \
-    --out docs/pictures/portraits.png
-
-for tier in low medium high ultra; do
-    build/show/bin/aquarama_draw_still --quality $tier --azimuth -14 --elevation 2 --fov 60 --width 640 --height 360 \
-        --out "$drawn/tier-$tier.png"
-done
-montage "$drawn"/tier-{low,medium,high,ultra}.png -tile 2x -geometry +3+3 docs/pictures/tiers.png
-
-# The routines as they are seen on the wall.
-while read -r scene frames every; do
-    build/show/bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$scene.txtpb" --headless \
-        --frames "$frames" --film-every "$every" --clip "docs/pictures/$scene.webp" --snapshot "$drawn/$scene" </dev/null
-done <<'SCENES'
-submarine 680 17
-chase 490 14
-eat 700 20
-mate 880 22
-SCENES
-cp "$drawn/submarine/panorama.png" docs/pictures/submarine.png
-cp "$drawn/chase/panorama.png" docs/pictures/chase.png
-
-build/show/bin/aquarama-capture controllers --out docs/pictures
-cp "$drawn/desk/panorama.png" docs/pictures/
-cp "$drawn/stereo/panorama.png" docs/pictures/stereo.png
-for figure in forward_medium turn_right_sharp midlines_forward_medium; do
-    sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"docs/pictures/$figure.svg"
-done
-cast=(blacktip_reef_shark trumpetfish parrotfish bigeye_scad blue_tang moorish_idol clownfish)
-files=("${cast[@]/%/.txtpb}")
-build/show/bin/aquarama_draw_species docs/pictures "${files[@]/#/config/species/}"
-
+# Each leaves its pictures in $drawn.
+panorama() {
+    $bin/aquarama run config/desk.txtpb --quality medium --headless --frames 60 --snapshot "$drawn/desk"
+    mv "$drawn/desk/panorama.png" "$drawn"
+}
+stereo() {
+    $bin/aquarama run config/desk_stereo.txtpb --quality medium --headless --frames 60 --snapshot "$drawn/stereo"
+    mv "$drawn/stereo/panorama.png" "$drawn/stereo.png"
+}
+portraits() {
+    $bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra --out "$drawn/portraits.png"
+}
+tiers() {
+    local tier
+    for tier in low medium high ultra; do
+        $bin/aquarama_draw_still --quality $tier --azimuth -14 --elevation 2 --fov 60 --width 640 --height 360 \
+            --out "$drawn/$tier.png"
+    done
+    $bin/aquarama_draw_sheet "$drawn/tiers.png" 2 "$drawn"/{low,medium,high,ultra}.png
+}
 # One reef in each of Jerlov's types of water, the clearest first.
-montage tests/golden/water/{I,IA,IB,II,III,1C,3C}.png -tile 4x -geometry +3+3 docs/pictures/water_types.png
-
+water_types() {
+    $bin/aquarama_draw_sheet "$drawn/water_types.png" 4 tests/golden/water/{I,IA,IB,II,III,1C,3C}.png
+}
+species() {
+    $bin/aquarama_draw_species "$drawn" \
+        config/species/{blacktip_reef_shark,trumpetfish,parrotfish,bigeye_scad,blue_tang,moorish_idol,clownfish}.txtpb
+}
+# A routine as it is seen on the wall: scene, frames, every how manieth of them, tier.
+routine() {
+    $bin/aquarama run config/desk.txtpb --scene "config/scenes/routines/$1.txtpb" --quality "$4" --headless \
+        --frames "$2" --film-every "$3" --clip "$drawn/$1.webp" --snapshot "$drawn/$1"
+    mv "$drawn/$1/panorama.png" "$drawn/$1.png"
+}
+controllers() { $bin/aquarama controllers --out "$drawn"; }
+report() {
+    local figure
+    $bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
+    for figure in forward_medium turn_right_sharp midlines_forward_medium; do
+        sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"$drawn/$figure.svg"
+    done
+}
 # Prints the tables of docs/fidelity.md besides.
-build/show/bin/aquarama-capture fidelity --seed 4 --out "$drawn/fidelity"
-cp "$drawn/fidelity/"fidelity_{ways,segments}.svg docs/pictures/
-
+fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
 # Prints the tables of docs/adaptation.md besides.
-build/show/bin/aquarama-study --seeds 16 --minutes 4 --out "$drawn/study"
-cp "$drawn/study/adaptation.svg" docs/pictures/
+adaptation() { $bin/aquarama study --seeds 16 --minutes 4 --out "$drawn"; }
+
+mapfile -t names < <(printf '%s\n' "${!way[@]}" | sort)
+if (($# > 0)); then names=("$@"); fi
+for name in "${names[@]}"; do
+    if [ -z "${way[$name]:-}" ]; then
+        echo "docs/draw_pictures.sh draws no $name; it draws: $(printf '%s\n' "${!way[@]}" | sort | xargs)" >&2
+        exit 2
+    fi
+done
+
+cmake --preset show-tests >"$drawn/configure.log" 2>&1 || { cat "$drawn/configure.log" >&2; exit 1; }
+cmake --build --preset show-tests --target aquarama_programs aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
+
+declare -A seconds=()
+for name in "${names[@]}"; do
+    drawing=${way[$name]}
+    if [ -z "${seconds[$drawing]:-}" ]; then
+        start=$SECONDS
+        $drawing </dev/null
+        seconds[$drawing]=$((SECONDS - start))
+    fi
+    if [ ! -s "$drawn/$name" ]; then
+        echo "docs/draw_pictures.sh: $drawing drew no $name" >&2
+        exit 1
+    fi
+    cp "$drawn/$name" docs/pictures/
+    printf '%-44s %4d s\n' "docs/pictures/$name" "${seconds[$drawing]}"
+done

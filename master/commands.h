@@ -3,15 +3,9 @@
 // the command line and what it does to `job`, which returns the exit status.
 #pragma once
 
-#include <functional>
-
-namespace CLI {
-class App;
-}
+#include "common/cli/program.h"
 
 namespace aquarama {
-
-using Job = std::function<int()>;
 
 void addStatus(CLI::App& app, Job& job);
 void addExplain(CLI::App& app, Job& job);

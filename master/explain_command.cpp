@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "common/config/rig.h"
+#include "common/config/scene.h"
 #include "common/units/error.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
@@ -77,14 +78,18 @@ void addExplain(CLI::App& app, Job& job) {
     auto options = std::make_shared<ExplainOptions>();
     CLI::App& explain =
         *app.add_subcommand("explain", "what a fish sees, feels, intends and does, and why");
-    explain.add_option("--fish", options->fish, "which, by its number")->required();
+    explain.add_option("--fish", options->fish, "which, by its number")
+        ->required()
+        ->check(wholeNumber(0, kMostFish));
     explain.add_option("RIG", options->rig, "whose master is asked")->capture_default_str();
     explain.add_option("--master", options->address, "its control address, instead of the rig's");
     auto* follow = explain.add_flag("--follow", options->follow, "go on, twice a second");
     auto* replay =
         explain.add_option("--replay", options->recording, "ask this recording, not a master");
     replay->excludes(follow);
-    explain.add_option("--tick", options->tick, "of the recording")->needs(replay);
+    explain.add_option("--tick", options->tick, "of the recording")
+        ->needs(replay)
+        ->check(wholeNumber(0, kMostShownFrames));
     explain.callback([options, &job] {
         job = [options] {
             options->recording.empty() ? explainLive(*options) : explainReplay(*options);

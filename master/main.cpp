@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The master of a rig: wires the world to the conductor.
 #include <algorithm>
-#include <cstdlib>
-#include <exception>
 #include <functional>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,14 +9,16 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <spdlog/spdlog.h>
 
+#include "common/cli/outputs.h"
+#include "common/cli/program.h"
 #include "common/cli/signals.h"
 #include "common/config/cast.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/wall.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
@@ -127,7 +126,7 @@ void showAgain(const Rig& rig,
                std::unique_ptr<MasterChannels> channels) {
     const Recording recording = readRecording(options.replayPath);
     for (const std::string& doubt : doubtsAbout(recording))
-        spdlog::warn("{}: {}", options.replayPath, doubt);
+        logWarning("{}: {}", options.replayPath, doubt);
     LivingWorld world(worldOptionsOf(recording.production));
     ConductorOptions conducting = conductorOptions(rig, options);
     conducting.seed = recording.production.seed;
@@ -147,47 +146,36 @@ void runMaster(const MasterOptions& options) {
     holdSignals();
     const Rig rig = readRig(options.rigPath);
     checkGeometry(rig, options.rigPath);
+    requireFolder("--trace", options.traceFolder);
+    if (!options.recordPath.empty()) requireNewRecording(options.recordPath);
+    requireFile("--record", options.recordPath);
     auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
     (options.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));
 }
 
-int dispatch(int count, char** arguments) {
-    CLI::App app{"The master of a rig: moves every fish, and has all nodes present in step",
-                 "aquarama-master"};
-    MasterOptions options;
-    auto* rig = app.add_option("RIG", options.rigPath, "the rig's file");
+void describe(CLI::App& app, MasterOptions& options) {
+    app.add_option("RIG", options.rigPath, "the rig's file");
     app.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
-    app.add_option("--frames", options.frames, "end after so many frames");
-    app.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
+    app.add_option("--frames", options.frames, "end after so many frames")
+        ->check(wholeNumber(1, kMostShownFrames));
+    app.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
+        ->check(wholeNumber(0, kMostSeed));
     app.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
     app.add_option(
            "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(CLI::Range(0U, kMostFish));
+        ->check(wholeNumber(0, kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
     app.add_option("--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
     app.add_option(
         "--trace", options.traceFolder, "folder for master.csv: a line of times a frame");
-
     app.add_option("--record", options.recordPath, "write the show to this new file");
     app.add_option("--replay", options.replayPath, "show this recording")
         ->excludes("--record")
         ->excludes("--seed")
         ->excludes("--scene")
         ->excludes("--fish");
-    Job job = [&] {
-        runMaster(options);
-        return 0;
-    };
-    for (const auto add : {addStatus, addExplain, addPilot, addReplay, addInspect}) add(app, job);
-    try {
-        app.parse(count, arguments);
-        if (app.get_subcommands().empty() && rig->empty()) throw CLI::RequiredError("RIG");
-    } catch (const CLI::ParseError& wrong) {
-        return app.exit(wrong) == 0 ? 0 : 2;
-    }
-    return job();
 }
 
 }  // namespace
@@ -195,10 +183,16 @@ int dispatch(int count, char** arguments) {
 }  // namespace aquarama
 
 int main(int count, char** arguments) {
-    try {
-        return aquarama::dispatch(count, arguments);
-    } catch (const std::exception& error) {
-        std::cerr << "aquarama-master: " << error.what() << '\n';
-        return 1;
-    }
+    using namespace aquarama;
+    CLI::App app{"The master of a rig: moves every fish, and has all nodes present in step",
+                 "aquarama-master"};
+    MasterOptions options;
+    describe(app, options);
+    Job job = [&] {
+        if (options.rigPath.empty()) throw CLI::RequiredError("RIG");
+        runMaster(options);
+        return 0;
+    };
+    for (const auto add : {addStatus, addExplain, addPilot, addReplay, addInspect}) add(app, job);
+    return runProgram(app, count, arguments, [&] { return job(); });
 }

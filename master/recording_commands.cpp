@@ -37,7 +37,8 @@ int check(const std::string& path) {
     if (playback.compared() == 0)
         throw Error(path + ": was cut short before its first hash; there is nothing to compare");
     if (!playback.difference()) {
-        std::cout << path << ": the replay is the same world\n";
+        std::cout << fmt::format(
+            "{}: the replay is the same world, its hash is {:016x}\n", path, world.hash());
         return 0;
     }
     const Difference& found = *playback.difference();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-node: one process for each projector.
-#include <exception>
-#include <iostream>
-
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/cli/outputs.h"
+#include "common/cli/program.h"
+#include "common/net/address.h"
+#include "common/units/error.h"
 #include "render_node/show/node_options.h"
 #include "render_node/show/run_node.h"
 
@@ -20,12 +21,22 @@ constexpr const char* kFooter =
     "a "
     "machine,\nits cores divided by the nodes is best.";
 
+std::string addressProblem(const std::string& address) {
+    try {
+        aquarama::requireConnectAddress(address);
+        return {};
+    } catch (const aquarama::Error& problem) {
+        return problem.what();
+    }
+}
+
 void describe(CLI::App& app, aquarama::NodeOptions& options) {
     app.add_option("NAME", options.channel, "the channel of the rig that this node shows")
         ->required();
     app.add_option(
            "--master", options.masterAddress, "the master's control address, tcp://HOST:PORT")
-        ->required();
+        ->required()
+        ->check(CLI::Validator(addressProblem, ""));
     app.add_flag("--headless", options.headless, "draw without a display");
     app.add_option(
            "--device",
@@ -41,7 +52,7 @@ void describe(CLI::App& app, aquarama::NodeOptions& options) {
         "--film", options.filmPipe, "named pipe to aquarama-calibrate clip, for every frame");
     app.add_option("--film-every", options.filmEvery, "with --film: for every so many frames")
         ->needs(film)
-        ->check(CLI::Range(1, 10000));
+        ->check(aquarama::wholeNumber(1, 10000));
     app.add_option("--trace", options.traceFolder, "folder for NAME.csv, a line of times a frame");
     app.footer(kFooter);
 }
@@ -49,16 +60,16 @@ void describe(CLI::App& app, aquarama::NodeOptions& options) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    aquarama::NodeOptions options;
+    using namespace aquarama;
+    NodeOptions options;
     CLI::App app("Shows one channel of a wall, in step with all others.", "aquarama-node");
     describe(app, options);
-    CLI11_PARSE(app, count, arguments);
-    try {
-        spdlog::set_default_logger(spdlog::stderr_color_mt("node " + options.channel));
-        aquarama::runNode(options);
+    return runProgram(app, count, arguments, [&] {
+        app.name("aquarama-node " + options.channel);
+        requireFolder("--snapshot", options.snapshotFolder);
+        requireFolder("--trace", options.traceFolder);
+        spdlog::set_default_logger(spdlog::stdout_color_mt("node " + options.channel));
+        runNode(options);
         return 0;
-    } catch (const std::exception& error) {
-        std::cerr << "aquarama-node " << options.channel << ": " << error.what() << '\n';
-        return 1;
-    }
+    });
 }

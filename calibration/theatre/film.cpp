@@ -2,12 +2,19 @@
 #include "calibration/theatre/film.h"
 
 #include <algorithm>
+#include <chrono>
 #include <deque>
+#include <iomanip>
+#include <iostream>
 #include <optional>
+#include <sstream>
 #include <vector>
+
+#include <unistd.h>
 
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
+#include "calibration/theatre/snapshot.h"
 #include "common/cli/signals.h"
 #include "common/units/error.h"
 #include "common/wall/frame_pipe.h"
@@ -15,6 +22,8 @@
 namespace aquarama {
 
 namespace {
+
+using namespace std::chrono_literals;
 
 // The channels that make the picture: all, or the one of this name.
 std::vector<Channel> filmedChannels(const Rig& rig, const std::string& of) {
@@ -37,18 +46,67 @@ class Camera {
     }
     [[nodiscard]] Picture pictureOf(const std::vector<PipedFrame>& frames) const {
         if (!map_) return frames.front().picture;
-        std::vector<Light> channels;
-        for (const PipedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
-        const Light panorama = map_->compose(channels);
+        const Light panorama = panoramaOf(frames);
         const auto seed = static_cast<std::uint32_t>(frames.front().frame);
         return aquarama::pictureOf(
             of_ == kHall ? composeHall(rig_, panorama, kHallPixels) : panorama, 8, seed);
     }
+    // The panorama and the hall of one frame; needs the frames of all channels.
+    void writePictures(const std::vector<PipedFrame>& frames, const std::string& folder) const {
+        const Light panorama = panoramaOf(frames);
+        writePanoramaAndHall(rig_, panorama, folder, 8);
+        std::cout << "first picture: " << folder << "/panorama.png, " << folder << "/hall.png"
+                  << std::endl;
+    }
 
   private:
+    [[nodiscard]] Light panoramaOf(const std::vector<PipedFrame>& frames) const {
+        std::vector<Light> channels;
+        for (const PipedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
+        return map_->compose(channels);
+    }
+
     const Rig& rig_;
     std::string of_;
     std::optional<PanoramaMap> map_;  // unless a channel is shown as it is
+};
+
+// How far a clip is: in one line of a terminal, which is written again and again, or a line of a
+// log every ten seconds.
+class Progress {
+  public:
+    explicit Progress(const Filming& filming) : pictures_{picturesIn(filming)} {}
+    void show(std::uint64_t done) {
+        const auto now = Clock::now();
+        if (now - shown_ < (terminal_ ? 250ms : 10s)) return;
+        shown_ = now;
+        const double seconds = std::chrono::duration<double>(now - begun_).count();
+        const double rate = static_cast<double>(done) / seconds;
+        std::ostringstream line;
+        line << "clip: picture " << done;
+        if (pictures_ > 0) line << " of " << pictures_;
+        line << std::fixed << std::setprecision(1) << ", " << rate << " a second";
+        if (pictures_ > 0)
+            line << std::setprecision(0) << ", "
+                 << static_cast<double>(pictures_ - std::min(done, pictures_)) / rate << " s left";
+        std::cout << (terminal_ ? "\r\x1b[K" : "") << line.str() << (terminal_ ? "" : "\n")
+                  << std::flush;
+    }
+    // Takes the terminal's line away.
+    void end() const {
+        if (terminal_) std::cout << "\r\x1b[K" << std::flush;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static std::uint64_t picturesIn(const Filming& filming) {
+        const auto between = static_cast<std::uint64_t>(filming.ticksBetween);
+        return (filming.frames.value_or(0) + between - 1) / between;
+    }
+    std::uint64_t pictures_;  // 0: as many as come
+    bool terminal_ = isatty(STDOUT_FILENO) != 0;
+    Clock::time_point begun_ = Clock::now();
+    Clock::time_point shown_ = begun_;
 };
 
 // The next frame of every channel; nothing as soon as one has ended.
@@ -78,13 +136,19 @@ void film(const Rig& rig, const Filming& filming) {
     const Camera camera(rig, filming.of);
     const auto clip =
         makeClip({filming.clipPath, camera.sizePixels(channels), filming.ticksBetween});
-    bool any = false;
-    while (const auto frames = nextFrame(pipes, channels)) {
+    auto frames = nextFrame(pipes, channels);
+    if (!frames) throw Error(filming.clipPath + ": no frame was shown; let the show run for more");
+    if (!filming.firstPictures.empty()) camera.writePictures(*frames, filming.firstPictures);
+    Progress progress(filming);
+    std::uint64_t pictures = 0;
+    for (; frames; frames = nextFrame(pipes, channels)) {
         clip->add(camera.pictureOf(*frames), frames->front().frame);
-        any = true;
+        progress.show(++pictures);
     }
-    if (!any) throw Error(filming.clipPath + ": no frame was shown; let the show run for more");
     clip->finish();
+    progress.end();
+    std::cout << "clip of the " << filming.of << " in " << filming.clipPath << ": " << pictures
+              << " pictures" << std::endl;
 }
 
 }  // namespace aquarama

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -44,21 +47,31 @@ Eye eyeAtTheBack(const Screen& screen, glm::dvec2 sizePixels) {
     return eye;
 }
 
+void drawRow(const Room& room, const Eye& eye, int y, Light& hall) {
+    constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
+    for (int x = 0; x < hall.sizePixels.x; ++x)
+        for (int i = 0; i < kSamples; ++i) {
+            const glm::dvec2 offset(i % kSamplesPerSide, i / kSamplesPerSide);
+            const glm::dvec2 pixel = glm::dvec2(x, y) + (offset + 0.5) / double{kSamplesPerSide};
+            hall.at(x, y) += room.seen(eye.ray(pixel)) / float{kSamples};
+        }
+}
+
 }  // namespace
 
+// On all processors: a hall takes seconds on one.
 Light composeHall(const Rig& rig, const Light& panorama, glm::ivec2 sizePixels) {
     const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
     const Room room(rig.screen, panorama, eye.position);
     Light hall = darkness(sizePixels);
-    constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
-    for (int y = 0; y < sizePixels.y; ++y)
-        for (int x = 0; x < sizePixels.x; ++x)
-            for (int i = 0; i < kSamples; ++i) {
-                const glm::dvec2 offset(i % kSamplesPerSide, i / kSamplesPerSide);
-                const glm::dvec2 pixel =
-                    glm::dvec2(x, y) + (offset + 0.5) / double{kSamplesPerSide};
-                hall.at(x, y) += room.seen(eye.ray(pixel)) / float{kSamples};
-            }
+    std::atomic<int> next{0};
+    const auto work = [&] {
+        for (int y = next++; y < sizePixels.y; y = next++) drawRow(room, eye, y, hall);
+    };
+    std::vector<std::jthread> workers;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) workers.emplace_back(work);
+    work();
+    workers.clear();
     return hall;
 }
 

@@ -69,11 +69,17 @@ std::vector<Light> readChannels(const Rig& rig, const std::string& folder) {
     return channels;
 }
 
-void composeSnapshot(const Rig& rig, const std::string& folder, int bits) {
-    const PanoramaMap map(rig);
-    const Light panorama = map.compose(readChannels(rig, folder));
+void writePanoramaAndHall(const Rig& rig,
+                          const Light& panorama,
+                          const std::string& folder,
+                          int bits) {
     writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
     writePng(folder + "/hall.png", pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
+}
+
+void composeSnapshot(const Rig& rig, const std::string& folder, int bits) {
+    const PanoramaMap map(rig);
+    writePanoramaAndHall(rig, map.compose(readChannels(rig, folder)), folder, bits);
     if (!hasStereo(rig)) return;
     for (const std::string eye : {".left_eye", ".right_eye"})
         writePng(folder + "/panorama" + eye + ".png",

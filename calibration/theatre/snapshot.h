@@ -15,6 +15,12 @@ namespace aquarama {
 // Throws Error when a picture is missing or has not its channel's size.
 [[nodiscard]] std::vector<Light> readChannels(const Rig& rig, const std::string& folder);
 
+// Writes folder/panorama.png and folder/hall.png. Throws Error where they cannot be written.
+void writePanoramaAndHall(const Rig& rig,
+                          const Light& panorama,
+                          const std::string& folder,
+                          int bits);
+
 // Composes folder/panorama.png and folder/hall.png, and in stereo panorama.left_eye.png and
 // .right_eye.png, of the channels' pictures there.
 // Throws Error when a picture is missing or has not its channel's size.

@@ -23,26 +23,19 @@ std::string reason() {
 
 }  // namespace
 
+bool showsAllChannels(const std::string& of) {
+    return of == "panorama" || of == "hall";
+}
+
 std::vector<std::string> channelsFor(const Rig& rig, const std::string& of) {
     std::vector<std::string> names;
     for (const Channel& channel : rig.channels) names.push_back(channel.name);
-    if (of == "panorama" || of == "hall") return names;
+    if (showsAllChannels(of)) return names;
     if (std::ranges::find(names, of) != names.end()) return {of};
     std::string known = "panorama, hall";
     for (const std::string& name : names) known += ", " + name;
     throw Error("--clip-of " + of + ": rig \"" + rig.name +
                 "\" has no such channel; choose one of " + known);
-}
-
-void requireClipPath(const std::string& path) {
-    if (!path.ends_with(".mp4") && !path.ends_with(".webp"))
-        throw Error("--clip " + path + ": a clip is FILE.mp4 or FILE.webp; choose such a name");
-    const fs::path folder = fs::absolute(path).parent_path();
-    std::error_code failure;
-    fs::create_directories(folder, failure);
-    if (failure || access(folder.c_str(), W_OK | X_OK) != 0 || fs::is_directory(path))
-        throw Error("--clip " + path + ": cannot be written (" +
-                    (failure ? failure.message() : reason()) + "); choose another folder");
 }
 
 ClipPipes::ClipPipes(const std::vector<std::string>& channels) {

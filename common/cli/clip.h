@@ -10,13 +10,12 @@
 
 namespace aquarama {
 
+// Whether a clip of `of` is composed of all channels: the panorama and the hall.
+[[nodiscard]] bool showsAllChannels(const std::string& of);
+
 // The channels that a clip of `of` needs: all of them for the panorama and the hall, or the one of
 // that name. Throws Error where the rig has none.
 [[nodiscard]] std::vector<std::string> channelsFor(const Rig& rig, const std::string& of);
-
-// Throws Error unless a clip could be written there: another ending than .mp4 and .webp, no folder,
-// no leave to write.
-void requireClipPath(const std::string& path);
 
 // Named pipes in a folder of their own, which goes with them.
 class ClipPipes {

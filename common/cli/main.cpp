@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <fstream>
-#include <iostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/children.h"
+#include "common/cli/preflight.h"
+#include "common/cli/program.h"
 #include "common/cli/show.h"
 #include "common/cli/siblings.h"
 #include "common/config/rig.h"
@@ -23,6 +23,11 @@ namespace aquarama {
 namespace {
 
 constexpr const char* kDesk = "config/desk.txtpb";
+
+std::string clipNameProblem(const std::string& path) {
+    if (path.ends_with(".mp4") || path.ends_with(".webp")) return {};
+    return "\"" + path + "\" is not FILE.mp4 or FILE.webp";
+}
 
 // A subcommand that another program does: `aquarama check RIG` is `aquarama-calibrate check RIG`.
 struct Delegation {
@@ -55,7 +60,7 @@ constexpr std::array kDelegations{
                "what each motor controller makes the biomechanical fish do"},
     Delegation{"study", "study", "", "with and without each adaptation of the mind to its motor"},
     Delegation{
-        "check", "calibrate", "check", "validate a rig, a scene or a species: aquarama check FILE"},
+        "check", "calibrate", "check", "validate rigs, scenes and species: aquarama check FILE..."},
     Delegation{"status", "master", "status", "what the running wall is doing"},
     Delegation{
         "pilot", "master", "pilot", "steer the submarine of the running wall from a terminal"},
@@ -65,24 +70,15 @@ constexpr std::array kDelegations{
                "what a fish sees, feels, intends and does, and why: --fish ID"},
 };
 
-std::string firstBytesOf(const std::string& path) {
-    std::array<char, 21> bytes{};
-    std::ifstream file(path, std::ios::binary);
-    file.read(bytes.data(), bytes.size());
-    return {bytes.data(), static_cast<std::size_t>(file.gcount())};
-}
-
-// By its name or, whatever that is, by its first bytes.
 bool isRepertoire(const std::string& path) {
-    return path.ends_with(".aqrep") || firstBytesOf(path).starts_with("AQREP");
+    return path.ends_with(".aqrep") || looksLikeRepertoire(path);
 }
 
-// Before the letters by which it is known a recording has some lengths.
 bool isRecording(const std::string& path) {
-    return path.ends_with(".aqrec") || firstBytesOf(path).find("AQREC") != std::string::npos;
+    return path.ends_with(".aqrec") || looksLikeRecording(path);
 }
 
-// Every other file that we know is about walls.
+// Every other file that we know is a text.
 std::string_view inspectorOf(std::span<char*> arguments) {
     if (std::ranges::any_of(arguments, isRecording)) return "master";
     return std::ranges::any_of(arguments, isRepertoire) ? "capture" : "calibrate";
@@ -100,18 +96,23 @@ std::string_view inspectorOf(std::span<char*> arguments) {
 // What a new show and a replayed one have in common.
 void describeShow(CLI::App& run, ShowOptions& options) {
     run.add_flag("--headless", options.headless, "without a display; implies lockstep");
-    run.add_option("--frames", options.frames, "end after so many frames; implies lockstep");
-    run.add_option("--snapshot",
-                   options.snapshotFolder,
-                   "folder for pictures of the last frame; implies lockstep");
-    run.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones");
+    run.add_option("--frames", options.frames, "end after so many frames; implies lockstep")
+        ->check(wholeNumber(1, kMostShownFrames));
+    CLI::Option* snapshot = run.add_option(
+        "--snapshot",
+        options.snapshotFolder,
+        "folder for pictures of the last frame, and with --clip of the first as soon as "
+        "it is there; implies lockstep");
+    run.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones")
+        ->needs(snapshot);
     CLI::Option* clip =
-        run.add_option("--clip", options.clipPath, "FILE.mp4 or FILE.webp; implies lockstep");
+        run.add_option("--clip", options.clipPath, "FILE.mp4 or FILE.webp; implies lockstep")
+            ->check(CLI::Validator(clipNameProblem, ""));
     run.add_option("--clip-of", options.clipOf, "panorama (by default), hall or a channel's name")
         ->needs(clip);
     run.add_option("--film-every", options.filmEvery, "the clip has every so many frames only")
         ->needs(clip)
-        ->check(CLI::Range(1, 10000));
+        ->check(wholeNumber(1, 10000));
     run.add_option(
         "--trace", options.traceFolder, "folder for a line of times a frame and process");
     run.add_option("--pattern", options.pattern, "show this instead of the world")
@@ -124,11 +125,12 @@ void describeShow(CLI::App& run, ShowOptions& options) {
 
 void describeRun(CLI::App& run, ShowOptions& options) {
     run.add_option("RIG", options.rigPath, "the rig's file")->default_val(kDesk);
-    run.add_option("--seed", options.seed, "of the world: the same seed gives the same world");
+    run.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
+        ->check(wholeNumber(0, kMostSeed));
     run.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
     run.add_option(
            "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(CLI::Range(0U, kMostFish));
+        ->check(wholeNumber(0, kMostFish));
     run.add_option("--record", options.recordPath, "write the show to this new file");
     describeShow(run, options);
 }
@@ -140,21 +142,35 @@ void describeReplay(CLI::App& replay, ShowOptions& options, bool& check) {
     describeShow(replay, options);
 }
 
-int dispatch(int count, char** arguments) {
-    const std::span all{arguments, static_cast<std::size_t>(count)};
-    const std::string first = count > 1 ? all[1] : "";
-    for (const Delegation& delegation : kDelegations) {
-        if (first == delegation.command)
-            delegate(delegation.program, delegation.subcommand, all.subspan(2));
-    }
-    if (first == "inspect") delegate(inspectorOf(all.subspan(2)), "inspect", all.subspan(2));
+// Only where the program that does it would not know of the other kinds: else it says its own help.
+void describeInspect(CLI::App& app) {
+    CLI::App& inspect = *app.add_subcommand(
+        "inspect", "what a file holds: a rig, a scene, a species, a repertoire or a recording");
+    inspect.add_option("FILE",
+                       "a rig, a scene or a species (.txtpb), a repertoire (.aqrep) or the "
+                       "recording of a show (.aqrec)");
+    inspect.add_option("--report", "of a repertoire: folder for a page with pictures and figures");
+}
 
-    if (!first.empty() && first != "run" && first != "replay" && !first.starts_with('-')) {
-        throw Error("there is no command \"" + first + "\"; aquarama --help lists them");
-    }
+bool asksForHelp(std::span<char*> arguments) {
+    return std::ranges::any_of(arguments, [](std::string_view argument) {
+        return argument == "--help" || argument == "-h";
+    });
+}
 
-    CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors"};
-    app.require_subcommand(1);
+// Returns where this program itself does what is asked.
+void delegateWhatOthersDo(std::span<char*> arguments) {
+    if (arguments.empty()) return;
+    const std::string_view first = arguments.front();
+    const std::span rest = arguments.subspan(1);
+    for (const Delegation& delegation : kDelegations)
+        if (first == delegation.command) delegate(delegation.program, delegation.subcommand, rest);
+    if (first == "inspect" && !asksForHelp(rest)) delegate(inspectorOf(rest), "inspect", rest);
+}
+
+int runAquarama(int count, char** arguments) {
+    CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors", "aquarama"};
+    app.require_subcommand(0, 1);
     ShowOptions options;
     CLI::App& run = *app.add_subcommand("run", "the master and all nodes of a rig on this machine");
     describeRun(run, options);
@@ -162,20 +178,16 @@ int dispatch(int count, char** arguments) {
     bool check = false;
     CLI::App& replay = *app.add_subcommand("replay", "a recorded show once more");
     describeReplay(replay, replayOptions, check);
-    for (const Delegation& delegation : kDelegations) {
+    for (const Delegation& delegation : kDelegations)
         app.add_subcommand(std::string(delegation.command), std::string(delegation.what));
-    }
-    app.add_subcommand("inspect",
-                       "what a repertoire, a recording or a wall's file holds: aquarama inspect "
-                       "FILE; of a repertoire also as a page, --report DIR");
-    try {
-        app.parse(count, arguments);
-    } catch (const CLI::ParseError& wrong) {
-        return app.exit(wrong) == 0 ? 0 : 2;
-    }
-    if (check) become({siblingProgram("master"), {"replay", replayOptions.replayPath}});
-    const ShowOptions& shown = replay.parsed() ? replayOptions : options;
-    return runShow(shown, readRig(shown.rigPath));
+    describeInspect(app);
+    return runProgram(app, count, arguments, [&] {
+        if (app.get_subcommands().empty()) throw CLI::RequiredError("a command");
+        if (replay.parsed()) requireRecording(replayOptions.replayPath);
+        if (check) become({siblingProgram("master"), {"replay", replayOptions.replayPath}});
+        const ShowOptions& shown = replay.parsed() ? replayOptions : options;
+        return runShow(shown, readRig(shown.rigPath));
+    });
 }
 
 }  // namespace
@@ -184,9 +196,10 @@ int dispatch(int count, char** arguments) {
 
 int main(int count, char** arguments) {
     try {
-        return aquarama::dispatch(count, arguments);
+        aquarama::delegateWhatOthersDo({arguments + 1, arguments + std::max(count, 1)});
     } catch (const std::exception& error) {
-        std::cerr << "aquarama: " << error.what() << '\n';
+        aquarama::sayError("aquarama", error.what());
         return 1;
     }
+    return aquarama::runAquarama(count, arguments);
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <thread>
@@ -13,8 +12,11 @@
 
 #include <signal.h>
 
+#include "common/cli/causes.h"
 #include "common/cli/children.h"
 #include "common/cli/clip.h"
+#include "common/cli/outputs.h"
+#include "common/cli/preflight.h"
 #include "common/cli/siblings.h"
 #include "common/units/error.h"
 
@@ -25,10 +27,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kGoodbye = 5s;      // how long a process may take to end after it was asked to
-constexpr int kInterrupted = 130;  // what shells say of Ctrl-C
-constexpr auto kTooShort = 5s;     // one that dies sooner at its first start would only die again
-constexpr auto kBreath = 1s;       // before another start of one that keeps dying
+constexpr auto kGoodbye = 5s;        // how long a process may take to end after it was asked to
+constexpr auto kLastPictures = 60s;  // and how long a clip may, which ends when the nodes have
+constexpr int kInterrupted = 130;    // what shells say of Ctrl-C
+constexpr auto kTooShort = 5s;       // one that dies sooner at its first start would only die again
+constexpr auto kBreath = 1s;         // before another start of one that keeps dying
+
+constexpr const char* kClip = "clip";
 
 struct Process {
     std::string name;
@@ -76,18 +81,13 @@ Process masterProcess(const ShowOptions& options) {
 
 // Composes and encodes while the nodes draw.
 Process clipProcess(const ShowOptions& options, const std::string& pipes) {
-    return {.name = "clip",
-            .command = {siblingProgram("calibrate"),
-                        {"clip",
-                         options.rigPath,
-                         options.clipPath,
-                         "--pipes",
-                         pipes,
-                         "--of",
-                         options.clipOf,
-                         "--every",
-                         std::to_string(options.filmEvery)}},
-            .started = {}};
+    std::vector<std::string> arguments{"clip", options.rigPath, options.clipPath};
+    append(arguments, "--pipes", pipes);
+    append(arguments, "--of", options.clipOf);
+    append(arguments, "--every", std::to_string(options.filmEvery));
+    if (options.frames) append(arguments, "--frames", std::to_string(*options.frames));
+    if (showsAllChannels(options.clipOf)) append(arguments, "--first", options.snapshotFolder);
+    return {.name = kClip, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
 }
 
 Process nodeProcess(const ShowOptions& options,
@@ -141,13 +141,19 @@ std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
     return dead;
 }
 
-// Asks all to end, and makes sure of it.
+// Asks all to end, and makes sure of it; at once where somebody asks again. The clip ends by
+// itself, with the nodes: what was shown until then is kept.
 void endAll(std::vector<Process>& processes) {
     signalAll(processes, SIGTERM);
-    const auto deadline = Clock::now() + kGoodbye;
+    const auto asked = Clock::now();
     while (anyRunning(processes)) {
-        deaths(processes, waitForChildren(100ms));
-        if (Clock::now() > deadline) signalAll(processes, SIGKILL);
+        const Heard heard = waitForChildren(100ms);
+        deaths(processes, heard);
+        const auto waited = Clock::now() - asked;
+        for (const Process& process : processes)
+            if (process.running() &&
+                (heard.interrupted || waited > (process.name == kClip ? kLastPictures : kGoodbye)))
+                kill(process.child, SIGKILL);
     }
 }
 
@@ -156,19 +162,29 @@ std::string described(const Ending& ending) {
                               : "ended with status " + std::to_string(ending.exitCode);
 }
 
+// Of a show that ends with it: what was said first, for what dies next dies of that.
+std::string causeOf(const Causes& causes, const Process& process, const Ending& ending) {
+    const std::vector<std::string> said = causes.heard();
+    return said.empty() ? "aquarama: " + process.name + ' ' + described(ending) + "; the show ends"
+                        : said.front();
+}
+
 // What the death of one process means for the show.
 enum class Verdict { GoesOn, Over, Failed };
 
-Verdict judge(const ShowOptions& options, Process& process, const Ending& ending) {
+Verdict judge(const ShowOptions& options,
+              const Causes& causes,
+              Process& process,
+              const Ending& ending) {
     const bool early = Clock::now() - process.started < kTooShort;
     process.proven = process.proven || !early;
     if (ending.clean()) return process.name == "master" ? Verdict::Over : Verdict::GoesOn;
-    std::cerr << "aquarama: " << process.name << ' ' << described(ending);
     if (options.lockstep() || !process.proven) {
-        std::cerr << "; the show ends\n";
+        std::cerr << causeOf(causes, process, ending) << '\n';
         return Verdict::Failed;
     }
-    std::cerr << "; starting it again"
+    for (const std::string& line : causes.heard()) std::cerr << line << '\n';
+    std::cerr << "aquarama: " << process.name << ' ' << described(ending) << "; starting it again"
               << (process.name == "master" && !options.recordPath.empty()
                       ? "; what follows is not recorded\n"
                       : "\n");
@@ -181,18 +197,19 @@ enum class Outcome { Finished, Interrupted, Failed };
 
 // Watches until the master has ended and every node with it, or something failed, or we are asked
 // to stop.
-Outcome watch(const ShowOptions& options, std::vector<Process>& processes) {
+Outcome watch(const ShowOptions& options, const Causes& causes, std::vector<Process>& processes) {
     auto farewell = Clock::time_point::max();
     while (anyRunning(processes)) {
         const Heard heard = waitForChildren(200ms);
         bool failed = false;
         for (const auto& [process, ending] : deaths(processes, heard)) {
-            const Verdict verdict = judge(options, *process, ending);
-            failed = failed || verdict == Verdict::Failed;
+            const Verdict verdict = judge(options, causes, *process, ending);
+            failed = verdict == Verdict::Failed;
+            if (failed) break;  // what dies with it is no cause
             if (verdict == Verdict::Over)
                 farewell = Clock::now() + 30s;  // nodes may still be writing their pictures
         }
-        if (Clock::now() > farewell && anyRunning(processes)) {
+        if (!failed && Clock::now() > farewell && anyRunning(processes)) {
             std::cerr << "aquarama: a node did not end with the show; ending it\n";
             failed = true;
         }
@@ -205,7 +222,7 @@ Outcome watch(const ShowOptions& options, std::vector<Process>& processes) {
 }
 
 // Lets aquarama-calibrate make a whole of the nodes' pictures.
-bool compose(const ShowOptions& options) {
+bool compose(const ShowOptions& options, const Causes& causes) {
     std::vector<std::string> arguments{"compose", options.rigPath, options.snapshotFolder};
     if (options.deep) arguments.emplace_back("--deep");
     Process composer{
@@ -213,21 +230,14 @@ bool compose(const ShowOptions& options) {
     composer.launch();
     while (true) {
         for (const Ending& ending : waitForChildren(1s).endings) {
-            if (ending.child == composer.child) return ending.clean();
+            if (ending.child != composer.child) continue;
+            if (!ending.clean()) std::cerr << causeOf(causes, composer, ending) << '\n';
+            return ending.clean();
         }
     }
 }
 
-void makeFolder(const std::string& folder) {
-    if (folder.empty()) return;
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (failure) throw Error("cannot make the folder " + folder + ": " + failure.message());
-}
-
 void sayWhatWasMade(const ShowOptions& options, const Rig& rig) {
-    if (!options.clipPath.empty())
-        std::cout << "clip of the " << options.clipOf << " in " << options.clipPath << '\n';
     if (options.snapshotFolder.empty()) return;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
     if (std::ranges::any_of(rig.channels, [&](const Channel& channel) {
@@ -254,27 +264,30 @@ std::vector<Process> processesOf(const ShowOptions& options,
 }  // namespace
 
 int runShow(const ShowOptions& options, const Rig& rig) {
+    if (!options.headless) requireDisplay();
+    requireFreePort(rig.controlAddress);
+    requireFreePort(rig.stateAddress);
+    requireFile("--clip", options.clipPath);
+    requireFile("--record", options.recordPath);
+    requireFolder("--snapshot", options.snapshotFolder);
+    requireFolder("--trace", options.traceFolder);
     std::optional<ClipPipes> pipes;
-    if (!options.clipPath.empty()) {
-        requireClipPath(options.clipPath);
-        pipes.emplace(channelsFor(rig, options.clipOf));
-    }
-    makeFolder(options.snapshotFolder);
-    makeFolder(options.traceFolder);
+    if (!options.clipPath.empty()) pipes.emplace(channelsFor(rig, options.clipOf));
     shareCores(rig);
     listenForSignals();
 
+    const Causes causes;
     std::vector<Process> processes = processesOf(options, rig, pipes);
-    std::cerr << "aquarama: starting the master and " << rig.channels.size() << " nodes of "
-              << options.rigPath << '\n';
+    std::cout << "starting the master and " << rig.channels.size() << " nodes of "
+              << options.rigPath << std::endl;
     for (Process& process : processes) process.launch();
 
-    const Outcome outcome = watch(options, processes);
+    const Outcome outcome = watch(options, causes, processes);
     if (outcome == Outcome::Failed) return 1;
     // A live show runs until somebody ends it; one that was to finish by itself has not done its
     // work.
     if (outcome == Outcome::Interrupted) return options.lockstep() ? kInterrupted : 0;
-    if (!options.snapshotFolder.empty() && !compose(options)) return 1;
+    if (!options.snapshotFolder.empty() && !compose(options, causes)) return 1;
     sayWhatWasMade(options, rig);
     return 0;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 #include <google/protobuf/io/tokenizer.h>
 
@@ -24,13 +25,39 @@ SourcePlace counted(int line, int column) {
     return {line + 1, column + 1};
 }
 
+// "CastMember" as "cast member".
+std::string spelledOut(const std::string& type) {
+    std::string words;
+    for (const char letter : type) {
+        const bool begins = letter >= 'A' && letter <= 'Z';
+        if (begins && !words.empty()) words += ' ';
+        words += begins ? static_cast<char>(letter - 'A' + 'a') : letter;
+    }
+    return words;
+}
+
+// What protobuf says, without the names of its types: who writes a file does not know them.
+std::string inPlainWords(std::string why) {
+    constexpr std::string_view kType = "\"aquarama.v1.";
+    constexpr std::string_view kMessage = "Message type ";
+    for (std::size_t at = 0; (at = why.find(kType)) != std::string::npos;) {
+        const std::size_t name = at + kType.size();
+        const std::size_t end = std::min(why.find('"', name), why.size());
+        why.replace(at, end + 1 - at, spelledOut(why.substr(name, end - name)));
+    }
+    if (why.starts_with(kMessage)) why.erase(0, kMessage.size());
+    if (why.ends_with('.')) why.pop_back();
+    if (why.find(" has no field named ") != std::string::npos)
+        why += "; correct its name or remove it";
+    return why;
+}
+
 class FirstError : public pb::io::ErrorCollector {
   public:
     explicit FirstError(const std::string& source) : source_(source) {}
     void AddError(int line, int column, const std::string& why) override {
         if (!text_.empty()) return;
-        text_ = placed(source_, counted(line, column), why);
-        if (text_.back() == '.') text_.pop_back();
+        text_ = placed(source_, counted(line, column), inPlainWords(why));
     }
     [[nodiscard]] const std::string& text() const { return text_; }
 

@@ -2,38 +2,16 @@
 #include "common/net/blob.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
-#include <fstream>
-#include <string>
 #include <system_error>
 #include <utility>
 
-#include <unistd.h>
+#include "common/files/files.h"
+#include "common/units/error.h"
 
 namespace aquarama {
 namespace {
 
 constexpr std::uintmax_t kMaxCachedBytes = std::uintmax_t{64} << 20U;
-
-std::optional<std::vector<std::byte>> readFile(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error || size > kMaxCachedBytes) return std::nullopt;
-    std::vector<std::byte> bytes(size);
-    std::ifstream file(path, std::ios::binary);
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!file) return std::nullopt;
-    return bytes;
-}
-
-bool writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    return file.good();
-}
 
 }  // namespace
 
@@ -68,33 +46,25 @@ std::filesystem::path BlobCache::pathOf(const Digest& digest) const {
 }
 
 std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) const {
-    auto bytes = readFile(pathOf(digest));
-    if (!bytes || digestOf(*bytes) != digest) return std::nullopt;
-    return bytes;
+    std::error_code error;
+    if (!std::filesystem::exists(pathOf(digest), error)) return std::nullopt;
+    try {
+        auto bytes = readWhole(pathOf(digest), kMaxCachedBytes);
+        if (digestOf(bytes) == digest) return bytes;
+    } catch (const Error&) {  // no more than a cache: the blob is fetched again
+    }
+    return std::nullopt;
 }
 
 void BlobCache::keep(const Digest& digest, std::span<const std::byte> blob) const {
-    std::error_code error;
-    std::filesystem::create_directories(directory_, error);
-    const std::filesystem::path final = pathOf(digest);
-    static std::atomic<unsigned> drafts = 0;  // two nodes of a test live in one process
-    std::filesystem::path draft = final;
-    draft += "." + std::to_string(getpid()) + "." + std::to_string(++drafts);
-    if (writeFile(draft, blob)) std::filesystem::rename(draft, final, error);
-    std::filesystem::remove(draft, error);
+    try {
+        writeWhole(pathOf(digest), blob);
+    } catch (const Error&) {  // a full disk only costs time
+    }
 }
 
 std::filesystem::path defaultBlobDirectory() {
-    const auto variable = [](const char* name) -> std::filesystem::path {
-        const char* value =
-            std::getenv(name);  // NOLINT(concurrency-mt-unsafe): read while starting
-        return value != nullptr ? value : "";
-    };
-    const std::filesystem::path cache = variable("XDG_CACHE_HOME");
-    if (cache.is_absolute()) return cache / "aquarama" / "blobs";
-    const std::filesystem::path home = variable("HOME");
-    const auto base = home.empty() ? std::filesystem::temp_directory_path() : home / ".cache";
-    return base / "aquarama" / "blobs";
+    return cacheFolder() / "blobs";
 }
 
 }  // namespace aquarama

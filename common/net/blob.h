@@ -53,7 +53,7 @@ class BlobCache {
     std::filesystem::path directory_;
 };
 
-// $XDG_CACHE_HOME/aquarama/blobs, or ~/.cache/aquarama/blobs.
+// The folder "blobs" of cacheFolder().
 [[nodiscard]] std::filesystem::path defaultBlobDirectory();
 
 }  // namespace aquarama

@@ -8,8 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/outputs.h"
 #include "common/cli/signals.h"
-#include "common/net/blob.h"
+#include "common/files/files.h"
 #include "common/units/error.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
@@ -35,7 +36,7 @@ std::vector<RepertoireFile> captured(const std::vector<SpeciesText>& texts) {
     const SignalWatch watch([&] { isStopped = true; });
     ProgressBar bar("capturing");
     return repertoiresFor(texts,
-                          defaultBlobDirectory().parent_path() / "repertoires",
+                          cacheFolder() / "repertoires",
                           {.progress = [&](double share) { bar.show(share); },
                            .isStopped = [&] { return isStopped.load(); }});
 }
@@ -49,33 +50,31 @@ void write(const RepertoireFile& file, const CaptureOptions& options) {
     std::cout << writeReport(repertoire, options.report).string() << '\n';
 }
 
-// A species that fails is named, and the others still come out.
-void captureAll(const CaptureOptions& options) {
+// A species that fails is named, and the others still come out. Returns the exit status.
+int captureAll(const CaptureOptions& options) {
     holdSignals();
+    requireFolder("--out", options.out);
+    requireFolder("--report", options.report);
     const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
     std::vector<SpeciesText> texts;
     for (const fs::path& file : speciesFiles(options.species, config))
         texts.push_back(readSpeciesText(file));
-    makeFolder(options.out);
-
     const std::vector<RepertoireFile> files = captured(texts);
-    std::size_t failed = 0;
+    int status = 0;
     for (const RepertoireFile& file : files) {
         if (file.error.empty()) {
             write(file, options);
         } else {
-            std::cerr << "aquarama-capture: " << file.error << '\n';
-            ++failed;
+            sayError("aquarama-capture", file.error);
+            status = 1;
         }
     }
-    if (failed > 0)
-        throw Error(std::to_string(failed) + " of " + std::to_string(files.size()) +
-                    " species were not captured");
+    return status;
 }
 
 }  // namespace
 
-void addCaptureCommand(CLI::App& app) {
+void addCaptureCommand(CLI::App& app, Job& job) {
     const auto options = std::make_shared<CaptureOptions>();
     app.add_option("--species",
                    options->species,
@@ -83,11 +82,10 @@ void addCaptureCommand(CLI::App& app) {
     app.add_option("--out", options->out, "folder for SPECIES.aqrep");
     app.add_option("--report", options->report, "folder for a page with pictures and figures");
     app.add_option("--config", options->config, "folder that holds species/*.txtpb");
-    app.callback([&app, options] {
-        if (!app.get_subcommands().empty()) return;
+    job = [options] {
         if (options->out.empty()) throw CLI::RequiredError("--out");
-        captureAll(*options);
-    });
+        return captureAll(*options);
+    };
 }
 
 }  // namespace aquarama

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What aquarama-capture can do: each adds itself to the command line and, when it was asked for,
-// runs once that is parsed. Errors are thrown.
+// What aquarama-capture can do, one function a subcommand: each adds its options to the command
+// line and what it does to `job`, which returns the exit status.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "common/cli/program.h"
 
 namespace aquarama {
 
-void addCaptureCommand(CLI::App& app);  // the program without a subcommand
-void addInspectCommand(CLI::App& app);
-void addSearchCommand(CLI::App& app);
-void addGaitsCommand(CLI::App& app);
-void addExportCommand(CLI::App& app);
-void addFidelityCommand(CLI::App& app);
-void addControllersCommand(CLI::App& app);
+void addCaptureCommand(CLI::App& app, Job& job);  // the program without a subcommand
+void addInspectCommand(CLI::App& app, Job& job);
+void addSearchCommand(CLI::App& app, Job& job);
+void addGaitsCommand(CLI::App& app, Job& job);
+void addExportCommand(CLI::App& app, Job& job);
+void addFidelityCommand(CLI::App& app, Job& job);
+void addControllersCommand(CLI::App& app, Job& job);
 
 }  // namespace aquarama

@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/outputs.h"
+#include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/repertoire_cache.h"
@@ -23,6 +25,7 @@ struct ControllersOptions {
 
 void draw(const ControllersOptions& options) {
     namespace fs = std::filesystem;
+    requireFolder("--out", options.out);
     const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
     const fs::path file = speciesFiles({options.species}, config).front();
     const std::string svg = drawControllers(readSpecies(file.string()));
@@ -33,7 +36,7 @@ void draw(const ControllersOptions& options) {
 
 }  // namespace
 
-void addControllersCommand(CLI::App& app) {
+void addControllersCommand(CLI::App& app, Job& job) {
     const auto options = std::make_shared<ControllersOptions>();
     CLI::App& controllers = *app.add_subcommand(
         "controllers",
@@ -45,7 +48,12 @@ void addControllersCommand(CLI::App& app) {
         "given");
     controllers.add_option("--out", options->out, "folder for controllers.svg")->required();
     controllers.add_option("--config", options->config, "folder that holds species/*.txtpb");
-    controllers.callback([options] { draw(*options); });
+    controllers.callback([options, &job] {
+        job = [options] {
+            draw(*options);
+            return 0;
+        };
+    });
 }
 
 }  // namespace aquarama

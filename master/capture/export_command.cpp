@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/outputs.h"
+#include "common/files/files.h"
 #include "common/units/error.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
@@ -55,8 +57,11 @@ FishBody bodyOf(const Repertoire& repertoire, const ExportOptions& options) {
 }
 
 void exportSegment(const ExportOptions& options) {
+    requireFile("--c3d", options.c3d);
+    requireFile("--gltf", options.gltf);
+    requireFile("--csv", options.csv);
     const Action action = actionNamed(options.segment);
-    const Repertoire repertoire = decodeRepertoire(readWhole(options.file), options.file);
+    const Repertoire repertoire = decodeRepertoire(readRepertoireFile(options.file), options.file);
     if (!options.gltf.empty()) {
         const GltfContainer container = containerOf(options.gltf);
         const FishBody body = bodyOf(repertoire, options);
@@ -74,7 +79,7 @@ void exportSegment(const ExportOptions& options) {
 
 }  // namespace
 
-void addExportCommand(CLI::App& app) {
+void addExportCommand(CLI::App& app, Job& job) {
     const auto options = std::make_shared<ExportOptions>();
     CLI::App& command = *app.add_subcommand(
         "export", "a segment for other programs: metres, Y up, from the origin along +x");
@@ -83,7 +88,7 @@ void addExportCommand(CLI::App& app) {
         ->required()
         ->check(CLI::IsMember(segmentNames()));
     command.add_option("--cycles", options->cycles, "how often it is repeated")
-        ->check(CLI::Range(1, kMostCycles))
+        ->check(wholeNumber(1, kMostCycles))
         ->capture_default_str();
     CLI::Option_group& out = *command.add_option_group("format", "one of");
     out.add_option("--c3d", options->c3d, "nodal points as markers, 60 frames a second");
@@ -92,7 +97,12 @@ void addExportCommand(CLI::App& app) {
     out.require_option(1);
     command.add_option(
         "--config", options->config, "folder that holds species/*.txtpb, for --gltf");
-    command.callback([options] { exportSegment(*options); });
+    command.callback([options, &job] {
+        job = [options] {
+            exportSegment(*options);
+            return 0;
+        };
+    });
 }
 
 }  // namespace aquarama

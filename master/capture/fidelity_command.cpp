@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/outputs.h"
+#include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"
@@ -35,6 +37,7 @@ void writeText(const fs::path& path, const std::string& text) {
 }
 
 void compareAll(const FidelityOptions& options) {
+    requireFolder("--out", options.out);
     const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
     std::vector<Fidelity> fidelities;
     std::vector<SpeciesVocabularies> vocabularies;
@@ -60,20 +63,26 @@ void compareAll(const FidelityOptions& options) {
 
 }  // namespace
 
-void addFidelityCommand(CLI::App& app) {
+void addFidelityCommand(CLI::App& app, Job& job) {
     const auto options = std::make_shared<FidelityOptions>();
     CLI::App& fidelity =
         *app.add_subcommand("fidelity", "how far replicas are from the fish that they stand for");
     fidelity.add_option("--species",
                         options->species,
                         "name of a species in the config folder, or a file; all when not given");
-    fidelity.add_option("--seed", options->seed, "which script of commands; 1 when not given");
+    fidelity.add_option("--seed", options->seed, "which script of commands; 1 when not given")
+        ->check(wholeNumber(0, kMostSeed));
     fidelity.add_option("--seconds", options->seconds, "how long the script is; 60 when not given")
-        ->check(CLI::Range(1.0, 3600.0));
+        ->check(number(1, 3600));
     fidelity.add_option("--out", options->out, "folder for the page, the table and the pictures")
         ->required();
     fidelity.add_option("--config", options->config, "folder that holds species/*.txtpb");
-    fidelity.callback([options] { compareAll(*options); });
+    fidelity.callback([options, &job] {
+        job = [options] {
+            compareAll(*options);
+            return 0;
+        };
+    });
 }
 
 }  // namespace aquarama

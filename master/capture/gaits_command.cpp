@@ -33,13 +33,18 @@ void printGaits(const GaitsOptions& options) {
 
 }  // namespace
 
-void addGaitsCommand(CLI::App& app) {
+void addGaitsCommand(CLI::App& app, Job& job) {
     const auto options = std::make_shared<GaitsOptions>();
     CLI::App& command =
         *app.add_subcommand("gaits", "how species swim and turn, as tables in Markdown");
     command.add_option("SPECIES", options->species, "names or files; all when none is given");
     command.add_option("--config", options->config, "folder that holds species/*.txtpb");
-    command.callback([options] { printGaits(*options); });
+    command.callback([options, &job] {
+        job = [options] {
+            printGaits(*options);
+            return 0;
+        };
+    });
 }
 
 }  // namespace aquarama

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/outputs.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/repertoire_cache.h"
 #include "master/capture/report/inspect.h"
@@ -20,7 +21,7 @@ struct InspectOptions {
 };
 
 void inspect(const InspectOptions& options) {
-    const std::vector<std::byte> bytes = readWhole(options.file);
+    const std::vector<std::byte> bytes = readRepertoireFile(options.file);
     std::cout << inspectRepertoire(bytes, options.file);
     if (options.report.empty()) return;
     const Repertoire repertoire = decodeRepertoire(bytes, options.file);
@@ -29,12 +30,17 @@ void inspect(const InspectOptions& options) {
 
 }  // namespace
 
-void addInspectCommand(CLI::App& app) {
+void addInspectCommand(CLI::App& app, Job& job) {
     const auto options = std::make_shared<InspectOptions>();
     CLI::App& command = *app.add_subcommand("inspect", "what a repertoire holds");
     command.add_option("FILE", options->file, "a repertoire")->required();
     command.add_option("--report", options->report, "folder for a page with pictures and figures");
-    command.callback([options] { inspect(*options); });
+    command.callback([options, &job] {
+        job = [options] {
+            inspect(*options);
+            return 0;
+        };
+    });
 }
 
 }  // namespace aquarama

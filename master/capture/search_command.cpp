@@ -12,6 +12,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/outputs.h"
+#include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
@@ -52,6 +54,7 @@ std::string told(std::size_t trials, const Trial& best) {
 }
 
 void search(const SearchOptions& options) {
+    requireFile("--out", options.out);
     const fs::path file = speciesFiles({options.species}, configFolder(options.config)).front();
     const std::string text = textOf(file);
     const Species species = parseSpecies(text, file.string());
@@ -74,7 +77,7 @@ void search(const SearchOptions& options) {
 
 }  // namespace
 
-void addSearchCommand(CLI::App& app) {
+void addSearchCommand(CLI::App& app, Job& job) {
     const auto options = std::make_shared<SearchOptions>();
     CLI::App& command =
         *app.add_subcommand("search", "find gait parameters with which a species swims");
@@ -87,9 +90,16 @@ void addSearchCommand(CLI::App& app) {
             "the species file to write; beside it FILE.journal, with which the same command "
             "goes on where it was interrupted")
         ->required();
-    command.add_option("--trials", options->trials, "the most to make")->capture_default_str();
+    command.add_option("--trials", options->trials, "the most to make")
+        ->check(wholeNumber(1, 1'000'000))
+        ->capture_default_str();
     command.add_option("--config", options->config, "folder that holds species/*.txtpb");
-    command.callback([options] { search(*options); });
+    command.callback([options, &job] {
+        job = [options] {
+            search(*options);
+            return 0;
+        };
+    });
 }
 
 }  // namespace aquarama

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <spdlog/spdlog.h>
 
 #include "common/units/error.h"
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <spdlog/spdlog.h>
 
 #include "common/net/blob.h"
+#include "common/units/log.h"
 #include "master/conductor/conductor.h"
 
 namespace aquarama {
@@ -77,7 +77,7 @@ void Conductor::hear(Instant now) {
 void Conductor::greet(const PeerId& peer, const Hello& hello, Instant now) {
     const auto refuse = [&](const std::string& reason) {
         ++report_.refusedPackets;
-        spdlog::warn("refused node {}: {}", hello.channel, reason);
+        logWarning("refused node {}: {}", hello.channel, reason);
         say(peer, Refusal{reason});
     };
     if (hello.major != kProtocolMajor) {
@@ -96,7 +96,7 @@ void Conductor::greet(const PeerId& peer, const Hello& hello, Instant now) {
     if (another && now - seat.lastHeard < kSilenceOfTheDead) {
         return say(peer, Dismissed{"another node of this name takes part already"});
     }
-    if (seat.peer != peer) spdlog::info("welcomed node {}", seat.name);
+    if (seat.peer != peer) logInfo("welcomed node {}", seat.name);
     barrier_.leave(*node);
     barrier_.heard(*node, now);
     seat.peer = peer;
@@ -122,7 +122,7 @@ void Conductor::heed(std::size_t node, const Message& message, Instant now) {
         barrier_.leave(node);
         seats_[node].peer.clear();
         seats_[node].prepared = false;
-        spdlog::info("node {} has left", seats_[node].name);
+        logInfo("node {} has left", seats_[node].name);
     } else {
         ++report_.refusedPackets;
     }
@@ -143,7 +143,7 @@ void Conductor::admit(std::size_t node) {
     barrier_.join(node, first);
     say(seats_[node].peer, Joined{first});
     if (isLockstep()) publishAgain(monotonicNow());
-    spdlog::info("node {} takes part from frame {}", seats_[node].name, first.value);
+    logInfo("node {} takes part from frame {}", seats_[node].name, first.value);
 }
 
 void Conductor::giveChunk(const PeerId& peer, const BlobRequest& request) {
@@ -160,7 +160,7 @@ void Conductor::giveChunk(const PeerId& peer, const BlobRequest& request) {
 
 void Conductor::vacate(std::size_t node, const std::string& why) {
     Seat& seat = seats_[node];
-    spdlog::warn("node {} is not counted any more: silent", seat.name);
+    logWarning("node {} is not counted any more: silent", seat.name);
     say(seat.peer, Dismissed{why});
     seat.peer.clear();
     seat.prepared = false;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include <spdlog/spdlog.h>
+#include "common/units/log.h"
 
 namespace aquarama {
 namespace {
@@ -144,8 +144,8 @@ void Ticker::runLive() {
         due += pausedFor;
         const Instant overdue = monotonicNow() - due;
         if (overdue > kMostCatchUp) {
-            spdlog::warn("the world is {} ms behind and goes on from here",
-                         std::chrono::duration_cast<std::chrono::milliseconds>(overdue).count());
+            logWarning("the world is {} ms behind and goes on from here",
+                       std::chrono::duration_cast<std::chrono::milliseconds>(overdue).count());
             due += overdue;
         }
         simulation_.advance();

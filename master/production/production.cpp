@@ -8,9 +8,9 @@
 #include "common/config/cast.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
+#include "common/files/files.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
-#include "common/net/blob.h"
 #include "common/place/water.h"
 #include "common/units/error.h"
 #include "master/capture/compile/progress_bar.h"
@@ -27,7 +27,7 @@ constexpr std::uint32_t kFishOfAThread = 2000;
 // The first show of a species on this machine simulates it; later ones find what it swam.
 std::vector<std::byte> capturedOnce(const CastSpecies& member) {
     ProgressBar bar("capturing " + member.species.name);
-    const auto cache = defaultBlobDirectory().parent_path() / "repertoires";
+    const auto cache = cacheFolder() / "repertoires";
     return repertoireFor(member.text, member.path, cache, [&](double share) { bar.show(share); });
 }
 

@@ -3,8 +3,7 @@
 
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
+#include "common/units/log.h"
 #include "master/record/inputs.h"
 
 namespace aquarama {
@@ -46,14 +45,14 @@ ReplayedWorld::ReplayedWorld(const Recording& recording,
 void ReplayedWorld::advance() {
     playback_.advance();
     if (playback_.difference() && !std::exchange(toldOfDifference_, true))
-        spdlog::warn("from tick {} on the replay is another world than the recorded one",
-                     playback_.difference()->tick.value);
+        logWarning("from tick {} on the replay is another world than the recorded one",
+                   playback_.difference()->tick.value);
     if (playback_.over() && !std::exchange(ended_, true)) onEnd_();
 }
 
 void ReplayedWorld::apply(const WorldInput& /*input*/) {
     if (!std::exchange(toldOfInput_, true))
-        spdlog::warn("this is a replay: what visitors do does not reach its world");
+        logWarning("this is a replay: what visitors do does not reach its world");
 }
 
 }  // namespace aquarama

@@ -6,9 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
 #include "common/units/error.h"
+#include "common/units/log.h"
 #include "master/record/inputs.h"
 
 namespace aquarama {
@@ -27,11 +26,14 @@ std::string reason() {
 
 }  // namespace
 
+void requireNewRecording(const std::string& path) {
+    if (std::filesystem::exists(path))
+        throw Error(path + ": is there already; a recording never overwrites a file: name another");
+}
+
 RecordingFile::RecordingFile(std::string path, const Production& production)
     : path_(std::move(path)) {
-    if (std::filesystem::exists(path_))
-        throw Error(path_ +
-                    ": is there already; a recording never overwrites a file: name another");
+    requireNewRecording(path_);
     file_.open(path_, std::ios::binary);
     if (!file_ || !wrote(file_, beginningOf(production)))
         throw Error(path_ + ": cannot be written: " + reason());
@@ -39,7 +41,7 @@ RecordingFile::RecordingFile(std::string path, const Production& production)
 
 void RecordingFile::add(const Packet& entry) {
     if (!file_.is_open() || wrote(file_, entry)) return;
-    spdlog::error("{}: the show is recorded no further: {}", path_, reason());
+    logError("{}: the show is recorded no further: {}", path_, reason());
     file_.close();
 }
 

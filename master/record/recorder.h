@@ -15,6 +15,9 @@ namespace aquarama {
 
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
+// Throws Error where there is a file already.
+void requireNewRecording(const std::string& path);
+
 // A recording that grows. Every entry reaches the system at once: whatever ends the program, the
 // file is whole up to its last entry.
 class RecordingFile {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama study: with and without each adaptation of the mind to its motor.
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <mutex>
@@ -10,6 +9,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/outputs.h"
+#include "common/cli/program.h"
+#include "common/files/files.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
@@ -46,6 +48,7 @@ std::vector<Sample> watched(const StudyPlan& plan) {
 }
 
 void study(const StudyOptions& options) {
+    requireFolder("--out", options.out);
     const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
     const StudyPlan plan{.scenarios = scenariosOf(config),
                          .minutes = options.minutes,
@@ -54,7 +57,6 @@ void study(const StudyOptions& options) {
     const std::vector<Sample> samples = watched(plan);
     std::cout << studyMarkdown(plan, samples);
     if (options.out.empty()) return;
-    makeFolder(options.out);
     writeText(fs::path(options.out) / "adaptation.csv", studyCsv(plan, samples));
     writeText(fs::path(options.out) / "adaptation.svg", drawStudy(plan, samples));
 }
@@ -86,44 +88,34 @@ void chronicle(const ChronicleOptions& options) {
               << "\nhash of the world: " << std::hex << world.hash() << '\n';
 }
 
-int dispatch(int count, char** arguments) {
+}  // namespace
+
+}  // namespace aquarama
+
+int main(int count, char** arguments) {
+    using namespace aquarama;
     CLI::App app{"With and without each adaptation of the mind to its motor, as tables in Markdown",
                  "aquarama-study"};
     StudyOptions options;
     app.add_option("--out", options.out, "folder for a table of all runs and a figure");
     app.add_option("--minutes", options.minutes, "of each run; 10 when not given")
-        ->check(CLI::Range(0.1, 1440.0));
+        ->check(number(0.1, 1440));
     app.add_option("--seeds", options.seeds, "runs of each kind; 5 when not given")
-        ->check(CLI::Range(1U, 100U));
+        ->check(wholeNumber(1, 100));
     app.add_option("--config", options.config, "folder that holds scenes and species");
     ChronicleOptions life;
     CLI::App& chronicled =
         *app.add_subcommand("chronicle", "what happens in a scene, hour by hour");
     chronicled.add_option("SCENE", life.scene, "the scene's file")->required();
     chronicled.add_option("--hours", life.hours, "of the scene; 1 when not given")
-        ->check(CLI::Range(0.01, 1000.0));
-    chronicled.add_option("--seed", life.seed, "of the world; 1 when not given");
-    try {
-        app.parse(count, arguments);
-    } catch (const CLI::ParseError& wrong) {
-        return app.exit(wrong) == 0 ? 0 : 2;
-    }
-    if (chronicled.parsed())
-        chronicle(life);
-    else
-        study(options);
-    return 0;
-}
-
-}  // namespace
-
-}  // namespace aquarama
-
-int main(int count, char** arguments) {
-    try {
-        return aquarama::dispatch(count, arguments);
-    } catch (const std::exception& error) {
-        std::cerr << "aquarama-study: " << error.what() << '\n';
-        return 1;
-    }
+        ->check(number(0.01, 1000));
+    chronicled.add_option("--seed", life.seed, "of the world; 1 when not given")
+        ->check(wholeNumber(0, kMostSeed));
+    return runProgram(app, count, arguments, [&] {
+        if (chronicled.parsed())
+            chronicle(life);
+        else
+            study(options);
+        return 0;
+    });
 }

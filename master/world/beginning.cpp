@@ -2,7 +2,10 @@
 #include "master/world/beginning.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 
@@ -17,7 +20,7 @@ namespace aquarama {
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { Length = 201, Place, Phase };
+enum Draw : std::uint32_t { Length = 201, Place, Phase, Heading };
 
 // Irwin-Hall: four uniform numbers make a bell curve of deviation 1 / sqrt(3), without libm.
 float bell(std::uint32_t hash) {
@@ -34,25 +37,38 @@ glm::quat facing(glm::vec3 course) {
     return {cosine, 0, level.z > 0 ? -sine : sine, 0};
 }
 
-// A block of cells, twice as long as wide and high, that holds the school.
-struct Block {
-    std::uint32_t across = 1;
-    [[nodiscard]] std::uint32_t along() const { return 2 * across; }
-    [[nodiscard]] glm::vec3 offset(std::uint32_t fish) const {
-        const std::uint32_t x = fish % along();
-        const std::uint32_t y = fish / along() % across;
-        const std::uint32_t z = fish / along() / across;
-        const auto centred = [](std::uint32_t i, std::uint32_t n) {
-            return static_cast<float>(i) - 0.5F * static_cast<float>(n - 1);
-        };
-        return {centred(x, along()), centred(y, across), centred(z, across)};
-    }
-};
+// Places of a school, about its middle, in units of the distance between neighbours: as many cells
+// of a close packing as there are fish, those nearest to the middle of an ellipsoid that is long
+// along x. The packing is turned, so that no row of it lies level or along the way.
+std::vector<glm::vec3> schoolCells(std::size_t fish) {
+    constexpr float kStep = 0.70710678F;  // of the lattice, whose points have an even sum
+    constexpr glm::vec3 kAxes{1.7F, 0.85F, 1.0F};
+    constexpr glm::quat kTurn{0.8F, 0.3F, 0.4F, 0.331662479F};
+    const auto most = static_cast<float>(fish) * 1.2F + 30.0F;
+    float radius = 1.0F;  // of an ellipsoid with more cells than fish, over its axes
+    while (6.0F * kAxes.x * kAxes.y * kAxes.z * radius * radius * radius < most * 1.2F)
+        radius += 0.25F;
+    const auto reach = static_cast<int>(radius * kAxes.x / kStep) + 1;
+    std::vector<std::pair<float, glm::vec3>> cells;  // how far out, and where
+    for (int i = -reach; i <= reach; ++i)
+        for (int j = -reach; j <= reach; ++j)
+            for (int k = -reach + ((i + j + reach) & 1); k <= reach; k += 2) {
+                const glm::vec3 place = kTurn * (glm::vec3{i, j, k} * kStep);
+                const glm::vec3 out = place / kAxes;
+                const float distance = glm::dot(out, out);
+                if (distance < radius * radius) cells.emplace_back(distance, place);
+            }
+    std::ranges::stable_sort(cells, {}, [](const auto& cell) { return cell.first; });
+    assert(cells.size() >= fish);
+    std::vector<glm::vec3> places;
+    for (std::size_t at = 0; at < fish; ++at) places.push_back(cells[at].second);
+    return places;
+}
 
-Block blockFor(std::size_t fish) {
-    Block block;
-    while (std::size_t{block.along()} * block.across * block.across < fish) ++block.across;
-    return block;
+glm::vec3 signedUnits(std::uint32_t hash) {
+    return {signedUnitOf(hashOf(hash, 0)),
+            signedUnitOf(hashOf(hash, 1)),
+            signedUnitOf(hashOf(hash, 2))};
 }
 
 void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionStates& states) {
@@ -67,37 +83,36 @@ void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionS
     states.warpLength[fish] = 0;
 }
 
-// A block about the goal, loosely spaced; a large one is moved into the water.
+// A school about the goal, loosely spaced, each fish a little off its cell and off the common
+// course; a large one is moved into the water.
 void placeSchool(std::uint32_t seed,
                  const Goal& goal,
                  const Region& water,
                  std::size_t fish,
                  MotionStates& states) {
-    constexpr float kSpacingMetres = 0.22F;
-    const Block block = blockFor(fish);
+    constexpr float kSpacingMetres = 0.25F;
+    constexpr float kOffCell = 0.22F;    // of the spacing
+    constexpr float kOffCourse = 0.16F;  // of the course, at most 9 degrees
     const glm::quat rotation = facing(goal.velocityMetresPerSecond);
-    // A school too large for the water is packed more densely.
-    const glm::vec3 room = water.halfExtent * 0.85F;
-    const auto half = static_cast<float>(block.across) * 0.5F;
-    const float fit = std::min({1.0F,
-                                room.y / (half * kSpacingMetres),
-                                room.z / (half * kSpacingMetres),
-                                room.x / (2 * half * kSpacingMetres)});
-    const glm::vec3 reach = (glm::abs(rotation * glm::vec3{2 * half, 0, 0}) +
-                             glm::abs(rotation * glm::vec3{0, half, half})) *
-                            (kSpacingMetres * fit);
-    const glm::vec3 play = glm::max(room - reach, glm::vec3{0});
-    const glm::vec3 middle = glm::clamp(goal.position, water.centre - play, water.centre + play);
+    std::vector<glm::vec3> offsets = schoolCells(fish);
+    glm::vec3 reach{1.0e-6F};
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(i));
-        const glm::vec3 jitter{signedUnitOf(hashOf(own, 0)),
-                               signedUnitOf(hashOf(own, 1)),
-                               signedUnitOf(hashOf(own, 2))};
-        const glm::vec3 cell = block.offset(static_cast<std::uint32_t>(i)) + jitter * 0.25F;
-        const glm::vec3 spread = rotation * (cell * (kSpacingMetres * fit));
+        offsets[i] = rotation * ((offsets[i] + signedUnits(own) * kOffCell) * kSpacingMetres);
+        reach = glm::max(reach, glm::abs(offsets[i]));
+    }
+    // A school too large for the water is packed more densely.
+    const glm::vec3 room = water.halfExtent * 0.85F;
+    const glm::vec3 fits = room / reach;
+    const float fit = std::min({1.0F, fits.x, fits.y, fits.z});
+    const glm::vec3 play = glm::max(room - reach * fit, glm::vec3{0});
+    const glm::vec3 middle = glm::clamp(goal.position, water.centre - play, water.centre + play);
+    const glm::vec3 course = directionOf(goal.velocityMetresPerSecond, {1, 0, 0});
+    for (std::size_t i = 0; i < fish; ++i) {
+        const std::uint32_t own = hashOf(hashOf(seed, Heading), static_cast<std::uint32_t>(i));
         const glm::vec3 place =
-            glm::clamp(middle + spread, water.centre - room, water.centre + room);
-        begin(seed, i, {place, rotation}, states);
+            glm::clamp(middle + offsets[i] * fit, water.centre - room, water.centre + room);
+        begin(seed, i, {place, facing(course + signedUnits(own) * kOffCourse)}, states);
     }
 }
 
@@ -136,8 +151,7 @@ glm::vec3 restingPlace(std::uint32_t seed,
         return wanderingGoal(seed, obstacles.water, depth, fish, {});
     const auto index = static_cast<std::uint32_t>(fish);
     const std::uint32_t own = hashOf(hashOf(seed, Place), index);
-    const glm::vec3 share{
-        signedUnitOf(hashOf(own, 0)), signedUnitOf(hashOf(own, 1)), signedUnitOf(hashOf(own, 2))};
+    const glm::vec3 share = signedUnits(own);
     const std::uint32_t household = householdOf(static_cast<std::uint32_t>(first), index);
     return homeOf(seed, habits.home, obstacles, depth, household) +
            share * (0.5F * static_cast<float>(habits.home.radiusMetres));
@@ -173,9 +187,7 @@ void placeAbout(std::uint32_t seed,
     const glm::quat rotation{cosine, 0, sine, 0};
     for (std::size_t fish = first; fish < last; ++fish) {
         const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(fish));
-        const glm::vec3 share{signedUnitOf(hashOf(own, 0)),
-                              signedUnitOf(hashOf(own, 1)),
-                              signedUnitOf(hashOf(own, 2))};
+        const glm::vec3 share = signedUnits(own);
         const glm::vec3 place = start.centre + share * static_cast<float>(start.radiusMetres);
         begin(seed, fish, {place, rotation}, states);
     }

@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <deque>
 #include <span>
 #include <string>
@@ -34,10 +35,30 @@ std::string lastGlfwError() {
     return description != nullptr ? description : "no reason given";
 }
 
+// Before 3.4 GLFW is built for X11 alone, and knows no other platform.
+#ifdef GLFW_PLATFORM
+// X11 where there is a choice: the windows of a wall have their places, and Wayland gives none.
+void choosePlatform() {
+    const bool hasX = std::getenv("DISPLAY") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+    glfwInitHint(GLFW_PLATFORM, hasX ? GLFW_PLATFORM_X11 : GLFW_ANY_PLATFORM);
+}
+
+bool placesWindows() {
+    return glfwGetPlatform() != GLFW_PLATFORM_WAYLAND;
+}
+#else
+void choosePlatform() {}
+
+bool placesWindows() {
+    return true;
+}
+#endif
+
 // GLFW is one for the process; it ends with the last who uses it.
 class GlfwLibrary {
   public:
     GlfwLibrary() {
+        choosePlatform();
         if (glfwInit() == GLFW_FALSE) {
             throw Error("no window can be opened (" + lastGlfwError() +
                         "); set DISPLAY to an X display, or use --headless");
@@ -138,7 +159,8 @@ class WindowContext : public Context {
     [[nodiscard]] bool hasWindow() const override { return true; }
     [[nodiscard]] bool quadBuffered() const override { return quadBuffered_; }
     [[nodiscard]] std::string description() const override {
-        return rendererAndVersion() + ", in a window";
+        return rendererAndVersion() +
+               (placesWindows() ? ", in a window" : ", in a window that Wayland places");
     }
     [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     void pumpEvents(std::chrono::milliseconds atMost) override {
@@ -216,7 +238,7 @@ void WindowContext::open(const std::string& title) {
         throw Error("no window with OpenGL 4.5 core (" + lastGlfwError() +
                     "); update the graphics driver, or use --headless");
     }
-    if (monitor == nullptr)
+    if (monitor == nullptr && placesWindows())
         glfwSetWindowPos(window_.get(), display_.windowPosition.x, display_.windowPosition.y);
     glfwShowWindow(window_.get());
     glfwPollEvents();

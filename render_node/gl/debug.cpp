@@ -2,7 +2,8 @@
 #include "render_node/gl/debug.h"
 
 #include <epoxy/gl.h>
-#include <spdlog/spdlog.h>
+
+#include "common/units/log.h"
 
 namespace aquarama::gl {
 
@@ -17,9 +18,9 @@ void APIENTRY onMessage(GLenum /*source*/,
                         const void* /*user*/) {
     const std::string_view text{message, static_cast<std::size_t>(length)};
     if (type == GL_DEBUG_TYPE_ERROR)
-        spdlog::error("OpenGL: {}", text);
+        logError("OpenGL: {}", text);
     else if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
-        spdlog::warn("OpenGL: {}", text);
+        logWarning("OpenGL: {}", text);
 }
 
 }  // namespace

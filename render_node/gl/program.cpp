@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <optional>
 #include <span>
 #include <utility>
 
+#include "common/files/derived_cache.h"
 #include "common/units/error.h"
 #include "render_node/gl/embedded_shaders.h"
 
@@ -30,6 +33,12 @@ GLenum stageOf(const std::string& file) {
     throw Error("shader file \"" + file + "\" must end in .vert, .frag or .comp");
 }
 
+bool isLinked(const ProgramHandle& program) {
+    int linked = 0;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+    return linked != 0;
+}
+
 std::string trimmed(std::string log) {
     log.erase(log.find_last_not_of(" \n\t") + 1);
     return log;
@@ -51,11 +60,17 @@ Definitions::~Definitions() {
     definitions = std::move(outer_);
 }
 
-ShaderHandle compileShader(const std::string& file,
-                           std::span<const Replacement> replacements,
-                           const ReadShader& read) {
+namespace {
+
+ShaderText sourceOf(const std::string& file,
+                    std::span<const Replacement> replacements,
+                    const ReadShader& read) {
     ShaderText source = expand(file, read, replacements);
     addDefinitions(source, file);
+    return source;
+}
+
+ShaderHandle compiled(const std::string& file, const ShaderText& source) {
     const char* text = source.text.c_str();
     ShaderHandle shader{stageOf(file)};
     glShaderSource(shader.name(), 1, &text, nullptr);
@@ -71,6 +86,85 @@ ShaderHandle compileShader(const std::string& file,
     return shader;
 }
 
+struct Stage {
+    std::string file;
+    ShaderText source;
+};
+
+ProgramHandle linked(std::span<const Stage> stages) {
+    ProgramHandle program;
+    glProgramParameteri(program.name(), GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    for (const Stage& stage : stages) {
+        const auto shader = compiled(stage.file, stage.source);
+        glAttachShader(program.name(), shader.name());
+    }
+    glLinkProgram(program.name());
+    if (!isLinked(program)) {
+        std::array<char, 4096> log{};
+        glGetProgramInfoLog(program.name(), log.size(), nullptr, log.data());
+        throw Error("render_node/shaders/" + stages.front().file + " does not link: " + log.data());
+    }
+    return program;
+}
+
+bool driverHasBinaries() {
+    int formats = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    return formats > 0;
+}
+
+// A driver reads only what it wrote itself.
+DerivedKey binaryKey(std::span<const Stage> stages) {
+    DerivedKey key("program");
+    for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION})
+        key.add(reinterpret_cast<const char*>(glGetString(name)));
+    for (const Stage& stage : stages) key.add(stage.source.text);
+    return key;
+}
+
+// The driver's format, then the binary.
+std::vector<std::byte> binaryOf(const ProgramHandle& program) {
+    int length = 0;
+    glGetProgramiv(program.name(), GL_PROGRAM_BINARY_LENGTH, &length);
+    GLenum format = 0;
+    std::vector<std::byte> bytes(sizeof(format) + static_cast<std::size_t>(length));
+    glGetProgramBinary(program.name(), length, nullptr, &format, bytes.data() + sizeof(format));
+    std::memcpy(bytes.data(), &format, sizeof(format));
+    return bytes;
+}
+
+// Nothing where the driver does not take it.
+std::optional<ProgramHandle> loaded(std::span<const std::byte> bytes) {
+    GLenum format = 0;
+    if (bytes.size() <= sizeof(format)) return std::nullopt;
+    std::memcpy(&format, bytes.data(), sizeof(format));
+    ProgramHandle program;
+    const auto binary = bytes.subspan(sizeof(format));
+    glProgramBinary(program.name(), format, binary.data(), static_cast<GLsizei>(binary.size()));
+    if (!isLinked(program)) return std::nullopt;
+    return program;
+}
+
+// Compiled once on a machine where the driver gives its binaries: derived data.
+ProgramHandle linkedOrLoaded(std::span<const Stage> stages) {
+    if (!driverHasBinaries()) return linked(stages);
+    std::optional<ProgramHandle> program;
+    const auto bytes = derivedCache().find(binaryKey(stages), [&] {
+        program = linked(stages);
+        return binaryOf(*program);
+    });
+    if (!program) program = loaded(bytes);
+    return program ? *std::move(program) : linked(stages);
+}
+
+}  // namespace
+
+ShaderHandle compileShader(const std::string& file,
+                           std::span<const Replacement> replacements,
+                           const ReadShader& read) {
+    return compiled(file, sourceOf(file, replacements, read));
+}
+
 std::string_view shaderSource(std::string_view name) {
     return embedded(name).text;
 }
@@ -83,19 +177,10 @@ std::vector<std::string_view> shaderNames() {
 
 ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                           std::span<const Replacement> replacements) {
-    ProgramHandle program;
-    for (const std::string& file : shaderFiles) {
-        const auto shader = compileShader(file, replacements);
-        glAttachShader(program.name(), shader.name());
-    }
-    glLinkProgram(program.name());
-    int linked = 0;
-    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
-    if (linked == 0) {
-        std::array<char, 4096> log{};
-        glGetProgramInfoLog(program.name(), log.size(), nullptr, log.data());
-        throw Error("render_node/shaders/" + shaderFiles.front() + " does not link: " + log.data());
-    }
+    std::vector<Stage> stages;
+    for (const std::string& file : shaderFiles)
+        stages.push_back({file, sourceOf(file, replacements, shaderSource)});
+    ProgramHandle program = linkedOrLoaded(stages);
     glObjectLabel(GL_PROGRAM, program.name(), -1, shaderFiles.front().c_str());
     return program;
 }

@@ -43,7 +43,8 @@ using ShaderHandle = Handle<ShaderTraits>;
                                          std::span<const Replacement> replacements = {},
                                          const ReadShader& read = shaderSource);
 
-// Compiles and links; the first name labels the program. Throws Error as above.
+// Compiles and links, or takes the driver's binary of an earlier time from this user's cache; the
+// first name labels the program. Throws Error as above.
 [[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                                         std::span<const Replacement> replacements = {});
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "common/files/derived_cache.h"
 #include "common/place/noise.h"
 
 namespace aquarama {
@@ -95,7 +96,8 @@ glm::u8 packed(float x) {
 }
 
 template <class ReliefAt>
-Tile tileOf(int texels, float sideMetres, ReliefAt reliefAt) {
+Tile tileOf(float sideMetres, ReliefAt reliefAt) {
+    constexpr int texels = kDetailTexels;
     const auto side = static_cast<std::size_t>(texels);
     std::vector<Relief> reliefs;
     reliefs.reserve(side * side);
@@ -108,7 +110,7 @@ Tile tileOf(int texels, float sideMetres, ReliefAt reliefAt) {
         return reliefs[row * side + column].height;
     };
     const float twoTexels = 2.0F * sideMetres / static_cast<float>(texels);
-    Tile tile{texels, {}};
+    Tile tile;
     for (int y = 0; y < texels; ++y)
         for (int x = 0; x < texels; ++x) {
             const float slopeX = (heightAt(x + 1, y) - heightAt(x - 1, y)) / twoTexels;
@@ -123,13 +125,18 @@ Tile tileOf(int texels, float sideMetres, ReliefAt reliefAt) {
     return tile;
 }
 
+template <class ReliefAt>
+Tile keptTile(const char* name, float sideMetres, ReliefAt reliefAt) {
+    return derivedTables<Tile>(DerivedKey(name), [&] { return tileOf(sideMetres, reliefAt); });
+}
+
 }  // namespace
 
 Tile sandTile() {
-    return tileOf(512, kSandTileMetres, sandAt);
+    return keptTile("sand", kSandTileMetres, sandAt);
 }
 Tile rockTile() {
-    return tileOf(512, kRockTileMetres, rockAt);
+    return keptTile("rock", kRockTileMetres, rockAt);
 }
 
 }  // namespace aquarama

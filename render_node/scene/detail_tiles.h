@@ -3,20 +3,25 @@
 // shaders.
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include <glm/gtc/type_precision.hpp>
 
 namespace aquarama {
 
+inline constexpr int kDetailTexels = 512;  // of a tile's side
+
 struct Tile {
-    int texels = 0;
     std::vector<glm::u8vec4> values;  // slope x and z (0.5 is level), albedo, hollow to crest
+
+    auto arrays() { return std::tie(values); }
 };
 
 inline constexpr float kSandTileMetres = 2.6F;  // as in floor.frag
 inline constexpr float kRockTileMetres = 1.1F;  // as in rock.frag
 
+// Painted once on a machine: derived data.
 [[nodiscard]] Tile sandTile();
 [[nodiscard]] Tile rockTile();
 

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/files/derived_cache.h"
 #include "common/place/place.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/shade.h"
@@ -70,11 +71,15 @@ void shadeSand(std::vector<ShadeTexel>& texels, const Rock& rock, float sand) {
         }
 }
 
-gl::Texture bakeShade(std::uint32_t seed) {
+std::vector<ShadeTexel> bakeShade(std::uint32_t seed) {
     std::vector<ShadeTexel> texels(static_cast<std::size_t>(kShadeTexels) * kShadeTexels,
                                    {255, 255, 0, 255});
     for (const Rock& rock : rocksOf({seed}))
         shadeSand(texels, rock, floorHeight({seed}, {rock.centre.x, rock.centre.z}));
+    return texels;
+}
+
+gl::Texture makeShade(const std::vector<ShadeTexel>& texels) {
     gl::Texture texture = makeTexture(GL_RGBA8, glm::ivec2{kShadeTexels}, 1, Edge::Clamp);
     glTextureSubImage2D(texture.name(),
                         0,
@@ -106,33 +111,50 @@ Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells)
     return mesh;
 }
 
-Ground::Ground(std::uint32_t seed)
-    : program_{gl::makeProgram({"floor.vert", "floor.frag"})},
-      detail_{makeTexture(sandTile())},
-      rubble_{makeTexture(rockTile())},
-      shade_{bakeShade(seed)} {
-    Mesh all;
+namespace {
+
+GroundTables makeGroundTables(std::uint32_t seed) {
+    GroundTables tables;
     constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
-    for (std::size_t level = 0; level < levels_.size(); ++level) {
+    for (const int cells : kCells) {
         // All patches share a level's triangles.
-        const Mesh mesh = layPatch(seed, {}, kPatchMetres, kCells[level]);
-        levels_[level] = {all.indices.size() * sizeof(std::uint32_t),
-                          static_cast<int>(mesh.indices.size())};
-        all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
+        const Mesh mesh = layPatch(seed, {}, kPatchMetres, cells);
+        tables.levels.push_back({static_cast<std::uint32_t>(tables.indices.size()),
+                                 static_cast<std::int32_t>(mesh.indices.size())});
+        tables.indices.insert(tables.indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
     for (int i = 0; i < kPatchesASide * kPatchesASide; ++i) {
         const glm::vec2 corner =
             glm::vec2{i % kPatchesASide, i / kPatchesASide} * kPatchMetres - kHalf;
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
-        Patch& patch = patches_.emplace_back();
+        GroundTables::Patch& patch = tables.patches.emplace_back();
         patch.centre = {middle.x, floorHeight({seed}, middle), middle.y};
-        for (std::size_t level = 0; level < levels_.size(); ++level) {
-            const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells[level]);
-            patch.firstVertices[level] = static_cast<int>(all.vertices.size());
-            all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        for (std::size_t level = 0; level < kCells.size(); ++level) {
+            const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells.at(level));
+            patch.firstVertices.at(level) = static_cast<int>(tables.vertices.size());
+            tables.vertices.insert(
+                tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         }
     }
-    setSolids(array_, vertices_, indices_, all);
+    tables.shade = bakeShade(seed);
+    return tables;
+}
+
+}  // namespace
+
+GroundTables groundTables(std::uint32_t seed) {
+    return derivedTables<GroundTables>(DerivedKey("ground").add(seed),
+                                       [&] { return makeGroundTables(seed); });
+}
+
+Ground::Ground(const GroundTables& tables)
+    : patches_{tables.patches},
+      levels_{tables.levels},
+      program_{gl::makeProgram({"floor.vert", "floor.frag"})},
+      detail_{makeTexture(sandTile())},
+      rubble_{makeTexture(rockTile())},
+      shade_{makeShade(tables.shade)} {
+    setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
 }
 
 void Ground::draw(const Viewpoint& viewpoint) const {
@@ -142,13 +164,13 @@ void Ground::draw(const Viewpoint& viewpoint) const {
     glBindTextureUnit(16, rubble_.name());
     glBindVertexArray(array_.name());
     constexpr float kPatchRadius = kPatchMetres * 0.75F;
-    for (const Patch& patch : patches_) {
+    for (const GroundTables::Patch& patch : patches_) {
         if (!viewpoint.sees(patch.centre, kPatchRadius)) continue;
         const std::size_t level = viewpoint.levelOf(patch.centre, kLevelMetres);
         glDrawElementsBaseVertex(GL_TRIANGLES,
                                  levels_[level].count,
                                  GL_UNSIGNED_INT,
-                                 byteOffset(levels_[level].firstByte),
+                                 byteOffset(levels_[level].firstIndex * sizeof(std::uint32_t)),
                                  patch.firstVertices[level]);
     }
 }

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
+#include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 
 #include "render_node/gl/handle.h"
@@ -18,22 +20,36 @@ namespace aquarama {
 // where two levels meet.
 [[nodiscard]] Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells);
 
-class Ground {
-  public:
-    explicit Ground(std::uint32_t seed);
-    void draw(const Viewpoint& viewpoint) const;
-
-  private:
+// What the GPU keeps of the sand.
+struct GroundTables {
     struct Patch {
         glm::vec3 centre{};
         std::array<int, 3> firstVertices{};
     };
     struct Level {
-        std::size_t firstByte = 0;
-        int count = 0;
+        std::uint32_t firstIndex = 0;
+        std::int32_t count = 0;
     };
-    std::vector<Patch> patches_;
-    std::array<Level, 3> levels_{};
+    std::vector<SolidVertex> vertices;  // of all patches at all levels
+    std::vector<std::uint32_t> indices;
+    std::vector<Patch> patches;
+    std::vector<Level> levels;
+    std::vector<glm::u8vec4> shade;  // openness to the sun and from above, rubble; texels by rows
+
+    auto arrays() { return std::tie(vertices, indices, patches, levels, shade); }
+};
+
+// Laid once on a machine: derived data.
+[[nodiscard]] GroundTables groundTables(std::uint32_t seed);
+
+class Ground {
+  public:
+    explicit Ground(const GroundTables& tables);
+    void draw(const Viewpoint& viewpoint) const;
+
+  private:
+    std::vector<GroundTables::Patch> patches_;
+    std::vector<GroundTables::Level> levels_;
     gl::Buffer vertices_, indices_;
     gl::VertexArray array_;
     gl::ProgramHandle program_;

@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/files/derived_cache.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/solid_array.h"
 
@@ -22,26 +23,6 @@ namespace {
 constexpr unsigned kGroupSize = 64;                                  // as in place_cull.comp
 constexpr GLsizeiptr kWakeBytes = GLsizeiptr{40} * 16 * 40 * 3 * 4;  // as in wake.glsl
 constexpr unsigned kGrowths = kPrototypes - kRockShapes;
-
-// As glMultiDrawElementsIndirect reads it.
-struct Command {
-    std::uint32_t count = 0;
-    std::uint32_t instanceCount = 0;
-    std::uint32_t firstIndex = 0;
-    std::int32_t baseVertex = 0;
-    std::uint32_t baseInstance = 0;
-};
-static_assert(sizeof(Command) == 20);
-
-// As place_cull.comp reads it.
-struct Prototype {
-    float reach = 0.0F;  // about the middle of its height, for a scale of 1
-    float middle = 0.0F;
-    std::uint32_t firstCommand = 0;
-    std::uint32_t commandStride = 0;           // from a level's command to the next level's
-    std::array<float, kLevels> leastPixels{};  // of scale, for each level; smaller is not drawn
-};
-static_assert(sizeof(Prototype) == 32);
 
 // In one run for rock and one for what grows; fine levels, which are near, before coarse ones.
 std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
@@ -138,7 +119,51 @@ Library growLibrary() {
     return library;
 }
 
-Reef::Reef(const PlaceKey& place, const Quality& quality)
+namespace {
+
+ReefTables makeReefTables(const PlaceKey& place) {
+    const Library library = growLibrary();
+    std::array<Levels, kRockShapes> rocks;
+    std::copy_n(library.begin(), rocks.size(), rocks.begin());
+    ReefTables tables;
+    tables.instances = byCells(scatter(place, rocks));
+    tables.commands.resize(kPrototypes * kLevels);
+    std::uint32_t slots = 0;
+    for (std::size_t i = 0; i < kPrototypes; ++i) {
+        const auto own = static_cast<std::uint32_t>(std::ranges::count_if(
+            tables.instances,
+            [&](const Instance& one) { return one.light.w == static_cast<float>(i); }));
+        Prototype prototype = boundsOf(library.at(i)[0]);
+        prototype.firstCommand = commandOf(i, 0);
+        prototype.commandStride = commandOf(i, 1) - commandOf(i, 0);
+        prototype.leastPixels = leastPixelsOf(i);
+        tables.prototypes.push_back(prototype);
+        for (std::size_t level = 0; level < kLevels; ++level) {
+            const Mesh& mesh = library.at(i).at(level);
+            tables.commands[commandOf(i, level)] = {
+                static_cast<std::uint32_t>(mesh.indices.size()),
+                0,
+                static_cast<std::uint32_t>(tables.indices.size()),
+                static_cast<std::int32_t>(tables.vertices.size()),
+                slots};
+            slots += own;
+            tables.vertices.insert(
+                tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+            tables.indices.insert(tables.indices.end(), mesh.indices.begin(), mesh.indices.end());
+        }
+    }
+    tables.groups = groupBalls(tables.instances, tables.prototypes);
+    return tables;
+}
+
+}  // namespace
+
+ReefTables reefTables(const PlaceKey& place) {
+    return derivedTables<ReefTables>(DerivedKey("reef").add(place.seed).add(place.kind),
+                                     [&] { return makeReefTables(place); });
+}
+
+Reef::Reef(const ReefTables& tables, const Quality& quality)
     : quality_{quality},
       group_{gl::makeProgram({"place_groups.comp"})},
       cull_{gl::makeProgram({"place_cull.comp"})},
@@ -151,49 +176,21 @@ Reef::Reef(const PlaceKey& place, const Quality& quality)
     glNamedBufferStorage(wake_.name(), kWakeBytes, nullptr, 0);
     constexpr GLint kStill = 0;  // also for who draws before any fish has passed: the shadows' maps
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
-    const Library library = growLibrary();
-    std::array<Levels, kRockShapes> rocks;
-    std::copy_n(library.begin(), rocks.size(), rocks.begin());
-    fillLibrary(library, scatter(place, rocks));
+    fillBuffers(tables);
 }
 
-void Reef::fillLibrary(const Library& library, const std::vector<Instance>& scattered) {
-    const std::vector<Instance> instances = byCells(scattered);
-    instanceCount_ = static_cast<unsigned>(instances.size());
-    Mesh all;
-    std::vector<Command> commands(kPrototypes * kLevels);
-    std::vector<Prototype> prototypes;
-    std::uint32_t slots = 0;
-    for (std::size_t i = 0; i < kPrototypes; ++i) {
-        const auto own = static_cast<std::uint32_t>(std::ranges::count_if(
-            instances, [&](const Instance& one) { return one.light.w == static_cast<float>(i); }));
-        Prototype prototype = boundsOf(library[i][0]);
-        prototype.firstCommand = commandOf(i, 0);
-        prototype.commandStride = commandOf(i, 1) - commandOf(i, 0);
-        prototype.leastPixels = leastPixelsOf(i);
-        prototypes.push_back(prototype);
-        for (std::size_t level = 0; level < kLevels; ++level) {
-            const Mesh& mesh = library[i].at(level);
-            commands[commandOf(i, level)] = {static_cast<std::uint32_t>(mesh.indices.size()),
-                                             0,
-                                             static_cast<std::uint32_t>(all.indices.size()),
-                                             static_cast<std::int32_t>(all.vertices.size()),
-                                             slots};
-            slots += own;
-            all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-            all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
-        }
-    }
-    setSolids(array_, vertices_, indices_, all);
-    fill(instances_, std::span{instances});
-    fill(prototypes_, std::span<const Prototype>{prototypes});
-    const std::vector<glm::vec4> balls = groupBalls(instances, prototypes);
-    fill(groups_, std::span{balls});
-    groupCount_ = static_cast<unsigned>(balls.size());
-    const std::vector<std::uint32_t> seen(3 + balls.size());  // a dispatch, and the groups of it
+void Reef::fillBuffers(const ReefTables& tables) {
+    instanceCount_ = static_cast<unsigned>(tables.instances.size());
+    groupCount_ = static_cast<unsigned>(tables.groups.size());
+    setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
+    fill(instances_, std::span{tables.instances});
+    fill(prototypes_, std::span{tables.prototypes});
+    fill(groups_, std::span{tables.groups});
+    const std::vector<std::uint32_t> seen(3 + groupCount_);  // a dispatch, and the groups of it
     fill(seenGroups_, std::span{seen});
-    fill(none_, std::span<const Command>{commands});
-    fill(commands_, std::span<const Command>{commands});
+    fill(none_, std::span{tables.commands});
+    fill(commands_, std::span{tables.commands});
+    const std::size_t slots = kLevels * tables.instances.size();  // each at every level
     glNamedBufferStorage(
         chosen_.name(), static_cast<GLsizeiptr>(slots * sizeof(std::uint32_t)), nullptr, 0);
     constexpr unsigned kChosen = 4;  // location and binding, as in instance.glsl
@@ -242,7 +239,7 @@ void Reef::cull(const ReefRule& rule) const {
                              commands_.name(),
                              0,
                              0,
-                             static_cast<GLsizeiptr>(kPrototypes * kLevels * sizeof(Command)));
+                             static_cast<GLsizeiptr>(kPrototypes * kLevels * sizeof(DrawCommand)));
     cullGroups(rule);
     glUseProgram(cull_.name());
     glUniform1ui(0, instanceCount_);
@@ -265,7 +262,7 @@ void Reef::draw() const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     const auto drawFrom = [](std::size_t command, GLsizei count) {
         glMultiDrawElementsIndirect(
-            GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(Command)), count, 0);
+            GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(DrawCommand)), count, 0);
     };
     constexpr unsigned kFine = 3;  // levels that are lit at each pixel
     if (quality_.growthAtPixels) {

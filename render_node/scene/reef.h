@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "common/place/place.h"
@@ -21,6 +22,41 @@ namespace aquarama {
 using Library = std::array<Levels, kPrototypes>;
 [[nodiscard]] Library growLibrary();
 
+// As glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+    std::uint32_t count = 0;
+    std::uint32_t instanceCount = 0;
+    std::uint32_t firstIndex = 0;
+    std::int32_t baseVertex = 0;
+    std::uint32_t baseInstance = 0;
+};
+static_assert(sizeof(DrawCommand) == 20);
+
+// As place_cull.comp reads it.
+struct Prototype {
+    float reach = 0.0F;  // about the middle of its height, for a scale of 1
+    float middle = 0.0F;
+    std::uint32_t firstCommand = 0;
+    std::uint32_t commandStride = 0;           // from a level's command to the next level's
+    std::array<float, kLevels> leastPixels{};  // of scale, for each level; smaller is not drawn
+};
+static_assert(sizeof(Prototype) == 32);
+
+// What the GPU keeps of a reef.
+struct ReefTables {
+    std::vector<SolidVertex> vertices;  // of all prototypes at all levels
+    std::vector<std::uint32_t> indices;
+    std::vector<Instance> instances;
+    std::vector<Prototype> prototypes;
+    std::vector<DrawCommand> commands;  // of each prototype and level, with no instance yet
+    std::vector<glm::vec4> groups;      // a ball about the instances of each workgroup
+
+    auto arrays() { return std::tie(vertices, indices, instances, prototypes, commands, groups); }
+};
+
+// Grown once on a machine: derived data.
+[[nodiscard]] ReefTables reefTables(const PlaceKey& place);
+
 struct ReefRule {
     bool culling = true;
     bool levelsOfDetail = true;
@@ -28,7 +64,7 @@ struct ReefRule {
 
 class Reef {
   public:
-    Reef(const PlaceKey& place, const Quality& quality);
+    Reef(const ReefTables& tables, const Quality& quality);
 
     // Once a frame: what the school, whose records are bound, stirs of the water about the shared
     // eye.
@@ -40,7 +76,7 @@ class Reef {
 
   private:
     void cullGroups(const ReefRule& rule) const;
-    void fillLibrary(const Library& library, const std::vector<Instance>& scattered);
+    void fillBuffers(const ReefTables& tables);
 
     Quality quality_;
     unsigned groupCount_ = 0;

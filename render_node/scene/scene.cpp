@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <vector>
 
@@ -72,9 +73,19 @@ void setView(FrameUniforms& uniforms, const View& view) {
 
 // All that stands on the sea floor. In the open sea it lies too deep to be seen.
 struct Bottom {
-    Bottom(std::uint32_t seed, const Quality& quality) : ground{seed}, reef{{seed}, quality} {}
     Ground ground;
     Reef reef;
+};
+
+// Made while this thread compiles shaders.
+struct BottomTables {
+    explicit BottomTables(const SceneOptions& options) {
+        if (options.place != PlaceKind::Reef) return;
+        reef = std::async(std::launch::async, reefTables, PlaceKey{options.seed, options.place});
+        ground = std::async(std::launch::async, groundTables, options.seed);
+    }
+    std::future<ReefTables> reef;
+    std::future<GroundTables> ground;
 };
 
 }  // namespace
@@ -83,6 +94,7 @@ struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const SchoolSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
+          bottomTables{chosen},
           light{{chosen.seed, chosen.water, quality.light}},
           picture{quality},
           school{cast,
@@ -94,7 +106,9 @@ struct SceneRenderer::Parts {
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
-        if (chosen.place == PlaceKind::Reef) bottom.emplace(chosen.seed, quality);
+        if (bottomTables.reef.valid())
+            bottom.emplace(Ground{bottomTables.ground.get()},
+                           Reef{bottomTables.reef.get(), quality});
         glNamedBufferStorage(
             frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         if (bottom && quality.light.isFine) bakeShadows();
@@ -108,6 +122,7 @@ struct SceneRenderer::Parts {
 
     SceneOptions options;
     Quality quality;
+    BottomTables bottomTables;
     FrameUniforms uniforms{};
     std::vector<FoodParticle> specks;
     gl::Buffer frameBlock;

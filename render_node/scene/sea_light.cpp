@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -125,17 +126,16 @@ Box texelsInView(glm::vec3 eye, const glm::mat4& worldFromClip, int texels) {
 
 }  // namespace
 
-SeaLight::SeaLight(const SeaLightOptions& options)
+SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
     : quality_{options.quality},
       sea_{options.calm ? calmSea() : seaOf(options.seed, kMeanFloorDepthMetres)},
-      water_{seaWater(options.water)},
-      inscatter_{water_},
+      inscatter_{std::move(tables.inscatter)},
       tableDepthMetres_{-kEyePosition.y},
       atEye_{inscatter_.atDepth(double{tableDepthMetres_})},
-      primariesKd_{primariesDownwelling(water_)},
-      direct_{makeTexture(bakeDirect(water_))},
+      primariesKd_{primariesDownwelling(seaWater(options.water))},
+      direct_{makeTexture(tables.direct)},
       inscatterTable_{makeVolume(atEye_)},
-      openWater_{makeTexture(bakeOpenWater(water_))},
+      openWater_{makeTexture(tables.openWater)},
       cloudTile_{makeClouds(options.seed)},
       waveTile_{
           makeTexture(GL_RGBA16F, glm::ivec2{quality_.waveTexels}, kTileLevels, Edge::Repeat)},

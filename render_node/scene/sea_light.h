@@ -26,7 +26,9 @@ struct SeaLightOptions {
 
 class SeaLight {
   public:
-    explicit SeaLight(const SeaLightOptions& options);
+    explicit SeaLight(const SeaLightOptions& options)
+        : SeaLight(options, waterTables(options.water)) {}
+    SeaLight(const SeaLightOptions& options, WaterTables tables);  // of options.water
 
     // For the frame's uniforms: Kd of the primaries, and the exposure of an eye there.
     [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
@@ -47,7 +49,6 @@ class SeaLight {
 
     LightQuality quality_;
     Sea sea_;
-    WaterSpectra water_;
     Inscatter inscatter_;
     float tableDepthMetres_;
     Table atEye_;

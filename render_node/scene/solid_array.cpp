@@ -28,9 +28,10 @@ void fill(const gl::Buffer& buffer, const std::vector<T>& values) {
 void setSolids(const gl::VertexArray& array,
                const gl::Buffer& vertices,
                const gl::Buffer& indices,
-               const Mesh& mesh) {
-    fill(vertices, mesh.vertices);
-    fill(indices, mesh.indices);
+               const std::vector<SolidVertex>& meshVertices,
+               const std::vector<std::uint32_t>& meshIndices) {
+    fill(vertices, meshVertices);
+    fill(indices, meshIndices);
     glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, sizeof(SolidVertex));
     glVertexArrayElementBuffer(array.name(), indices.name());
     setAttribute(array.name(), 0, 3, GL_FLOAT, offsetof(SolidVertex, position));
@@ -40,13 +41,13 @@ void setSolids(const gl::VertexArray& array,
 }
 
 gl::Texture makeTexture(const Tile& tile) {
-    gl::Texture texture = makeTexture(GL_RGBA8, glm::ivec2{tile.texels}, 8, Edge::Repeat);
+    gl::Texture texture = makeTexture(GL_RGBA8, glm::ivec2{kDetailTexels}, 8, Edge::Repeat);
     glTextureSubImage2D(texture.name(),
                         0,
                         0,
                         0,
-                        tile.texels,
-                        tile.texels,
+                        kDetailTexels,
+                        kDetailTexels,
                         GL_RGBA,
                         GL_UNSIGNED_BYTE,
                         tile.values.data());

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "render_node/gl/handle.h"
 #include "render_node/scene/detail_tiles.h"
@@ -10,11 +12,12 @@
 
 namespace aquarama {
 
-// Fills the two buffers and names them in the array.
+// Fills the two buffers with a mesh and names them in the array.
 void setSolids(const gl::VertexArray& array,
                const gl::Buffer& vertices,
                const gl::Buffer& indices,
-               const Mesh& mesh);
+               const std::vector<SolidVertex>& meshVertices,
+               const std::vector<std::uint32_t>& meshIndices);
 [[nodiscard]] gl::Texture makeTexture(const Tile& tile);
 
 // Draws take the place of their first index as a pointer.

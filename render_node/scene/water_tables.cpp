@@ -2,13 +2,17 @@
 #include "render_node/scene/water_tables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "common/files/derived_cache.h"
 #include "render_node/scene/shade.h"
 #include "render_node/scene/water_lobes.h"
 
@@ -164,6 +168,23 @@ Inscatter::Inscatter(const WaterSpectra& water) {
     }
 }
 
+Inscatter::Inscatter(std::span<const glm::vec3> texels, std::vector<double> exposures)
+    : exposures_{std::move(exposures)} {
+    constexpr std::size_t kTexels = std::size_t{kSightRanges} * kSightRises * kSightAzimuths;
+    assert(texels.size() == kEyes * kTexels && exposures_.size() == kEyes);
+    for (std::size_t eye = 0; eye < kEyes; ++eye) {
+        const auto own = texels.subspan(eye * kTexels, kTexels);
+        slices_.push_back({kSightRanges, kSightRises, kSightAzimuths, {own.begin(), own.end()}});
+    }
+}
+
+std::vector<glm::vec3> Inscatter::texels() const {
+    std::vector<glm::vec3> all;
+    for (const Table& slice : slices_)
+        all.insert(all.end(), slice.texels.begin(), slice.texels.end());
+    return all;
+}
+
 Table Inscatter::baked(const WaterSpectra& water, double eyeDepthMetres) const {
     const double lit = eyeDepthMetres - filterDepthMetres(eyeDepthMetres);
     Table table{kSightRanges, kSightRises, kSightAzimuths, {}};
@@ -198,6 +219,31 @@ double Inscatter::exposureAt(double eyeDepthMetres) const {
     const double place = eyePlace(eyeDepthMetres);
     const auto left = std::min(static_cast<std::size_t>(place), exposures_.size() - 2);
     return std::lerp(exposures_[left], exposures_[left + 1], place - static_cast<double>(left));
+}
+
+namespace {
+
+struct WaterArrays {
+    std::vector<glm::vec3> inscatter, direct, openWater;
+    std::vector<double> exposures;
+
+    auto arrays() { return std::tie(inscatter, direct, openWater, exposures); }
+};
+
+}  // namespace
+
+WaterTables waterTables(WaterType type) {
+    WaterArrays kept = derivedTables<WaterArrays>(DerivedKey("water").add(type), [&] {
+        const WaterSpectra water = seaWater(type);
+        const Inscatter inscatter{water};
+        return WaterArrays{inscatter.texels(),
+                           bakeDirect(water).texels,
+                           bakeOpenWater(water).texels,
+                           inscatter.exposures()};
+    });
+    return {Inscatter{kept.inscatter, std::move(kept.exposures)},
+            {kRanges, kDepths, 3, std::move(kept.direct)},
+            {kDepths, kRises, 1, std::move(kept.openWater)}};
 }
 
 glm::vec3 primariesDownwelling(const WaterSpectra& water) {

@@ -3,6 +3,7 @@
 // shaders: separate coefficients for the way down (Kd) and for the way to the eye (a + 0.51 b).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -39,6 +40,8 @@ struct Table {
 class Inscatter {
   public:
     explicit Inscatter(const WaterSpectra& water);
+    // From what texels() and exposures() returned.
+    Inscatter(std::span<const glm::vec3> texels, std::vector<double> exposures);
     [[nodiscard]] Table atDepth(double eyeDepthMetres) const;
     // Into a table of `atDepth`; takes no memory.
     void mixAtDepth(double eyeDepthMetres, Table& table) const;
@@ -46,12 +49,22 @@ class Inscatter {
     // hold its colour, before daylight. Smooth in depth.
     [[nodiscard]] double exposureAt(double eyeDepthMetres) const;
 
+    [[nodiscard]] std::vector<glm::vec3> texels() const;  // of all depths of the eye, one by one
+    [[nodiscard]] const std::vector<double>& exposures() const { return exposures_; }
+
   private:
     [[nodiscard]] Table baked(const WaterSpectra& water, double eyeDepthMetres) const;
 
     std::vector<Table> slices_;
     std::vector<double> exposures_;
 };
+
+// All of a type of water. Baked once on a machine: derived data.
+struct WaterTables {
+    Inscatter inscatter;
+    Table direct, openWater;
+};
+[[nodiscard]] WaterTables waterTables(WaterType type);
 
 // Kd of daylight's three primaries about the depth that the filter leaves, 1/m.
 [[nodiscard]] glm::vec3 primariesDownwelling(const WaterSpectra& water);

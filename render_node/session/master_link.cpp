@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
 #include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama {
 namespace {
@@ -235,7 +234,7 @@ void MasterLink::take(const Explanation& explanation) {
 
 // A render thread that is still in join() is not told: it goes on waiting while we say hello again.
 void MasterLink::lose(const std::string& why) {
-    spdlog::warn("{}: {}; joining again", name_, why);
+    logWarning("{}: {}; joining again", name_, why);
     const bool isJoining = phase_ == Phase::Fetching;
     phase_ = Phase::Outside;
     session_ = 0;  // what is still on its way means nothing any more
@@ -271,9 +270,9 @@ void MasterLink::greet(Instant now) {
     }
     if (now - lastComplaint_ < kComplaint) return;
     lastComplaint_ = now;
-    spdlog::warn("{}: {}; still trying",
-                 name_,
-                 lastDismissal_.empty() ? "no master answers" : std::exchange(lastDismissal_, {}));
+    logWarning("{}: {}; still trying",
+               name_,
+               lastDismissal_.empty() ? "no master answers" : std::exchange(lastDismissal_, {}));
 }
 
 }  // namespace aquarama

@@ -70,7 +70,7 @@ void morph(Fish self, bool ontoControlMesh, uint first, uint vertex, uvec2 paren
 
 void main() {
     uint thread = gl_LocalInvocationID.x;
-    Fish self = fish[turns[turn].firstFish + gl_WorkGroupID.x];
+    Fish self = fish[turns[firstFishOf(turn)] + gl_WorkGroupID.x];
     for (uint i = thread; i < kControlPoints; i += kThreads) controlPoints[i] = controlPointOf(self, i);
     barrier();
 

@@ -20,11 +20,14 @@ Command finsOf(Mesh mesh, uint fish, uint first) {
 
 void clear() {
     for (uint t = 0u; t < kTurns; ++t) {
-        turns[t] = Turn(0u, 1u, 1u, 0u, 1u, 1u, 0u, 0u);
+        turns[bodyGroupsOf(t)] = turns[finGroupsOf(t)] = turns[firstFishOf(t)] = 0u;
+        turns[bodyGroupsOf(t) + 1u] = turns[bodyGroupsOf(t) + 2u] = 1u;
+        turns[finGroupsOf(t) + 1u] = turns[finGroupsOf(t) + 2u] = 1u;
         for (uint k = 0u; k < speciesCount * kSurfaces; ++k) {
             uint at = t * kMostSpecies * kSurfaces + k;
-            pieces[at] = Piece(0u, 0u, 0u);
-            bodies[at].instances = fins[at].instances = 0u;
+            setPiece(at, Piece(0u, 0u, 0u));
+            drawNothing(at);
+            drawNothing(kFirstFins + at);
         }
     }
 }
@@ -38,11 +41,11 @@ void place(uint species, uint surface, uint first, uint fish) {
         uint now = min(fish - placed, (roomVertices - usedVertices) / mesh.vertexCount);
         if (now > 0u) {
             uint at = (turn * kMostSpecies + species) * kSurfaces + surface;
-            pieces[at] = Piece(first + placed, now, usedVertices);
-            bodies[at] = bodyOf(mesh, now, first + placed);
-            fins[at] = finsOf(mesh, now, first + placed);
-            if (turns[turn].bodyGroups == 0u) turns[turn].firstFish = first + placed;
-            turns[turn].bodyGroups += now;
+            setPiece(at, Piece(first + placed, now, usedVertices));
+            setCommand(at, bodyOf(mesh, now, first + placed));
+            setCommand(kFirstFins + at, finsOf(mesh, now, first + placed));
+            if (turns[bodyGroupsOf(turn)] == 0u) turns[firstFishOf(turn)] = first + placed;
+            turns[bodyGroupsOf(turn)] += now;
             usedVertices += now * mesh.vertexCount;
             placed += now;
         }
@@ -52,9 +55,9 @@ void place(uint species, uint surface, uint first, uint fish) {
         }
     }
     Mesh few = kinds[species].meshes[0];
-    uint at = species * kTails + 1u + surface;
-    tails[at] = bodyOf(few, fish - placed, first + placed);
-    tails[at + 1u + kSurfaces] = finsOf(few, fish - placed, first + placed);
+    uint at = kFirstTails + species * kTails + 1u + surface;
+    setCommand(at, bodyOf(few, fish - placed, first + placed));
+    setCommand(at + 1u + kSurfaces, finsOf(few, fish - placed, first + placed));
 }
 
 // Few triangles, those that fade, points: one behind the other, and those that fade are drawn as
@@ -66,10 +69,11 @@ uint placeTail(uint species, uint first) {
     firsts[list + kFading] = first + few;
     firsts[list + kPoint] = first + few + fading;
     Mesh mesh = kinds[species].meshes[0];
-    tails[species * kTails] = bodyOf(mesh, few + fading, first);
-    tails[species * kTails + 1u + kSurfaces] = finsOf(mesh, few + fading, first);
-    tails[species * kTails + 2u + 2u * kSurfaces] =
-        Command(kPointIndices, fading + totals[list + kPoint], 0u, 0u, first + few);
+    uint tail = kFirstTails + species * kTails;
+    setCommand(tail, bodyOf(mesh, few + fading, first));
+    setCommand(tail + 1u + kSurfaces, finsOf(mesh, few + fading, first));
+    setCommand(tail + 2u + 2u * kSurfaces,
+               Command(kPointIndices, fading + totals[list + kPoint], 0u, 0u, first + few));
     return first + few + fading + totals[list + kPoint];
 }
 
@@ -86,6 +90,6 @@ void main() {
     }
     for (uint species = 0u; species < speciesCount; ++species) first = placeTail(species, first);
     // A surface that is still there when fins are drawn need not be evaluated again.
-    for (uint t = 0u; turns[1].bodyGroups > 0u && t < kTurns; ++t)
-        turns[t].finGroups = turns[t].bodyGroups;
+    for (uint t = 0u; turns[bodyGroupsOf(1u)] > 0u && t < kTurns; ++t)
+        turns[finGroupsOf(t)] = turns[bodyGroupsOf(t)];
 }

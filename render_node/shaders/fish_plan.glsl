@@ -16,20 +16,43 @@ struct Command {  // as glDrawElementsIndirect takes it
 struct Piece {
     uint firstFish, fish, firstVertex;
 };
-struct Turn {
-    uint bodyGroups, bodyY, bodyZ;  // workgroups that evaluate it before bodies are drawn,
-    uint finGroups, finY, finZ;     // and again before fins are, where another turn came between
-    uint firstFish, padding;
-};
+const uint kPieces = kTurns * kMostSpecies * kSurfaces;  // [turn][species][surface]
+
+// All arrays are of plain numbers: of an array of structures a driver keeps a record for each
+// member of each element, which costs software OpenGL seconds a program.
 layout(std430, binding = 6) buffer Plan {
     uint totals[kMostSpecies * kStride];  // fish, [species][level]
     uint firsts[kMostSpecies * kStride];  // the place of each list's first
-    Turn turns[kTurns];
-    Piece pieces[kTurns * kMostSpecies * kSurfaces];    // [turn][species][surface]
-    Command bodies[kTurns * kMostSpecies * kSurfaces];  // the same
-    Command fins[kTurns * kMostSpecies * kSurfaces];
-    // [species]: bodies of few triangles, of its own list and of each surface's for which there was
-    // no room; the same of fins; points.
-    Command tails[kMostSpecies * kTails];
+    uint turns[kTurns * 8u];              // see bodyGroupsOf(), finGroupsOf(), firstFishOf()
+    uint pieces[kPieces * 3u];
+    uint commands[(2u * kPieces + kMostSpecies * kTails) * 5u];  // see setCommand()
 };
+
+// Of a turn, in `turns`: workgroups (x; then y and z) that evaluate it before bodies are drawn, and
+// again before fins are, where another turn came between; its first fish.
+uint bodyGroupsOf(uint turn) { return turn * 8u; }
+uint finGroupsOf(uint turn) { return turn * 8u + 3u; }
+uint firstFishOf(uint turn) { return turn * 8u + 6u; }
+
+Piece pieceAt(uint at) {
+    return Piece(pieces[at * 3u], pieces[at * 3u + 1u], pieces[at * 3u + 2u]);
+}
+void setPiece(uint at, Piece piece) {
+    pieces[at * 3u] = piece.firstFish;
+    pieces[at * 3u + 1u] = piece.fish;
+    pieces[at * 3u + 2u] = piece.firstVertex;
+}
+
+// Commands: of the bodies of each piece, of its fins, and of each species those that need no
+// surface: bodies of few triangles, of its own list and of each surface's for which there was no
+// room; the same of fins; points.
+const uint kFirstFins = kPieces, kFirstTails = 2u * kPieces;
+void setCommand(uint at, Command command) {
+    commands[at * 5u] = command.count;
+    commands[at * 5u + 1u] = command.instances;
+    commands[at * 5u + 2u] = command.firstIndex;
+    commands[at * 5u + 3u] = command.firstVertex;
+    commands[at * 5u + 4u] = command.firstInstance;
+}
+void drawNothing(uint at) { commands[at * 5u + 1u] = 0u; }
 #endif

@@ -14,7 +14,7 @@ layout(location = 18) uniform uint fishCount;
 bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
     Mesh mesh = kinds[species].meshes[1u + surface];
     for (uint t = 0u; t < kTurns; ++t) {
-        Piece piece = pieces[(t * kMostSpecies + species) * kSurfaces + surface];
+        Piece piece = pieceAt((t * kMostSpecies + species) * kSurfaces + surface);
         if (slot - piece.firstFish >= piece.fish) continue;
         firstVertex = piece.firstVertex + (slot - piece.firstFish) * mesh.vertexCount - mesh.firstVertex;
         return true;

@@ -6,9 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
 #include "common/units/error.h"
+#include "common/units/log.h"
 #include "render_node/show/measured_quality.h"
 #include "render_node/show/snapshot.h"
 #include "render_node/show/window_fit.h"
@@ -81,14 +80,15 @@ void ChannelShow::run(Admission first) {
         session_.prepared(bears_);
         const Release end = play();
         if (end == Release::Quit) break;
-        spdlog::info("lost the master; joining again");
+        logInfo("lost the master; joining again");
         admission = session_.join();
     }
-    if (shown_ && !options_.snapshotFolder.empty())
-        writeSnapshot(options_.snapshotFolder,
-                      options_.channel,
-                      *picture_,
-                      options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
+    if (!shown_ || options_.snapshotFolder.empty()) return;
+    if (undrawn_) draw(*undrawn_);
+    writeSnapshot(options_.snapshotFolder,
+                  options_.channel,
+                  *picture_,
+                  options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
 }
 
 // A show that goes on after an interruption is not built a second time.
@@ -99,7 +99,7 @@ void ChannelShow::build(Admission admission) {
     if (picture_ && picture_->sizePixels() != size)
         throw Error("channel \"" + options_.channel +
                     "\" has another size than before; start its node again");
-    spdlog::info("building {} x {} pixels on {}", size.x, size.y, context_.description());
+    logInfo("building {} x {} pixels on {}", size.x, size.y, context_.description());
     pointing_.emplace(admission.rig, channel);
     watched_.reset();
     offscreen_.emplace(GL_RGBA8, size);
@@ -121,7 +121,7 @@ void ChannelShow::chooseQuality() {
     } else {
         bears_ = finestWithin(kBudgetShare / built_->rig.timing.refreshHertz,
                               [this](QualityTier quality) { return secondsAFrame(quality); });
-        spdlog::info("keeps up with quality {}", nameOf(bears_));
+        logInfo("keeps up with quality {}", nameOf(bears_));
     }
     if (!picture_ || quality_ != bears_) buildPicture(bears_);
 }
@@ -144,18 +144,24 @@ Release ChannelShow::play() {
         FrameTimes times{.state = session_.stateArrival()};
         feed(state->eye);
         if (state->quality != quality_) buildPicture(state->quality);
-        draw(*state);
-        waitForGpu();
-        refuseLoss();
+        const bool seen = isSeen(state->frame);
+        if (seen) {
+            draw(*state);
+            waitForGpu();
+            refuseLoss();
+        }
         times.ready = now();
         const Release release = session_.readyThenWait(state->frame);
         if (release == Release::Rejoin || release == Release::Quit) return release;
         if (release == Release::Skip) continue;
-        context_.swap();
+        if (seen) context_.swap();
         times.present = now();
         trace_.write(state->frame, times);
-        film(state->frame);
-        if (!std::exchange(shown_, true)) spdlog::info("showing");
+        if (film_ && isFilmed(state->frame))
+            film_->write(state->frame.value,
+                         takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
+        undrawn_ = seen ? std::nullopt : state;
+        if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
 }
@@ -215,9 +221,13 @@ std::optional<WatchedMind> ChannelShow::watchMind(const StateFrame& frame) {
     return mind;
 }
 
-void ChannelShow::film(Frame frame) {
-    if (!film_ || frame.value % static_cast<std::uint64_t>(options_.filmEvery) != 0) return;
-    film_->write(frame.value, takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
+bool ChannelShow::isFilmed(Frame frame) const {
+    return frame.value % static_cast<std::uint64_t>(options_.filmEvery) == 0;
+}
+
+// Without a window the clip alone looks at frames: those between its pictures need not be drawn.
+bool ChannelShow::isSeen(Frame frame) const {
+    return context_.hasWindow() || !film_ || isFilmed(frame);
 }
 
 }  // namespace aquarama

@@ -41,7 +41,8 @@ class ChannelShow {
     // Where in the picture a place of the window lies; where there is none, its middle.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
     [[nodiscard]] std::optional<WatchedMind> watchMind(const StateFrame& frame);
-    void film(Frame frame);
+    [[nodiscard]] bool isFilmed(Frame frame) const;
+    [[nodiscard]] bool isSeen(Frame frame) const;
 
     Session& session_;
     Context& context_;
@@ -58,6 +59,7 @@ class ChannelShow {
     std::optional<std::uint32_t> watched_;  // the fish whose mind is shown
     std::chrono::nanoseconds askedAt_{};
     bool shown_ = false;
+    std::optional<StateFrame> undrawn_;  // the last frame, where nobody saw it
 };
 
 }  // namespace aquarama

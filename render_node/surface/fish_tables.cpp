@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/body/fin_motion.h"
+#include "common/files/derived_cache.h"
 #include "common/skin/coarser_level.h"
 #include "common/units/error.h"
 
@@ -150,8 +152,8 @@ class Gatherer {
     SpeciesTables add(const SchoolSpecies& species, std::size_t finest) {
         SpeciesTables tables;
         const std::vector<RecordedPoint> points = recordedPoints(species.body, species.repertoire);
-        append<RecordedPoint>(recorded, points);
-        addFins(species.body.fins, recorded);
+        append<RecordedPoint>(all_.recorded, points);
+        addFins(species.body.fins, all_.recorded);
         tables.area.w = reachOf(points);
         LimitTable coarser = makeLimitTable(species.body, 0);
         const FewTriangles few = makeFewTriangles(species.body, coarser);
@@ -167,19 +169,14 @@ class Gatherer {
         return tables;
     }
 
-    std::vector<RecordedPoint> recorded;
-    std::vector<std::uint32_t> firstEntry, parents, indices;
-    std::vector<StencilEntry> entries;
-    std::vector<SurfaceVertex> places;
-    std::vector<FewTriangles::Vertex> fewVertices;
-    std::vector<std::uint32_t> fewIndices;
+    [[nodiscard]] FishArrays take() { return std::move(all_); }
 
   private:
     SpeciesTables::Mesh add(const FewTriangles& few) {
         SpeciesTables::Mesh mesh{};
         mesh.vertices = static_cast<std::uint32_t>(few.vertices.size());
-        mesh.firstVertex = append<FewTriangles::Vertex>(fewVertices, few.vertices);
-        mesh.firstBodyIndex = append<std::uint32_t>(fewIndices, few.indices);
+        mesh.firstVertex = append<FewTriangles::Vertex>(all_.fewVertices, few.vertices);
+        mesh.firstBodyIndex = append<std::uint32_t>(all_.fewIndices, few.indices);
         mesh.bodyIndices = static_cast<std::uint32_t>(few.bodyIndices);
         mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
         mesh.finIndices = static_cast<std::uint32_t>(few.indices.size() - few.bodyIndices);
@@ -190,9 +187,9 @@ class Gatherer {
     void addPlaces(const FewTriangles& few) {
         for (const FewTriangles::Place& place : few.cage) {
             const auto& [a, b, c] = place.controlPoints;
-            parents.push_back(a | b << 9U | c << 18U);
-            parents.push_back(glm::packUnorm2x16({place.weights[0], place.weights[1]}));
-            parents.push_back(packedNormal(place.normal));
+            all_.parents.push_back(a | b << 9U | c << 18U);
+            all_.parents.push_back(glm::packUnorm2x16({place.weights[0], place.weights[1]}));
+            all_.parents.push_back(packedNormal(place.normal));
         }
     }
 
@@ -204,15 +201,15 @@ class Gatherer {
         SpeciesTables::Mesh mesh{};
         mesh.vertices = static_cast<std::uint32_t>(table.vertices.size());
         mesh.firstEntry = addStencils(surface, table);
-        mesh.firstParent = static_cast<std::uint32_t>(parents.size());
-        mesh.firstVertex = static_cast<std::uint32_t>(places.size());
+        mesh.firstParent = static_cast<std::uint32_t>(all_.parents.size());
+        mesh.firstVertex = static_cast<std::uint32_t>(all_.places.size());
         if (surface == 0)
             addVertices(table, few);
         else
             addVertices(table,
                         surface == 1 ? coarser : table,
                         coarserParents(body, static_cast<int>(surface), coarser));
-        mesh.firstBodyIndex = append<std::uint32_t>(indices, table.indices);
+        mesh.firstBodyIndex = append<std::uint32_t>(all_.indices, table.indices);
         mesh.bodyIndices = static_cast<std::uint32_t>(table.bodyIndices);
         mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
         mesh.finIndices = static_cast<std::uint32_t>(table.indices.size() - table.bodyIndices);
@@ -221,7 +218,7 @@ class Gatherer {
 
     void addVertices(const LimitTable& controlMesh, const FewTriangles& few) {
         for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
-            places.push_back(
+            all_.places.push_back(
                 {controlMesh.vertices[i], few.cage.at(i).place.rest, few.cage.at(i).place.fin});
     }
     // coarser: where the parents are painted as the coarser level has them.
@@ -230,15 +227,15 @@ class Gatherer {
                      std::span<const std::array<std::uint32_t, 2>> pairs) {
         for (std::uint32_t i = 0; i < table.vertices.size(); ++i) {
             if (i >= table.skinVertices) {  // an attachment, the same at every level
-                parents.push_back(i | i << 16U);
-                places.push_back(
+                all_.parents.push_back(i | i << 16U);
+                all_.places.push_back(
                     {table.vertices[i], table.vertices[i].rest, table.vertices[i].fin});
                 continue;
             }
             const auto& [a, b] = pairs[i];
-            parents.push_back(a | b << 16U);
+            all_.parents.push_back(a | b << 16U);
             const SkinPlace &one = coarser.vertices.at(a), &other = coarser.vertices.at(b);
-            places.push_back(
+            all_.places.push_back(
                 {table.vertices[i], 0.5F * (one.rest + other.rest), 0.5F * (one.fin + other.fin)});
         }
     }
@@ -249,10 +246,11 @@ class Gatherer {
         const bool serves = std::ranges::equal(table.entries, shared.entries, sameEntry) &&
                             table.firstEntry == shared.firstEntry;
         if (!isFirst_ && serves) return shared.at;
-        const auto firstOfAll = static_cast<std::uint32_t>(entries.size());
-        append<StencilEntry>(entries, table.entries);
-        const auto at = static_cast<std::uint32_t>(firstEntry.size());
-        for (const std::uint32_t first : table.firstEntry) firstEntry.push_back(firstOfAll + first);
+        const auto firstOfAll = static_cast<std::uint32_t>(all_.entries.size());
+        append<StencilEntry>(all_.entries, table.entries);
+        const auto at = static_cast<std::uint32_t>(all_.firstEntry.size());
+        for (const std::uint32_t first : table.firstEntry)
+            all_.firstEntry.push_back(firstOfAll + first);
         if (isFirst_) shared = {table.firstEntry, table.entries, at};
         return at;
     }
@@ -267,37 +265,69 @@ class Gatherer {
         std::uint32_t at = 0;
     };
     std::array<Stencils, kSurfaces> shared_;
+    FishArrays all_;
     bool isFirst_ = true;
 };
 
+FishArrays makeFishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
+    Gatherer gatherer;
+    std::vector<SpeciesTables> species;
+    for (const SchoolSpecies& member : cast) species.push_back(gatherer.add(member, finest));
+    FishArrays arrays = gatherer.take();
+    arrays.species = std::move(species);
+    return arrays;
+}
+
+// How many fish there are follows from the cast alone.
+void countFish(std::span<const SchoolSpecies> cast, std::vector<SpeciesTables>& species) {
+    std::size_t firstFish = 0;
+    std::size_t groups = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        const std::size_t fish = cast[i].fish.size();
+        species[i].firstFish = static_cast<std::uint32_t>(firstFish);
+        species[i].fish = static_cast<std::uint32_t>(fish);
+        species[i].firstGroup = static_cast<std::uint32_t>(groups);
+        species[i].groups = static_cast<std::uint32_t>((fish + kGroup - 1) / kGroup);
+        firstFish += fish;
+        groups += species[i].groups;
+    }
+}
+
+bool allHaveSources(std::span<const SchoolSpecies> cast) {
+    return std::ranges::all_of(cast,
+                               [](const SchoolSpecies& one) { return one.source.has_value(); });
+}
+
 }  // namespace
 
-FishTables::FishTables(std::span<const SchoolSpecies> members, std::size_t finest) {
-    if (members.size() > kMostSpecies)
+FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
+    if (cast.size() > kMostSpecies)
         throw Error("a scene has more than " + std::to_string(kMostSpecies) +
                     " species; leave some out");
-    Gatherer all;
-    std::size_t firstFish = 0;
-    for (const SchoolSpecies& member : members) {
-        SpeciesTables tables = all.add(member, finest);
-        tables.firstFish = static_cast<std::uint32_t>(firstFish);
-        tables.fish = static_cast<std::uint32_t>(member.fish.size());
-        tables.firstGroup = static_cast<std::uint32_t>(groups);
-        tables.groups = static_cast<std::uint32_t>((member.fish.size() + kGroup - 1) / kGroup);
-        firstFish += member.fish.size();
-        groups += tables.groups;
-        mostVertices = std::max<std::size_t>(mostVertices, tables.meshes.at(1 + finest).vertices);
-        species.push_back(tables);
+    DerivedKey key("fish");
+    key.add(finest);
+    for (const SchoolSpecies& member : cast)
+        if (member.source) key.add(std::as_bytes(std::span{member.source->bytes}));
+    const auto make = [&] { return makeFishArrays(cast, finest); };
+    FishArrays arrays = allHaveSources(cast) ? derivedTables<FishArrays>(key, make) : make();
+    countFish(cast, arrays.species);
+    return arrays;
+}
+
+FishTables::FishTables(const FishArrays& arrays, std::size_t finest) {
+    for (const SpeciesTables& species : arrays.species) {
+        groups += species.groups;
+        mostVertices = std::max<std::size_t>(mostVertices, species.meshes.at(1 + finest).vertices);
     }
-    cast = makeBuffer(species, "cast");
-    recorded = makeBuffer(all.recorded, "recorded control points");
-    firstEntries = makeBuffer(all.firstEntry, "stencil offsets");
-    entries = makeBuffer(all.entries, "stencil entries");
-    parents = makeBuffer(all.parents, "parents of vertices");
-    fewVertices = makeBuffer(all.fewVertices, "few vertices");
-    fewIndices = makeBuffer(all.fewIndices, "few indices");
-    places = makeBuffer(all.places, "skin places");
-    indices = makeBuffer(all.indices, "fish indices");
+    cast = makeBuffer(arrays.species, "cast");
+    recorded = makeBuffer(arrays.recorded, "recorded control points");
+    firstEntries = makeBuffer(arrays.firstEntry, "stencil offsets");
+    entries = makeBuffer(arrays.entries, "stencil entries");
+    parents = makeBuffer(arrays.parents, "parents of vertices");
+    fewVertices = makeBuffer(arrays.fewVertices, "few vertices");
+    fewIndices = makeBuffer(arrays.fewIndices, "few indices");
+    places = makeBuffer(arrays.places, "skin places");
+    indices = makeBuffer(arrays.indices, "fish indices");
 }
 
 }  // namespace aquarama

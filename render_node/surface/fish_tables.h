@@ -6,7 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -17,6 +19,7 @@
 #include "common/motion/motion_state.h"
 #include "common/motion/repertoire.h"
 #include "common/skin/limit_table.h"
+#include "common/units/digest.h"
 #include "render_node/gl/handle.h"
 #include "render_node/surface/few_triangles.h"
 #include "render_node/surface/fish_plan.h"
@@ -29,6 +32,7 @@ struct SchoolSpecies {
     FishSkin skin;
     Repertoire repertoire;
     std::vector<FishTraits> fish;
+    std::optional<Digest> source = {};  // of the files that body and repertoire were read from
 };
 
 // A place, body lengths, and a heading (headingsOf()), half turns: 16 bits each.
@@ -79,11 +83,36 @@ struct SurfaceVertex {
 };
 static_assert(sizeof(SurfaceVertex) == 52);
 
-struct FishTables {
-    // finest: of the surfaces, 0 .. kSurfaces - 1; there are none beyond.
-    FishTables(std::span<const SchoolSpecies> cast, std::size_t finest);
-
+// What the GPU keeps of the species of a cast, before it goes there.
+struct FishArrays {
     std::vector<SpeciesTables> species;
+    std::vector<RecordedPoint> recorded;
+    std::vector<std::uint32_t> firstEntry, parents, indices;
+    std::vector<StencilEntry> entries;
+    std::vector<SurfaceVertex> places;
+    std::vector<FewTriangles::Vertex> fewVertices;
+    std::vector<std::uint32_t> fewIndices;
+
+    auto arrays() {
+        return std::tie(species,
+                        recorded,
+                        firstEntry,
+                        parents,
+                        indices,
+                        entries,
+                        places,
+                        fewVertices,
+                        fewIndices);
+    }
+};
+
+// finest: of the surfaces, 0 .. kSurfaces - 1; there are none beyond. Made once on a machine, where
+// each species says what it was made from: derived data. Throws Error.
+[[nodiscard]] FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest);
+
+struct FishTables {
+    FishTables(const FishArrays& arrays, std::size_t finest);
+
     std::size_t mostVertices = 1;  // of a fish
     std::size_t groups = 0;
     gl::Buffer cast, recorded, firstEntries, entries, parents, places, indices;

@@ -2,6 +2,7 @@
 #include "render_node/surface/school_surface.h"
 
 #include <algorithm>
+#include <future>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -91,18 +92,27 @@ void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::si
 
 }  // namespace
 
+namespace {
+
+std::vector<SkinPainter> paintersOf(std::span<const SchoolSpecies> cast) {
+    std::vector<SkinPainter> painters;
+    for (const SchoolSpecies& member : cast) painters.emplace_back(member.skin, member.body.eye);
+    return painters;
+}
+
+}  // namespace
+
 struct SchoolSurface::Parts {
     Parts(std::span<const SchoolSpecies> members,
           const SurfaceOptions& surfaceOptions,
           std::shared_ptr<const SkinPrograms> skins)
         : options{surfaceOptions},
           limits{detailLimits(options.fineness)},
-          tables{members, surfaceOf(options.finest)},
-          programs{std::move(skins)} {
-        for (const SchoolSpecies& member : members) {
-            fish += member.fish.size();
-            painters.emplace_back(member.skin, member.body.eye);
-        }
+          arrays{std::async(std::launch::async, fishArrays, members, surfaceOf(options.finest))},
+          programs{std::move(skins)},
+          painters{paintersOf(members)},
+          tables{arrays.get(), surfaceOf(options.finest)} {
+        for (const SchoolSpecies& member : members) fish += member.fish.size();
         makeBuffers(members);
         makeVertexArrays();
         setConstants();
@@ -126,9 +136,10 @@ struct SchoolSurface::Parts {
 
     SurfaceOptions options;
     DetailLimits limits;
-    FishTables tables;
+    std::future<FishArrays> arrays;  // made while this thread compiles shaders
     std::shared_ptr<const SkinPrograms> programs;
     std::vector<SkinPainter> painters;  // one a species
+    FishTables tables;
     std::size_t fish = 0;
     std::size_t turns = 1;  // of the surface buffer, at most
     gl::Buffer before, after, traits, choices, counts, plan, school, surface, slots;

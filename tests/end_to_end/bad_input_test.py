@@ -1,145 +1,272 @@
-"""Bad input gets one line that says what and where, and a status other than 0."""
+"""Bad input gets one line on stderr that says what, where and what to do, and status 2 for usage, 1 for everything else."""
 
-import os
 import re
 import socket
 import subprocess
-import time
 import unittest
 from pathlib import Path
 
-from show import BIN, ROOT, aquarama, control_address, rig_on_free_ports, temporary_folder
+from show import BIN, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
+
+PROGRAMS = ["aquarama", "aquarama-master", "aquarama-node", "aquarama-capture", "aquarama-study", "aquarama-calibrate"]
+COMMANDS = ["run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity", "controllers", "study", "check",
+            "inspect", "status", "pilot", "explain"]
+STARTED = r"starting the master and 3 nodes of \S+\n(\[.*\n)*"
 
 
-class BadInput(unittest.TestCase):
+class Case(unittest.TestCase):
     def setUp(self):
         self.folder = temporary_folder()
+        self.path = Path(self.folder.name)
 
     def tearDown(self):
         self.folder.cleanup()
 
-    def refuses(self, expected, *arguments, **options):
-        run = aquarama(*arguments, timeout=60, **options)
-        self.assertNotEqual(run.returncode, 0, run.stdout)
-        errors = [line for line in run.stderr.splitlines() if re.search(expected, line)]
-        self.assertTrue(errors, f"no line of this says {expected}:\n{run.stderr}")
-        return run
+    def said(self, run, status, stdout, stderr):
+        """The whole output, each stream a regular expression in which a dot stays within its line."""
+        self.assertRegex(run.stderr, rf"\A{stderr}\Z")
+        self.assertRegex(run.stdout, rf"\A{stdout}\Z")
+        self.assertEqual(run.returncode, status)
+
+    def refuses(self, line, *arguments, stdout="", **options):
+        """One line, before any process of a show starts."""
+        self.said(aquarama(*arguments, timeout=60, **options), 1, stdout, line + "\n")
+
+    def ends(self, line, *arguments, **options):
+        """One line of `aquarama run`, of a process that it has started."""
+        self.refuses(line, "run", *arguments, "--headless", "--frames", 1, stdout=STARTED, **options)
+
+    def misused(self, line, *arguments, program="aquarama"):
+        run = subprocess.run([BIN / program, *map(str, arguments)], capture_output=True, text=True, timeout=60, cwd=ROOT)
+        self.said(run, 2, "", rf"{line}; see (aquarama[ \w-]*) --help\n")
 
     def edited(self, *replace):
         return rig_on_free_ports(self.folder.name, replace=replace)
 
-    def test_an_unknown_field_is_named_with_its_place(self):
+
+class Usage(Case):
+    def test_unknown_arguments_and_commands(self):
+        self.misused("aquarama run: The following argument was not expected: --warp-nine", "run", "--warp-nine")
+        self.misused("aquarama: The following argument was not expected: dance", "dance")
+        self.misused("aquarama: a command is required")
+        for command in COMMANDS:
+            with self.subTest(command):
+                self.misused(r"aquarama[\w -]*: The following arguments? (was|were) not expected: (\S+ )*--warp-nine( \S+)*|"
+                             r"aquarama[\w -]*: .* is required", command, "--warp-nine")
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.misused(rf"{program}[\w -]*: .*(--warp-nine|required).*", "--warp-nine", program=program)
+
+    def test_a_number_out_of_range_is_refused_with_what_is_allowed(self):
+        whole, count = "a whole number from", "1 to 1000000000"
+        seed = f"{whole} 0 to 4294967295"
+        for command, program, option, allowed in [
+            ("run", "aquarama run", "--frames", f"{whole} {count}"),
+            ("run", "aquarama run", "--seed", seed),
+            ("run", "aquarama run", "--fish", f"{whole} 0 to 1000000"),
+            ("run --clip a.mp4", "aquarama run", "--film-every", f"{whole} 1 to 10000"),
+            ("replay FILE", "aquarama replay", "--frames", f"{whole} {count}"),
+            ("master RIG", "aquarama-master", "--frames", f"{whole} {count}"),
+            ("master RIG", "aquarama-master", "--seed", seed),
+            ("master RIG", "aquarama-master", "--fish", f"{whole} 0 to 1000000"),
+            ("explain", "aquarama-master explain", "--fish", f"{whole} 0 to 1000000"),
+            ("explain --fish 1 --replay FILE", "aquarama-master explain", "--tick", f"{whole} 0 to 1000000000"),
+            ("node NAME --master tcp://127.0.0.1:1 --film PIPE", "aquarama-node", "--film-every", f"{whole} 1 to 10000"),
+            ("study", "aquarama-study", "--seeds", f"{whole} 1 to 100"),
+            ("study", "aquarama-study", "--minutes", "a number from 0.1 to 1440"),
+            ("study chronicle SCENE", "aquarama-study chronicle", "--hours", "a number from 0.01 to 1000"),
+            ("study chronicle SCENE", "aquarama-study chronicle", "--seed", seed),
+            ("export FILE --segment forward_slow --csv a", "aquarama-capture export", "--cycles", f"{whole} 1 to 1000"),
+            ("fidelity --out DIR", "aquarama-capture fidelity", "--seed", seed),
+            ("fidelity --out DIR", "aquarama-capture fidelity", "--seconds", "a number from 1 to 3600"),
+            ("search SPECIES --out FILE", "aquarama-capture search", "--trials", f"{whole} 1 to 1000000"),
+        ]:
+            for value in ["-1", "99999999999999999999", "many", "3x", "nan"] + (["0"] if "from 0 " not in allowed else []):
+                with self.subTest(command, option=option, value=value):
+                    self.misused(f'{program}: {option}: "{value}" is not {allowed}', *command.split(), f"{option}={value}")
+        self.misused(f'aquarama run: --frames: "-1" is not {whole} {count}', "run", "--frames", -1)
+
+    def test_options_that_need_or_exclude_each_other(self):
+        self.misused("aquarama run: --deep requires --snapshot", "run", "--headless", "--frames", 1, "--deep")
+        self.misused("aquarama replay: --deep requires --snapshot", "replay", "FILE", "--deep")
+        self.misused("aquarama run: --clip-of requires --clip", "run", "--clip-of", "hall")
+        self.misused("aquarama run: --(live|clip) excludes --(live|clip)", "run", "--live", "--clip", "a.mp4")
+        self.misused('aquarama run: --clip: "a.avi" is not FILE.mp4 or FILE.webp', "run", "--clip", "a.avi")
+        self.misused("aquarama-node: --deep requires --snapshot", "node", "left", "--master", "tcp://127.0.0.1:1", "--deep")
+
+    def test_a_malformed_address(self):
+        self.misused(r'aquarama-node: --master: "somewhere" is not an address; write it as tcp://HOST:PORT',
+                     "node", "left", "--master", "somewhere", "--headless")
+
+    def test_help_is_for_every_command_and_says_what_inspect_takes(self):
+        for command in COMMANDS:
+            asked = aquarama(command, "--help")
+            self.assertEqual((asked.returncode, asked.stderr), (0, ""), command)
+            self.assertIn("--help", asked.stdout)
+        inspect = aquarama("inspect", "--help").stdout
+        for word in ["rig", "scene", "species", "repertoire", "recording", "--report"]:
+            self.assertIn(word, inspect)
+
+    def test_version_names_commit_build_and_the_libraries_that_the_program_links(self):
+        links = {"aquarama": ["Protobuf"], "aquarama-master": ["ZeroMQ", "Protobuf"], "aquarama-node": ["GLFW", "OpenSubdiv", "ZeroMQ"],
+                 "aquarama-capture": ["Eigen", "NLopt"], "aquarama-study": ["Protobuf"], "aquarama-calibrate": ["FFmpeg-libavcodec"]}
+        for program in PROGRAMS:
+            run = subprocess.run([BIN / program, "--version"], capture_output=True, text=True, timeout=60)
+            self.said(run, 0, rf"{program} \d+\.\d+\.\d+\n"
+                              r"commit     ([0-9a-f]{12}( and changes)?|unknown)\n"
+                              r"build      (Debug|Release), GNU \d+\.\d+\.\d+\n"
+                              r"libraries  ([\w-]+ \d[\w.]*, )*[\w-]+ \d[\w.]*\n", "")
+            for library in links[program]:
+                self.assertIn(f" {library} ", run.stdout)
+        self.assertNotIn("GLFW", subprocess.run([BIN / "aquarama-master", "--version"], capture_output=True, text=True).stdout)
+
+
+class Files(Case):
+    def test_an_unknown_field_is_named_with_its_place_in_plain_words(self):
         rig = self.edited((r"screen \{", "screen { curvature: 3"))
-        self.refuses(r"desk\.txtpb:\d+:\d+:.*curvature", "check", rig)
+        self.refuses(r'aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or remove it',
+                     "check", rig)
 
     def test_overlapping_ids(self):
         rig = self.edited((r"\bid: 2\b", "id: 1"))
-        self.refuses(r"desk\.txtpb:\d+:\d+:.*\b1\b", "check", rig)
+        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: .*\b1\b.*", "check", rig)
 
     def test_a_projector_that_misses_the_screen(self):
         rig = Path(self.edited())
-        text = re.sub(r"yaw_deg: *-?[\d.]+", "yaw_deg: 170", rig.read_text(), count=1)
-        rig.write_text(text)
-        self.refuses(r"desk\.txtpb:\d+:\d+:.*(misses|screen)", "check", rig)
+        rig.write_text(re.sub(r"yaw_deg: *-?[\d.]+", "yaw_deg: 170", rig.read_text(), count=1))
+        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", "check", rig)
+        self.ends(r"aquarama-master: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", rig)
 
     def test_a_window_of_no_size(self):
         rig = self.edited((r"width_px: *480", "width_px: 0"))
-        self.refuses(r"desk\.txtpb:\d+:\d+:", "check", rig)
+        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: width_px is 0: .*", "check", rig)
+
+    def test_all_files_are_checked_and_each_bad_one_gets_a_line(self):
+        one, other = self.path / "one.txtpb", self.path / "other.txtpb"
+        one.write_text("screens {}")
+        other.write_text('name: "rig" screen { radius_m: 0 }')
+        good = ROOT / "config/scenes/reef.txtpb"
+        both = aquarama("check", one, good, other)
+        self.said(both, 1, r"(?s:.+)", r'aquarama-calibrate: \S+/one\.txtpb:1:\d+: rig has no field named "screens"; .*\n'
+                                       r"aquarama-calibrate: \S+/other\.txtpb:1:\d+: .*\n")
+        self.assertEqual(both.stdout, aquarama("check", good).stdout)
+        self.assertEqual(aquarama("check", good, good).stdout, 2 * both.stdout)
 
     def test_a_rig_that_is_not_there(self):
-        self.refuses(r"nowhere\.txtpb", "check", "nowhere.txtpb")
-        self.refuses(r"nowhere\.txtpb", "run", "nowhere.txtpb", "--headless", "--frames", 1)
+        self.refuses(r"aquarama-calibrate: nowhere\.txtpb: cannot be read.*", "check", "nowhere.txtpb")
+        self.refuses(r"aquarama: nowhere\.txtpb: cannot be read.*", "run", "nowhere.txtpb", "--headless", "--frames", 1)
 
     def test_a_scene_that_is_not_there(self):
-        self.refuses(r"nowhere\.txtpb", "run", self.edited(), "--headless", "--frames", 1, "--scene", "nowhere.txtpb")
+        self.ends(r"aquarama-master: nowhere\.txtpb: cannot be read.*", self.edited(), "--scene", "nowhere.txtpb")
         rig = self.edited((r"reef\.txtpb", "atlantis.txtpb"))
-        self.refuses(r"desk\.txtpb:\d+:\d+:.*atlantis", "run", rig, "--headless", "--frames", 1)
-        self.refuses(r"desk\.txtpb:\d+:\d+:.*atlantis", "check", rig)
+        self.ends(r"aquarama-master: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", rig)
+        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", "check", rig, stdout="(.* lights .*\n)*")
 
     def test_a_mistake_in_a_scene_and_in_a_species_of_it(self):
         scene = (ROOT / "config/scenes/reef.txtpb").read_text().replace("../species", str(ROOT / "config/species"))
-        own = Path(self.folder.name) / "own.txtpb"
+        species = (ROOT / "config/species/parrotfish.txtpb").read_text()
+        hunt = 'hunt { prey: "clownfish" chase_s: 1 give_up_m: 1 rest_s: 1 }'
+        (self.path / "odd.txtpb").write_text(species.replace("persistence:", hunt + " persistence:"))
+        own = self.path / "own.txtpb"
         for wrong, expected in [
-            (scene.replace("plankton: 300", "plankton: -3"), r"own\.txtpb:\d+:\d+: .*"),
-            (scene.replace("blue_tang", "mermaid"), r"own\.txtpb:\d+:\d+: .*mermaid"),
-            (scene.replace(str(ROOT / "config/species/parrotfish"), "odd"), r"odd\.txtpb:\d+:\d+: .*hunts"),
+            (scene.replace("plankton: 300", "plankton: -3"), r"\S+/own\.txtpb:\d+:\d+: .*"),
+            (scene.replace("blue_tang", "mermaid"), r"\S+/own\.txtpb:\d+:\d+: .*mermaid.*"),
+            (scene.replace(str(ROOT / "config/species/parrotfish"), "odd"), r"\S+/odd\.txtpb:\d+:\d+: .*hunts.*"),
         ]:
-            species = (ROOT / "config/species/parrotfish.txtpb").read_text()
-            hunt = 'hunt { prey: "clownfish" chase_s: 1 give_up_m: 1 rest_s: 1 }'
-            (Path(self.folder.name) / "odd.txtpb").write_text(species.replace("persistence:", hunt + " persistence:"))
             own.write_text(wrong)
-            self.refuses(expected, "check", own)
-            self.refuses(expected, "run", self.edited(), "--headless", "--frames", 1, "--scene", own)
+            self.refuses("aquarama-calibrate: " + expected, "check", own)
+            self.ends("aquarama-master: " + expected, self.edited(), "--scene", own)
 
     def test_a_number_of_fish_that_the_scene_cannot_hold(self):
         reef = ROOT / "config/scenes/reef.txtpb"
-        for fish, expected in [(0, "only an open sea"), (999_000, "room for"), (2_000_000, "--fish")]:
-            self.refuses(expected, "run", self.edited(), "--headless", "--frames", 1, "--scene", reef, "--fish", fish)
-
-    def test_binding_past_the_loopback_is_refused(self):
-        rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://0.0.0.0:"))
-        self.refuses("loopback|keys", "run", rig, "--headless", "--frames", 1)
-
-    def test_a_malformed_address(self):
-        self.refuses("address|tcp://", "node", "left", "--master", "somewhere", "--headless")
-
-    def test_an_occupied_port(self):
-        rig = self.edited()
-        port = int(control_address(rig).rsplit(":", 1)[1])
-        with socket.socket() as other:
-            other.bind(("127.0.0.1", port))
-            other.listen()
-            self.refuses(str(port), "run", rig, "--headless", "--frames", 1)
-
-    def test_a_channel_that_the_rig_does_not_have(self):
-        rig = self.edited()
-        master = subprocess.Popen([BIN / "aquarama-master", rig, "--pattern", "grid"], stderr=subprocess.DEVNULL, cwd=ROOT)
-        try:
-            time.sleep(0.3)
-            self.refuses("ceiling", "node", "ceiling", "--master", control_address(rig), "--headless")
-        finally:
-            master.terminate()
-            master.wait(15)
-
-    def test_a_window_without_a_display(self):
-        rig = self.edited()
-        environment = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
-        self.refuses("headless", "run", rig, "--frames", 1, environment=environment)
-
-    def test_a_device_that_is_not_there(self):
-        rig = self.edited()
-        text = Path(rig).read_text()
-        Path(rig).write_text(re.sub(r'device: *"\w+"', 'device: "device:77"', text) if "device:" in text else text)
-        self.refuses("device:77", "run", rig, "--headless", "--frames", 1)
-
-    def test_no_opengl_4_5(self):
-        environment = {"MESA_GL_VERSION_OVERRIDE": "4.1"}
-        self.refuses(r"4\.5", "run", self.edited(), "--headless", "--frames", 1, environment=environment)
+        for fish, expected in [(0, "only an open sea"), (999_000, "room for")]:
+            self.ends(rf"aquarama-master: .*{expected}.*", self.edited(), "--scene", reef, "--fish", fish)
 
     def test_a_damaged_repertoire(self):
         out = aquarama("capture", "--species", "bigeye_scad", "--out", self.folder.name)
-        self.assertEqual(out.returncode, 0, out.stderr)
-        whole = next(Path(self.folder.name).glob("*.aqrep"))
+        self.assertEqual((out.returncode, out.stderr), (0, ""))
+        whole = next(self.path.glob("*.aqrep"))
         content = bytearray(whole.read_bytes())
         self.assertEqual(aquarama("inspect", whole).returncode, 0)
         whole.write_bytes(content[:-100])
-        self.refuses(whole.name, "inspect", whole)
+        self.refuses(rf"aquarama-capture: \S+/{whole.name}: .*", "inspect", whole)
         content[len(content) // 2] ^= 1
         whole.write_bytes(content)
-        self.refuses(whole.name, "inspect", whole)
+        self.refuses(rf"aquarama-capture: \S+/{whole.name}: .*", "inspect", whole)
 
-    def test_unknown_arguments_and_commands(self):
-        self.refuses("--warp-nine", "run", "--warp-nine")
-        self.refuses("dance", "dance")
-        for command in ["run", "master", "node", "capture", "check", "inspect", "export", "status", "explain", "replay"]:
-            asked = aquarama(command, "--help")
-            self.assertEqual(asked.returncode, 0, f"{command} --help: {asked.stderr}")
-            self.assertIn("--help", asked.stdout)
+    def test_a_recording_that_is_none(self):
+        none = self.path / "none.aqrec"
+        for check in [["--check"], ["--headless"], []]:
+            self.refuses(rf"aquarama: {none}: cannot be read; check the path", "replay", none, *check)
+        none.write_text("a letter to somebody")
+        self.refuses(rf"aquarama: {none}: is no recording of a show; .*", "replay", none, "--headless")
 
-    def test_a_folder_that_cannot_be_written(self):
-        blocked = Path(self.folder.name) / "file"
+    def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
+        blocked = self.path / "file"
         blocked.write_text("")
-        self.refuses("file", "run", self.edited(), "--headless", "--frames", 1, "--snapshot", blocked / "pictures")
+        rig, inside = self.edited(), blocked / "inside"
+        wrong = rf"--\w+ {inside}: cannot be written \(Not a directory\); choose another folder"
+        for arguments in [("--snapshot", inside), ("--trace", inside)]:
+            self.refuses(f"aquarama: {wrong}", "run", rig, "--headless", "--frames", 1, *arguments)
+        inside = blocked / "inside.mp4"
+        wrong_file = rf"--\w+ {inside}: cannot be written \(Not a directory\); choose another folder"
+        for option in ["--clip", "--record"]:
+            self.refuses(f"aquarama: {wrong_file}", "run", rig, "--headless", "--frames", 1, option, inside)
+        self.refuses(f"aquarama-master: {wrong_file}", "master", rig, "--record", inside)
+        for command in [("fidelity", "--out"), ("controllers", "--out"), ("capture", "--out"),
+                        ("capture", "--out", self.folder.name, "--report"), ("inspect", self.path / "a.aqrep", "--report")]:
+            with self.subTest(command):
+                self.refuses(f"aquarama-capture: {wrong}", *command, blocked / "inside")
+        self.refuses(f"aquarama-study: {wrong}", "study", "--out", blocked / "inside")
+        self.refuses(f"aquarama-capture: {wrong_file}", "search", "bigeye_scad", "--out", inside)
+        self.refuses(f"aquarama-capture: {wrong_file}", "export", "a.aqrep", "--segment", "forward_slow", "--c3d", inside)
+
+
+class Shows(Case):
+    def test_binding_past_the_loopback_is_refused(self):
+        rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://0.0.0.0:"))
+        self.refuses(r"aquarama: \S+/desk\.txtpb:\d+:\d+: .*needs keys.*", "run", rig, "--headless", "--frames", 1)
+
+    def test_an_occupied_port(self):
+        rig = self.edited()
+        ports = [int(port) for port in re.findall(r"tcp://127\.0\.0\.1:(\d+)", Path(rig).read_text())]
+        for port in ports:
+            with socket.socket() as other:
+                other.bind(("127.0.0.1", port))
+                other.listen()
+                self.refuses(rf"aquarama: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "run", rig, "--headless", "--frames", 1)
+                self.refuses(rf"aquarama-master: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "master", rig, "--pattern", "grid")
+
+    def test_a_channel_that_the_rig_does_not_have(self):
+        rig = self.edited()
+        master = start("master", rig, "--pattern", "grid")
+        try:
+            wait_until(lambda: aquarama("status", rig).returncode == 0, 30, "the master")
+            self.refuses("aquarama-node ceiling: .*ceiling.*", "node", "ceiling", "--master", control_address(rig), "--headless")
+        finally:
+            end([master])
+
+    def test_nobody_answers(self):
+        rig = self.edited()
+        for command, stdout in [(("status",), ""), (("explain", "--fish", 1), ""), (("pilot",), "w s ahead.*\n")]:
+            self.refuses(r"aquarama-master: no master answers.*", *command, rig, input="w", stdout=stdout)
+
+    def test_a_window_without_a_display(self):
+        environment = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
+        line = "aquarama: there is no display to open windows on: set DISPLAY, or draw without windows by --headless"
+        self.refuses(line, "run", self.edited(), "--frames", 1, environment=environment)
+        self.refuses(line, "run", self.edited(), environment=environment)
+
+    def test_a_display_that_is_not_there(self):
+        environment = {"DISPLAY": ":77", "WAYLAND_DISPLAY": ""}
+        self.refuses(r"aquarama-node \w+: no window can be opened .*", "run", self.edited(), stdout=STARTED, environment=environment)
+
+    def test_a_device_that_is_not_there(self):
+        rig = self.edited((r'device: *"\w+"', 'device: "device:77"'))
+        self.ends(r'aquarama-node \w+: device "device:77": .*', rig)
+
+    def test_no_opengl_4_5(self):
+        self.ends(r"aquarama-node \w+: .*4\.5.*", self.edited(), environment={"MESA_GL_VERSION_OVERRIDE": "4.1"})
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -80,11 +81,12 @@ TEST_F(ClipOfAShow, showsAChannelOfTheWorldAsItsSnapshotHasIt) {
 
 TEST_F(ClipOfAShow, whatCannotBeIsRefusedInOneLineBeforeAnythingStarts) {
     std::ofstream(path("file")) << "in the way";
-    for (const auto& [arguments, why] :
-         {std::pair{"--clip " + path("a.avi"), "FILE.mp4 or FILE.webp"},
-          std::pair{"--clip " + path("file/a.mp4"), "choose another folder"},
-          std::pair{"--clip-of ceiling --clip " + path("a.mp4"), "panorama, hall, left, middle"}}) {
-        EXPECT_EQ(run("--frames 2 " + arguments), 1) << log();
+    for (const auto& [arguments, status, why] :
+         {std::tuple{"--clip " + path("a.avi"), 2, "FILE.mp4 or FILE.webp"},
+          std::tuple{"--clip " + path("file/a.mp4"), 1, "choose another folder"},
+          std::tuple{
+              "--clip-of ceiling --clip " + path("a.mp4"), 1, "panorama, hall, left, middle"}}) {
+        EXPECT_EQ(run("--frames 2 " + arguments), status) << log();
         EXPECT_THAT(log(), testing::HasSubstr(why));
         EXPECT_EQ(std::ranges::count(log(), '\n'), 1) << log();
     }

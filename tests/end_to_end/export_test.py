@@ -9,7 +9,7 @@ from pathlib import Path
 
 from show import ROOT, aquarama, temporary_folder
 
-sys.path.insert(0, str(ROOT / "build/readers"))  # see tests/support/reader_venv.sh
+sys.path.insert(0, str(ROOT / "build/tools"))  # see tests/support/get_tools.sh
 try:
     import ezc3d
 except ImportError:
@@ -19,7 +19,7 @@ try:
 except ImportError:
     c3d = None
 
-NO_READER = "is not here: tests/support/reader_venv.sh gets it, with pip and a network"
+NO_READER = "is not here: tests/support/get_tools.sh gets it, with pip and a network"
 SEGMENTS = ["forward_slow", "forward_medium", "forward_fast", "turn_left_gradual", "turn_left_sharp",
             "turn_right_gradual", "turn_right_sharp"]
 

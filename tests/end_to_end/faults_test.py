@@ -104,6 +104,23 @@ class Faults(unittest.TestCase):
             self.assertEqual(process.wait(15), 0, name)
 
 
+def children_of(process):
+    """command line -> process id of what it has started."""
+    listing = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout
+    return {line.split(None, 1)[1]: int(line.split()[0]) for line in listing.splitlines()}
+
+
+class Lockstep(unittest.TestCase):
+    def test_a_node_that_is_killed_ends_the_show_with_one_line(self):
+        with temporary_folder() as folder:
+            run = subprocess.Popen([BIN / "aquarama", "run", rig_on_free_ports(folder), "--headless", "--frames", "100000"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=ROOT)
+            wait_until(lambda: "aquarama-node right" in " ".join(children_of(run)), 30, "the nodes")
+            os.kill(next(pid for command, pid in children_of(run).items() if "aquarama-node left" in command), signal.SIGKILL)
+            _, said = run.communicate(timeout=60)
+            self.assertEqual((run.returncode, said), (1, "aquarama: node left was killed by signal 9; the show ends\n"))
+
+
 class Run(unittest.TestCase):
     """`aquarama run` watches over its processes."""
 
@@ -120,10 +137,7 @@ class Run(unittest.TestCase):
         self.folder.cleanup()
 
     def children(self):
-        """command line -> process id of what `run` has started."""
-        listing = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(self.run_process.pid)],
-                                 capture_output=True, text=True).stdout
-        return {line.split(None, 1)[1]: int(line.split()[0]) for line in listing.splitlines()}
+        return children_of(self.run_process)
 
     def test_ctrl_c_ends_every_process_cleanly(self):
         children = self.children()

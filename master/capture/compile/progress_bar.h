@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the progress of one job on stderr: a bar on a terminal, a plain line elsewhere.
+// Shows the progress of one job as a bar on a terminal. Elsewhere nothing: stderr is for errors.
 #pragma once
 
 #include <string>

@@ -5,8 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include <unistd.h>
-
+#include "common/files/files.h"
 #include "common/motion/repertoire.h"
 #include "common/units/digest.h"
 #include "common/units/error.h"
@@ -30,7 +29,7 @@ fs::path cachedPath(const Species& species, const std::string& text, const fs::p
 std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     if (!fs::exists(path)) return std::nullopt;
     try {
-        std::vector<std::byte> bytes = readWhole(path);
+        std::vector<std::byte> bytes = readRepertoireFile(path);
         static_cast<void>(decodeRepertoire(bytes, path.string()));
         return bytes;
     } catch (const Error&) {
@@ -68,40 +67,8 @@ void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& f
 
 }  // namespace
 
-void makeFolder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder))
-        throw Error(folder.string() + ": is no folder and cannot become one; choose another");
-}
-
-std::vector<std::byte> readWhole(const fs::path& path) {
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error || size > kMostBytes)
-        throw Error(path.string() + ": cannot be read as a repertoire; check the path");
-    std::vector<std::byte> bytes(size);
-    std::ifstream file(path, std::ios::binary);
-    if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        throw Error(path.string() + ": reading failed; check its permissions");
-    return bytes;
-}
-
-void writeWhole(const fs::path& path, std::span<const std::byte> content) {
-    std::error_code error;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-    fs::path part = path;
-    part += "." + std::to_string(getpid()) + ".part";
-    std::ofstream file(part, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(content.data()),
-               static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (file) fs::rename(part, path, error);
-    if (!file || error) {
-        fs::remove(part, error);
-        throw Error(path.string() +
-                    ": cannot be written; choose a folder that can, with space left");
-    }
+std::vector<std::byte> readRepertoireFile(const fs::path& path) {
+    return readWhole(path, kMostBytes);
 }
 
 SpeciesText readSpeciesText(const fs::path& path) {

@@ -12,13 +12,8 @@
 
 namespace aquarama {
 
-// Throws Error where there can be none.
-void makeFolder(const std::filesystem::path& folder);
-
-// Throws Error when the folder or the file cannot be written; a reader sees the old file or the
-// new one, never a part.
-void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
-[[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path);
+// The bytes of a file that may be a repertoire. Throws Error.
+[[nodiscard]] std::vector<std::byte> readRepertoireFile(const std::filesystem::path& path);
 
 // A species file and where it is from.
 struct SpeciesText {

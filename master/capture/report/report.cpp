@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "common/files/files.h"
 #include "master/capture/compile/repertoire_cache.h"
 #include "master/capture/report/gait_figures.h"
 #include "master/capture/report/path_figures.h"

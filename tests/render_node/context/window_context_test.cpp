@@ -14,6 +14,7 @@
 #include "common/units/error.h"
 #include "render_node/context/context.h"
 #include "tests/render_node/context/virtual_display.h"
+#include "tests/render_node/context/wayland_display.h"
 
 namespace aquarama {
 namespace {
@@ -188,12 +189,24 @@ TEST_F(WindowTest, aMonitorThatIsNotTheChannelsIsRefused) {
 // NOLINTBEGIN(concurrency-mt-unsafe): no other thread is running.
 TEST(WindowContext, withoutADisplayAsksForHeadless) {
     unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
     EXPECT_THAT(refusalOf(windowAt({0, 0}), {200, 100}), testing::HasSubstr("--headless"));
     setenv("DISPLAY", ":4711", 1);
     EXPECT_THAT(refusalOf(windowAt({0, 0}), {200, 100}), testing::HasSubstr("--headless"));
     unsetenv("DISPLAY");
 }
 // NOLINTEND(concurrency-mt-unsafe)
+
+TEST(WindowContext, opensOnWaylandWhereThereIsNoX) {
+    const auto display = WaylandDisplay::start();
+    if (!display) GTEST_SKIP() << "weston and GLFW 3.4 are needed to test windows on Wayland";
+    const glm::ivec2 size(320, 200);
+    const auto window = makeWindowContext(windowAt({0, 0}), "Aquarama on Wayland", size);
+    fillWith(*window, 0, 0.5F, 1);
+    window->pumpEvents(1ms);
+    EXPECT_EQ(window->framebufferPixels(), size);
+    EXPECT_THAT(window->description(), testing::HasSubstr("Wayland"));
+}
 
 }  // namespace
 }  // namespace aquarama

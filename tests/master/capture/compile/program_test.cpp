@@ -80,11 +80,11 @@ TEST_F(Program, putsAFileInTheOldOnesPlaceAndSimulatesNothingTwice) {
     fs::create_directories(out());
     std::ofstream(out() / "bigeye_scad.aqrep") << "old";
     EXPECT_THAT(capture("--species bigeye_scad").said, testing::HasSubstr("capturing"));
-    const auto fresh = readWhole(out() / "bigeye_scad.aqrep");
+    const auto fresh = readRepertoireFile(out() / "bigeye_scad.aqrep");
     EXPECT_EQ(decodeRepertoire(fresh, "fresh").species, "bigeye_scad");
     EXPECT_THAT(capture("--species bigeye_scad").said,
                 testing::Not(testing::HasSubstr("capturing")));
-    EXPECT_EQ(readWhole(out() / "bigeye_scad.aqrep"), fresh);
+    EXPECT_EQ(readRepertoireFile(out() / "bigeye_scad.aqrep"), fresh);
     EXPECT_EQ(left(), std::set<std::string>{"bigeye_scad.aqrep"});
 }
 
@@ -101,7 +101,8 @@ TEST_F(Program, leavesNothingWhenItIsInterrupted) {
     const Outcome outcome = capture("", "timeout --signal=INT 0.2");
     EXPECT_NE(outcome.status, 0);
     for (const std::string& name : left())
-        static_cast<void>(decodeRepertoire(readWhole(out() / name), name));  // whole, if any
+        static_cast<void>(
+            decodeRepertoire(readRepertoireFile(out() / name), name));  // whole, if any
 }
 
 TEST_F(Program, refusesAFolderThatIsAFile) {

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/files/derived_cache.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "common/files/files.h"
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto kLongestWait = 60s;  // for another process that makes the same
+constexpr auto kLook = 20ms;
+constexpr std::string_view kDataEnding = ".data";
+
+// Held by the process that makes a piece of data. Taken without a file where none can be made, and
+// after the longest wait: then two processes make the same, and no harm is done.
+class MakerLock {
+  public:
+    explicit MakerLock(const fs::path& path)
+        : file_{open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR)} {
+        const auto deadline = std::chrono::steady_clock::now() + kLongestWait;
+        while (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 &&
+               std::chrono::steady_clock::now() < deadline)
+            std::this_thread::sleep_for(kLook);
+    }
+    ~MakerLock() {
+        if (file_ >= 0) close(file_);
+    }
+    MakerLock(const MakerLock&) = delete;
+    MakerLock& operator=(const MakerLock&) = delete;
+
+  private:
+    int file_;
+};
+
+// Of the content and of what it was made from: content under another's name is damage, too.
+Digest sealOf(const DerivedKey& key, std::span<const std::byte> content) {
+    const Digest inputs = key.digest();
+    const Digest own = digestOf(content);
+    std::string both;
+    for (const Digest& digest : {inputs, own})
+        both.append(digest.bytes.begin(), digest.bytes.end());
+    return digestOf(both);
+}
+
+struct KeptFile {
+    fs::file_time_type used;
+    std::uintmax_t bytes = 0;
+    fs::path path;
+};
+
+}  // namespace
+
+DerivedKey& DerivedKey::add(std::string_view text) {
+    return add(std::as_bytes(std::span{text.data(), text.size()}));
+}
+
+DerivedKey& DerivedKey::add(std::span<const std::byte> bytes) {
+    inputs_ += std::to_string(bytes.size()) + ":";
+    inputs_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return *this;
+}
+
+DerivedCache::DerivedCache(fs::path folder, std::uintmax_t mostBytes)
+    : folder_{std::move(folder)}, mostBytes_{mostBytes} {}
+
+DerivedCache::Bytes DerivedCache::find(const DerivedKey& key,
+                                       const std::function<Bytes()>& make) const {
+    if (auto kept = read(key)) return *std::move(kept);
+    std::error_code none;
+    fs::create_directories(folder_, none);
+    const fs::path lockFile = folder_ / (key.fileName() + ".lock");
+    const MakerLock lock(lockFile);
+    if (auto kept = read(key)) return *std::move(kept);
+    Bytes made = make();
+    write(key, made);
+    fs::remove(lockFile, none);
+    return made;
+}
+
+// The file: a seal, then the content.
+std::optional<DerivedCache::Bytes> DerivedCache::read(const DerivedKey& key) const {
+    const fs::path path = folder_ / (key.fileName() + std::string(kDataEnding));
+    std::error_code error;
+    if (!fs::exists(path, error)) return std::nullopt;
+    try {
+        Bytes bytes = readWhole(path, mostBytes_);
+        constexpr std::size_t kSeal = sizeof(Digest::bytes);
+        if (bytes.size() < kSeal) return std::nullopt;
+        const Digest seal = sealOf(key, std::span{bytes}.subspan(kSeal));
+        if (std::memcmp(bytes.data(), seal.bytes.data(), kSeal) != 0) return std::nullopt;
+        bytes.erase(bytes.begin(), bytes.begin() + kSeal);
+        fs::last_write_time(path, fs::file_time_type::clock::now(), error);
+        return bytes;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+void DerivedCache::write(const DerivedKey& key, const Bytes& content) const {
+    const Digest seal = sealOf(key, content);
+    Bytes bytes(sizeof(seal.bytes));
+    std::memcpy(bytes.data(), seal.bytes.data(), sizeof(seal.bytes));
+    bytes.insert(bytes.end(), content.begin(), content.end());
+    try {
+        writeWhole(folder_ / (key.fileName() + std::string(kDataEnding)), bytes);
+        makeRoom();
+    } catch (const std::exception&) {  // a full disk only costs time
+    }
+}
+
+void DerivedCache::makeRoom() const {
+    std::vector<KeptFile> files;
+    std::uintmax_t sum = 0;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder_, error)) {
+        KeptFile file{entry.last_write_time(error), entry.file_size(error), entry.path()};
+        if (error) continue;  // another process has just removed it
+        sum += file.bytes;
+        files.push_back(std::move(file));
+    }
+    std::ranges::sort(files, {}, &KeptFile::used);
+    for (const KeptFile& file : files) {
+        if (sum <= mostBytes_) return;
+        sum -= file.bytes;
+        fs::remove(file.path, error);
+    }
+}
+
+DerivedCache derivedCache() {
+    return DerivedCache{cacheFolder() / "derived"};
+}
+
+std::span<const std::byte> ArrayReader::take(std::uint64_t count, std::size_t size) {
+    if (count > rest_.size() / size) throw Error("derived data ends within an array");
+    const auto bytes = static_cast<std::size_t>(count) * size;
+    const std::span<const std::byte> taken = rest_.first(bytes);
+    rest_ = rest_.subspan(bytes);
+    return taken;
+}
+
+}  // namespace aquarama

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/files/files.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+#include "common/units/error.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path variable(const char* name) {
+    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
+    return value != nullptr ? value : "";
+}
+
+}  // namespace
+
+std::vector<std::byte> readWhole(const fs::path& path, std::uintmax_t mostBytes) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error) throw Error(path.string() + ": cannot be read; check the path");
+    if (size > mostBytes)
+        throw Error(path.string() + ": has " + std::to_string(size) + " bytes, more than the " +
+                    std::to_string(mostBytes) + " that are read; check the path");
+    std::vector<std::byte> bytes(size);
+    std::ifstream file(path, std::ios::binary);
+    if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+        throw Error(path.string() + ": reading failed; check its permissions");
+    return bytes;
+}
+
+void writeWhole(const fs::path& path, std::span<const std::byte> content) {
+    static std::atomic<unsigned> parts = 0;  // threads of one process may write the same file
+    std::error_code error;
+    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+    fs::path part = path;
+    part += "." + std::to_string(getpid()) + "." + std::to_string(++parts) + ".part";
+    std::ofstream file(part, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(content.data()),
+               static_cast<std::streamsize>(content.size()));
+    file.close();
+    if (file) fs::rename(part, path, error);
+    if (!file || error) {
+        fs::remove(part, error);
+        throw Error(path.string() +
+                    ": cannot be written; choose a folder that can, with space left");
+    }
+}
+
+fs::path cacheFolder() {
+    const fs::path cache = variable("XDG_CACHE_HOME");
+    if (cache.is_absolute()) return cache / "aquarama";
+    const fs::path home = variable("HOME");
+    return (home.empty() ? fs::temp_directory_path() : home / ".cache") / "aquarama";
+}
+
+}  // namespace aquarama

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole files: read with a bound, written so that a reader sees the old file or the new one, never
+// a part.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace aquarama {
+
+// The content of a file of at most `mostBytes`. Throws Error.
+[[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path,
+                                               std::uintmax_t mostBytes);
+
+// Makes the folder of the file where there is none. Throws Error when it cannot be written.
+void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
+
+// Where this user's programs keep what they can make again: $XDG_CACHE_HOME/aquarama, or
+// ~/.cache/aquarama.
+[[nodiscard]] std::filesystem::path cacheFolder();
+
+}  // namespace aquarama

@@ -1,0 +1,61 @@
+"""check_pictures.py FOLDER: are the pictures of a snapshot of config/desk.txtpb there, of their size, and not flat?"""
+
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+SIZES = {"panorama": (1350, 600), "hall": (1280, 720), "channel-left": (480, 360), "channel-middle": (480, 360),
+         "channel-right": (480, 360)}
+LEAST_COLOURS = 1000  # a flat or a torn picture has few, the reef tens of thousands
+
+
+def chunks(data):
+    at = 8
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        yield kind, data[at + 8:at + 8 + length]
+        at += length + 12
+
+
+def predicted(method, left, up, corner):
+    if method == 4:  # Paeth
+        guess = left + up - corner
+        return min((left, up, corner), key=lambda near: abs(guess - near))
+    return (0, left, up, (left + up) // 2)[method]
+
+
+def read_png(path):
+    """The size, and the colours as bytes: 8 bits of red, green and blue, as our programs write them."""
+    parts = list(chunks(path.read_bytes()))
+    width, height, bits, kind = struct.unpack(">IIBB", parts[0][1][:10])
+    if (bits, kind) != (8, 2):
+        raise ValueError(f"{bits} bits of kind {kind}, not 8 of red, green and blue")
+    packed = zlib.decompress(b"".join(body for name, body in parts if name == b"IDAT"))
+    above, rows = bytearray(3 * width), []
+    for y in range(height):
+        method, *row = packed[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
+        for x, value in enumerate(row if method else ()):
+            left, corner = (row[x - 3], above[x - 3]) if x >= 3 else (0, 0)
+            row[x] = (value + predicted(method, left, above[x], corner)) & 255
+        above = bytearray(row)
+        rows.append(bytes(above))
+    return (width, height), b"".join(rows)
+
+
+def fault_of(path, expected):
+    if not path.is_file():
+        return "is missing"
+    size, pixels = read_png(path)
+    if size != expected:
+        return f"is {size[0]} x {size[1]}, not {expected[0]} x {expected[1]}"
+    colours = len({pixels[i:i + 3] for i in range(0, len(pixels), 3)})
+    return f"is flat: {colours} colours" if colours < LEAST_COLOURS else None
+
+
+faults = []
+for name, expected in SIZES.items():
+    picture = Path(sys.argv[1]) / f"{name}.png"
+    if fault := fault_of(picture, expected):
+        faults.append(f"{picture}: {fault}")
+sys.exit("\n".join(faults) or 0)
