@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Holds the processor time of each suite against tests/budgets.csv: check_budgets.py build/dev.
 
 A suite may take half as much again as its budget. Machines differ: where the median suite takes longer than its budget,

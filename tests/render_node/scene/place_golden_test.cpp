@@ -14,6 +14,7 @@ namespace {
 
 TEST(PlaceGolden, looksAsItDidFromThreeDirections) {
     const auto context = makeOffscreenContext("mesa", {16, 16});
+    test::Photographer photographer;
     struct Direction {
         std::string name;
         float azimuthDegrees;
@@ -24,7 +25,7 @@ TEST(PlaceGolden, looksAsItDidFromThreeDirections) {
         still.camera.azimuthDegrees = azimuth;
         still.camera.sizePixels = {320, 180};
         still.options.quality = QualityTier::Medium;
-        test::expectGolden(test::pictureOf(still), "place/" + name);
+        test::expectGolden(photographer.pictureOf(still), "place/" + name);
     }
 }
 
