@@ -133,10 +133,11 @@ function(aquarama_test name)
 endfunction()
 
 # aquarama_suite(motion COMMAND...): a ctest row whose processor time is held to its line in tests/budgets.csv. Only a hang
-# meets its timeout. Software OpenGL draws with one thread: ctest runs as many suites at once as there are processors.
+# meets its timeout. Software OpenGL draws with one thread: ctest runs as many suites at once as there are processors. What
+# programs keep in the user's cache they keep in the build folder.
 function(aquarama_suite name)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/processor_time)
   add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${ARGN})
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=1")
+    ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;LP_NUM_THREADS=1")
 endfunction()

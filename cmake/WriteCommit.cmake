@@ -1,6 +1,7 @@
 # cmake -DFOLDER=source -DOUTPUT=commit.cpp -P WriteCommit.cmake
 # Names the commit of a git checkout, with "and changes" where files differ from it. An unchanged file is left alone, so
 # that nothing is compiled or linked again.
+cmake_minimum_required(VERSION 3.24)
 set(commit unknown)
 find_package(Git QUIET)
 if(GIT_FOUND AND EXISTS ${FOLDER}/.git)
