@@ -22,9 +22,19 @@ namespace {
 
 class WaterPicture : public testing::Test {
   protected:
-    static void SetUpTestSuite() { context = makeOffscreenContext("auto", {16, 16}); }
-    static void TearDownTestSuite() { context.reset(); }
+    static void SetUpTestSuite() {
+        context = makeOffscreenContext("auto", {16, 16});
+        photographer = std::make_unique<Photographer>();
+    }
+    static void TearDownTestSuite() {
+        photographer.reset();
+        context.reset();
+    }
+    static Picture pictureOf(const Still& still) { return photographer->pictureOf(still); }
+
+  private:
     static inline std::unique_ptr<Context> context;
+    static inline std::unique_ptr<Photographer> photographer;
 };
 
 TEST_F(WaterPicture, everyTypeIsAsItWasAndTheEyeDivesFromTheSurfaceToTheDeep) {
