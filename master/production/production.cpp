@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "common/config/cast.h"
 #include "common/config/scene.h"
@@ -25,10 +27,15 @@ namespace {
 constexpr std::uint32_t kFishOfAThread = 2000;
 
 // The first show of a species on this machine simulates it; later ones find what it swam.
-std::vector<std::byte> capturedOnce(const CastSpecies& member) {
-    ProgressBar bar("capturing " + member.species.name);
-    const auto cache = cacheFolder() / "repertoires";
-    return repertoireFor(member.text, member.path, cache, [&](double share) { bar.show(share); });
+std::vector<RepertoireFile> capturedOnce(const std::vector<CastSpecies>& cast) {
+    std::vector<SpeciesText> texts;
+    for (const CastSpecies& member : cast) texts.push_back({member.path, member.text});
+    ProgressBar bar("capturing");
+    std::vector<RepertoireFile> files = repertoiresFor(
+        texts, cacheFolder() / "repertoires", {.progress = [&](double share) { bar.show(share); }});
+    for (const RepertoireFile& file : files)
+        if (!file.error.empty()) throw Error(file.error);
+    return files;
 }
 
 FishLengths lengthsOf(const SizeRange& size) {
@@ -74,9 +81,10 @@ Production readProduction(const std::string& scenePath, const ProductionChoice& 
         scene, scenePath, fishIn(scene), static_cast<float>(cast.front().species.size.meanMetres));
     Production production{
         .seed = choice.seed, .sceneFile = scenePath, .scene = writeScene(scene), .cast = {}};
+    std::vector<RepertoireFile> captured = capturedOnce(cast);
     for (std::size_t i = 0; i < cast.size(); ++i)
         production.cast.push_back(
-            {cast[i].path, cast[i].text, capturedOnce(cast[i]), scene.cast[i].fish});
+            {cast[i].path, cast[i].text, std::move(captured[i].bytes), scene.cast[i].fish});
     return production;
 }
 

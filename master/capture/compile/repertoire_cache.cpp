@@ -98,14 +98,4 @@ std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts
     return files;
 }
 
-std::vector<std::byte> repertoireFor(const std::string& speciesText,
-                                     const std::string& source,
-                                     const fs::path& cacheFolder,
-                                     const Progress& progress) {
-    RepertoireFile file = std::move(
-        repertoiresFor({{source, speciesText}}, cacheFolder, {.progress = progress}).front());
-    if (!file.error.empty()) throw Error(file.error);
-    return std::move(file.bytes);
-}
-
 }  // namespace aquarama

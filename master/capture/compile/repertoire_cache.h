@@ -35,10 +35,4 @@ struct RepertoireFile {
                                                          const std::filesystem::path& cacheFolder,
                                                          const CaptureRun& run);
 
-// Of one; throws Error.
-[[nodiscard]] std::vector<std::byte> repertoireFor(const std::string& speciesText,
-                                                   const std::string& source,
-                                                   const std::filesystem::path& cacheFolder,
-                                                   const Progress& progress);
-
 }  // namespace aquarama

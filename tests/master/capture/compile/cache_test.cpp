@@ -30,7 +30,10 @@ class RepertoireCache : public testing::Test {
     // Returns whether it was simulated.
     bool fetch() {
         bool simulated = false;
-        bytes_ = repertoireFor(text_, "scad", folder_, [&](double) { simulated = true; });
+        bytes_ = repertoiresFor(
+                     {{"scad", text_}}, folder_, {.progress = [&](double) { simulated = true; }})
+                     .front()
+                     .bytes;
         return simulated;
     }
     [[nodiscard]] std::vector<fs::path> files() const {
