@@ -5,7 +5,7 @@ import sys
 import zlib
 from pathlib import Path
 
-SIZES = {"panorama": (1350, 600), "hall": (1280, 720), "channel-left": (480, 360), "channel-middle": (480, 360),
+SIZES = {"panorama": (1350, 600), "hall": (1600, 900), "channel-left": (480, 360), "channel-middle": (480, 360),
          "channel-right": (480, 360)}
 LEAST_COLOURS = 1000  # a flat or a torn picture has few, the reef tens of thousands
 

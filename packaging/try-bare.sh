@@ -76,6 +76,7 @@ try() {
     local release=$1 root=$work/$1 log=$work/$1.log start installed built pictured
     make_system "$release" "$root"
     git clone --quiet --no-local "$PWD" "$root/aquarama"
+    git -C "$root/aquarama" checkout --quiet --detach "$commit"
 
     start=$(date +%s)
     in_system "$root" './run --frames 3 --snapshot pictures 2>&1 |
@@ -100,4 +101,5 @@ try() {
     rm -rf --one-file-system "$root"
 }
 
+commit=$(git rev-parse HEAD)  # the same for all, whatever is committed meanwhile
 for release in "$@"; do try "$release"; done

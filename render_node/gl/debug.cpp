@@ -31,4 +31,12 @@ void logMessages() {
     glDebugMessageCallback(onMessage, nullptr);
 }
 
+Stage::Stage(const char* name) {
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
+}
+
+Stage::~Stage() {
+    glPopDebugGroup();
+}
+
 }  // namespace aquarama::gl

@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/frustum.h"
 
@@ -47,6 +48,7 @@ void FoodSpecks::update(std::span<const FoodParticle> food, const Viewpoint& vie
 }
 
 void FoodSpecks::draw() const {
+    const gl::Stage stage{"food"};
     if (seen_.empty()) return;
     glBindVertexArray(empty_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSpecks, specks_.name());

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/files/derived_cache.h"
+#include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/solid_array.h"
 
@@ -202,6 +203,7 @@ void Reef::fillBuffers(const ReefTables& tables) {
 }
 
 void Reef::stir(std::size_t fish, float fraction) const {
+    const gl::Stage stage{"place stir"};
     if (!quality_.plantsGiveWay) return;
     constexpr std::int32_t kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
@@ -235,6 +237,7 @@ void Reef::cullGroups(const ReefRule& rule) const {
 }
 
 void Reef::cull(const ReefRule& rule) const {
+    const gl::Stage stage{"place cull"};
     glCopyNamedBufferSubData(none_.name(),
                              commands_.name(),
                              0,

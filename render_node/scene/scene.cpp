@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "common/place/place.h"
+#include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/frustum.h"
 #include "render_node/scene/ground.h"
@@ -158,12 +159,14 @@ void SceneRenderer::Parts::bakeShadows() {
 
 // Near things first, so that what they hide is never shaded.
 void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
+    const gl::Stage stage{"place"};
     if (!bottom) return;
     bottom->reef.draw();
     bottom->ground.draw(viewpoint);
 }
 
 void SceneRenderer::Parts::drawWater() const {
+    const gl::Stage stage{"water"};
     glBindVertexArray(empty.name());
     glUseProgram(surface.name());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -172,6 +175,7 @@ void SceneRenderer::Parts::drawWater() const {
 }
 
 void SceneRenderer::Parts::drawSnow() const {
+    const gl::Stage stage{"snow"};
     glBindVertexArray(empty.name());
     glUseProgram(snow.name());
     glDepthMask(GL_FALSE);

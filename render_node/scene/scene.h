@@ -43,6 +43,8 @@ struct SceneOptions {
     float pixelRadians = 0.0016F;  // the finest pixel of the whole wall, seen from the sweet spot
     bool culling = true;           // off only to measure what it saves
     bool levelsOfDetail = true;
+
+    bool operator==(const SceneOptions&) const = default;
 };
 
 // Owns its GL objects; construct, use and destroy with the same context current.

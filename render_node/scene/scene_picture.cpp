@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
 
@@ -85,6 +86,7 @@ void ScenePicture::begin(glm::ivec2 sizePixels) {
 
 // Light is a mean over the samples; of the depths one is taken.
 void ScenePicture::resolve() const {
+    const gl::Stage stage{"resolve"};
     const GLbitfield layers =
         GL_COLOR_BUFFER_BIT | (soften_ ? static_cast<GLbitfield>(GL_DEPTH_BUFFER_BIT) : 0U);
     glBlitNamedFramebuffer(drawn_.target.name(),
@@ -114,12 +116,17 @@ unsigned ScenePicture::finish() {
     const Layer& light = quality_.samples > 1 ? resolved_ : drawn_;
     unsigned seen = light.colour.name();
     if (soften_) {
+        const gl::Stage stage{"soften"};
         glBindTextureUnit(0, seen);
         glBindTextureUnit(1, light.depth.name());
         pass(softened_.name(), soften_->name());
         seen = softenedColour_.name();
     }
-    if (quality_.bloom) glGenerateTextureMipmap(seen);
+    if (quality_.bloom) {
+        const gl::Stage stage{"bloom"};
+        glGenerateTextureMipmap(seen);
+    }
+    const gl::Stage stage{"tone"};
     glBindTextureUnit(0, seen);
     pass(toned_.name(), tone_.name());
     return display_.name();

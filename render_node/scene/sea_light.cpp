@@ -12,6 +12,7 @@
 
 #include "common/place/noise.h"
 #include "common/place/place.h"
+#include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
 
@@ -189,6 +190,7 @@ glm::vec4 SeaLight::kdAndExposure(glm::vec3 sharedEyeMetres) const {
 }
 
 void SeaLight::drawWaves() {
+    const gl::Stage stage{"waves"};
     glUseProgram(waveProgram_.name());
     glBindVertexArray(empty_.name());
     const auto draw = [](const gl::Framebuffer& target, int texels, float metres, bool ripples) {
@@ -207,6 +209,7 @@ void SeaLight::drawWaves() {
 
 // A front of light refracted at the surface: where its triangles shrink, light gathers.
 void SeaLight::drawCaustics() {
+    const gl::Stage stage{"caustics"};
     glBindFramebuffer(GL_FRAMEBUFFER, causticTarget_.name());
     glViewport(0, 0, quality_.causticTexels, quality_.causticTexels);
     glClearColor(0, 0, 0, 0);
@@ -229,6 +232,7 @@ void SeaLight::drawCaustics() {
 }
 
 void SeaLight::drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
+    const gl::Stage stage{"shafts"};
     const Box box = texelsInView(eyeMetres, worldFromClip, quality_.shaftTexels);
     glDisable(GL_DEPTH_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, shaftTarget_.name());

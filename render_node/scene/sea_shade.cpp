@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
+#include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/shade.h"
 #include "render_node/scene/texture.h"
@@ -105,6 +106,7 @@ glm::vec4 SeaShade::fishWindow(glm::vec3 sharedEyeMetres) const {
 }
 
 void SeaShade::updateFish(const SchoolSurface& school) {
+    const gl::Stage stage{"fish shadows"};
     glBindFramebuffer(GL_FRAMEBUFFER, fishTarget_.name());
     glViewport(0, 0, quality_.fishShadowTexels, quality_.fishShadowTexels);
     glClearColor(0, 0, 0, 0);

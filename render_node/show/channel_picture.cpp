@@ -13,6 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/units/error.h"
+#include "render_node/gl/debug.h"
 #include "render_node/shaders/post_radii.h"
 #include "render_node/show/presented.h"
 
@@ -237,6 +238,7 @@ void ChannelPicture::project(unsigned framebuffer,
                              Encoding encoding,
                              const Overlays& overlays,
                              Shown shown) {
+    const gl::Stage stage{"warp"};
     Projection::Draw draw{.framebuffer = framebuffer,
                           .frame = frame_,
                           .encoding = encoding,

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "render_node/gl/debug.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/surface/fish_plan.h"
@@ -258,6 +259,7 @@ void SchoolSurface::Parts::sort() const {
 }
 
 void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) const {
+    const gl::Stage stage{"fish surfaces"};
     bindStorage(kSchool, school);
     bindStorage(kRecorded, tables.recorded);
     bindStorage(kFirstEntries, tables.firstEntries);
@@ -358,6 +360,7 @@ SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;
 SchoolSurface& SchoolSurface::operator=(SchoolSurface&&) noexcept = default;
 
 void SchoolSurface::update(const SchoolMoment& moment) {
+    const gl::Stage stage{"fish records"};
     Parts& parts = *parts_;
     parts.recordsUploaded = std::min(moment.after.size(), parts.fish);
     parts.isBetween = moment.before.size() == moment.after.size();
@@ -367,6 +370,7 @@ void SchoolSurface::update(const SchoolMoment& moment) {
 }
 
 void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& shared) {
+    const gl::Stage stage{"fish sort"};
     const Parts& parts = *parts_;
     if (parts.fish == 0) return;
     const FrustumPlanes frustum = frustumOf(clipFromWorld);
@@ -376,6 +380,7 @@ void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& share
 }
 
 void SchoolSurface::drawBodies() const {
+    const gl::Stage stage{"fish bodies"};
     if (parts_->fish == 0) return;
     glEnable(GL_CULL_FACE);
     parts_->drawTurns(false);
@@ -383,6 +388,7 @@ void SchoolSurface::drawBodies() const {
 }
 
 void SchoolSurface::drawBlended() const {
+    const gl::Stage stage{"fish blended"};
     if (parts_->fish == 0) return;
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

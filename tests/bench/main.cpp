@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the benchmarks, writes them as CSV beside the machine's name, and prints the paper's
 // Table 1.
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -10,32 +9,11 @@
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
-#include <sys/utsname.h>
 
+#include "tests/bench/machine.h"
 #include "tests/bench/table1.h"
 
 namespace {
-
-std::string processorName() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);) {
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    }
-    utsname machine{};
-    uname(&machine);
-    return machine.machine;
-}
-
-// "Intel(R) Xeon(R) Processor" as a name for a file: intel-r-xeon-r-processor.
-std::string fileNameOf(const std::string& machine) {
-    std::string name;
-    for (const char letter : machine) {
-        const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
-        if (plain) name += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-        if (!plain && !name.empty() && name.back() != '-') name += '-';
-    }
-    return name;
-}
 
 // The most that this program has held at any time so far.
 double peakMemoryMib() {
@@ -66,19 +44,15 @@ void writeCsv(const std::vector<benchmark::BenchmarkReporter::Run>& runs,
               const std::string& path) {
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());
     std::ofstream csv(path);
-    csv << "machine,benchmark,cpu_ns,counter,value\n";
-    const std::string machine = processorName();
+    aquarama::CsvWriter rows(csv, aquarama::processorName());
     for (const auto& run : runs) {
         const double nanoseconds =
             run.GetAdjustedCPUTime() * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit);
-        csv << '"' << machine << "\"," << run.benchmark_name() << ',' << nanoseconds << ",,\n";
-        for (const auto& [name, counter] : run.counters) {
-            csv << '"' << machine << "\"," << run.benchmark_name() << ",," << name << ','
-                << counter.value << '\n';
-        }
+        rows.time(run.benchmark_name(), nanoseconds);
+        for (const auto& [name, counter] : run.counters)
+            rows.counter(run.benchmark_name(), name, counter.value);
     }
-    for (const auto& row : table)
-        csv << '"' << machine << "\"," << row.name << ',' << row.nanoseconds << ",,\n";
+    for (const auto& row : table) rows.time(row.name, row.nanoseconds);
     std::printf("\nwritten: %s\n", path.c_str());
 }
 
@@ -91,7 +65,9 @@ int main(int count, char** arguments) {
     benchmark::RunSpecifiedBenchmarks(&reporter);
     benchmark::Shutdown();
     const std::vector<aquarama::Table1Row> table = aquarama::table1(reporter.kept());
-    writeCsv(reporter.kept(), table, "build/bench/" + fileNameOf(processorName()) + ".csv");
+    writeCsv(reporter.kept(),
+             table,
+             "build/bench/" + aquarama::fileNameOf(aquarama::processorName()) + ".csv");
     aquarama::print(table);
     return 0;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/config/species.h"
+#include "tests/support/source_folder.h"
 
 namespace aquarama {
 
@@ -18,7 +19,7 @@ inline const std::array<std::string, 7> kCast{"bigeye_scad",
                                               "blacktip_reef_shark"};
 
 inline Species castMember(const std::string& name) {
-    return readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + name + ".txtpb");
+    return readSpecies(sourceFolder() + "/config/species/" + name + ".txtpb");
 }
 
 }  // namespace aquarama

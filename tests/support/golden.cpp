@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/wall/png_file.h"
+#include "tests/support/source_folder.h"
 
 namespace aquarama::test {
 
@@ -31,18 +32,31 @@ fs::path leave(const Picture& picture, const std::string& name, const char* kind
     return fs::absolute(path);
 }
 
-Picture enlarged(const std::vector<int>& codes, const Picture& like) {
+Picture enlargedDifference(const Picture& a, const Picture& b) {
     constexpr int kTimes = 8;
-    Picture picture{like.sizePixels, 8, {}};
-    for (const int code : codes)
+    Picture picture{a.sizePixels, 8, {}};
+    for (const int code : differences(a, b))
         picture.rgb.push_back(static_cast<std::uint16_t>(std::min(kTimes * code, 255)));
     return picture;
 }
 
 }  // namespace
 
+CodeDifference codeDifference(const Picture& a, const Picture& b) {
+    std::vector<int> codes = differences(a, b);
+    const double mean =
+        std::accumulate(codes.begin(), codes.end(), 0.0) / static_cast<double>(codes.size());
+    const auto rank = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(codes.size()));
+    std::nth_element(codes.begin(), codes.begin() + rank, codes.end());
+    return {mean, static_cast<double>(codes[static_cast<std::size_t>(rank)])};
+}
+
+std::string goldenPath(const std::string& name) {
+    return sourceFolder() + "/tests/golden/" + name + ".png";
+}
+
 void expectGolden(const Picture& picture, const std::string& name, const GoldenLimits& limits) {
-    const fs::path path = fs::path(AQUARAMA_SOURCE_DIR "/tests/golden") / (name + ".png");
+    const fs::path path = goldenPath(name);
     if (std::getenv("AQUARAMA_UPDATE_GOLDEN") != nullptr) {
         fs::create_directories(path.parent_path());
         return writePng(path.string(), picture);
@@ -50,18 +64,12 @@ void expectGolden(const Picture& picture, const std::string& name, const GoldenL
     ASSERT_TRUE(fs::exists(path)) << path << " is missing: draw it with AQUARAMA_UPDATE_GOLDEN=1";
     const Picture golden = readPng(path.string());
     ASSERT_EQ(golden.sizePixels, picture.sizePixels) << name;
-    std::vector<int> codes = differences(picture, golden);
-    const Picture shown = enlarged(codes, picture);
-    const double mean =
-        std::accumulate(codes.begin(), codes.end(), 0.0) / static_cast<double>(codes.size());
-    const auto rank = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(codes.size()));
-    std::nth_element(codes.begin(), codes.begin() + rank, codes.end());
-    const double percentile = codes[static_cast<std::size_t>(rank)];
-    EXPECT_LE(mean, limits.meanCodes) << name;
-    EXPECT_LE(percentile, limits.percentile999Codes) << name;
-    if (mean <= limits.meanCodes && percentile <= limits.percentile999Codes) return;
+    const CodeDifference apart = codeDifference(picture, golden);
+    EXPECT_LE(apart.meanCodes, limits.meanCodes) << name;
+    EXPECT_LE(apart.percentile999Codes, limits.percentile999Codes) << name;
+    if (apart.within(limits)) return;
     ADD_FAILURE() << "compare " << path << " with " << leave(picture, name, "actual") << " and "
-                  << leave(shown, name, "difference");
+                  << leave(enlargedDifference(picture, golden), name, "difference");
 }
 
 }  // namespace aquarama::test

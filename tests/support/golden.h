@@ -16,6 +16,19 @@ struct GoldenLimits {
     double percentile999Codes = 24;
 };
 
+// How far two pictures of one size are apart, in the same measures.
+struct CodeDifference {
+    double meanCodes = 0;
+    double percentile999Codes = 0;
+    [[nodiscard]] bool within(const GoldenLimits& limits) const {
+        return meanCodes <= limits.meanCodes && percentile999Codes <= limits.percentile999Codes;
+    }
+};
+[[nodiscard]] CodeDifference codeDifference(const Picture& a, const Picture& b);
+
+// Where the picture of this name is.
+[[nodiscard]] std::string goldenPath(const std::string& name);
+
 // Fails, and leaves NAME.actual.png and NAME.difference.png (8 times the difference) in the working
 // directory's golden/, when the picture is not as tests/golden/NAME.png.
 void expectGolden(const Picture& picture, const std::string& name, const GoldenLimits& limits = {});

@@ -137,18 +137,29 @@ std::vector<StillFish> ballOf(const std::string& species,
     return ball;
 }
 
-Picture pictureOf(const Still& still) {
+Picture Photographer::pictureOf(const Still& still) {
     const Cast cast = castOf(still.fish);
     SceneOptions options = still.options;
     options.pixelRadians = pixelRadiansOf(still.camera);
-    SceneRenderer scene{options, cast.species};
+    std::vector<std::pair<std::string, float>> fish;
+    for (const StillFish& one : still.fish) fish.emplace_back(one.species, one.lengthMetres);
+    if (!scene_ || options != options_ || fish != fish_) {
+        scene_.reset();
+        scene_ = std::make_unique<SceneRenderer>(options, cast.species);
+        options_ = options;
+        fish_ = std::move(fish);
+    }
     SceneFrame frame;
     frame.timeSeconds = still.timeSeconds;
     frame.eyePositionMetres = still.camera.eyeMetres;
     frame.fish.after = cast.fish;
     frame.daylight = still.daylight;
-    scene.update(frame);
-    return encoded(scene.draw(viewOf(still.camera)), still.camera.sizePixels);
+    scene_->update(frame);
+    return encoded(scene_->draw(viewOf(still.camera)), still.camera.sizePixels);
+}
+
+Picture pictureOf(const Still& still) {
+    return Photographer{}.pictureOf(still);
 }
 
 }  // namespace aquarama::test

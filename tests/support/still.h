@@ -3,7 +3,9 @@
 // golden pictures, for documents, and for looking while one works on what a visitor sees.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -56,7 +58,19 @@ struct Still {
     SceneOptions options;  // quality, place, seed; not pixelRadians
     float daylight = 1.0F;
 };
-// Needs a current context. Bodies sway; they are not captured. sRGB, 8 bits, without dither.
+// Takes stills, and grows a sea only where the one before was of other options or with other fish:
+// that takes seconds. Construct, use and destroy with the same context current.
+class Photographer {
+  public:
+    // Bodies sway; they are not captured. sRGB, 8 bits, without dither.
+    [[nodiscard]] Picture pictureOf(const Still& still);
+
+  private:
+    SceneOptions options_;
+    std::vector<std::pair<std::string, float>> fish_;  // species and length
+    std::unique_ptr<SceneRenderer> scene_;
+};
+// One alone.
 [[nodiscard]] Picture pictureOf(const Still& still);
 
 }  // namespace aquarama::test

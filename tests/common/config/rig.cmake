@@ -1,1 +1,1 @@
-aquarama_test(rig SOURCES rig_test.cpp LINK aquarama_config BUDGET 20)
+aquarama_test(rig SOURCES rig_test.cpp LINK aquarama_config)

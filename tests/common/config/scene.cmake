@@ -1,1 +1,1 @@
-aquarama_test(scene_file SOURCES scene_test.cpp LINK aquarama_config BUDGET 10)
+aquarama_test(scene_file SOURCES scene_test.cpp LINK aquarama_config)

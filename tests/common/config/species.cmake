@@ -1,1 +1,1 @@
-aquarama_test(species SOURCES species_test.cpp habits_test.cpp LINK aquarama_config BUDGET 10)
+aquarama_test(species SOURCES species_test.cpp habits_test.cpp LINK aquarama_config)

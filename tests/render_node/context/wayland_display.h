@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Wayland desktop without a screen, for tests of windows: a compositor of its own, ended with the
-// test.
+// A Wayland desktop without a screen, for tests of windows: a compositor of its own on a virtual
+// display of its own, ended with the test.
 #pragma once
 
 #include <chrono>
@@ -16,6 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/render_node/context/virtual_display.h"
+
 namespace aquarama {
 
 // NOLINTBEGIN(concurrency-mt-unsafe): tests change the environment before they make threads.
@@ -26,7 +28,9 @@ class WaylandDisplay {
     static std::unique_ptr<WaylandDisplay> start() {
 #ifdef GLFW_PLATFORM
         if (std::system("command -v weston > /dev/null") != 0) return nullptr;
-        std::unique_ptr<WaylandDisplay> display(new WaylandDisplay);
+        auto screen = VirtualDisplay::start();
+        if (!screen) return nullptr;
+        std::unique_ptr<WaylandDisplay> display(new WaylandDisplay(std::move(screen)));
         return display->listens() ? std::move(display) : nullptr;
 #else
         return nullptr;
@@ -42,19 +46,21 @@ class WaylandDisplay {
     WaylandDisplay& operator=(const WaylandDisplay&) = delete;
 
   private:
-    WaylandDisplay() {
+    explicit WaylandDisplay(std::unique_ptr<VirtualDisplay> screen) : screen_(std::move(screen)) {
         std::string folder = std::filesystem::temp_directory_path() / "aquarama-wayland-XXXXXX";
         folder_ = mkdtemp(folder.data());
         setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
-        setenv("WAYLAND_DISPLAY", kSocket, 1);
-        unsetenv("DISPLAY");
         server_ = fork();
-        if (server_ != 0) return;
-        unsetenv("WAYLAND_DISPLAY");
+        if (server_ != 0) {
+            setenv("WAYLAND_DISPLAY", kSocket, 1);
+            unsetenv("DISPLAY");
+            return;
+        }
+        (void)!freopen("/dev/null", "w", stdout);
         (void)!freopen("/dev/null", "w", stderr);
         execlp("weston",
                "weston",
-               "--backend=headless",
+               "--backend=x11",  // has a keyboard and a mouse; without a seat GLFW 3.4 crashes
                "--renderer=pixman",
                "--no-config",
                "--idle-time=0",
@@ -73,6 +79,7 @@ class WaylandDisplay {
     }
 
     static constexpr const char* kSocket = "aquarama";
+    std::unique_ptr<VirtualDisplay> screen_;
     std::filesystem::path folder_;
     pid_t server_ = 0;
 };

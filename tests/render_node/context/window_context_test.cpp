@@ -199,7 +199,7 @@ TEST(WindowContext, withoutADisplayAsksForHeadless) {
 
 TEST(WindowContext, opensOnWaylandWhereThereIsNoX) {
     const auto display = WaylandDisplay::start();
-    if (!display) GTEST_SKIP() << "weston and GLFW 3.4 are needed to test windows on Wayland";
+    if (!display) GTEST_SKIP() << "weston, Xvfb and GLFW 3.4 are needed to test windows on Wayland";
     const glm::ivec2 size(320, 200);
     const auto window = makeWindowContext(windowAt({0, 0}), "Aquarama on Wayland", size);
     fillWith(*window, 0, 0.5F, 1);

@@ -20,8 +20,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/scene/texture.h"
 #include "render_node/shaders/frame_uniforms.h"
-#include "tests/support/golden.h"
-#include "tests/support/still.h"
+#include "tests/support/golden_stills.h"
 
 namespace aquarama {
 namespace {
@@ -277,25 +276,9 @@ TEST_F(Sunlight, aFishThrowsAShadowOnTheSand) {
     EXPECT_LT(shown(), 0.9 * open);
 }
 
-test::Still stillTowards(float azimuthDegrees, float elevationDegrees, float heightDegrees) {
-    test::Still still;
-    still.options.quality = QualityTier::Medium;
-    still.options.place = PlaceKind::OpenSea;
-    still.camera = {
-        kEyePosition, azimuthDegrees, elevationDegrees, heightDegrees, glm::ivec2{320, 180}};
-    return still;
-}
-
-TEST_F(Sunlight, looksAsItDidFromBelow) {
-    test::expectGolden(test::pictureOf(stillTowards(-28.0F, 50.0F, 70.0F)), "surface/window");
-    test::expectGolden(test::pictureOf(stillTowards(30.0F, 16.0F, 50.0F)), "surface/wall");
-}
-
-TEST_F(Sunlight, aSchoolShadesItself) {
-    test::Still still = stillTowards(-10.0F, 6.0F, 45.0F);
-    still.fish =
-        test::ballOf("bigeye_scad", 250, kEyePosition + glm::vec3{-0.8F, 0.4F, -4.5F}, 1.2F);
-    test::expectGolden(test::pictureOf(still), "surface/school");
+TEST_F(Sunlight, looksAsItDidFromBelowAndASchoolShadesItself) {
+    for (const test::GoldenStill& golden : test::goldenStills("surface/"))
+        test::expectGolden(test::pictureOf(golden.still), golden.name, golden.limits);
 }
 
 }  // namespace

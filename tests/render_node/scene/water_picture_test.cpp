@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -16,47 +15,31 @@
 #include "common/wall/picture.h"
 #include "render_node/context/context.h"
 #include "render_node/shaders/post_radii.h"
-#include "tests/support/golden.h"
-#include "tests/support/still.h"
+#include "tests/support/golden_stills.h"
 
 namespace aquarama::test {
 namespace {
 
 class WaterPicture : public testing::Test {
   protected:
-    static void SetUpTestSuite() { context = makeOffscreenContext("auto", {16, 16}); }
-    static void TearDownTestSuite() { context.reset(); }
+    static void SetUpTestSuite() {
+        context = makeOffscreenContext("auto", {16, 16});
+        photographer = std::make_unique<Photographer>();
+    }
+    static void TearDownTestSuite() {
+        photographer.reset();
+        context.reset();
+    }
+    static Picture pictureOf(const Still& still) { return photographer->pictureOf(still); }
+
+  private:
     static inline std::unique_ptr<Context> context;
+    static inline std::unique_ptr<Photographer> photographer;
 };
 
-Still reefIn(WaterType type) {
-    Still still;
-    still.camera.sizePixels = {320, 180};
-    still.camera.heightDegrees = 60.0F;
-    still.options.quality = QualityTier::Medium;
-    still.options.water = type;
-    return still;
-}
-
-Still openSea(float depthMetres) {
-    Still still = reefIn(WaterType::IA);
-    still.camera.eyeMetres = {0.0F, -depthMetres, 0.0F};
-    still.options.place = PlaceKind::OpenSea;
-    return still;
-}
-
-TEST_F(WaterPicture, everyTypeIsAsItWas) {
-    for (std::size_t i = 0; i < kWaterTypeNames.size(); ++i)
-        expectGolden(pictureOf(reefIn(static_cast<WaterType>(i))),
-                     "water/" + std::string(kWaterTypeNames.at(i)),
-                     {.meanCodes = 0.6});
-}
-
-TEST_F(WaterPicture, theEyeDivesFromTheSurfaceToTheDeep) {
-    for (const float depth : {1.2F, 25.0F})
-        expectGolden(pictureOf(openSea(depth)),
-                     "water/open_sea_" + std::to_string(std::lround(depth)) + "_m",
-                     {.meanCodes = 0.6});
+TEST_F(WaterPicture, everyTypeIsAsItWasAndTheEyeDivesFromTheSurfaceToTheDeep) {
+    for (const GoldenStill& golden : goldenStills("water/"))
+        expectGolden(pictureOf(golden.still), golden.name, golden.limits);
 }
 
 struct Levels {

@@ -16,8 +16,7 @@
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 #include "tests/support/flip.h"
-#include "tests/support/golden.h"
-#include "tests/support/still.h"
+#include "tests/support/golden_stills.h"
 
 namespace aquarama {
 namespace {
@@ -192,39 +191,8 @@ TEST_F(DetailTest, peopleDoNotSeeWhatIsSaved) {
 
 // Each level as it was when somebody last looked and found it right.
 TEST_F(DetailTest, eachLevelIsAsItWas) {
-    struct Shown {
-        const char* name;
-        float pixels;
-        QualityTier tier;
-    };
-    for (const Shown& level : {Shown{"point", 2.0F, QualityTier::Low},
-                               Shown{"fading", 3.2F, QualityTier::Low},
-                               Shown{"few_triangles", 9.0F, QualityTier::Low},
-                               Shown{"control_mesh", 40.0F, QualityTier::Low},
-                               Shown{"mesh", 120.0F, QualityTier::Low},
-                               Shown{"hero", 170.0F, QualityTier::High},
-                               Shown{"close_up", 640.0F, QualityTier::High}}) {
-        test::Still still;
-        // So wide or narrow that the fish is some metres away.
-        const bool isSmall = level.pixels < 10.0F;
-        still.camera.sizePixels = isSmall ? glm::ivec2{96, 54} : glm::ivec2{224, 126};
-        still.camera.heightDegrees = isSmall ? 75.0F : 10.0F;
-        still.options.place = PlaceKind::OpenSea;
-        still.options.quality = level.tier;
-        const float metres = 0.24F / (level.pixels * test::pixelRadiansOf(still.camera));
-        const int fish = isSmall ? 12 : 1;
-        for (int i = 0; i < fish; ++i) {
-            test::Camera towards = still.camera;
-            if (fish > 1) {
-                towards.azimuthDegrees = 20.0F * static_cast<float>(i % 4) - 30.0F;
-                towards.elevationDegrees = 18.0F * static_cast<float>(i / 4) - 18.0F;
-            }
-            const std::string species = i % 2 == 0 ? "moorish_idol" : "bigeye_scad";
-            still.fish.push_back(test::portraitOf(
-                species, towards, metres, 20.0F + 30.0F * static_cast<float>(i), 0.24F));
-        }
-        test::expectGolden(test::pictureOf(still), std::string("lod/") + level.name);
-    }
+    for (const test::GoldenStill& golden : test::goldenStills("lod/"))
+        test::expectGolden(test::pictureOf(golden.still), golden.name, golden.limits);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -29,6 +31,15 @@ std::vector<std::string> allSpecies() {
     return names;
 }
 
+// Swum once for all tests.
+const GaitFigures& figuresOf(const Species& species, const Gait& gait) {
+    static std::map<std::tuple<std::string, double, double>, GaitFigures> swum;
+    const auto key = std::tuple{species.name, gait.beatHertz, gait.gain};
+    auto found = swum.find(key);
+    if (found == swum.end()) found = swum.emplace(key, steadyFigures(species, gait)).first;
+    return found->second;
+}
+
 class Gaits : public testing::TestWithParam<std::string> {
   protected:
     Species species_ = readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + GetParam() + ".txtpb");
@@ -42,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Species, Gaits, testing::ValuesIn(allSpecies()), [](con
 // Taylor, Nudds & Thomas 2003; Videler & Wardle 1991; Bainbridge 1958.
 TEST_P(Gaits, haveStrouhalNumberStrideAndAmplitudeOfFish) {
     for (const Gait& gait : gaits_) {
-        const GaitFigures figures = steadyFigures(species_, gait);
+        const GaitFigures& figures = figuresOf(species_, gait);
         EXPECT_GT(figures.swum.strouhal, 0.22) << gait.beatHertz;
         EXPECT_LT(figures.swum.strouhal, 0.38) << gait.beatHertz;
         EXPECT_GT(figures.swum.strideBodyLengths, 0.5) << gait.beatHertz;
@@ -56,7 +67,7 @@ TEST_P(Gaits, haveStrouhalNumberStrideAndAmplitudeOfFish) {
 // Videler & Hess 1984: about one wave on the body, swinging further the nearer to the tail.
 TEST_P(Gaits, sendOneGrowingWaveDownTheBody) {
     for (const Gait& gait : gaits_) {
-        const BodyWave wave = steadyFigures(species_, gait).wave;
+        const BodyWave& wave = figuresOf(species_, gait).wave;
         EXPECT_GT(wave.leastPhaseFall(), 10 * kDegree) << gait.beatHertz;
         EXPECT_GT(wave.wavelength, 0.75) << gait.beatHertz;
         EXPECT_LT(wave.wavelength, 1.4) << gait.beatHertz;
@@ -80,7 +91,7 @@ TEST_P(Gaits, speedRisesLinearlyWithTheBeat) {
     double meanBeat = 0;
     double meanSpeed = 0;
     for (const Gait& gait : gaits) {
-        speeds.push_back(steadyFigures(species_, gait).swum.speedBodyLengths);
+        speeds.push_back(figuresOf(species_, gait).swum.speedBodyLengths);
         meanBeat += gait.beatHertz / count;
         meanSpeed += speeds.back() / count;
     }

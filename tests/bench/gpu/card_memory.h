@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the current context holds on the graphics card.
+#pragma once
+
+#include <optional>
+
+namespace aquarama {
+
+struct CardMemory {
+    double textureMebibytes = 0;  // by formats and sizes; what the driver adds is not in it
+    double bufferMebibytes = 0;
+};
+[[nodiscard]] CardMemory cardMemory();
+
+// What is free on the whole card, where the driver tells (NVX_gpu_memory_info).
+[[nodiscard]] std::optional<double> freeMebibytes();
+
+}  // namespace aquarama

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures a graphics card without a display: two walls, three seas, three tiers, and the golden
+// pictures. tests/bench/gpu.sh bundles it for machines that have nothing else of ours.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <epoxy/gl.h>
+
+#include "calibration/theatre/compose.h"
+#include "common/units/error.h"
+#include "common/wall/png_file.h"
+#include "common/wall/wall.h"
+#include "render_node/context/context.h"
+#include "render_node/context/driver.h"
+#include "tests/bench/gpu/card_memory.h"
+#include "tests/bench/gpu/sea.h"
+#include "tests/bench/gpu/wall_timing.h"
+#include "tests/bench/machine.h"
+#include "tests/support/golden_stills.h"
+#include "tests/support/source_folder.h"
+
+namespace {
+
+using namespace aquarama;
+namespace fs = std::filesystem;
+
+constexpr int kSkipped = 77;  // the status, as test drivers have it
+
+struct Options {
+    std::string device = "auto";
+    fs::path out = "build/gpu";
+    std::vector<std::string> only;
+    bool software = false;
+
+    [[nodiscard]] bool wants(const std::string& name) const {
+        return only.empty() || std::ranges::any_of(only, [&](const std::string& part) {
+                   return name.find(part) != std::string::npos;
+               });
+    }
+};
+
+// How much is measured.
+struct Extent {
+    int ticksBefore = 120;  // that a school takes to find its shape
+    int frames = 32;        // of which each sea is made
+    Patience frameTimes;
+    Patience stageTimes{.leastFrames = 16, .mostFrames = 64, .seconds = 3};
+    std::size_t channels = 8;  // at most
+    int smaller = 1;           // pictures, along either axis
+    std::uint32_t fewer = 1;   // fish
+};
+
+// Enough to see that this program works. Its figures say nothing: software draws after it has
+// answered what the time is.
+constexpr Extent kTrial{.ticksBefore = 2,
+                        .frames = 2,
+                        .frameTimes = {.leastFrames = 2, .mostFrames = 2, .seconds = 0},
+                        .stageTimes = {.leastFrames = 1, .mostFrames = 1, .seconds = 0},
+                        .channels = 1,
+                        .smaller = 16,
+                        .fewer = 1000};
+
+struct SeaChoice {
+    const char* name;
+    const char* scene;
+    std::optional<std::uint32_t> fish;
+};
+const SeaChoice kSeas[]{{"reef", "reef", std::nullopt},
+                        {"bait_ball_100000", "bait_ball", 100'000},
+                        {"bait_ball_250000", "bait_ball", 250'000}};
+
+struct NamedWall {
+    std::string name;
+    Rig rig;
+    PanoramaMap panorama{rig};
+};
+
+Rig within(const Extent& extent, Rig rig) {
+    const int times = extent.smaller;
+    rig.panoramaPixels /= times;
+    rig.channels.resize(std::min(rig.channels.size(), extent.channels));
+    for (Channel& channel : rig.channels) {
+        channel.sizePixels /= times;
+        channel.projector.focalPixels /= times;
+        channel.projector.principalPixels /= times;
+    }
+    return rig;
+}
+
+NamedWall wallOf(const std::string& name, const std::string& file, const Extent& extent) {
+    const std::string path = sourceFolder() + "/" + file;
+    const Rig rig = readRig(path);
+    checkGeometry(rig, path);
+    return {name, within(extent, rig)};
+}
+
+bool isSoftware(const std::string& renderer) {
+    return std::ranges::any_of(
+        std::vector<std::string>{"llvmpipe", "softpipe", "swrast", "Software Rasterizer"},
+        [&](const std::string& name) { return renderer.find(name) != std::string::npos; });
+}
+
+std::string renderer() {
+    return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+}
+
+// A context on a graphics card; or nothing, and why.
+struct Card {
+    std::unique_ptr<Context> context;
+    std::string lack;
+};
+
+Card openCard(const Options& options) try {
+    Card card{makeOffscreenContext(options.device, {16, 16}), {}};
+    if (isSoftware(renderer()) && !options.software)
+        return {nullptr, "OpenGL is drawn by " + renderer()};
+    return card;
+} catch (const Error& error) {
+    return {nullptr, error.what()};
+}
+
+std::string underscored(std::string name) {
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+
+std::string fileOf(std::string name) {
+    std::ranges::replace(name, '/', '-');
+    return name + ".png";
+}
+
+double sumOf(const StageTimes& stages) {
+    double sum = 0;
+    for (const auto& [stage, milliseconds] : stages) sum += milliseconds;
+    return sum;
+}
+
+class Measurement {
+  public:
+    explicit Measurement(const Options& options)
+        : options_{options},
+          extent_{isSoftware(renderer()) ? kTrial : Extent{}},
+          csvPath_{options.out / (fileNameOf(renderer()) + ".csv")},
+          csv_{openCsv()},
+          rows_{csv_, rendererAndVersion() + ", " + processorName()} {}
+
+    void measure() {
+        std::printf("%s, %s\n", rendererAndVersion().c_str(), processorName().c_str());
+        const std::vector<NamedWall> walls{
+            wallOf("theatre", "config/theatre.txtpb", extent_),
+            wallOf("eight_4k", "tests/bench/gpu/eight_4k.txtpb", extent_)};
+        for (const SeaChoice& choice : kSeas) measureSea(choice, walls);
+        compareGolden();
+        std::printf("written: %s, and pictures beside it\n", csvPath_.c_str());
+    }
+
+  private:
+    std::ofstream openCsv() const {
+        fs::create_directories(options_.out / "golden");
+        std::ofstream csv(csvPath_);
+        if (!csv) throw Error(csvPath_.string() + ": cannot be written; choose another --out");
+        return csv;
+    }
+
+    static std::string nameOf(const NamedWall& wall, const SeaChoice& sea, QualityTier tier) {
+        return "gpu/" + wall.name + "/" + sea.name + "/" + std::string(aquarama::nameOf(tier));
+    }
+
+    void measureSea(const SeaChoice& choice, const std::vector<NamedWall>& walls) {
+        std::optional<Sea> sea;
+        for (const NamedWall& wall : walls)
+            for (const QualityTier tier :
+                 {QualityTier::Medium, QualityTier::High, QualityTier::Ultra}) {
+                const std::string name = nameOf(wall, choice, tier);
+                if (!options_.wants(name)) continue;
+                if (!sea) sea = made(choice);
+                measureWall(name, *sea, wall, tier);
+            }
+    }
+
+    Sea made(const SeaChoice& choice) const {
+        const auto fish = choice.fish ? std::optional{*choice.fish / extent_.fewer} : std::nullopt;
+        return makeSea(sourceFolder() + "/config/scenes/" + choice.scene + ".txtpb",
+                       fish,
+                       extent_.ticksBefore,
+                       extent_.frames);
+    }
+
+    void measureWall(const std::string& name,
+                     const Sea& sea,
+                     const NamedWall& wall,
+                     QualityTier tier) {
+        const auto free = freeMebibytes();
+        const auto start = std::chrono::steady_clock::now();
+        DrawnWall drawn(sea, wall.rig, tier);
+        const std::chrono::duration<double> building = std::chrono::steady_clock::now() - start;
+        rows_.counter(name, "build_s", building.count());
+        writeMemory(name, free);
+        writeFrames(name, drawn.timeFrames(extent_.frameTimes));
+        writeStages(name,
+                    drawn.timeStages(extent_.stageTimes, /*withPixels=*/true),
+                    drawn.timeStages(extent_.stageTimes, /*withPixels=*/false));
+        writePng((options_.out / fileOf(name)).string(),
+                 pictureOf(wall.panorama.compose(drawn.lights()), 8, 0));
+        refuseErrors(name);
+        csv_.flush();
+    }
+
+    void writeMemory(const std::string& name, std::optional<double> freeBefore) {
+        const CardMemory memory = cardMemory();
+        rows_.counter(name, "textures_mib", memory.textureMebibytes);
+        rows_.counter(name, "buffers_mib", memory.bufferMebibytes);
+        const auto free = freeMebibytes();
+        if (freeBefore && free) rows_.counter(name, "driver_mib", *freeBefore - *free);
+    }
+
+    void writeFrames(const std::string& name, const FrameTimes& times) {
+        const double median = percentile(times.wall, 0.5);
+        const double slow = percentile(times.wall, 0.99);
+        rows_.time(name, 1e6 * times.cpu);
+        rows_.counter(name, "frames", static_cast<double>(times.wall.size()));
+        rows_.counter(name, "frame_p50_ms", median);
+        rows_.counter(name, "frame_p99_ms", slow);
+        std::printf("%-40s frame %7.2f ms (p99 %7.2f), %6.1f a second; cpu %6.2f ms\n",
+                    name.c_str(),
+                    median,
+                    slow,
+                    1000 / median,
+                    times.cpu);
+        std::fflush(stdout);
+    }
+
+    void writeStages(const std::string& name, const StageTimes& all, const StageTimes& noPixels) {
+        rows_.counter(name, "gpu_ms", sumOf(all));
+        rows_.counter(name, "gpu_vertex_ms", sumOf(noPixels));
+        for (const auto& [stage, milliseconds] : all) {
+            const auto without = noPixels.find(stage);
+            const double vertex = without == noPixels.end() ? 0.0 : without->second;
+            const std::string row = name + "/" + underscored(stage);
+            rows_.counter(row, "gpu_ms", milliseconds);
+            rows_.counter(row, "gpu_vertex_ms", vertex);
+            std::printf(
+                "    %-16s %8.3f ms, without pixels %8.3f\n", stage.c_str(), milliseconds, vertex);
+        }
+    }
+
+    void compareGolden() {
+        int within = 0;
+        int compared = 0;
+        for (const test::GoldenStill& golden : test::goldenStills()) {
+            const std::string name = "gpu/golden/" + golden.name;
+            if (!options_.wants(name)) continue;
+            const Picture picture = test::pictureOf(golden.still);
+            const auto apart =
+                test::codeDifference(picture, readPng(test::goldenPath(golden.name)));
+            const bool isWithin = apart.within(golden.limits);
+            rows_.counter(name, "mean_codes", apart.meanCodes);
+            rows_.counter(name, "percentile_999_codes", apart.percentile999Codes);
+            rows_.counter(name, "within_bounds", isWithin ? 1 : 0);
+            writePng((options_.out / "golden" / fileOf(golden.name)).string(), picture);
+            if (!isWithin)
+                std::printf("%-40s differs: mean %.2f codes, 99.9 %% within %.0f\n",
+                            name.c_str(),
+                            apart.meanCodes,
+                            apart.percentile999Codes);
+            within += isWithin ? 1 : 0;
+            ++compared;
+        }
+        if (compared > 0)
+            std::printf("%d of %d pictures are those of software Mesa\n", within, compared);
+    }
+
+    static void refuseErrors(const std::string& name) {
+        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+            throw Error(name + ": OpenGL error " + std::to_string(error) +
+                        " while it was drawn; leave it out by --only");
+    }
+
+    const Options& options_;
+    Extent extent_;
+    fs::path csvPath_;
+    std::ofstream csv_;
+    CsvWriter rows_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    Options options;
+    CLI::App app{"Measures a graphics card without a display."};
+    app.add_option("--out", options.out, "folder of the figures and pictures");
+    app.add_option("--only", options.only, "parts of names, as eight_4k, reef/high or golden/");
+    app.add_option("--device", options.device, "auto | nvidia | mesa | surfaceless | device:N");
+    app.add_flag("--software", options.software, "draw without a card, tiny, to try this program");
+    CLI11_PARSE(app, argc, argv);
+    const Card card = openCard(options);
+    if (!card.context) {
+        std::printf("no GPU here: %s\n", card.lack.c_str());
+        return kSkipped;
+    }
+    Measurement(options).measure();
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "aquarama_gpu_bench: %s\n", error.what());
+    return 1;
+}

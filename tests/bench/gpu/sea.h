@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A living world as the nodes of a wall would be told of it, some ticks long.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/wire/messages.h"
+#include "render_node/session/session.h"
+
+namespace aquarama {
+
+struct Sea {
+    Admission admission;             // without a rig
+    std::vector<StateFrame> frames;  // half-way between two ticks, as live shows have them
+};
+
+// Simulates the scene with so many fish of its first species: first `ticksBefore`, then a frame a
+// tick.
+[[nodiscard]] Sea makeSea(const std::string& scenePath,
+                          std::optional<std::uint32_t> fish,
+                          int ticksBefore,
+                          int frames);
+
+}  // namespace aquarama
