@@ -60,7 +60,7 @@ struct SkinPoint {
                                   std::size_t vertex,
                                   std::span<const glm::vec3> controlPoints);
 
-// Takes 5 to 50 ms, so it is built at start and not kept in files.
+// Takes 5 to 50 ms.
 [[nodiscard]] LimitTable makeLimitTable(const FishBody& body, int level);
 
 }  // namespace aquarama
