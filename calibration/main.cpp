@@ -148,7 +148,8 @@ void describeClip(CLI::App& app, Clip& options, Job& job) {
         ->check(wholeNumber(1, 10000));
     clip.add_option("--frames",
                     options.filming.frames,
-                    "how many frames the show has, to say how long it takes");
+                    "how many frames the show has, to say how long it takes")
+        ->check(wholeNumber(1, kMostShownFrames));
     clip.add_option("--first",
                     options.filming.firstPictures,
                     "folder for panorama.png and hall.png of the first frame, at once");

@@ -20,15 +20,15 @@ struct Filming {
     std::filesystem::path pipes;  // folder with a named pipe for each channel that is filmed
     std::string clipPath;         // .mp4 or .webp
     int ticksBetween = 1;
-    std::optional<std::uint64_t> frames;  // of the show, where it is known
+    std::optional<std::uint64_t> frames = {};  // of the show, where it is known
     // Of the panorama or the hall: where panorama.png and hall.png of the first frame go, at once;
     // empty: nowhere.
-    std::string firstPictures;
+    std::string firstPictures = {};
 };
 
-// Until the nodes close their pipes; then says what it made. Shows how far it is on standard output:
-// in one line of a terminal, or a line every ten seconds. Throws Error: frames that are not the rig's or not the same
-// ones of all channels, no frame at all, a clip that cannot be written.
+// Until the nodes close their pipes; then says what it made. Shows how far it is on standard
+// output: in one line of a terminal, or a line every ten seconds. Throws Error: frames that are not
+// the rig's or not the same ones of all channels, no frame at all, a clip that cannot be written.
 void film(const Rig& rig, const Filming& filming);
 
 }  // namespace aquarama

@@ -21,6 +21,7 @@ struct InspectOptions {
 };
 
 void inspect(const InspectOptions& options) {
+    requireFolder("--report", options.report);
     const std::vector<std::byte> bytes = readRepertoireFile(options.file);
     std::cout << inspectRepertoire(bytes, options.file);
     if (options.report.empty()) return;
