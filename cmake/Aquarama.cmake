@@ -19,6 +19,8 @@ function(aquarama_precompiled name)
   target_link_libraries(${name} PRIVATE aquarama_options glm::glm ${ARG_LINK})
   target_compile_options(${name} PRIVATE -ffp-contract=off ${ARG_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+  # A cache of the compiler gives precompiled headers back that crash GCC 12 in another folder.
+  set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER "")
 endfunction()
 
 # aquarama_library(motion SOURCES a.cpp ... [LINK targets...] [PRIVATE targets...] [OPTIMISED])
