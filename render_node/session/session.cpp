@@ -22,7 +22,8 @@ std::vector<AdmittedSpecies> castOf(const Admitted& admitted) {
     for (const auto& [species, repertoire, fish] : admitted.welcome.cast)
         cast.push_back({textOf(admitted.blobs.at(species)),
                         decodeRepertoire(admitted.blobs.at(repertoire), "the master's repertoire"),
-                        fish});
+                        fish,
+                        digestOf(toHex(species) + toHex(repertoire))});
     return cast;
 }
 

@@ -13,6 +13,7 @@
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/motion/repertoire.h"
+#include "common/units/digest.h"
 #include "common/wire/envelope.h"
 
 namespace aquarama {
@@ -32,6 +33,7 @@ struct AdmittedSpecies {
     std::string text;  // of the species file
     Repertoire repertoire;
     std::uint32_t fish = 0;
+    std::optional<Digest> source = {};  // of text and repertoire as they came
 };
 
 struct Admission {

@@ -50,15 +50,10 @@ std::vector<Label> helpLabels(float dot) {
     return labels;
 }
 
-Digest sourceOf(const SpeciesBlobs& blobs) {
-    return digestOf(toHex(blobs.species) + toHex(blobs.repertoire));
-}
-
 std::vector<SchoolSpecies> castOf(const Admission& admission) {
     std::vector<SchoolSpecies> cast;
     std::span<const FishTraits> rest = admission.welcome.school;
-    for (std::size_t i = 0; i < admission.cast.size(); ++i) {
-        const AdmittedSpecies& admitted = admission.cast[i];
+    for (const AdmittedSpecies& admitted : admission.cast) {
         const Species species = parseSpecies(admitted.text, "the master's species file");
         const auto own = rest.first(std::min<std::size_t>(admitted.fish, rest.size()));
         rest = rest.subspan(own.size());
@@ -66,7 +61,7 @@ std::vector<SchoolSpecies> castOf(const Admission& admission) {
                         skinOf(species),
                         admitted.repertoire,
                         {own.begin(), own.end()},
-                        sourceOf(admission.welcome.cast[i])});
+                        admitted.source});
     }
     return cast;
 }
