@@ -95,6 +95,8 @@ class VirtualDisplay {
                    "-screen",
                    "0",
                    size.c_str(),
+                   "-noreset",  // by default a server starts anew, and is away a moment, when its
+                                // last client goes
                    "-nolisten",
                    "tcp",
                    static_cast<char*>(nullptr));
