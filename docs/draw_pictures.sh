@@ -32,12 +32,15 @@ declare -A way=(
 )
 
 # Each leaves its pictures in $drawn.
+# For a clip that nobody keeps only its own frames are drawn: here the last one.
 panorama() {
-    $bin/aquarama run config/desk.txtpb --quality medium --headless --frames 60 --snapshot "$drawn/desk"
+    $bin/aquarama run config/desk.txtpb --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/desk.mp4" \
+        --snapshot "$drawn/desk"
     mv "$drawn/desk/panorama.png" "$drawn"
 }
 stereo() {
-    $bin/aquarama run config/desk_stereo.txtpb --quality medium --headless --frames 60 --snapshot "$drawn/stereo"
+    $bin/aquarama run config/desk_stereo.txtpb --quality medium --headless --frames 61 --film-every 60 \
+        --clip "$drawn/stereo.mp4" --snapshot "$drawn/stereo"
     mv "$drawn/stereo/panorama.png" "$drawn/stereo.png"
 }
 portraits() {
