@@ -159,7 +159,12 @@ class FilmTest : public ClipTest {
         for (std::thread& node : nodes) node.join();
     }
     [[nodiscard]] Filming filmingOf(const std::string& of) const {
-        return {.of = of, .pipes = folder_, .clipPath = path("clip.mp4"), .ticksBetween = 1};
+        return {.of = of,
+                .pipes = folder_,
+                .clipPath = path("clip.mp4"),
+                .ticksBetween = 1,
+                .frames = {},
+                .firstPictures = {}};
     }
 
     Rig rig_ = readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");

@@ -10,8 +10,9 @@ namespace {
 
 TEST(SpeciesPictures, everySpeciesLooksFromTheSideAndTheFrontAsItDid) {
     const auto context = makeOffscreenContext("mesa", {16, 16});
+    test::Photographer photographer;
     for (const test::GoldenStill& golden : test::goldenStills("species/"))
-        test::expectGolden(test::pictureOf(golden.still), golden.name, golden.limits);
+        test::expectGolden(photographer.pictureOf(golden.still), golden.name, golden.limits);
 }
 
 }  // namespace
