@@ -17,12 +17,14 @@ void PresentBarrier::heard(std::size_t node, Instant now) {
 void PresentBarrier::join(std::size_t node, Frame first) {
     Node& joining = nodes_[node];
     joining.member = true;
-    joining.late = joining.ready = false;
+    joining.late = false;
+    joining.readyFor.reset();
     joining.first = first;
 }
 
 void PresentBarrier::leave(std::size_t node) {
-    nodes_[node].member = nodes_[node].ready = false;
+    nodes_[node].member = false;
+    nodes_[node].readyFor.reset();
 }
 
 std::vector<std::size_t> PresentBarrier::expelSilent(Instant now) {
@@ -39,18 +41,23 @@ std::vector<std::size_t> PresentBarrier::expelSilent(Instant now) {
 void PresentBarrier::begin(Frame frame) {
     frame_ = frame;
     firstReady_.reset();
-    for (Node& node : nodes_) node.ready = false;
 }
 
 void PresentBarrier::ready(std::size_t node, Frame frame, Instant now) {
     Node& speaker = nodes_[node];
     if (!frame_ || !speaker.member) return;
-    const bool onlyJustLate = frame.value + 1 == frame_->value;
-    if (frame == *frame_ || onlyJustLate) speaker.late = false;
-    if (frame != *frame_) return;
-    speaker.first = std::min(speaker.first, frame);  // it evidently saw that state
-    speaker.ready = true;
-    if (!firstReady_) firstReady_ = now;
+    const bool isAhead = frame.value == frame_->value + 1;
+    const bool isOnlyJustLate = frame.value + 1 == frame_->value;
+    if (frame == *frame_ || isAhead || isOnlyJustLate) speaker.late = false;
+    if (frame != *frame_ && !isAhead) return;
+    // It evidently saw that state; one that is ahead has left out the frame that is drawn now.
+    speaker.first = isAhead ? frame : std::min(speaker.first, frame);
+    speaker.readyFor = frame;
+    if (!isAhead && !firstReady_) firstReady_ = now;
+}
+
+bool PresentBarrier::anyReady() const {
+    return std::ranges::any_of(nodes_, [&](const Node& node) { return isReady(node); });
 }
 
 bool PresentBarrier::isWaitedFor(std::size_t node) const {
@@ -58,10 +65,13 @@ bool PresentBarrier::isWaitedFor(std::size_t node) const {
     return n.member && !n.late && frame_ && n.first <= *frame_;
 }
 
-bool PresentBarrier::hasNewcomer() const {
-    return std::ranges::any_of(nodes_, [&](const Node& node) {
-        return node.member && !node.late && (!frame_ || *frame_ < node.first);
-    });
+std::optional<Frame> PresentBarrier::nextAwaited() const {
+    std::optional<Frame> next;
+    for (const Node& node : nodes_) {
+        const bool isNewcomer = node.member && !node.late && (!frame_ || *frame_ < node.first);
+        if (isNewcomer) next = std::min(next.value_or(node.first), node.first);
+    }
+    return next;
 }
 
 bool PresentBarrier::allPrepared() const {
@@ -82,15 +92,16 @@ PresentBarrier::Decision PresentBarrier::decideLive(Instant now) {
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
         if (!isWaitedFor(node)) continue;
         ++waitedFor;
-        if (!nodes_[node].ready) ++missing;
+        if (!isReady(nodes_[node])) ++missing;
     }
     if (waitedFor == 0) return {};
     if (missing == 0) return {Verdict::Present, {}, 0};
-    if (!firstReady_ || missing == waitedFor) return {Verdict::Wait, {}, 0};
+    if (missing == waitedFor) return {Verdict::Wait, {}, 0};
+    if (!firstReady_) firstReady_ = now;  // it was ready before the frame was begun
     const Instant deadline = *firstReady_ + limits_.deadline;
     if (now < deadline) return {Verdict::Wait, deadline, 0};
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
-        if (!isWaitedFor(node) || nodes_[node].ready) continue;
+        if (!isWaitedFor(node) || isReady(nodes_[node])) continue;
         nodes_[node].late = true;
         ++nodes_[node].timesLate;
     }
@@ -103,8 +114,8 @@ PresentBarrier::Decision PresentBarrier::decideLockstep(Instant now) const {
     const Instant end = quietest->lastHeard + limits_.patience;
     const auto name = static_cast<std::size_t>(quietest - nodes_.begin());
     const bool allReady =
-        std::ranges::all_of(nodes_, [](const Node& node) { return node.member && node.ready; });
-    if (allReady && frame_) return {Verdict::Present, {}, 0};
+        std::ranges::all_of(nodes_, [&](const Node& node) { return isReady(node); });
+    if (allReady) return {Verdict::Present, {}, 0};
     if (now >= end) return {Verdict::Silent, {}, name};
     return {Verdict::Wait, end, name};
 }

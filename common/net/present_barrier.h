@@ -25,9 +25,10 @@ struct BarrierLimits {
 // Nodes are numbered by their channel's place in the rig.
 //
 // Live: a member that misses a deadline leaves the wait set at once, and is waited for again as
-// soon as it is ready for the frame that is drawn now, or was ready for the one before it only just
-// too late: that brings equally slow nodes in step, while one that is slower than the rest for good
-// does not slow the wall down. A member whose net thread is silent is no member any more.
+// soon as it is ready for the frame that is drawn now, for the next one (whose state is published
+// early), or only just too late for the one before: that brings equally slow nodes in step, while
+// one that is slower than the rest for good does not slow the wall down. A member whose net thread
+// is silent is no member any more.
 // Lockstep: every node is waited for; one that is silent for `patience` ends the show.
 class PresentBarrier {
   public:
@@ -61,28 +62,31 @@ class PresentBarrier {
     [[nodiscard]] bool isWaitedFor(std::size_t node) const;
     [[nodiscard]] bool allPrepared() const;
     [[nodiscard]] bool hasMembers() const;
-    // A member that is waited for from a later frame on than the one that is drawn now.
-    [[nodiscard]] bool hasNewcomer() const;
+    // The first frame after the one that is drawn now from which on some member is waited for.
+    [[nodiscard]] std::optional<Frame> nextAwaited() const;
     // Somebody is ready for the frame that is drawn now.
-    [[nodiscard]] bool anyReady() const { return firstReady_.has_value(); }
+    [[nodiscard]] bool anyReady() const;
     [[nodiscard]] std::uint64_t timesLate(std::size_t node) const { return nodes_[node].timesLate; }
 
   private:
     struct Node {
         bool member = false;
-        bool late = false;   // out of the wait set since it missed a deadline
-        bool ready = false;  // for frame_
+        bool late = false;  // out of the wait set since it missed a deadline
+        std::optional<Frame> readyFor;
         Frame first;
         Instant lastHeard{};
         std::uint64_t timesLate = 0;
     };
+    [[nodiscard]] bool isReady(const Node& node) const {
+        return node.member && node.readyFor && node.readyFor == frame_;
+    }
     [[nodiscard]] Decision decideLive(Instant now);
     [[nodiscard]] Decision decideLockstep(Instant now) const;
 
     BarrierLimits limits_;
     std::vector<Node> nodes_;
     std::optional<Frame> frame_;
-    std::optional<Instant> firstReady_;
+    std::optional<Instant> firstReady_;  // since when anybody has been ready for frame_
 };
 
 }  // namespace aquarama

@@ -162,9 +162,11 @@ void Conductor::conduct(Instant now) {
     // As late as possible, so that what it shows is fresh; early enough to be there on time.
     if (barrier_.anyReady() && !isLast(next_)) publish({next_.value + 1}, now);
     if (decision.verdict == PresentBarrier::Verdict::Present) return release(now);
-    if (decision.verdict == PresentBarrier::Verdict::Idle && barrier_.hasNewcomer()) {
-        next_ = unpublished_;
-        beginNext(now);
+    if (decision.verdict == PresentBarrier::Verdict::Idle) {
+        if (const auto awaited = barrier_.nextAwaited()) {
+            next_ = *awaited;
+            beginNext(now);
+        }
     }
     if (isLockstep() && now - lastRepeat_ > kRepeat) publishAgain(now);
 }

@@ -52,25 +52,26 @@ class Faults(unittest.TestCase):
         end(self.show.processes.values())
         self.folder.cleanup()
 
+    def status(self):
+        """channel -> its line of the status."""
+        asked = aquarama("status", "--master", control_address(self.show.rig))
+        self.assertEqual(asked.returncode, 0, asked.stderr)
+        return {line.split()[0]: line for line in asked.stdout.splitlines() if line.split()}
+
     def back_in_step(self, name):
-        self.show.wait_for_progress([name])
-        joined = max(self.show.last_frame(name) for name in CHANNELS)
+        wait_until(lambda: "in step" in self.status()[name], 60, f"{name} to be waited for again")
         self.show.wait_for_progress(CHANNELS)
+        joined = max(self.show.last_frame(name) for name in CHANNELS)
         wait_until(lambda: len(self.show.in_step_since(CHANNELS, joined)[0]) >= 3, 60, "frames that all three show")
         self.assertEqual(self.show.in_step_since(CHANNELS, joined)[1], [], "presented before all were ready")
 
     def test_status_tells_who_is_there_and_who_is_not(self):
-        def status():
-            asked = aquarama("status", "--master", control_address(self.show.rig))
-            self.assertEqual(asked.returncode, 0, asked.stderr)
-            return {line.split()[0]: line for line in asked.stdout.splitlines() if line.split()}
-
-        together = status()
+        together = self.status()
         for name in CHANNELS:
             self.assertIn(name, together)
         self.show.processes["left"].send_signal(signal.SIGKILL)
         self.show.processes["left"].wait()
-        wait_until(lambda: status()["left"] != together["left"], 30, "the status to tell that a node is gone")
+        wait_until(lambda: self.status()["left"] != together["left"], 30, "the status to tell that a node is gone")
 
     def test_a_killed_node_is_passed_over_and_returns(self):
         self.show.processes["left"].send_signal(signal.SIGKILL)

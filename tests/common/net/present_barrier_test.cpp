@@ -98,6 +98,32 @@ TEST(PresentBarrier, aNodeOnlyJustTooLateIsWaitedForInTheNextFrame) {
     EXPECT_FALSE(barrier.isWaitedFor(kMiddle));
 }
 
+// The state of the next frame is published while this one is drawn: a late node may take it at once.
+TEST(PresentBarrier, aLateNodeThatIsAheadIsWaitedForFromItsFrameOn) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.ready(kLeft, {0}, at(0));
+    barrier.ready(kMiddle, {0}, at(0));
+    ASSERT_EQ(barrier.decide(at(16)).verdict, Verdict::Present);
+    barrier.begin({1});
+    barrier.ready(kRight, {2}, at(30));
+    EXPECT_FALSE(barrier.isWaitedFor(kRight));  // it does not draw frame 1
+    EXPECT_FALSE(barrier.anyReady());
+    barrier.ready(kLeft, {1}, at(40));
+    EXPECT_EQ(barrier.decide(at(40)).verdict, Verdict::Wait);
+    barrier.ready(kMiddle, {1}, at(41));
+    ASSERT_EQ(barrier.decide(at(41)).verdict, Verdict::Present);
+    barrier.begin({2});
+    EXPECT_TRUE(barrier.isWaitedFor(kRight));
+    EXPECT_TRUE(barrier.anyReady());
+    const auto waiting = barrier.decide(at(50));
+    EXPECT_EQ(waiting.verdict, Verdict::Wait);
+    EXPECT_EQ(waiting.until, at(66));  // it was ready first
+    barrier.ready(kLeft, {2}, at(60));
+    barrier.ready(kMiddle, {2}, at(61));
+    EXPECT_EQ(barrier.decide(at(61)).verdict, Verdict::Present);
+    EXPECT_EQ(barrier.timesLate(kRight), 1U);
+}
+
 TEST(PresentBarrier, aNodeSeveralFramesBehindStaysOut) {
     PresentBarrier barrier = drawing({0}, false);
     barrier.ready(kLeft, {0}, at(0));
@@ -175,15 +201,27 @@ TEST(PresentBarrier, aNewcomerIsWaitedForFromTheFirstFrameThatItSees) {
     PresentBarrier barrier(3, limits(false), at(0));
     barrier.join(kLeft, {0});
     barrier.begin({0});
-    EXPECT_FALSE(barrier.hasNewcomer());
+    EXPECT_FALSE(barrier.nextAwaited());
     barrier.join(kRight, {2});
     EXPECT_FALSE(barrier.isWaitedFor(kRight));
-    EXPECT_TRUE(barrier.hasNewcomer());
+    EXPECT_EQ(barrier.nextAwaited(), Frame{2});
     barrier.begin({1});
     EXPECT_FALSE(barrier.isWaitedFor(kRight));
     barrier.begin({2});
     EXPECT_TRUE(barrier.isWaitedFor(kRight));
-    EXPECT_FALSE(barrier.hasNewcomer());
+    EXPECT_FALSE(barrier.nextAwaited());
+}
+
+// Nobody draws the frame that is drawn now: the one that is ready already comes next.
+TEST(PresentBarrier, aNodeThatIsAheadAloneIsNotLeftWaiting) {
+    PresentBarrier barrier(3, limits(false), at(0));
+    barrier.join(kLeft, {0});
+    barrier.begin({0});
+    barrier.ready(kLeft, {1}, at(5));
+    EXPECT_EQ(barrier.decide(at(5)).verdict, Verdict::Idle);
+    ASSERT_EQ(barrier.nextAwaited(), Frame{1});
+    barrier.begin({1});
+    EXPECT_EQ(barrier.decide(at(6)).verdict, Verdict::Present);
 }
 
 TEST(PresentBarrier, anEmptyWallIsIdle) {
