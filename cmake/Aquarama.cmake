@@ -54,6 +54,7 @@ function(aquarama_program name)
   target_link_libraries(aquarama-${name} PRIVATE aquarama_options ${ARG_LINK})
   set_target_properties(aquarama-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin
     UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  target_compile_options(aquarama-${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a quarter faster to compile
   aquarama_version(aquarama-${name})
 endfunction()
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -18,7 +19,7 @@ constexpr double kEyeBackRadii = 1.15;  // behind the sweet spot, so that the wh
 constexpr double kEyeUpMetres = 0.35;   // standing, behind people who sit
 constexpr double kMargin = 1.09;        // of the screen's width
 constexpr double kShareAbove = 0.3;     // of the free height; the floor gets the rest
-constexpr int kSamplesPerSide = 2;      // of a pixel
+constexpr std::size_t kSamplesPerSide = 2;  // of a pixel
 
 // An eye that looks level, so that upright edges stay upright; its picture is shifted, not tilted.
 struct Eye {
@@ -48,13 +49,14 @@ Eye eyeAtTheBack(const Screen& screen, glm::dvec2 sizePixels) {
 }
 
 void drawRow(const Room& room, const Eye& eye, int y, Light& hall) {
-    constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
-    for (int x = 0; x < hall.sizePixels.x; ++x)
-        for (int i = 0; i < kSamples; ++i) {
+    std::array<Ray, kSamplesPerSide * kSamplesPerSide> rays;
+    for (int x = 0; x < hall.sizePixels.x; ++x) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
             const glm::dvec2 offset(i % kSamplesPerSide, i / kSamplesPerSide);
-            const glm::dvec2 pixel = glm::dvec2(x, y) + (offset + 0.5) / double{kSamplesPerSide};
-            hall.at(x, y) += room.seen(eye.ray(pixel)) / float{kSamples};
+            rays[i] = eye.ray(glm::dvec2(x, y) + (offset + 0.5) / double(kSamplesPerSide));
         }
+        hall.at(x, y) = room.seen(rays);
+    }
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
+#include <future>
 #include <vector>
 
 #include "calibration/theatre/compose.h"
@@ -27,7 +29,11 @@ std::vector<PanoramaMap::Sample> samplesOf(const Rig& rig, const Channel& channe
 }  // namespace
 
 PanoramaMap::PanoramaMap(const Rig& rig) : sizePixels_{rig.panoramaPixels} {
-    for (const Channel& channel : rig.channels) samples_.push_back(samplesOf(rig, channel));
+    std::vector<std::future<std::vector<Sample>>> pending;
+    for (const Channel& channel : rig.channels)
+        pending.push_back(
+            std::async(std::launch::async, samplesOf, std::cref(rig), std::cref(channel)));
+    for (auto& samples : pending) samples_.push_back(samples.get());
 }
 
 Light PanoramaMap::compose(std::span<const Light> channels) const {

@@ -101,11 +101,21 @@ Room::Room(const Screen& screen, const Light& panorama, glm::dvec3 eye)
     audience_ = seatedRow(low_.y, eye.z - kSeatsBeforeEye);
 }
 
-glm::vec3 Room::seen(const Ray& ray) const {
-    if (const auto body = person(ray)) return *body;
-    if (const auto point = screenHit(screen_, ray, 0))
-        return bilinear(panorama_, unrolled(screen_, *point) * glm::dvec2(panorama_.sizePixels));
-    return walls(ray);
+glm::vec3 Room::seen(std::span<const Ray> rays) const {
+    glm::vec3 sum(0);
+    std::optional<glm::vec3> wall;
+    for (const Ray& ray : rays) {
+        if (const auto body = person(ray)) {
+            sum += *body;
+        } else if (const auto point = screenHit(screen_, ray, 0)) {
+            sum +=
+                bilinear(panorama_, unrolled(screen_, *point) * glm::dvec2(panorama_.sizePixels));
+        } else {
+            if (!wall) wall = walls(ray);
+            sum += *wall;
+        }
+    }
+    return sum / static_cast<float>(rays.size());
 }
 
 std::optional<glm::vec3> Room::person(const Ray& ray) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -49,8 +50,9 @@ struct Person {
 class Room {
   public:
     Room(const Screen& screen, const Light& panorama, glm::dvec3 eye);
-    // What comes along a ray (of length-one direction) to an eye in the room.
-    [[nodiscard]] glm::vec3 seen(const Ray& ray) const;
+    // The mean of what comes along the rays (of length-one directions) of one pixel to an eye in
+    // the room. The light on floor, ceiling and walls changes slowly: it is found once a pixel.
+    [[nodiscard]] glm::vec3 seen(std::span<const Ray> rays) const;
 
   private:
     [[nodiscard]] std::optional<glm::vec3> person(const Ray& ray) const;

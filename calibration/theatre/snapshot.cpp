@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/theatre/snapshot.h"
 
+#include <future>
 #include <vector>
 
 #include "calibration/theatre/compose.h"
@@ -73,8 +74,11 @@ void writePanoramaAndHall(const Rig& rig,
                           const Light& panorama,
                           const std::string& folder,
                           int bits) {
-    writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
+    auto written = std::async(std::launch::async, [&] {
+        writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
+    });
     writePng(folder + "/hall.png", pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
+    written.get();
 }
 
 void composeSnapshot(const Rig& rig, const std::string& folder, int bits) {

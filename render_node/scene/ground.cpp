@@ -162,6 +162,16 @@ void Ground::draw(const Viewpoint& viewpoint) const {
     glBindTextureUnit(14, detail_.name());
     glBindTextureUnit(15, shade_.name());
     glBindTextureUnit(16, rubble_.name());
+    drawPatches(viewpoint);
+}
+
+void Ground::drawDepths(const Viewpoint& viewpoint) const {
+    const auto program = gl::makeProgram({"floor.vert"});
+    glUseProgram(program.name());
+    drawPatches(viewpoint);
+}
+
+void Ground::drawPatches(const Viewpoint& viewpoint) const {
     glBindVertexArray(array_.name());
     constexpr float kPatchRadius = kPatchMetres * 0.75F;
     for (const GroundTables::Patch& patch : patches_) {

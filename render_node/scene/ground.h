@@ -46,8 +46,12 @@ class Ground {
   public:
     explicit Ground(const GroundTables& tables);
     void draw(const Viewpoint& viewpoint) const;
+    // The same for a map of depths: without light. Makes its program, for who draws once.
+    void drawDepths(const Viewpoint& viewpoint) const;
 
   private:
+    void drawPatches(const Viewpoint& viewpoint) const;
+
     std::vector<GroundTables::Patch> patches_;
     std::vector<GroundTables::Level> levels_;
     gl::Buffer vertices_, indices_;

@@ -100,6 +100,11 @@ GLsizei commandCount(unsigned prototypes, unsigned levels) {
     return static_cast<GLsizei>(prototypes * levels);
 }
 
+void drawFrom(std::size_t command, GLsizei count) {
+    glMultiDrawElementsIndirect(
+        GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(DrawCommand)), count, 0);
+}
+
 }  // namespace
 
 Library growLibrary() {
@@ -257,16 +262,16 @@ void Reef::cull(const ReefRule& rule) const {
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
-void Reef::draw() const {
-    glBindTextureUnit(14, detail_.name());
+void Reef::bind() const {
     glBindVertexArray(array_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, instances_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 12, wake_.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
-    const auto drawFrom = [](std::size_t command, GLsizei count) {
-        glMultiDrawElementsIndirect(
-            GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(DrawCommand)), count, 0);
-    };
+}
+
+void Reef::draw() const {
+    bind();
+    glBindTextureUnit(14, detail_.name());
     constexpr unsigned kFine = 3;  // levels that are lit at each pixel
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
@@ -284,6 +289,20 @@ void Reef::draw() const {
     glUseProgram(stone_.name());
     glUniform1f(0, quality_.placeDetail);
     if (quality_.rockScales > 1) glUniform1i(1, quality_.rockScales);
+    drawFrom(0, commandCount(kRockShapes, kLevels));
+    glDisable(GL_CULL_FACE);
+}
+
+void Reef::drawDepths() const {
+    const auto growth = gl::makeProgram({"coral.vert"}), stone = gl::makeProgram({"rock.vert"});
+    bind();
+    glUseProgram(growth.name());
+    glUniform1f(0, quality_.placeDetail);
+    glUniform1i(1, 0);  // nothing gives way
+    drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kLevels));
+    glEnable(GL_CULL_FACE);
+    glUseProgram(stone.name());
+    glUniform1f(0, quality_.placeDetail);
     drawFrom(0, commandCount(kRockShapes, kLevels));
     glDisable(GL_CULL_FACE);
 }

@@ -73,8 +73,11 @@ class Reef {
     void cull(const ReefRule& rule) const;
     // What the last cull has chosen, what fills most of the view first.
     void draw() const;
+    // The same for a map of depths: without light. Makes its programs, for who draws once.
+    void drawDepths() const;
 
   private:
+    void bind() const;
     void cullGroups(const ReefRule& rule) const;
     void fillBuffers(const ReefTables& tables);
 

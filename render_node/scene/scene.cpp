@@ -151,8 +151,8 @@ void SceneRenderer::Parts::bakeShadows() {
         setUniforms();
         light.bind();
         bottom->reef.cull({.culling = false, .levelsOfDetail = options.levelsOfDetail});
-        bottom->reef.draw();
-        bottom->ground.draw(
+        bottom->reef.drawDepths();
+        bottom->ground.drawDepths(
             Viewpoint{Frustum{clipFromWorld}, kEyePosition, false, options.levelsOfDetail});
     });
 }

@@ -98,7 +98,8 @@ TEST(PresentBarrier, aNodeOnlyJustTooLateIsWaitedForInTheNextFrame) {
     EXPECT_FALSE(barrier.isWaitedFor(kMiddle));
 }
 
-// The state of the next frame is published while this one is drawn: a late node may take it at once.
+// The state of the next frame is published while this one is drawn: a late node may take it at
+// once.
 TEST(PresentBarrier, aLateNodeThatIsAheadIsWaitedForFromItsFrameOn) {
     PresentBarrier barrier = drawing({0}, false);
     barrier.ready(kLeft, {0}, at(0));
