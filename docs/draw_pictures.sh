@@ -9,8 +9,8 @@ bin=build/show/bin
 
 # What draws each picture: a function below, with its arguments.
 declare -A way=(
-    [panorama.png]=panorama
-    [stereo.png]=stereo
+    [panorama.png]="wall desk panorama.png"
+    [stereo.png]="wall desk_stereo stereo.png"
     [portraits.png]=portraits
     [tiers.png]=tiers
     [water_types.png]=water_types
@@ -32,16 +32,11 @@ declare -A way=(
 )
 
 # Each leaves its pictures in $drawn.
-# For a clip that nobody keeps only its own frames are drawn: here the last one.
-panorama() {
-    $bin/aquarama run config/desk.txtpb --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/desk.mp4" \
-        --snapshot "$drawn/desk"
-    mv "$drawn/desk/panorama.png" "$drawn"
-}
-stereo() {
-    $bin/aquarama run config/desk_stereo.txtpb --quality medium --headless --frames 61 --film-every 60 \
-        --clip "$drawn/stereo.mp4" --snapshot "$drawn/stereo"
-    mv "$drawn/stereo/panorama.png" "$drawn/stereo.png"
+# The unrolled wall of a rig after a second. For a clip that nobody keeps only its own frames are drawn: here the last one.
+wall() {
+    $bin/aquarama run "config/$1.txtpb" --quality medium --headless --frames 61 --film-every 60 --clip "$drawn/$1.mp4" \
+        --snapshot "$drawn/$1"
+    mv "$drawn/$1/panorama.png" "$drawn/$2"
 }
 portraits() {
     $bin/aquarama_draw_still --plate --fov 40 --azimuth 10 --width 1280 --height 720 --quality ultra --out "$drawn/portraits.png"
