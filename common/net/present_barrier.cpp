@@ -2,6 +2,7 @@
 #include "common/net/present_barrier.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace aquarama {
 
@@ -40,7 +41,8 @@ std::vector<std::size_t> PresentBarrier::expelSilent(Instant now) {
 
 void PresentBarrier::begin(Frame frame) {
     frame_ = frame;
-    firstReady_.reset();
+    anyReady_ = false;
+    deadline_.reset();
 }
 
 void PresentBarrier::ready(std::size_t node, Frame frame, Instant now) {
@@ -53,11 +55,8 @@ void PresentBarrier::ready(std::size_t node, Frame frame, Instant now) {
     // It evidently saw that state; one that is ahead has left out the frame that is drawn now.
     speaker.first = isAhead ? frame : std::min(speaker.first, frame);
     speaker.readyFor = frame;
-    if (!isAhead && !firstReady_) firstReady_ = now;
-}
-
-bool PresentBarrier::anyReady() const {
-    return std::ranges::any_of(nodes_, [&](const Node& node) { return isReady(node); });
+    if (isAhead) return;
+    if (!std::exchange(anyReady_, true)) deadline_ = now + limits_.deadline;
 }
 
 bool PresentBarrier::isWaitedFor(std::size_t node) const {
@@ -97,9 +96,9 @@ PresentBarrier::Decision PresentBarrier::decideLive(Instant now) {
     if (waitedFor == 0) return {};
     if (missing == 0) return {Verdict::Present, {}, 0};
     if (missing == waitedFor) return {Verdict::Wait, {}, 0};
-    if (!firstReady_) firstReady_ = now;  // it was ready before the frame was begun
-    const Instant deadline = *firstReady_ + limits_.deadline;
-    if (now < deadline) return {Verdict::Wait, deadline, 0};
+    // Who is ready was ahead: the others have only just begun.
+    if (!deadline_) deadline_ = now + limits_.membership;
+    if (now < *deadline_) return {Verdict::Wait, deadline_, 0};
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
         if (!isWaitedFor(node) || isReady(nodes_[node])) continue;
         nodes_[node].late = true;

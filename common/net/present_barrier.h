@@ -64,8 +64,9 @@ class PresentBarrier {
     [[nodiscard]] bool hasMembers() const;
     // The first frame after the one that is drawn now from which on some member is waited for.
     [[nodiscard]] std::optional<Frame> nextAwaited() const;
-    // Somebody is ready for the frame that is drawn now.
-    [[nodiscard]] bool anyReady() const;
+    // Somebody has become ready for the frame since it was begun: all that see its state have taken
+    // it by now, or are late.
+    [[nodiscard]] bool anyReady() const { return anyReady_; }
     [[nodiscard]] std::uint64_t timesLate(std::size_t node) const { return nodes_[node].timesLate; }
 
   private:
@@ -86,7 +87,8 @@ class PresentBarrier {
     BarrierLimits limits_;
     std::vector<Node> nodes_;
     std::optional<Frame> frame_;
-    std::optional<Instant> firstReady_;  // since when anybody has been ready for frame_
+    bool anyReady_ = false;
+    std::optional<Instant> deadline_;  // of frame_, as soon as anybody is ready for it
 };
 
 }  // namespace aquarama

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/net/present_barrier.h"
 
+#include <algorithm>
+#include <array>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -115,11 +119,12 @@ TEST(PresentBarrier, aLateNodeThatIsAheadIsWaitedForFromItsFrameOn) {
     ASSERT_EQ(barrier.decide(at(41)).verdict, Verdict::Present);
     barrier.begin({2});
     EXPECT_TRUE(barrier.isWaitedFor(kRight));
-    EXPECT_TRUE(barrier.anyReady());
-    const auto waiting = barrier.decide(at(50));
-    EXPECT_EQ(waiting.verdict, Verdict::Wait);
-    EXPECT_EQ(waiting.until, at(66));  // it was ready first
+    // The others take frame 2 first: no later state is to be published before one of them is ready.
+    EXPECT_FALSE(barrier.anyReady());
+    EXPECT_EQ(barrier.decide(at(50)).until, at(300));  // a membership's time
     barrier.ready(kLeft, {2}, at(60));
+    EXPECT_TRUE(barrier.anyReady());
+    EXPECT_EQ(barrier.decide(at(60)).until, at(76));
     barrier.ready(kMiddle, {2}, at(61));
     EXPECT_EQ(barrier.decide(at(61)).verdict, Verdict::Present);
     EXPECT_EQ(barrier.timesLate(kRight), 1U);
@@ -157,6 +162,58 @@ TEST(PresentBarrier, aSlowSoftwareWallFallsIntoStep) {
     EXPECT_EQ(doneAt[0], doneAt[1]);
     EXPECT_EQ(doneAt[1], doneAt[2]);
     EXPECT_GE(frame, 25U);
+}
+
+// It takes the newest state, draws it for 4 to 8 ms, waits until that frame or a later one is
+// released, and shows it then.
+struct SimulatedNode {
+    std::uint64_t draws = 0;
+    int doneAt = 0;
+    bool waits = false;
+    std::vector<std::uint64_t> shown;
+};
+
+// One of three nodes is held up for 30 to 230 ms: afterwards all show the same frames, each of
+// them, in whatever moment of a frame it came back.
+TEST(PresentBarrier, aNodeThatWasHeldUpShowsAllFramesWithTheOthersAgain) {
+    constexpr int kLead = 2;  // from the word to the release
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        std::mt19937 random(seed);
+        PresentBarrier barrier = drawing({0}, false);
+        std::array<SimulatedNode, 3> nodes{};
+        int heldUpFor = 30 + static_cast<int>(random() % 200);
+        std::uint64_t frame = 0, published = 0;
+        int releasedAt = 0;
+        for (int now = 1; now < 1500; ++now) {
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                SimulatedNode& node = nodes[i];
+                barrier.heard(i, at(now));
+                if (now >= 300 && i == kRight && !node.waits)
+                    node.doneAt += std::exchange(heldUpFor, 0);
+                if (!node.waits && now >= node.doneAt) {
+                    barrier.ready(i, {node.draws}, at(now));
+                    node.waits = true;
+                }
+                if (!node.waits || node.draws >= frame || now < releasedAt) continue;
+                if (node.draws + 1 == frame) node.shown.push_back(node.draws);
+                if (node.draws == published) continue;
+                node.draws = published;
+                node.doneAt = now + 4 + static_cast<int>(random() % 5);
+                node.waits = false;
+            }
+            const auto verdict = barrier.decide(at(now)).verdict;
+            if (barrier.anyReady()) published = frame + 1;
+            if (verdict != Verdict::Present) continue;
+            published = std::max(published, ++frame);
+            releasedAt = now + kLead;
+            barrier.begin({frame});
+        }
+        for (SimulatedNode& node : nodes)
+            std::erase_if(node.shown, [&](std::uint64_t f) { return f + 40 < frame; });
+        EXPECT_GE(nodes[kLeft].shown.size(), 38U) << "seed " << seed;
+        EXPECT_EQ(nodes[kMiddle].shown, nodes[kLeft].shown) << "seed " << seed;
+        EXPECT_EQ(nodes[kRight].shown, nodes[kLeft].shown) << "seed " << seed;
+    }
 }
 
 TEST(PresentBarrier, aNodeThatIsMerelySlowStaysAMemberWhileItsNetThreadSpeaks) {
@@ -214,6 +271,21 @@ TEST(PresentBarrier, aNewcomerIsWaitedForFromTheFirstFrameThatItSees) {
 }
 
 // Nobody draws the frame that is drawn now: the one that is ready already comes next.
+TEST(PresentBarrier, aNodeThatIsAheadDoesNotWaitForOnesThatHang) {
+    PresentBarrier barrier = drawing({0}, false);
+    barrier.ready(kLeft, {0}, at(0));
+    ASSERT_EQ(barrier.decide(at(16)).verdict, Verdict::Present);
+    barrier.begin({1});
+    barrier.ready(kMiddle, {2}, at(20));
+    barrier.ready(kLeft, {1}, at(20));
+    ASSERT_EQ(barrier.decide(at(36)).verdict, Verdict::Present);
+    barrier.begin({2});
+    EXPECT_EQ(barrier.decide(at(40)).verdict, Verdict::Wait);
+    EXPECT_EQ(barrier.decide(at(289)).verdict, Verdict::Wait);
+    EXPECT_EQ(barrier.decide(at(290)).verdict, Verdict::Present);
+    EXPECT_FALSE(barrier.isWaitedFor(kLeft));
+}
+
 TEST(PresentBarrier, aNodeThatIsAheadAloneIsNotLeftWaiting) {
     PresentBarrier barrier(3, limits(false), at(0));
     barrier.join(kLeft, {0});
