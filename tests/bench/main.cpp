@@ -22,12 +22,21 @@ double peakMemoryMib() {
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+// Another word in Google Benchmark 1.9 (Debian 13) than in 1.7 (Debian 12).
+template <class Run>
+bool failed(const Run& run) {
+    if constexpr (requires { run.error_occurred; })
+        return run.error_occurred;
+    else
+        return run.skipped != 0;
+}
+
 // Prints to the console as usual and keeps every figure.
 class KeepingReporter : public benchmark::ConsoleReporter {
   public:
     void ReportRuns(const std::vector<Run>& runs) override {
         for (const Run& run : runs) {
-            if (run.error_occurred) continue;
+            if (failed(run)) continue;
             kept_.push_back(run);
             kept_.back().counters["peak_memory_mib"] = peakMemoryMib();
         }

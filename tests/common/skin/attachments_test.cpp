@@ -179,7 +179,8 @@ TEST_P(AttachmentsOf, areTheSameAtEveryLevel) {
 
 // Of the fin that bears it, a whip passes the ripple on.
 TEST(MoorishIdol, whipWavesWithItsFin) {
-    const auto& [body, table] = madeOf("moorish_idol");
+    const std::string idol = "moorish_idol";
+    const auto& [body, table] = madeOf(idol);
     std::vector<glm::vec3> cage(kControlPoints);
     poseCage(body, body.restNodes, cage);
     const std::size_t tip = table.vertices.size() - 1;
