@@ -74,6 +74,7 @@ void writePanoramaAndHall(const Rig& rig,
                           const Light& panorama,
                           const std::string& folder,
                           int bits) {
+    // While the hall is composed, which takes longer.
     auto written = std::async(std::launch::async, [&] {
         writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
     });

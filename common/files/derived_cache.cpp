@@ -46,13 +46,13 @@ class MakerLock {
     int file_;
 };
 
-// Before the content in a file. The digest is of what the content was made from: content under
-// another's name is damage, too. Against damage a sum is enough, and takes a fifth of a digest's
-// time: nobody but this user writes here.
+// The head of a file, before the content. The digest is of the inputs: content under another's name
+// is damage, too. The sum of the content finds damage in a seventh of a digest's time; it need not
+// withstand an attacker, as nobody but this user writes here.
 struct Seal {
     Digest inputs;
     std::uint64_t sum;
-    auto operator<=>(const Seal&) const = default;
+    bool operator==(const Seal&) const = default;
 };
 
 Seal sealOf(const DerivedKey& key, std::span<const std::byte> content) {

@@ -165,8 +165,11 @@ void Ground::draw(const Viewpoint& viewpoint) const {
     drawPatches(viewpoint);
 }
 
-void Ground::drawDepths(const Viewpoint& viewpoint) const {
-    const auto program = gl::makeProgram({"floor.vert"});
+gl::ProgramHandle Ground::depthProgram() {
+    return gl::makeProgram({"floor.vert"});
+}
+
+void Ground::drawDepths(const gl::ProgramHandle& program, const Viewpoint& viewpoint) const {
     glUseProgram(program.name());
     drawPatches(viewpoint);
 }

@@ -46,8 +46,9 @@ class Ground {
   public:
     explicit Ground(const GroundTables& tables);
     void draw(const Viewpoint& viewpoint) const;
-    // The same for a map of depths: without light. Makes its program, for who draws once.
-    void drawDepths(const Viewpoint& viewpoint) const;
+    // The same for a map of depths: without light.
+    [[nodiscard]] static gl::ProgramHandle depthProgram();
+    void drawDepths(const gl::ProgramHandle& program, const Viewpoint& viewpoint) const;
 
   private:
     void drawPatches(const Viewpoint& viewpoint) const;

@@ -293,15 +293,18 @@ void Reef::draw() const {
     glDisable(GL_CULL_FACE);
 }
 
-void Reef::drawDepths() const {
-    const auto growth = gl::makeProgram({"coral.vert"}), stone = gl::makeProgram({"rock.vert"});
+Reef::DepthPrograms Reef::depthPrograms() {
+    return {gl::makeProgram({"coral.vert"}), gl::makeProgram({"rock.vert"})};
+}
+
+void Reef::drawDepths(const DepthPrograms& programs) const {
     bind();
-    glUseProgram(growth.name());
+    glUseProgram(programs.growth.name());
     glUniform1f(0, quality_.placeDetail);
     glUniform1i(1, 0);  // nothing gives way
     drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kLevels));
     glEnable(GL_CULL_FACE);
-    glUseProgram(stone.name());
+    glUseProgram(programs.stone.name());
     glUniform1f(0, quality_.placeDetail);
     drawFrom(0, commandCount(kRockShapes, kLevels));
     glDisable(GL_CULL_FACE);

@@ -73,8 +73,12 @@ class Reef {
     void cull(const ReefRule& rule) const;
     // What the last cull has chosen, what fills most of the view first.
     void draw() const;
-    // The same for a map of depths: without light. Makes its programs, for who draws once.
-    void drawDepths() const;
+    // The same for a map of depths: without light.
+    struct DepthPrograms {
+        gl::ProgramHandle growth, stone;
+    };
+    [[nodiscard]] static DepthPrograms depthPrograms();
+    void drawDepths(const DepthPrograms& programs) const;
 
   private:
     void bind() const;

@@ -144,6 +144,8 @@ void SceneRenderer::Parts::setUniforms() const {
 // Of the place as it stands, as rays of light see it; as fine as the maps' texels.
 void SceneRenderer::Parts::bakeShadows() {
     constexpr glm::vec4 kFarAboveWithCoarsePixels{0.0F, 30.0F, 0.0F, 0.002F};
+    const Reef::DepthPrograms reefPrograms = Reef::depthPrograms();
+    const gl::ProgramHandle groundProgram = Ground::depthProgram();
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     uniforms.sharedEyeAndPixel = kFarAboveWithCoarsePixels;
     light.shade().setPlace([&](const glm::mat4& clipFromWorld) {
@@ -151,8 +153,9 @@ void SceneRenderer::Parts::bakeShadows() {
         setUniforms();
         light.bind();
         bottom->reef.cull({.culling = false, .levelsOfDetail = options.levelsOfDetail});
-        bottom->reef.drawDepths();
+        bottom->reef.drawDepths(reefPrograms);
         bottom->ground.drawDepths(
+            groundProgram,
             Viewpoint{Frustum{clipFromWorld}, kEyePosition, false, options.levelsOfDetail});
     });
 }

@@ -84,19 +84,8 @@ std::optional<double> blockDifference(const Projected& one,
     return std::abs(sum) / (side * side);
 }
 
-// The channels are built once for all tests: at this quality that takes longer than to draw.
-struct Channels {
-    std::unique_ptr<Context> context = makeOffscreenContext("auto", {480, 360});
-    Admission admission = admissionToTheSea();
-    ChannelPicture left{admission, kLeft, kQuality};
-    ChannelPicture middle{admission, kMiddle, kQuality};
-};
-
 class Crossing : public testing::Test {
   protected:
-    static void SetUpTestSuite() { channels_ = std::make_unique<Channels>(); }
-    static void TearDownTestSuite() { channels_.reset(); }
-
     static StateFrame frameWithFish(glm::vec3 place, float azimuth) {
         StateFrame frame = frameNumber(300);
         frame.eye.positionMetres = kEyePosition;
@@ -127,10 +116,10 @@ class Crossing : public testing::Test {
         return {rig, channel, picture};
     }
 
-    static inline std::unique_ptr<Channels> channels_;
-    Admission& admission_ = channels_->admission;
-    ChannelPicture& left_ = channels_->left;
-    ChannelPicture& middle_ = channels_->middle;
+    std::unique_ptr<Context> context_ = makeOffscreenContext("auto", {480, 360});
+    Admission admission_ = admissionToTheSea();
+    ChannelPicture left_{admission_, kLeft, kQuality};
+    ChannelPicture middle_{admission_, kMiddle, kQuality};
 };
 
 TEST_F(Crossing, bothProjectorsShowTheSameFish) {

@@ -164,7 +164,7 @@ TEST(PresentBarrier, aSlowSoftwareWallFallsIntoStep) {
     EXPECT_GE(frame, 25U);
 }
 
-// It takes the newest state, draws it for 4 to 8 ms, waits until that frame or a later one is
+// A node takes the newest state, draws it for 4 to 8 ms, waits until that frame or a later one is
 // released, and shows it then.
 struct SimulatedNode {
     std::uint64_t draws = 0;
@@ -270,7 +270,6 @@ TEST(PresentBarrier, aNewcomerIsWaitedForFromTheFirstFrameThatItSees) {
     EXPECT_FALSE(barrier.nextAwaited());
 }
 
-// Nobody draws the frame that is drawn now: the one that is ready already comes next.
 TEST(PresentBarrier, aNodeThatIsAheadDoesNotWaitForOnesThatHang) {
     PresentBarrier barrier = drawing({0}, false);
     barrier.ready(kLeft, {0}, at(0));
@@ -286,6 +285,7 @@ TEST(PresentBarrier, aNodeThatIsAheadDoesNotWaitForOnesThatHang) {
     EXPECT_FALSE(barrier.isWaitedFor(kLeft));
 }
 
+// Nobody draws frame 0 any more: frame 1, for which a node is ready, comes next.
 TEST(PresentBarrier, aNodeThatIsAheadAloneIsNotLeftWaiting) {
     PresentBarrier barrier(3, limits(false), at(0));
     barrier.join(kLeft, {0});
