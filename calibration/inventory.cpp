@@ -20,14 +20,15 @@ namespace {
     return text;
 }
 
-const char* nameOf(Role role) {
-    if (role == Role::Prey) return "prey";
-    return role == Role::Pacifist ? "pacifist" : "predator";
+const char* nameOf(config::Role role) {
+    if (role == config::Role::Prey) return "prey";
+    return role == config::Role::Pacifist ? "pacifist" : "predator";
 }
 
-const char* nameOf(Gathering gathering) {
-    if (gathering == Gathering::None) return "the school goes where its members go";
-    return gathering == Gathering::Mill ? "the school mills" : "the school journeys past the eye";
+const char* nameOf(config::Gathering gathering) {
+    if (gathering == config::Gathering::None) return "the school goes where its members go";
+    return gathering == config::Gathering::Mill ? "the school mills"
+                                                : "the school journeys past the eye";
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -36,8 +37,8 @@ std::string joined(const std::vector<std::string>& names) {
     return list;
 }
 
-std::string lineOf(const Species& species) {
-    const Habits& habits = species.habits;
+std::string lineOf(const config::Species& species) {
+    const config::Habits& habits = species.habits;
     std::string line = said("%s, %s, %.3g to %.3g m",
                             species.name.c_str(),
                             nameOf(habits.role),
@@ -48,7 +49,7 @@ std::string lineOf(const Species& species) {
     return line;
 }
 
-std::string lineOfTour(const Scene& scene) {
+std::string lineOfTour(const config::Scene& scene) {
     if (!scene.tour) return "submarine: stays at the eye until somebody steers\n";
     const std::size_t stops = scene.tour->stops.size();
     return said("submarine: tours %s at %.3g m/s after %.4g s without a hand\n",
@@ -57,7 +58,7 @@ std::string lineOfTour(const Scene& scene) {
                 scene.idleSeconds);
 }
 
-std::string lineOf(const Day& day) {
+std::string lineOf(const config::Day& day) {
     if (day.lengthSeconds <= 0) return said("light: always as at %.3g of a day\n", day.startsAt);
     return said("light: a day of %.4g s, from %.3g on, down to %.3g at midnight\n",
                 day.lengthSeconds,
@@ -68,21 +69,21 @@ std::string lineOf(const Day& day) {
 }  // namespace
 
 std::string inventoryOfScene(const std::string& path) {
-    const Scene scene = readScene(path);
-    const std::vector<CastSpecies> cast = readCastSpecies(scene, path);
+    const config::Scene scene = config::readScene(path);
+    const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, path);
     std::size_t fish = 0;
-    for (const CastMember& member : scene.cast) fish += member.fish;
+    for (const config::CastMember& member : scene.cast) fish += member.fish;
     const auto length = static_cast<float>(cast.front().species.size.meanMetres);
-    checkRoom(scene, path, fish, length);
+    place::checkRoom(scene, path, fish, length);
 
     std::string text = said("scene \"%s\": %s; %s\n",
                             scene.name.c_str(),
-                            scene.place == PlaceKind::Reef ? "a reef" : "the open sea",
+                            scene.place == config::PlaceKind::Reef ? "a reef" : "the open sea",
                             nameOf(scene.gathering));
     for (std::size_t i = 0; i < cast.size(); ++i)
         text += said("%7u ", scene.cast[i].fish) + lineOf(cast[i].species) +
                 (scene.cast[i].start ? "; with a start" : "") + "\n";
-    const Region water = waterFor(scene, fish, length);
+    const place::Region water = place::waterFor(scene, fish, length);
     const glm::dvec3 size = glm::dvec3(water.halfExtent) * 2.0;
     const auto top = static_cast<double>(-water.centre.y) - size.y / 2;
     text += said("water: %.3g x %.3g x %.3g m, %.3g to %.3g m deep, for up to %u fish\n",
@@ -91,13 +92,13 @@ std::string inventoryOfScene(const std::string& path) {
                  size.z,
                  top,
                  top + size.y,
-                 mostFishIn(scene, length));
+                 place::mostFishIn(scene, length));
     text += said("food: %u plankton, %zu drops\n", scene.plankton, scene.drops.size());
     return text + lineOfTour(scene) + lineOf(scene.day) + path + ": good\n";
 }
 
 std::string inventoryOfSpecies(const std::string& path) {
-    const Species species = readSpecies(path);
+    const config::Species species = config::readSpecies(path);
     return "species " + lineOf(species) + "\n" + path + ": good\n";
 }
 

@@ -25,32 +25,32 @@ void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
-Rig checkedRig(const std::string& path) {
-    Rig rig = readRig(path);
-    checkGeometry(rig, path);
+config::Rig checkedRig(const std::string& path) {
+    config::Rig rig = config::readRig(path);
+    wall::checkGeometry(rig, path);
     return rig;
 }
 
 // With the scene that it shows.
 void checkRig(const std::string& path) {
-    const Rig rig = checkedRig(path);
+    const config::Rig rig = checkedRig(path);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        std::printf("%s\n", oneLine(surveyChannel(rig, i)).c_str());
-    const double worst = worstBlendSum(rig);
+        std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, i)).c_str());
+    const double worst = theatre::worstBlendSum(rig);
     if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
-    (void)inventoryOfScene(scenePathOf(rig, path));
+    (void)inventoryOfScene(config::scenePathOf(rig, path));
     std::printf(
         "%s: good; the channels' shares of light sum to one within %.0e\n", path.c_str(), worst);
 }
 
 // A rig, a scene or a species, whichever the file holds.
 void check(const std::string& path) {
-    switch (fileKindAt(path)) {
-        case FileKind::Rig:
+    switch (config::fileKindAt(path)) {
+        case config::FileKind::Rig:
             return checkRig(path);
-        case FileKind::Scene:
+        case config::FileKind::Scene:
             return say(inventoryOfScene(path));
-        case FileKind::Species:
+        case config::FileKind::Species:
             return say(inventoryOfSpecies(path));
     }
 }
@@ -62,7 +62,7 @@ int checkAll(const std::vector<std::string>& paths) {
         try {
             check(path);
         } catch (const Error& error) {
-            sayError("aquarama-calibrate", error.what());
+            cli::sayError("aquarama-calibrate", error.what());
             status = 1;
         }
     }
@@ -70,18 +70,18 @@ int checkAll(const std::vector<std::string>& paths) {
 }
 
 void inspectRig(const std::string& path) {
-    const Rig rig = checkedRig(path);
+    const config::Rig rig = checkedRig(path);
     std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
     std::printf("scene: %s\n", rig.scene.c_str());
     std::printf("screen: radius %.3f m, %.1f degrees (%.3f m of arc), %.3f m high\n",
                 rig.screen.radiusMetres,
-                rig.screen.arcRadians / kRadiansPerDegree,
+                rig.screen.arcRadians / config::kRadiansPerDegree,
                 rig.screen.arcRadians * rig.screen.radiusMetres,
                 rig.screen.heightMetres);
     std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
-    if (rig.stereo.mode != StereoMode::Mono)
+    if (rig.stereo.mode != config::StereoMode::Mono)
         std::printf("stereo: %s, eyes %.0f mm apart\n",
-                    std::string(nameOf(rig.stereo.mode)).c_str(),
+                    std::string(config::nameOf(rig.stereo.mode)).c_str(),
                     1000 * rig.stereo.eyeSeparationMetres);
     std::printf(
         "addresses: control %s, state %s\n", rig.controlAddress.c_str(), rig.stateAddress.c_str());
@@ -89,8 +89,8 @@ void inspectRig(const std::string& path) {
                 rig.timing.refreshHertz,
                 rig.timing.presentDeadlineSeconds,
                 rig.timing.membershipSeconds);
-    for (const Channel& channel : rig.channels) {
-        const bool window = channel.display.mode == DisplayMode::Window;
+    for (const config::Channel& channel : rig.channels) {
+        const bool window = channel.display.mode == config::DisplayMode::Window;
         const std::string place =
             window ? "window at " + std::to_string(channel.display.windowPosition.x) + ", " +
                          std::to_string(channel.display.windowPosition.y)
@@ -106,7 +106,7 @@ void inspectRig(const std::string& path) {
 }
 
 void inspect(const std::string& path) {
-    if (fileKindAt(path) == FileKind::Rig) return inspectRig(path);
+    if (config::fileKindAt(path) == config::FileKind::Rig) return inspectRig(path);
     check(path);
 }
 
@@ -118,10 +118,10 @@ struct Composition {
 
 struct Clip {
     std::string rig;
-    Filming filming;
+    theatre::Filming filming;
 };
 
-void describeCompose(CLI::App& app, Composition& options, Job& job) {
+void describeCompose(CLI::App& app, Composition& options, cli::Job& job) {
     CLI::App& compose = *app.add_subcommand(
         "compose", "make DIR/panorama.png and DIR/hall.png from DIR/channel-NAME.png");
     compose.add_option("RIG", options.rig, "rig file that the pictures were taken with")
@@ -130,13 +130,14 @@ void describeCompose(CLI::App& app, Composition& options, Job& job) {
     compose.add_flag("--deep", options.deep, "write 16 bits instead of 8");
     compose.callback([&] {
         job = [&] {
-            composeSnapshot(checkedRig(options.rig), options.folder, options.deep ? 16 : 8);
+            theatre::composeSnapshot(
+                checkedRig(options.rig), options.folder, options.deep ? 16 : 8);
             return 0;
         };
     });
 }
 
-void describeClip(CLI::App& app, Clip& options, Job& job) {
+void describeClip(CLI::App& app, Clip& options, cli::Job& job) {
     CLI::App& clip = *app.add_subcommand(
         "clip", "make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
     clip.add_option("RIG", options.rig, "rig file that is shown")->required();
@@ -145,17 +146,17 @@ void describeClip(CLI::App& app, Clip& options, Job& job) {
         ->required();
     clip.add_option("--of", options.filming.of, "panorama, hall or a channel's name");
     clip.add_option("--every", options.filming.ticksBetween, "frames of the show to one picture")
-        ->check(wholeNumber(1, 10000));
+        ->check(cli::wholeNumber(1, 10000));
     clip.add_option("--frames",
                     options.filming.frames,
                     "how many frames the show has, to say how long it takes")
-        ->check(wholeNumber(1, kMostShownFrames));
+        ->check(cli::wholeNumber(1, cli::kMostShownFrames));
     clip.add_option("--first",
                     options.filming.firstPictures,
                     "folder for panorama.png and hall.png of the first frame, at once");
     clip.callback([&] {
         job = [&] {
-            film(checkedRig(options.rig), options.filming);
+            theatre::film(checkedRig(options.rig), options.filming);
             return 0;
         };
     });
@@ -168,7 +169,7 @@ int main(int count, char** arguments) {
     using namespace aquarama;
     CLI::App app("Checks a rig and composes what its projectors show.", "aquarama-calibrate");
     app.require_subcommand(1);
-    Job job;
+    cli::Job job;
 
     std::vector<std::string> checked;
     CLI::App& checking =
@@ -194,5 +195,5 @@ int main(int count, char** arguments) {
             return 0;
         };
     });
-    return runProgram(app, count, arguments, [&] { return job(); });
+    return cli::runProgram(app, count, arguments, [&] { return job(); });
 }

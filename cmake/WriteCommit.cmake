@@ -13,8 +13,8 @@ if(GIT_FOUND AND EXISTS ${FOLDER}/.git)
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
 "// Written by cmake/WriteCommit.cmake.
-namespace aquarama {
+namespace aquarama::cli {
 extern const char* const kCommit;
 const char* const kCommit = \"@commit@\";
-}  // namespace aquarama
+}  // namespace aquarama::cli
 ")

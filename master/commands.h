@@ -7,10 +7,10 @@
 
 namespace aquarama {
 
-void addStatus(CLI::App& app, Job& job);
-void addExplain(CLI::App& app, Job& job);
-void addPilot(CLI::App& app, Job& job);    // steers the running show from a terminal
-void addReplay(CLI::App& app, Job& job);   // compares a recording with its replay
-void addInspect(CLI::App& app, Job& job);  // what a recording holds
+void addStatus(CLI::App& app, cli::Job& job);
+void addExplain(CLI::App& app, cli::Job& job);
+void addPilot(CLI::App& app, cli::Job& job);    // steers the running show from a terminal
+void addReplay(CLI::App& app, cli::Job& job);   // compares a recording with its replay
+void addInspect(CLI::App& app, cli::Job& job);  // what a recording holds
 
 }  // namespace aquarama

@@ -34,7 +34,7 @@ struct ExplainOptions {
     std::uint64_t tick = 0;
 };
 
-void print(const Explanation& explanation) {
+void print(const wire::Explanation& explanation) {
     if (explanation.fish >= explanation.school)
         throw Error(
             "there is no fish " + std::to_string(explanation.fish) + ": the world has " +
@@ -45,11 +45,11 @@ void print(const Explanation& explanation) {
 }
 
 void explainLive(const ExplainOptions& options) {
-    MasterLine master(options.address.empty() ? readRig(options.rig).controlAddress
-                                              : options.address);
+    conductor::MasterLine master(
+        options.address.empty() ? config::readRig(options.rig).controlAddress : options.address);
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
     do {
-        const auto explanation = master.ask<Explanation>(ExplainRequest{options.fish});
+        const auto explanation = master.ask<wire::Explanation>(wire::ExplainRequest{options.fish});
         if (onScreen) std::cout << kClearScreen;
         print(explanation);
         if (options.follow) std::this_thread::sleep_for(kBetweenLooks);
@@ -57,14 +57,14 @@ void explainLive(const ExplainOptions& options) {
 }
 
 void explainReplay(const ExplainOptions& options) {
-    const Recording recording = readRecording(options.recording);
-    for (const std::string& doubt : doubtsAbout(recording))
+    const wire::Recording recording = wire::readRecording(options.recording);
+    for (const std::string& doubt : wire::doubtsAbout(recording))
         std::cerr << options.recording << ": " << doubt << '\n';
     if (options.tick > recording.lastTick().value)
         throw Error(options.recording + ": ends at tick " +
                     std::to_string(recording.lastTick().value) + "; choose an earlier one");
-    LivingWorld world(worldOptionsOf(recording.production));
-    Playback playback(recording, world);
+    production::LivingWorld world(production::worldOptionsOf(recording.production));
+    record::Playback playback(recording, world);
     while (world.tick().value < options.tick) playback.advance();
     if (playback.difference())
         std::cerr << options.recording << ": from tick " << playback.difference()->tick.value
@@ -74,13 +74,13 @@ void explainReplay(const ExplainOptions& options) {
 
 }  // namespace
 
-void addExplain(CLI::App& app, Job& job) {
+void addExplain(CLI::App& app, cli::Job& job) {
     auto options = std::make_shared<ExplainOptions>();
     CLI::App& explain =
         *app.add_subcommand("explain", "what a fish sees, feels, intends and does, and why");
     explain.add_option("--fish", options->fish, "which, by its number")
         ->required()
-        ->check(wholeNumber(0, kMostFish));
+        ->check(cli::wholeNumber(0, config::kMostFish));
     explain.add_option("RIG", options->rig, "whose master is asked")->capture_default_str();
     explain.add_option("--master", options->address, "its control address, instead of the rig's");
     auto* follow = explain.add_flag("--follow", options->follow, "go on, twice a second");
@@ -89,7 +89,7 @@ void addExplain(CLI::App& app, Job& job) {
     replay->excludes(follow);
     explain.add_option("--tick", options->tick, "of the recording")
         ->needs(replay)
-        ->check(wholeNumber(0, kMostShownFrames));
+        ->check(cli::wholeNumber(0, cli::kMostShownFrames));
     explain.callback([options, &job] {
         job = [options] {
             options->recording.empty() ? explainLive(*options) : explainReplay(*options);

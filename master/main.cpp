@@ -47,20 +47,20 @@ struct MasterOptions {
 };
 
 // No clock is read in lockstep: its tier cannot be measured.
-std::optional<QualityTier> qualityOf(const Rig& rig, const MasterOptions& options) {
-    constexpr QualityTier kOfLockstep = QualityTier::Low;
-    if (!options.quality.empty()) return tierNamed(options.quality);
+std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const MasterOptions& options) {
+    constexpr config::QualityTier kOfLockstep = config::QualityTier::Low;
+    if (!options.quality.empty()) return config::tierNamed(options.quality);
     if (!rig.quality && options.lockstep) return kOfLockstep;
     return rig.quality;
 }
 
-ConductorOptions conductorOptions(const Rig& rig, const MasterOptions& options) {
-    ConductorOptions conductor;
+conductor::ConductorOptions conductorOptions(const config::Rig& rig, const MasterOptions& options) {
+    conductor::ConductorOptions conductor;
     conductor.quality = qualityOf(rig, options);
-    conductor.pace = options.lockstep ? Pace::Lockstep : Pace::Live;
-    conductor.pattern = options.pattern == "grid"   ? Pattern::Grid
-                        : options.pattern == "grey" ? Pattern::Grey
-                                                    : Pattern::World;
+    conductor.pace = options.lockstep ? wire::Pace::Lockstep : wire::Pace::Live;
+    conductor.pattern = options.pattern == "grid"   ? wire::Pattern::Grid
+                        : options.pattern == "grey" ? wire::Pattern::Grey
+                                                    : wire::Pattern::World;
     conductor.frames = options.frames;
     conductor.seed = options.seed;
     conductor.traceDirectory = options.traceFolder;
@@ -68,12 +68,13 @@ ConductorOptions conductorOptions(const Rig& rig, const MasterOptions& options) 
 }
 
 // What the nodes are told of the cast, and the blobs that they may then ask for.
-std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
-    std::vector<SpeciesBlobs> cast;
-    for (const ProducedSpecies& species : production.cast) {
+std::vector<wire::SpeciesBlobs> castOf(const wire::Production& production,
+                                       conductor::Blobs& blobs) {
+    std::vector<wire::SpeciesBlobs> cast;
+    for (const wire::ProducedSpecies& species : production.cast) {
         const auto text = std::as_bytes(std::span{species.text});
         cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
-        blobs.emplace(cast.back().species, ByteVector{text.begin(), text.end()});
+        blobs.emplace(cast.back().species, net::ByteVector{text.begin(), text.end()});
         blobs.emplace(cast.back().repertoire, species.repertoire);
     }
     return cast;
@@ -81,75 +82,75 @@ std::vector<SpeciesBlobs> castOf(const Production& production, Blobs& blobs) {
 
 // What is shown: the living world, or a recorded or replayed one about it.
 struct Shown {
-    const Production& production;
-    const LivingWorld& world;
-    Simulation& simulation;
+    const wire::Production& production;
+    const production::LivingWorld& world;
+    conductor::Simulation& simulation;
 };
 
 // Returns when the show is over. `running` is the conductor meanwhile.
-void show(const Rig& rig,
-          const ConductorOptions& options,
+void show(const config::Rig& rig,
+          const conductor::ConductorOptions& options,
           const Shown& shown,
-          std::unique_ptr<MasterChannels> channels,
-          Conductor** running = nullptr) {
-    Blobs blobs;
-    Welcome welcome;
-    welcome.rigText = writeRig(rig);
+          std::unique_ptr<net::MasterChannels> channels,
+          conductor::Conductor** running = nullptr) {
+    conductor::Blobs blobs;
+    wire::Welcome welcome;
+    welcome.rigText = config::writeRig(rig);
     welcome.sceneText = shown.production.scene;
     welcome.cast = castOf(shown.production, blobs);
     const auto school = shown.world.world().traits();
     welcome.school.assign(school.begin(), school.end());
-    Conductor conductor(
+    conductor::Conductor conductor(
         rig, options, shown.simulation, std::move(welcome), std::move(blobs), std::move(channels));
     if (running != nullptr) *running = &conductor;
-    const SignalWatch watch([&] { conductor.stop(); });
+    const cli::SignalWatch watch([&] { conductor.stop(); });
     conductor.run();
 }
 
-void showNew(const Rig& rig,
+void showNew(const config::Rig& rig,
              const MasterOptions& options,
-             std::unique_ptr<MasterChannels> channels) {
-    const Production production = readProduction(
-        options.scenePath.empty() ? scenePathOf(rig, options.rigPath) : options.scenePath,
+             std::unique_ptr<net::MasterChannels> channels) {
+    const wire::Production production = production::readProduction(
+        options.scenePath.empty() ? config::scenePathOf(rig, options.rigPath) : options.scenePath,
         {.seed = options.seed, .fish = options.fish});
-    LivingWorld world(worldOptionsOf(production));
-    const ConductorOptions conducting = conductorOptions(rig, options);
+    production::LivingWorld world(production::worldOptionsOf(production));
+    const conductor::ConductorOptions conducting = conductorOptions(rig, options);
     if (options.recordPath.empty())
         return show(rig, conducting, {production, world, world}, std::move(channels));
-    RecordingFile file(options.recordPath, production);
-    RecordedWorld recorded(world, file);
+    record::RecordingFile file(options.recordPath, production);
+    record::RecordedWorld recorded(world, file);
     show(rig, conducting, {production, world, recorded}, std::move(channels));
 }
 
-void showAgain(const Rig& rig,
+void showAgain(const config::Rig& rig,
                const MasterOptions& options,
-               std::unique_ptr<MasterChannels> channels) {
-    const Recording recording = readRecording(options.replayPath);
-    for (const std::string& doubt : doubtsAbout(recording))
+               std::unique_ptr<net::MasterChannels> channels) {
+    const wire::Recording recording = wire::readRecording(options.replayPath);
+    for (const std::string& doubt : wire::doubtsAbout(recording))
         logWarning("{}: {}", options.replayPath, doubt);
-    LivingWorld world(worldOptionsOf(recording.production));
-    ConductorOptions conducting = conductorOptions(rig, options);
+    production::LivingWorld world(production::worldOptionsOf(recording.production));
+    conductor::ConductorOptions conducting = conductorOptions(rig, options);
     conducting.seed = recording.production.seed;
     // In lockstep the world runs ahead of the frames: there these are counted.
-    Conductor* running = nullptr;
+    conductor::Conductor* running = nullptr;
     std::function<void()> onEnd = [&running] { running->stop(); };
     if (options.lockstep) {
         const std::uint64_t frames = recording.lastTick().value + 1;
         conducting.frames = std::min(conducting.frames.value_or(frames), frames);
         onEnd = [] {};
     }
-    ReplayedWorld replayed(recording, world, onEnd);
+    record::ReplayedWorld replayed(recording, world, onEnd);
     show(rig, conducting, {recording.production, world, replayed}, std::move(channels), &running);
 }
 
 void runMaster(const MasterOptions& options) {
-    holdSignals();
-    const Rig rig = readRig(options.rigPath);
-    checkGeometry(rig, options.rigPath);
-    requireFolder("--trace", options.traceFolder);
-    if (!options.recordPath.empty()) requireNewRecording(options.recordPath);
-    requireFile("--record", options.recordPath);
-    auto channels = bindMaster(rig.controlAddress, rig.stateAddress);
+    cli::holdSignals();
+    const config::Rig rig = config::readRig(options.rigPath);
+    wall::checkGeometry(rig, options.rigPath);
+    cli::requireFolder("--trace", options.traceFolder);
+    if (!options.recordPath.empty()) record::requireNewRecording(options.recordPath);
+    cli::requireFile("--record", options.recordPath);
+    auto channels = net::bindMaster(rig.controlAddress, rig.stateAddress);
     (options.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));
 }
 
@@ -157,13 +158,13 @@ void describe(CLI::App& app, MasterOptions& options) {
     app.add_option("RIG", options.rigPath, "the rig's file");
     app.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
     app.add_option("--frames", options.frames, "end after so many frames")
-        ->check(wholeNumber(1, kMostShownFrames));
+        ->check(cli::wholeNumber(1, cli::kMostShownFrames));
     app.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
-        ->check(wholeNumber(0, kMostSeed));
+        ->check(cli::wholeNumber(0, cli::kMostSeed));
     app.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
     app.add_option(
            "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(wholeNumber(0, kMostFish));
+        ->check(cli::wholeNumber(0, config::kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
     app.add_option("--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
@@ -188,11 +189,11 @@ int main(int count, char** arguments) {
                  "aquarama-master"};
     MasterOptions options;
     describe(app, options);
-    Job job = [&] {
+    cli::Job job = [&] {
         if (options.rigPath.empty()) throw CLI::RequiredError("RIG");
         runMaster(options);
         return 0;
     };
     for (const auto add : {addStatus, addExplain, addPilot, addReplay, addInspect}) add(app, job);
-    return runProgram(app, count, arguments, [&] { return job(); });
+    return cli::runProgram(app, count, arguments, [&] { return job(); });
 }

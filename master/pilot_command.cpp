@@ -56,35 +56,36 @@ class Keyboard {
     bool isTerminal_;
 };
 
-void pilot(const std::string& address) {
-    MasterLine master(address);
+void steer(const std::string& address) {
+    conductor::MasterLine master(address);
     Keyboard keyboard;
-    Telegraph telegraph;
+    conductor::Telegraph telegraph;
     const bool onScreen = isatty(STDOUT_FILENO) != 0;
-    std::cout << kTelegraphHelp << '\n';
+    std::cout << conductor::kTelegraphHelp << '\n';
     Steering said;
     for (std::string keys; keyboard.read(keys) && !telegraph.ended();) {
         telegraph.press(keys);
         const Steering& held = telegraph.steering();
-        if (held != said || held != Steering{}) master.tell(Input{InputKind::Steer, {}, held});
+        if (held != said || held != Steering{})
+            master.tell(wire::Input{wire::InputKind::Steer, {}, held});
         said = held;
-        const auto status = master.ask<StatusReply>(StatusRequest{});
+        const auto status = master.ask<wire::StatusReply>(wire::StatusRequest{});
         // On a screen one line that changes, else one after the other.
         std::cout << fmt::format("{}{}   {}{}",
                                  onScreen ? "\r\x1b[K" : "",
-                                 submarineText(status),
+                                 conductor::submarineText(status),
                                  telegraph.text(),
                                  onScreen ? "" : "\n")
                   << std::flush;
     }
-    master.tell(Input{InputKind::Steer, {}, {}});
-    master.ask<StatusReply>(StatusRequest{});  // it has heard that as well
+    master.tell(wire::Input{wire::InputKind::Steer, {}, {}});
+    master.ask<wire::StatusReply>(wire::StatusRequest{});  // it has heard that as well
     if (onScreen) std::cout << '\n';
 }
 
 }  // namespace
 
-void addPilot(CLI::App& app, Job& job) {
+void addPilot(CLI::App& app, cli::Job& job) {
     struct Options {
         std::string rig = "config/desk.txtpb";
         std::string address;
@@ -96,7 +97,7 @@ void addPilot(CLI::App& app, Job& job) {
     command.add_option("--master", options->address, "its control address, instead of the rig's");
     command.callback([options, &job] {
         job = [options] {
-            pilot(options->address.empty() ? readRig(options->rig).controlAddress
+            steer(options->address.empty() ? config::readRig(options->rig).controlAddress
                                            : options->address);
             return 0;
         };

@@ -18,16 +18,16 @@ namespace aquarama {
 
 namespace {
 
-void tell(const std::string& path, const Recording& recording) {
-    for (const std::string& doubt : doubtsAbout(recording))
+void tell(const std::string& path, const wire::Recording& recording) {
+    for (const std::string& doubt : wire::doubtsAbout(recording))
         std::cout << path << ": " << doubt << '\n';
 }
 
 int check(const std::string& path) {
-    const Recording recording = readRecording(path);
+    const wire::Recording recording = wire::readRecording(path);
     tell(path, recording);
-    LivingWorld world(worldOptionsOf(recording.production));
-    Playback playback(recording, world);
+    production::LivingWorld world(production::worldOptionsOf(recording.production));
+    record::Playback playback(recording, world);
     while (!playback.over()) playback.advance();
     std::cout << fmt::format("{}: {} ticks, {} inputs, {} hashes compared\n",
                              path,
@@ -41,7 +41,7 @@ int check(const std::string& path) {
             "{}: the replay is the same world, its hash is {:016x}\n", path, world.hash());
         return 0;
     }
-    const Difference& found = *playback.difference();
+    const record::Difference& found = *playback.difference();
     std::cout << fmt::format(
         "{}: differs at tick {} (recorded {:016x}, replayed {:016x}); {}\n",
         path,
@@ -53,8 +53,8 @@ int check(const std::string& path) {
     return 1;
 }
 
-std::string wordsFor(const RecordedInput& input) {
-    if (const auto* food = std::get_if<RecordedFood>(&input.input))
+std::string wordsFor(const wire::RecordedInput& input) {
+    if (const auto* food = std::get_if<wire::RecordedFood>(&input.input))
         return fmt::format("food, {} pellets at {:.2f} {:.2f} {:.2f} m",
                            food->pellets,
                            food->position.x,
@@ -67,7 +67,7 @@ std::string wordsFor(const RecordedInput& input) {
                            s->up,
                            s->turn,
                            s->tilt);
-    const auto& moved = std::get<RecordedSubmarine>(input.input);
+    const auto& moved = std::get<wire::RecordedSubmarine>(input.input);
     return fmt::format("submarine at {:.2f} {:.2f} {:.2f} m",
                        moved.position.x,
                        moved.position.y,
@@ -76,8 +76,8 @@ std::string wordsFor(const RecordedInput& input) {
 
 int inspect(const std::string& path) {
     constexpr std::size_t kMostInputsShown = 20;
-    const Recording recording = readRecording(path);
-    const Production& production = recording.production;
+    const wire::Recording recording = wire::readRecording(path);
+    const wire::Production& production = recording.production;
     std::cout << fmt::format(
         "{}: a recording of a show\n"
         "written by   {} (protocol {})\n"
@@ -91,7 +91,7 @@ int inspect(const std::string& path) {
         static_cast<double>(recording.lastTick().value) / kTicksPerSecond,
         production.seed,
         production.scene.size());
-    for (const ProducedSpecies& species : production.cast)
+    for (const wire::ProducedSpecies& species : production.cast)
         std::cout << fmt::format("species      {:>7} of {}, repertoire {} of {} bytes\n",
                                  species.fish,
                                  species.file.substr(species.file.rfind(' ') + 1),
@@ -108,7 +108,7 @@ int inspect(const std::string& path) {
 }
 
 void add(CLI::App& app,
-         Job& job,
+         cli::Job& job,
          const char* name,
          const char* what,
          int (*run)(const std::string& path)) {
@@ -120,11 +120,11 @@ void add(CLI::App& app,
 
 }  // namespace
 
-void addReplay(CLI::App& app, Job& job) {
+void addReplay(CLI::App& app, cli::Job& job) {
     add(app, job, "replay", "whether a recording gives the same world again", check);
 }
 
-void addInspect(CLI::App& app, Job& job) {
+void addInspect(CLI::App& app, cli::Job& job) {
     add(app, job, "inspect", "what a recording holds", inspect);
 }
 

@@ -11,7 +11,7 @@
 
 namespace aquarama {
 
-void addStatus(CLI::App& app, Job& job) {
+void addStatus(CLI::App& app, cli::Job& job) {
     struct Options {
         std::string rig = "config/desk.txtpb";
         std::string address;
@@ -22,8 +22,9 @@ void addStatus(CLI::App& app, Job& job) {
     status.add_option("--master", options->address, "its control address, instead of the rig's");
     status.callback([options, &job] {
         job = [options] {
-            std::cout << runStatus(options->address.empty() ? readRig(options->rig).controlAddress
-                                                            : options->address);
+            std::cout << conductor::runStatus(options->address.empty()
+                                                  ? config::readRig(options->rig).controlAddress
+                                                  : options->address);
             return 0;
         };
     });

@@ -23,14 +23,14 @@ constexpr const char* kFooter =
 
 std::string addressProblem(const std::string& address) {
     try {
-        aquarama::requireConnectAddress(address);
+        aquarama::net::requireConnectAddress(address);
         return {};
     } catch (const aquarama::Error& problem) {
         return problem.what();
     }
 }
 
-void describe(CLI::App& app, aquarama::NodeOptions& options) {
+void describe(CLI::App& app, aquarama::show::NodeOptions& options) {
     app.add_option("NAME", options.channel, "the channel of the rig that this node shows")
         ->required();
     app.add_option(
@@ -52,7 +52,7 @@ void describe(CLI::App& app, aquarama::NodeOptions& options) {
         "--film", options.filmPipe, "named pipe to aquarama-calibrate clip, for every frame");
     app.add_option("--film-every", options.filmEvery, "with --film: for every so many frames")
         ->needs(film)
-        ->check(aquarama::wholeNumber(1, 10000));
+        ->check(aquarama::cli::wholeNumber(1, 10000));
     app.add_option("--trace", options.traceFolder, "folder for NAME.csv, a line of times a frame");
     app.footer(kFooter);
 }
@@ -61,15 +61,15 @@ void describe(CLI::App& app, aquarama::NodeOptions& options) {
 
 int main(int count, char** arguments) {
     using namespace aquarama;
-    NodeOptions options;
+    show::NodeOptions options;
     CLI::App app("Shows one channel of a wall, in step with all others.", "aquarama-node");
     describe(app, options);
-    return runProgram(app, count, arguments, [&] {
+    return cli::runProgram(app, count, arguments, [&] {
         app.name("aquarama-node " + options.channel);
-        requireFolder("--snapshot", options.snapshotFolder);
-        requireFolder("--trace", options.traceFolder);
+        cli::requireFolder("--snapshot", options.snapshotFolder);
+        cli::requireFolder("--trace", options.traceFolder);
         spdlog::set_default_logger(spdlog::stdout_color_mt("node " + options.channel));
-        runNode(options);
+        show::runNode(options);
         return 0;
     });
 }

@@ -12,7 +12,7 @@
 #include "common/units/error.h"
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
@@ -38,7 +38,7 @@ class Animation final : public Clip {
     Animation(const Animation&) = delete;
     Animation& operator=(const Animation&) = delete;
 
-    void add(const Picture& picture, std::uint64_t tick) override {
+    void add(const wall::Picture& picture, std::uint64_t tick) override {
         if (!first_) first_ = tick;
         last_ = tick;
         std::vector<std::uint8_t> rgb(picture.rgb.begin(), picture.rgb.end());
@@ -97,4 +97,4 @@ std::unique_ptr<Clip> makeAnimation(const ClipFormat& format) {
     return std::make_unique<Animation>(format);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -3,7 +3,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 std::unique_ptr<Clip> makeClip(const ClipFormat& format) {
     if (format.path.ends_with(".mp4")) return makeVideo(format, videoEncoders());
@@ -11,4 +11,4 @@ std::unique_ptr<Clip> makeClip(const ClipFormat& format) {
     throw Error(format.path + ": a clip is FILE.mp4 or FILE.webp; choose one of these endings");
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

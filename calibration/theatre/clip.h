@@ -11,7 +11,7 @@
 
 #include "common/wall/picture.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 struct ClipFormat {
     std::string path;  // its ending chooses: .mp4 or .webp
@@ -24,7 +24,7 @@ class Clip {
   public:
     virtual ~Clip() = default;
     // Codes of 8 bits, of the format's size. Ticks count up; the first may be any.
-    virtual void add(const Picture& picture, std::uint64_t tick) = 0;
+    virtual void add(const wall::Picture& picture, std::uint64_t tick) = 0;
     // Once, after the last. The last picture is seen as long as the others.
     virtual void finish() = 0;
 };
@@ -40,4 +40,4 @@ class Clip {
                                               std::span<const char* const> encoders);
 [[nodiscard]] std::unique_ptr<Clip> makeAnimation(const ClipFormat& format);
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -11,14 +11,14 @@
 #include "common/config/rig.h"
 #include "common/wall/picture.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 // Where the unrolled screen's pixels lie in the channels' pictures: for many panoramas of one rig.
 class PanoramaMap {
   public:
-    explicit PanoramaMap(const Rig& rig);
+    explicit PanoramaMap(const config::Rig& rig);
     // One picture for each channel of the rig, of its size, as light.
-    [[nodiscard]] Light compose(std::span<const Light> channels) const;
+    [[nodiscard]] wall::Light compose(std::span<const wall::Light> channels) const;
 
     struct Sample {
         std::uint32_t place = 0;  // in the panorama, row by row
@@ -31,12 +31,15 @@ class PanoramaMap {
 };
 
 // The unrolled screen. One picture for each channel of the rig, of its size, as light.
-[[nodiscard]] Light composePanorama(const Rig& rig, std::span<const Light> channels);
+[[nodiscard]] wall::Light composePanorama(const config::Rig& rig,
+                                          std::span<const wall::Light> channels);
 
 // Of the hall's picture and clip.
 inline constexpr glm::ivec2 kHallPixels(1600, 900);
 
 // What somebody at the back of a dark hall sees of it, over the heads of the audience.
-[[nodiscard]] Light composeHall(const Rig& rig, const Light& panorama, glm::ivec2 sizePixels);
+[[nodiscard]] wall::Light composeHall(const config::Rig& rig,
+                                      const wall::Light& panorama,
+                                      glm::ivec2 sizePixels);
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

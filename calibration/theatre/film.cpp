@@ -19,16 +19,16 @@
 #include "common/units/error.h"
 #include "common/wall/frame_pipe.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
 using namespace std::chrono_literals;
 
 // The channels that make the picture: all, or the one of this name.
-std::vector<Channel> filmedChannels(const Rig& rig, const std::string& of) {
+std::vector<config::Channel> filmedChannels(const config::Rig& rig, const std::string& of) {
     if (of == kPanorama || of == kHall) return rig.channels;
-    const auto named = std::ranges::find(rig.channels, of, &Channel::name);
+    const auto named = std::ranges::find(rig.channels, of, &config::Channel::name);
     if (named == rig.channels.end())
         throw Error("rig \"" + rig.name + "\" has no channel \"" + of + "\"; film " + kPanorama +
                     ", " + kHall + " or one of its channels");
@@ -37,36 +37,38 @@ std::vector<Channel> filmedChannels(const Rig& rig, const std::string& of) {
 
 class Camera {
   public:
-    Camera(const Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
+    Camera(const config::Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
         if (of_ == kPanorama || of_ == kHall) map_.emplace(rig);
     }
-    [[nodiscard]] glm::ivec2 sizePixels(const std::vector<Channel>& filmed) const {
+    [[nodiscard]] glm::ivec2 sizePixels(const std::vector<config::Channel>& filmed) const {
         if (!map_) return filmed.front().sizePixels;
         return of_ == kHall ? kHallPixels : rig_.panoramaPixels;
     }
-    [[nodiscard]] Picture pictureOf(const std::vector<PipedFrame>& frames) const {
+    [[nodiscard]] wall::Picture pictureOf(const std::vector<wall::PipedFrame>& frames) const {
         if (!map_) return frames.front().picture;
-        const Light panorama = panoramaOf(frames);
+        const wall::Light panorama = panoramaOf(frames);
         const auto seed = static_cast<std::uint32_t>(frames.front().frame);
-        return aquarama::pictureOf(
+        return wall::pictureOf(
             of_ == kHall ? composeHall(rig_, panorama, kHallPixels) : panorama, 8, seed);
     }
     // The panorama and the hall of one frame; needs the frames of all channels.
-    void writePictures(const std::vector<PipedFrame>& frames, const std::string& folder) const {
-        const Light panorama = panoramaOf(frames);
+    void writePictures(const std::vector<wall::PipedFrame>& frames,
+                       const std::string& folder) const {
+        const wall::Light panorama = panoramaOf(frames);
         writePanoramaAndHall(rig_, panorama, folder, 8);
         std::cout << "first picture: " << folder << "/panorama.png, " << folder << "/hall.png"
                   << std::endl;
     }
 
   private:
-    [[nodiscard]] Light panoramaOf(const std::vector<PipedFrame>& frames) const {
-        std::vector<Light> channels;
-        for (const PipedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
+    [[nodiscard]] wall::Light panoramaOf(const std::vector<wall::PipedFrame>& frames) const {
+        std::vector<wall::Light> channels;
+        for (const wall::PipedFrame& frame : frames)
+            channels.push_back(wall::lightOf(frame.picture));
         return map_->compose(channels);
     }
 
-    const Rig& rig_;
+    const config::Rig& rig_;
     std::string of_;
     std::optional<PanoramaMap> map_;  // unless a channel is shown as it is
 };
@@ -110,9 +112,9 @@ class Progress {
 };
 
 // The next frame of every channel; nothing as soon as one has ended.
-std::optional<std::vector<PipedFrame>> nextFrame(std::deque<FramePipeReader>& pipes,
-                                                 const std::vector<Channel>& channels) {
-    std::vector<PipedFrame> frames;
+std::optional<std::vector<wall::PipedFrame>> nextFrame(
+    std::deque<wall::FramePipeReader>& pipes, const std::vector<config::Channel>& channels) {
+    std::vector<wall::PipedFrame> frames;
     for (std::size_t i = 0; i < channels.size(); ++i) {
         auto frame = pipes[i].read(channels[i].sizePixels);
         if (!frame) return std::nullopt;
@@ -127,12 +129,12 @@ std::optional<std::vector<PipedFrame>> nextFrame(std::deque<FramePipeReader>& pi
 
 }  // namespace
 
-void film(const Rig& rig, const Filming& filming) {
-    const std::vector<Channel> channels = filmedChannels(rig, filming.of);
-    std::deque<FramePipeReader> pipes;
-    for (const Channel& channel : channels)
-        pipes.emplace_back(framePipe(filming.pipes, channel.name));
-    holdSignals();  // the end of the nodes is the clip's: what was shown until then is kept
+void film(const config::Rig& rig, const Filming& filming) {
+    const std::vector<config::Channel> channels = filmedChannels(rig, filming.of);
+    std::deque<wall::FramePipeReader> pipes;
+    for (const config::Channel& channel : channels)
+        pipes.emplace_back(wall::framePipe(filming.pipes, channel.name));
+    cli::holdSignals();  // the end of the nodes is the clip's: what was shown until then is kept
     const Camera camera(rig, filming.of);
     const auto clip =
         makeClip({filming.clipPath, camera.sizePixels(channels), filming.ticksBetween});
@@ -151,4 +153,4 @@ void film(const Rig& rig, const Filming& filming) {
               << " pictures" << std::endl;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -9,7 +9,7 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 // What a clip shows beside channels by their names.
 inline constexpr const char* kPanorama = "panorama";
@@ -29,6 +29,6 @@ struct Filming {
 // Until the nodes close their pipes; then says what it made. Shows how far it is on standard
 // output: in one line of a terminal, or a line every ten seconds. Throws Error: frames that are not
 // the rig's or not the same ones of all channels, no frame at all, a clip that cannot be written.
-void film(const Rig& rig, const Filming& filming);
+void film(const config::Rig& rig, const Filming& filming);
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

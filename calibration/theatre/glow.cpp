@@ -7,16 +7,16 @@
 #include "calibration/theatre/room.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
 constexpr glm::ivec2 kLamps(24, 6);
 
 // The mean of the panorama under each cell of a coarse grid.
-Light coarsened(const Light& fine, glm::ivec2 cells) {
-    Light coarse = darkness(cells);
-    Light counts = darkness(cells);  // of pixels in each
+wall::Light coarsened(const wall::Light& fine, glm::ivec2 cells) {
+    wall::Light coarse = wall::darkness(cells);
+    wall::Light counts = wall::darkness(cells);  // of pixels in each
     for (int y = 0; y < fine.sizePixels.y; ++y)
         for (int x = 0; x < fine.sizePixels.x; ++x) {
             const glm::ivec2 cell = glm::ivec2(x, y) * cells / fine.sizePixels;
@@ -30,14 +30,14 @@ Light coarsened(const Light& fine, glm::ivec2 cells) {
 
 }  // namespace
 
-ScreenGlow::ScreenGlow(const Screen& screen, const Light& panorama)
+ScreenGlow::ScreenGlow(const config::Screen& screen, const wall::Light& panorama)
     : coarse_(coarsened(panorama, kLamps)) {
     const double squareMetres =
         screen.radiusMetres * screen.arcRadians * screen.heightMetres / (kLamps.x * kLamps.y);
     for (int y = 0; y < kLamps.y; ++y)
         for (int x = 0; x < kLamps.x; ++x) {
             const glm::dvec3 centre =
-                screenPointAt(screen, glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(kLamps));
+                wall::screenPointAt(screen, glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(kLamps));
             const glm::dvec3 facing = glm::normalize(glm::dvec3(-centre.x, 0, -centre.z));
             lamps_.push_back({centre, facing, squareMetres, coarse_.at(x, y)});
             mean_ += coarse_.at(x, y) / float{kLamps.x * kLamps.y};
@@ -60,7 +60,7 @@ glm::vec3 ScreenGlow::on(glm::dvec3 point, glm::dvec3 normal) const {
 }
 
 glm::vec3 ScreenGlow::blurred(glm::dvec2 position) const {
-    return bilinear(coarse_, position * glm::dvec2(kLamps));
+    return wall::bilinear(coarse_, position * glm::dvec2(kLamps));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

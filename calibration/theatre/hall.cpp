@@ -11,7 +11,7 @@
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/room.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
@@ -26,14 +26,14 @@ struct Eye {
     glm::dvec3 position;
     double left, top, tangentPerPixel;
 
-    [[nodiscard]] Ray ray(glm::dvec2 pixel) const {
+    [[nodiscard]] wall::Ray ray(glm::dvec2 pixel) const {
         return {position,
                 glm::normalize(glm::dvec3(
                     left + pixel.x * tangentPerPixel, top - pixel.y * tangentPerPixel, -1))};
     }
 };
 
-Eye eyeAtTheBack(const Screen& screen, glm::dvec2 sizePixels) {
+Eye eyeAtTheBack(const config::Screen& screen, glm::dvec2 sizePixels) {
     Eye eye{};
     eye.position = {0, kEyeUpMetres, kEyeBackRadii * screen.radiusMetres};
     const double halfArc = screen.arcRadians / 2;
@@ -48,8 +48,8 @@ Eye eyeAtTheBack(const Screen& screen, glm::dvec2 sizePixels) {
     return eye;
 }
 
-void drawRow(const Room& room, const Eye& eye, int y, Light& hall) {
-    std::array<Ray, kSamplesPerSide * kSamplesPerSide> rays;
+void drawRow(const Room& room, const Eye& eye, int y, wall::Light& hall) {
+    std::array<wall::Ray, kSamplesPerSide * kSamplesPerSide> rays;
     for (int x = 0; x < hall.sizePixels.x; ++x) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const glm::dvec2 offset(i % kSamplesPerSide, i / kSamplesPerSide);
@@ -62,10 +62,12 @@ void drawRow(const Room& room, const Eye& eye, int y, Light& hall) {
 }  // namespace
 
 // On all processors: a hall takes seconds on one.
-Light composeHall(const Rig& rig, const Light& panorama, glm::ivec2 sizePixels) {
+wall::Light composeHall(const config::Rig& rig,
+                        const wall::Light& panorama,
+                        glm::ivec2 sizePixels) {
     const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
     const Room room(rig.screen, panorama, eye.position);
-    Light hall = darkness(sizePixels);
+    wall::Light hall = wall::darkness(sizePixels);
     std::atomic<int> next{0};
     const auto work = [&] {
         for (int y = next++; y < sizePixels.y; y = next++) drawRow(room, eye, y, hall);
@@ -77,4 +79,4 @@ Light composeHall(const Rig& rig, const Light& panorama, glm::ivec2 sizePixels) 
     return hall;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

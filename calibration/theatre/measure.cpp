@@ -9,7 +9,7 @@
 #include "common/wall/pattern.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr float kNoise = 0.02F;     // of the peak
 
 // One panorama seen along or across its rows: an upright line is crossed by walking a row.
 struct Walk {
-    const Light& light;
+    const wall::Light& light;
     bool upright;
     [[nodiscard]] float at(int across, int along) const {
         return upright ? light.at(across, along).y : light.at(along, across).y;
@@ -32,7 +32,7 @@ struct Walk {
 std::optional<double> centroid(const Walk& walk, int from, int to, int along) {
     float peak = 0;
     for (int i = from; i <= to; ++i) peak = std::max(peak, walk.at(i, along));
-    if (peak < kFaintest * static_cast<float>(kGridMinorLight)) return std::nullopt;
+    if (peak < kFaintest * static_cast<float>(wall::kGridMinorLight)) return std::nullopt;
     double sum = 0;
     double moment = 0;
     for (int i = from; i <= to; ++i) {
@@ -45,23 +45,24 @@ std::optional<double> centroid(const Walk& walk, int from, int to, int along) {
 }
 
 // Panorama pixels of an azimuth or an elevation.
-double columnOf(const Rig& rig, double degrees) {
-    return (0.5 + radiansOf(degrees) / rig.screen.arcRadians) * rig.panoramaPixels.x;
+double columnOf(const config::Rig& rig, double degrees) {
+    return (0.5 + config::radiansOf(degrees) / rig.screen.arcRadians) * rig.panoramaPixels.x;
 }
-double rowOf(const Rig& rig, double degrees) {
-    const double height = rig.screen.radiusMetres * std::tan(radiansOf(degrees));
+double rowOf(const config::Rig& rig, double degrees) {
+    const double height = rig.screen.radiusMetres * std::tan(config::radiansOf(degrees));
     return (0.5 - height / rig.screen.heightMetres) * rig.panoramaPixels.y;
 }
-double azimuthAt(const Rig& rig, double column) {
-    return (column / rig.panoramaPixels.x - 0.5) * rig.screen.arcRadians / kRadiansPerDegree;
+double azimuthAt(const config::Rig& rig, double column) {
+    return (column / rig.panoramaPixels.x - 0.5) * rig.screen.arcRadians /
+           config::kRadiansPerDegree;
 }
-double elevationAt(const Rig& rig, double row) {
+double elevationAt(const config::Rig& rig, double row) {
     const double height = (0.5 - row / rig.panoramaPixels.y) * rig.screen.heightMetres;
-    return std::atan2(height, rig.screen.radiusMetres) / kRadiansPerDegree;
+    return std::atan2(height, rig.screen.radiusMetres) / config::kRadiansPerDegree;
 }
 
 double fromNearestLine(double degrees) {
-    return std::abs(degrees - kGridDegrees * std::round(degrees / kGridDegrees));
+    return std::abs(degrees - wall::kGridDegrees * std::round(degrees / wall::kGridDegrees));
 }
 
 struct Window {
@@ -69,14 +70,14 @@ struct Window {
 };
 
 // All measurements of one line. `window` spans it across; `alongPixels` is its whole length.
-void measureLine(const Rig& rig,
-                 const Light& composed,
-                 const Light& direct,
+void measureLine(const config::Rig& rig,
+                 const wall::Light& composed,
+                 const wall::Light& direct,
                  const LineOffset& line,
                  Window window,
                  std::vector<LineOffset>& found) {
     const int length = line.upright ? rig.panoramaPixels.y : rig.panoramaPixels.x;
-    const int border = static_cast<int>(std::ceil(length * kDarkBorder));
+    const int border = static_cast<int>(std::ceil(length * wall::kDarkBorder));
     const int step = std::max(1, length / kSamplesPerLine);
     for (int along = border; along < length - border; along += step) {
         const double crossing =
@@ -96,12 +97,15 @@ void measureLine(const Rig& rig,
 
 }  // namespace
 
-std::vector<LineOffset> lineOffsets(const Rig& rig, const Light& composed, const Light& direct) {
-    constexpr int kMostLines = static_cast<int>(90 / kGridDegrees) - 1;  // to each side of level
+std::vector<LineOffset> lineOffsets(const config::Rig& rig,
+                                    const wall::Light& composed,
+                                    const wall::Light& direct) {
+    constexpr int kMostLines =
+        static_cast<int>(90 / wall::kGridDegrees) - 1;  // to each side of level
     std::vector<LineOffset> found;
     for (const bool upright : {true, false})
         for (int i = -kMostLines; i <= kMostLines; ++i) {
-            const double degrees = i * kGridDegrees;
+            const double degrees = i * wall::kGridDegrees;
             const auto position = [&](double at) {
                 return upright ? columnOf(rig, at) : rowOf(rig, -at);  // both grow with `at`
             };
@@ -115,9 +119,9 @@ std::vector<LineOffset> lineOffsets(const Rig& rig, const Light& composed, const
     return found;
 }
 
-double unevenness(const Light& panorama, int blockPixels) {
+double unevenness(const wall::Light& panorama, int blockPixels) {
     const glm::ivec2 size = panorama.sizePixels;
-    const glm::ivec2 border(glm::ceil(glm::dvec2(size) * kDarkBorder));
+    const glm::ivec2 border(glm::ceil(glm::dvec2(size) * wall::kDarkBorder));
     std::vector<double> blocks;
     double sum = 0;
     for (int top = border.y; top + blockPixels <= size.y - border.y; top += blockPixels)
@@ -135,4 +139,4 @@ double unevenness(const Light& panorama, int blockPixels) {
     return worst;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -3,29 +3,29 @@
 
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
-Light projectedLight(const Rig& rig, std::size_t channel, TestPattern pattern) {
-    const WarpMap warp = warpMap(rig, channel);
-    Light light = darkness(warp.sizePixels);
+wall::Light projectedLight(const config::Rig& rig, std::size_t channel, wall::TestPattern pattern) {
+    const wall::WarpMap warp = wall::warpMap(rig, channel);
+    wall::Light light = wall::darkness(warp.sizePixels);
     for (std::size_t i = 0; i < light.rgb.size(); ++i) {
         const glm::dvec4 lit(warp.pointAndWeight[i]);
         if (lit.w <= 0) continue;
         light.rgb[i] =
-            glm::vec3(static_cast<float>(lit.w * patternLight(pattern, glm::dvec3(lit))));
+            glm::vec3(static_cast<float>(lit.w * wall::patternLight(pattern, glm::dvec3(lit))));
     }
     return light;
 }
 
-Light directPanorama(const Rig& rig, TestPattern pattern) {
-    Light light = darkness(rig.panoramaPixels);
+wall::Light directPanorama(const config::Rig& rig, wall::TestPattern pattern) {
+    wall::Light light = wall::darkness(rig.panoramaPixels);
     for (int y = 0; y < rig.panoramaPixels.y; ++y)
         for (int x = 0; x < rig.panoramaPixels.x; ++x) {
             const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(rig.panoramaPixels);
-            light.at(x, y) =
-                glm::vec3(static_cast<float>(patternLight(pattern, screenPointAt(rig.screen, at))));
+            light.at(x, y) = glm::vec3(static_cast<float>(
+                wall::patternLight(pattern, wall::screenPointAt(rig.screen, at))));
         }
     return light;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

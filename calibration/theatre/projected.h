@@ -7,13 +7,15 @@
 #include "common/wall/pattern.h"
 #include "common/wall/picture.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 // A channel's share of the pattern: warped and blended. pictureOf (common/wall/picture.h) encodes
 // it as the channel's picture.
-[[nodiscard]] Light projectedLight(const Rig& rig, std::size_t channel, TestPattern pattern);
+[[nodiscard]] wall::Light projectedLight(const config::Rig& rig,
+                                         std::size_t channel,
+                                         wall::TestPattern pattern);
 
 // The pattern on the unrolled screen, straight from its formula: no projector in between.
-[[nodiscard]] Light directPanorama(const Rig& rig, TestPattern pattern);
+[[nodiscard]] wall::Light directPanorama(const config::Rig& rig, wall::TestPattern pattern);
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

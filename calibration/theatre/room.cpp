@@ -10,7 +10,7 @@
 
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
@@ -26,7 +26,7 @@ constexpr double kGlossFade = 0.35;   // its edges dissolved over this share of 
 constexpr float kBounce = 0.006F;     // of the screen's mean light, everywhere in the hall
 
 // Distance along a ray to a capsule; negative or infinite where it passes.
-double distanceTo(const Capsule& capsule, const Ray& ray) {
+double distanceTo(const Capsule& capsule, const wall::Ray& ray) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const glm::dvec3 axis = capsule.to - capsule.from;
     const glm::dvec3 start = ray.origin - capsule.from;
@@ -93,7 +93,7 @@ std::vector<Person> seatedRow(double floor, double middleZ) {
 
 }  // namespace
 
-Room::Room(const Screen& screen, const Light& panorama, glm::dvec3 eye)
+Room::Room(const config::Screen& screen, const wall::Light& panorama, glm::dvec3 eye)
     : screen_(screen), panorama_(panorama), glow_(screen, panorama) {
     const double radius = screen.radiusMetres;
     low_ = {-1.5 * radius, -screen.heightMetres / 2 - kFloorBelowScreen, -1.25 * radius};
@@ -101,15 +101,15 @@ Room::Room(const Screen& screen, const Light& panorama, glm::dvec3 eye)
     audience_ = seatedRow(low_.y, eye.z - kSeatsBeforeEye);
 }
 
-glm::vec3 Room::seen(std::span<const Ray> rays) const {
+glm::vec3 Room::seen(std::span<const wall::Ray> rays) const {
     glm::vec3 sum(0);
     std::optional<glm::vec3> wall;
-    for (const Ray& ray : rays) {
+    for (const wall::Ray& ray : rays) {
         if (const auto body = person(ray)) {
             sum += *body;
-        } else if (const auto point = screenHit(screen_, ray, 0)) {
-            sum +=
-                bilinear(panorama_, unrolled(screen_, *point) * glm::dvec2(panorama_.sizePixels));
+        } else if (const auto point = wall::screenHit(screen_, ray, 0)) {
+            sum += wall::bilinear(
+                panorama_, wall::unrolled(screen_, *point) * glm::dvec2(panorama_.sizePixels));
         } else {
             if (!wall) wall = walls(ray);
             sum += *wall;
@@ -118,7 +118,7 @@ glm::vec3 Room::seen(std::span<const Ray> rays) const {
     return sum / static_cast<float>(rays.size());
 }
 
-std::optional<glm::vec3> Room::person(const Ray& ray) const {
+std::optional<glm::vec3> Room::person(const wall::Ray& ray) const {
     double nearest = std::numeric_limits<double>::infinity();
     const Capsule* hit = nullptr;
     for (const Person& person : audience_) {
@@ -137,7 +137,7 @@ std::optional<glm::vec3> Room::person(const Ray& ray) const {
     return kPersonAlbedo * (glow_.on(point, normalOf(*hit, point)) + kBounce * glow_.mean());
 }
 
-glm::vec3 Room::walls(const Ray& ray) const {
+glm::vec3 Room::walls(const wall::Ray& ray) const {
     const glm::dvec3 to = glm::mix(low_, high_, glm::step(glm::dvec3(0), ray.direction));
     const glm::dvec3 steps = (to - ray.origin) / ray.direction;
     const double distance = std::min({steps.x, steps.y, steps.z});
@@ -148,9 +148,9 @@ glm::vec3 Room::walls(const Ray& ray) const {
     if (normal.y < 1) return kWallAlbedo * (glow_.on(point, normal) + kBounce * glow_.mean());
 
     glm::vec3 light = kFloorAlbedo * (glow_.on(point, normal) + kBounce * glow_.mean());
-    const Ray mirrored{point, ray.direction * glm::dvec3(1, -1, 1)};
-    if (const auto image = screenHit(screen_, mirrored, 0)) {
-        const glm::dvec2 at = unrolled(screen_, *image);
+    const wall::Ray mirrored{point, ray.direction * glm::dvec3(1, -1, 1)};
+    if (const auto image = wall::screenHit(screen_, mirrored, 0)) {
+        const glm::dvec2 at = wall::unrolled(screen_, *image);
         const double fromEdge = std::min({at.x, 1 - at.x, at.y, 1 - at.y});
         const auto share = static_cast<float>(glm::smoothstep(0.0, kGlossFade, fromEdge));
         light += kFloorGloss * share * glow_.blurred(at);
@@ -158,4 +158,4 @@ glm::vec3 Room::walls(const Ray& ray) const {
     return light;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

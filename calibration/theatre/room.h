@@ -13,12 +13,12 @@
 #include "common/wall/picture.h"
 #include "common/wall/pinhole.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 // The screen as a coarse grid of lamps, for what it throws on the room.
 class ScreenGlow {
   public:
-    ScreenGlow(const Screen& screen, const Light& panorama);
+    ScreenGlow(const config::Screen& screen, const wall::Light& panorama);
     // Light that a white matt surface would send back.
     [[nodiscard]] glm::vec3 on(glm::dvec3 point, glm::dvec3 normal) const;
     // The screen out of focus, as a dull floor mirrors it; unrolled coordinates.
@@ -32,7 +32,7 @@ class ScreenGlow {
         glm::vec3 light;
     };
     std::vector<Lamp> lamps_;
-    Light coarse_;
+    wall::Light coarse_;
     glm::vec3 mean_{};
 };
 
@@ -49,20 +49,20 @@ struct Person {
 
 class Room {
   public:
-    Room(const Screen& screen, const Light& panorama, glm::dvec3 eye);
+    Room(const config::Screen& screen, const wall::Light& panorama, glm::dvec3 eye);
     // The mean of what comes along the rays (of length-one directions) of one pixel to an eye in
     // the room. The light on floor, ceiling and walls changes slowly: it is found once a pixel.
-    [[nodiscard]] glm::vec3 seen(std::span<const Ray> rays) const;
+    [[nodiscard]] glm::vec3 seen(std::span<const wall::Ray> rays) const;
 
   private:
-    [[nodiscard]] std::optional<glm::vec3> person(const Ray& ray) const;
-    [[nodiscard]] glm::vec3 walls(const Ray& ray) const;
+    [[nodiscard]] std::optional<glm::vec3> person(const wall::Ray& ray) const;
+    [[nodiscard]] glm::vec3 walls(const wall::Ray& ray) const;
 
-    Screen screen_;
-    const Light& panorama_;
+    config::Screen screen_;
+    const wall::Light& panorama_;
     ScreenGlow glow_;
     std::vector<Person> audience_;
     glm::dvec3 low_, high_;  // corners
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

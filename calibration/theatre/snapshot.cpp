@@ -9,7 +9,7 @@
 #include "common/wall/eyes.h"
 #include "common/wall/png_file.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
@@ -18,51 +18,55 @@ std::string sizeText(glm::ivec2 size) {
 }
 
 // `eye` is empty for what the display shows, or of one eye: ".left_eye".
-Light readChannel(const Channel& channel, const std::string& folder, const std::string& eye) {
+wall::Light readChannel(const config::Channel& channel,
+                        const std::string& folder,
+                        const std::string& eye) {
     const std::string path = folder + "/channel-" + channel.name + eye + ".png";
-    const Picture picture = readPng(path);
+    const wall::Picture picture = wall::readPng(path);
     if (picture.sizePixels != channel.sizePixels)
         throw Error(path + ": is " + sizeText(picture.sizePixels) +
                     " pixels, the rig's channel \"" + channel.name + "\" has " +
                     sizeText(channel.sizePixels) + "; take the snapshot with this rig");
-    return lightOf(picture);
+    return wall::lightOf(picture);
 }
 
 // Displays of the other modes part the eyes again: what they throw on the wall is both, over one
 // another.
-bool showsAsItIs(StereoMode mode) {
-    return mode == StereoMode::Mono || mode == StereoMode::Anaglyph;
+bool showsAsItIs(config::StereoMode mode) {
+    return mode == config::StereoMode::Mono || mode == config::StereoMode::Anaglyph;
 }
 
-Light meanOf(Light one, const Light& other) {
+wall::Light meanOf(wall::Light one, const wall::Light& other) {
     for (std::size_t i = 0; i < one.rgb.size(); ++i)
         one.rgb[i] = 0.5F * (one.rgb[i] + other.rgb[i]);
     return one;
 }
 
 // As one eye behind its glasses sees it; a mono channel has one picture for both.
-std::vector<Light> readEye(const Rig& rig, const std::string& folder, const std::string& eye) {
-    std::vector<Light> channels;
+std::vector<wall::Light> readEye(const config::Rig& rig,
+                                 const std::string& folder,
+                                 const std::string& eye) {
+    std::vector<wall::Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
-        const bool two = stereoOf(rig, i).mode != StereoMode::Mono;
+        const bool two = wall::stereoOf(rig, i).mode != config::StereoMode::Mono;
         channels.push_back(readChannel(rig.channels[i], folder, two ? eye : ""));
     }
     return channels;
 }
 
-bool hasStereo(const Rig& rig) {
+bool hasStereo(const config::Rig& rig) {
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        if (stereoOf(rig, i).mode != StereoMode::Mono) return true;
+        if (wall::stereoOf(rig, i).mode != config::StereoMode::Mono) return true;
     return false;
 }
 
 }  // namespace
 
-std::vector<Light> readChannels(const Rig& rig, const std::string& folder) {
-    std::vector<Light> channels;
+std::vector<wall::Light> readChannels(const config::Rig& rig, const std::string& folder) {
+    std::vector<wall::Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
-        const Channel& channel = rig.channels[i];
-        channels.push_back(showsAsItIs(stereoOf(rig, i).mode)
+        const config::Channel& channel = rig.channels[i];
+        channels.push_back(showsAsItIs(wall::stereoOf(rig, i).mode)
                                ? readChannel(channel, folder, "")
                                : meanOf(readChannel(channel, folder, ".left_eye"),
                                         readChannel(channel, folder, ".right_eye")));
@@ -70,25 +74,26 @@ std::vector<Light> readChannels(const Rig& rig, const std::string& folder) {
     return channels;
 }
 
-void writePanoramaAndHall(const Rig& rig,
-                          const Light& panorama,
+void writePanoramaAndHall(const config::Rig& rig,
+                          const wall::Light& panorama,
                           const std::string& folder,
                           int bits) {
     // While the hall is composed, which takes longer.
     auto written = std::async(std::launch::async, [&] {
-        writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
+        wall::writePng(folder + "/panorama.png", wall::pictureOf(panorama, bits, 0));
     });
-    writePng(folder + "/hall.png", pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
+    wall::writePng(folder + "/hall.png",
+                   wall::pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
     written.get();
 }
 
-void composeSnapshot(const Rig& rig, const std::string& folder, int bits) {
+void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits) {
     const PanoramaMap map(rig);
     writePanoramaAndHall(rig, map.compose(readChannels(rig, folder)), folder, bits);
     if (!hasStereo(rig)) return;
     for (const std::string eye : {".left_eye", ".right_eye"})
-        writePng(folder + "/panorama" + eye + ".png",
-                 pictureOf(map.compose(readEye(rig, folder, eye)), bits, 0));
+        wall::writePng(folder + "/panorama" + eye + ".png",
+                       wall::pictureOf(map.compose(readEye(rig, folder, eye)), bits, 0));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -10,30 +10,32 @@
 #include "common/wall/outline.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
 constexpr int kAlong = 12001;  // samples of the screen's mid-height; a hundredth of a degree each
 
 double degreesAt(glm::dvec3 point) {
-    return azimuthOf(point) / kRadiansPerDegree;
+    return wall::azimuthOf(point) / config::kRadiansPerDegree;
 }
 
 // How much of this projector's picture a neighbour lights too, at mid-height.
-Overlap overlapOf(const Screen& screen, const Pinhole& own, const Channel& neighbour) {
-    const Pinhole other(neighbour);
-    Overlap overlap;
+ChannelOverlap overlapOf(const config::Screen& screen,
+                         const wall::Pinhole& own,
+                         const config::Channel& neighbour) {
+    const wall::Pinhole other(neighbour);
+    ChannelOverlap overlap;
     overlap.with = neighbour.name;
     glm::dvec2 lastPixel{};
     double lastDegrees = 0;
     bool inside = false;
     for (int i = 0; i < kAlong; ++i) {
         const glm::dvec3 point =
-            screenPointAt(screen, {static_cast<double>(i) / (kAlong - 1), 0.5});
+            wall::screenPointAt(screen, {static_cast<double>(i) / (kAlong - 1), 0.5});
         const auto pixel = own.pixelOf(point);
-        const bool shared =
-            pixel && other.pixelOf(point) && lightsInside(own, point) && lightsInside(other, point);
+        const bool shared = pixel && other.pixelOf(point) && wall::lightsInside(own, point) &&
+                            wall::lightsInside(other, point);
         if (shared && inside) {
             overlap.pixels += std::abs(pixel->x - lastPixel.x);
             overlap.degrees += degreesAt(point) - lastDegrees;
@@ -46,17 +48,19 @@ Overlap overlapOf(const Screen& screen, const Pinhole& own, const Channel& neigh
 }
 
 // Pixels per degree as seen from the sweet spot, by the closest thing to a derivative.
-glm::dvec2 densityAt(const Screen& screen, const Pinhole& projector, glm::dvec2 unrolledPosition) {
+glm::dvec2 densityAt(const config::Screen& screen,
+                     const wall::Pinhole& projector,
+                     glm::dvec2 unrolledPosition) {
     constexpr double kStep = 1e-4;
-    const auto here = projector.pixelOf(screenPointAt(screen, unrolledPosition));
+    const auto here = projector.pixelOf(wall::screenPointAt(screen, unrolledPosition));
     const auto right =
-        projector.pixelOf(screenPointAt(screen, unrolledPosition + glm::dvec2(kStep, 0)));
+        projector.pixelOf(wall::screenPointAt(screen, unrolledPosition + glm::dvec2(kStep, 0)));
     const auto down =
-        projector.pixelOf(screenPointAt(screen, unrolledPosition + glm::dvec2(0, kStep)));
+        projector.pixelOf(wall::screenPointAt(screen, unrolledPosition + glm::dvec2(0, kStep)));
     if (!here || !right || !down) return {};
-    const double degreesRight = kStep * screen.arcRadians / kRadiansPerDegree;
+    const double degreesRight = kStep * screen.arcRadians / config::kRadiansPerDegree;
     const double degreesDown =
-        std::atan(kStep * screen.heightMetres / screen.radiusMetres) / kRadiansPerDegree;
+        std::atan(kStep * screen.heightMetres / screen.radiusMetres) / config::kRadiansPerDegree;
     return {(right->x - here->x) / degreesRight, (down->y - here->y) / degreesDown};
 }
 
@@ -69,10 +73,10 @@ std::string sideways(double degrees) {
 
 }  // namespace
 
-ChannelSurvey surveyChannel(const Rig& rig, std::size_t channel) {
-    const Pinhole own(rig.channels[channel]);
-    const std::vector<glm::dvec3> lit = litOutline(rig.screen, own, 0);
-    const auto [left, right] = std::ranges::minmax(lit, {}, azimuthOf);
+ChannelSurvey surveyChannel(const config::Rig& rig, std::size_t channel) {
+    const wall::Pinhole own(rig.channels[channel]);
+    const std::vector<glm::dvec3> lit = wall::litOutline(rig.screen, own, 0);
+    const auto [left, right] = std::ranges::minmax(lit, {}, wall::azimuthOf);
     const auto [bottom, top] = std::ranges::minmax(lit, {}, &glm::dvec3::y);
     ChannelSurvey survey;
     survey.name = rig.channels[channel].name;
@@ -80,28 +84,28 @@ ChannelSurvey surveyChannel(const Rig& rig, std::size_t channel) {
     survey.rightDegrees = degreesAt(right);
     survey.bottomMetres = bottom.y;
     survey.topMetres = top.y;
-    const double u = (unrolled(rig.screen, left).x + unrolled(rig.screen, right).x) / 2;
-    const double v = (unrolled(rig.screen, bottom).y + unrolled(rig.screen, top).y) / 2;
+    const double u = (wall::unrolled(rig.screen, left).x + wall::unrolled(rig.screen, right).x) / 2;
+    const double v = (wall::unrolled(rig.screen, bottom).y + wall::unrolled(rig.screen, top).y) / 2;
     survey.pixelsPerDegree = densityAt(rig.screen, own, {u, v});
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
         if (i == channel) continue;
-        const Overlap overlap = overlapOf(rig.screen, own, rig.channels[i]);
+        const ChannelOverlap overlap = overlapOf(rig.screen, own, rig.channels[i]);
         if (overlap.pixels > 0) survey.overlaps.push_back(overlap);
     }
     return survey;
 }
 
-double worstBlendSum(const Rig& rig) {
-    const Blend blend(rig);
+double worstBlendSum(const config::Rig& rig) {
+    const wall::Blend blend(rig);
     constexpr glm::ivec2 kGrid(601, 151);
     double worst = 0;
     for (int y = 0; y < kGrid.y; ++y)
         for (int x = 0; x < kGrid.x; ++x) {
             const glm::dvec2 t = glm::dvec2(x, y) / glm::dvec2(kGrid - 1);
-            const glm::dvec2 at = kDarkBorder + (1 - 2 * kDarkBorder) * t;
+            const glm::dvec2 at = wall::kDarkBorder + (1 - 2 * wall::kDarkBorder) * t;
             double sum = 0;
             for (std::size_t i = 0; i < rig.channels.size(); ++i)
-                sum += blend.weight(i, screenPointAt(rig.screen, at));
+                sum += blend.weight(i, wall::screenPointAt(rig.screen, at));
             worst = std::max(worst, std::abs(sum - 1));
         }
     return worst;
@@ -118,7 +122,7 @@ std::string oneLine(const ChannelSurvey& survey) {
                   survey.pixelsPerDegree.y);
     std::string line = survey.name + ": lights " + sideways(survey.leftDegrees) + " to " +
                        sideways(survey.rightDegrees) + numbers;
-    for (const Overlap& overlap : survey.overlaps) {
+    for (const ChannelOverlap& overlap : survey.overlaps) {
         std::snprintf(numbers,
                       sizeof numbers,
                       "; blends over %.0f px (%.1f deg) with ",
@@ -129,4 +133,4 @@ std::string oneLine(const ChannelSurvey& survey) {
     return line;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -7,9 +7,9 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
-struct Overlap {
+struct ChannelOverlap {
     std::string with;   // the other channel
     double pixels = 0;  // of this channel's picture, along the screen's mid-height
     double degrees = 0;
@@ -20,15 +20,15 @@ struct ChannelSurvey {
     double leftDegrees = 0, rightDegrees = 0;  // azimuths of what it lights; right is positive
     double bottomMetres = 0, topMetres = 0;    // above the sweet spot
     glm::dvec2 pixelsPerDegree{};              // in the middle of what it lights
-    std::vector<Overlap> overlaps;
+    std::vector<ChannelOverlap> overlaps;
 };
 
-[[nodiscard]] ChannelSurvey surveyChannel(const Rig& rig, std::size_t channel);
+[[nodiscard]] ChannelSurvey surveyChannel(const config::Rig& rig, std::size_t channel);
 
 // The largest deviation from one of the sum of all shares on the screen, of many points.
-[[nodiscard]] double worstBlendSum(const Rig& rig);
+[[nodiscard]] double worstBlendSum(const config::Rig& rig);
 
 // The survey in one line.
 [[nodiscard]] std::string oneLine(const ChannelSurvey& survey);
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -17,7 +17,7 @@ extern "C" {
 #include "common/units/error.h"
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
@@ -125,7 +125,7 @@ class Video final : public Clip {
     Video(const Video&) = delete;
     Video& operator=(const Video&) = delete;
 
-    void add(const Picture& picture, std::uint64_t tick) override {
+    void add(const wall::Picture& picture, std::uint64_t tick) override {
         if (!first_) first_ = tick;
         fillFrame(picture);
         frame_->pts = static_cast<std::int64_t>(tick - *first_);
@@ -179,7 +179,7 @@ class Video final : public Clip {
         rgb_.resize(3 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     }
 
-    void fillFrame(const Picture& picture) {
+    void fillFrame(const wall::Picture& picture) {
         const glm::ivec2 size = evenSize(format_.sizePixels);
         const glm::ivec2 last = picture.sizePixels - 1;
         auto* out = rgb_.data();
@@ -246,4 +246,4 @@ std::unique_ptr<Clip> makeVideo(const ClipFormat& format, std::span<const char* 
     return std::make_unique<Video>(format, encoders);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -85,7 +85,7 @@ float pectoralRay(int column) {
 
 }  // namespace
 
-CageShape::CageShape(const Species& species)
+CageShape::CageShape(const config::Species& species)
     : dorsal_(species.profile.stations, species.profile.dorsal),
       ventral_(species.profile.stations, species.profile.ventral),
       halfWidth_(species.profile.stations, species.profile.halfWidth),
@@ -101,7 +101,7 @@ CageShape::CageShape(const Species& species)
     slantRings(species);
 }
 
-void CageShape::slantRings(const Species& species) {
+void CageShape::slantRings(const config::Species& species) {
     const float end = species.profile.stations.back();
     const auto fill = [](RingStations& rings, int first, int last, float from, float to) {
         for (int r = first; r <= last; ++r)
@@ -250,4 +250,4 @@ CageVertex CageShape::onPairedFin(const CageSite& site) const {
         .fin = {p, q}};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

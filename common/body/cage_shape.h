@@ -10,11 +10,11 @@
 #include "common/body/monotone_curve.h"
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 class CageShape {
   public:
-    explicit CageShape(const Species& species);
+    explicit CageShape(const config::Species& species);
     [[nodiscard]] CageVertex place(const CageSite& site) const;
 
   private:
@@ -24,7 +24,7 @@ class CageShape {
     };
     using RingStations = std::array<float, kBodyEndRing + 1>;
 
-    void slantRings(const Species& species);
+    void slantRings(const config::Species& species);
     [[nodiscard]] Section sectionAt(float s) const;
     [[nodiscard]] glm::vec3 onBody(int ring, int column) const;
     [[nodiscard]] glm::vec3 onPectoralRoot(int ring, int column) const;
@@ -41,4 +41,4 @@ class CageShape {
     RingStations back_{}, flank_{}, belly_{};
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/body/cage_tables.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -36,4 +36,4 @@ CageTables makeCageTables(const FishBody& body) {
     return tables;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -9,7 +9,7 @@
 #include "common/body/point_groups.h"
 #include "common/body/spine.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 // Of each cage vertex: its shares in the knots of the spine (a posed vertex's place, direction and
 // right are weighted sums of them), and its height and its distance to the right, in body lengths.
@@ -34,4 +34,4 @@ void poseCages(const CageTables& tables,
                std::span<const float> lengths,
                std::span<glm::vec3> controlPoints);
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -169,4 +169,4 @@ CageTopology makeCageTopology() {
     return std::move(cage).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -15,7 +15,7 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 inline constexpr int kTubeRings = 26;
 inline constexpr int kTubeColumns = 12;
@@ -41,4 +41,4 @@ struct CageTopology {
 
 [[nodiscard]] CageTopology makeCageTopology();
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -12,7 +12,7 @@
 #include "common/body/monotone_curve.h"
 #include "common/body/spine.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -40,7 +40,7 @@ struct Hinge {
     glm::vec3 chord{};  // from there to the margin's front
 };
 
-Hinge hingeOf(const Fin& fin, float flank) {
+Hinge hingeOf(const config::Fin& fin, float flank) {
     const FinPatch patch(fin);
     const glm::vec2 base = glm::normalize(patch.baseRear() - patch.baseFront());
     const glm::vec2 square{-base.y, base.x};
@@ -63,14 +63,14 @@ float tenths(float hertz) {
     return std::round(10 * hertz) / 10;
 }
 
-float flankAt(const Species& species, const Fin& fin) {
+float flankAt(const config::Species& species, const config::Fin& fin) {
     return interpolate(
         species.profile.stations, species.profile.halfWidth, FinPatch(fin).at(0.5F, 0).x);
 }
 
-FinStyle styleOf(const Species& species, const Hinge& hinge) {
-    const FinMotion& motion = species.finMotion;
-    const Rowing& rowing = motion.rowing;
+FinStyle styleOf(const config::Species& species, const Hinge& hinge) {
+    const config::FinMotion& motion = species.finMotion;
+    const config::Rowing& rowing = motion.rowing;
     const float rest = species.fins.pectoral.angleRadians;
     FinStyle style;
     style.hinge = hinge.axis;
@@ -104,7 +104,7 @@ FinStyle styleOf(const Species& species, const Hinge& hinge) {
     return style;
 }
 
-const Fin& finOf(const Fins& fins, CagePart part) {
+const config::Fin& finOf(const config::Fins& fins, CagePart part) {
     switch (part) {
         case CagePart::Caudal:
             return fins.caudal;
@@ -117,7 +117,7 @@ const Fin& finOf(const Fins& fins, CagePart part) {
     }
 }
 
-float swayOf(const Fin& fin, glm::vec2 at) {
+float swayOf(const config::Fin& fin, glm::vec2 at) {
     const FinPatch patch(fin);
     const float span = glm::distance(patch.at(at.x, 0), patch.at(at.x, 1));
     return fin.flex * span * std::pow(at.y, 1.5F);
@@ -166,8 +166,8 @@ float rippled(const FinStyle& style, const FinPoint& point, const FinDrive& driv
 
 }  // namespace
 
-FinTable makeFinTable(const Species& species, const ControlCage& cage) {
-    const Fins& fins = species.fins;
+FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
+    const config::Fins& fins = species.fins;
     const Hinge pectoral = hingeOf(fins.pectoral, 0.97F * flankAt(species, fins.pectoral));
     const Hinge pelvic = hingeOf(fins.pelvic, 0.35F * flankAt(species, fins.pelvic));
     FinTable table{.style = styleOf(species, pectoral), .points = {}};
@@ -222,4 +222,4 @@ glm::vec3 turned(glm::vec3 offset, float heading) {
     return {s * offset.z - c * offset.x, offset.y, c * offset.z + s * offset.x};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -14,10 +14,10 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 // cage: of this species at rest.
-[[nodiscard]] FinTable makeFinTable(const Species& species, const ControlCage& cage);
+[[nodiscard]] FinTable makeFinTable(const config::Species& species, const ControlCage& cage);
 
 inline constexpr float kFinSeconds = 10;  // after which all fins that go by the clock are as before
 
@@ -46,4 +46,4 @@ void headingsOf(const FishBody& body, const NodalPoints& nodes, std::span<float>
 // tailwards, up, right to the body frame.
 [[nodiscard]] glm::vec3 turned(glm::vec3 offset, float heading);
 
-}  // namespace aquarama
+}  // namespace aquarama::body

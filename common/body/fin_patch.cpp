@@ -9,7 +9,7 @@
 
 #include "common/body/monotone_curve.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -34,7 +34,7 @@ std::vector<float> sampled(const std::vector<glm::vec2>& points, int component) 
 
 }  // namespace
 
-FinPatch::FinPatch(const Fin& fin)
+FinPatch::FinPatch(const config::Fin& fin)
     : p_(evenSteps(kSamples)),
       baseS_(sampled(fin.base, 0)),
       baseY_(sampled(fin.base, 1)),
@@ -59,4 +59,4 @@ float FinPatch::rayAtStation(float s) const {
     return interpolate(baseS_, p_, s);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

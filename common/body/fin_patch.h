@@ -8,11 +8,11 @@
 
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 class FinPatch {
   public:
-    explicit FinPatch(const Fin& fin);
+    explicit FinPatch(const config::Fin& fin);
     [[nodiscard]] glm::vec2 at(float p, float q) const;  // (s, y)
     [[nodiscard]] float rayAtStation(float s) const;     // the p whose base is at s
     // The same of a paddle: as round as the fin is, it is widest at half its length.
@@ -29,4 +29,4 @@ class FinPatch {
     float round_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::body

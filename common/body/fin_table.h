@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::body {
 
 // Of a species; angles in radians, speeds in body lengths a second. Axes and arms are of the right
 // side: tailwards, up, away from the body. The left side is its mirror image.
@@ -45,4 +45,4 @@ struct FinTable {
     std::vector<FinPoint> points;  // one a control point
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::body

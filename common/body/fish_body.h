@@ -14,7 +14,11 @@
 
 #include "common/body/fin_table.h"
 
-namespace aquarama {
+namespace aquarama::config {
+struct Species;
+}
+
+namespace aquarama::body {
 
 inline constexpr int kNodalPoints = 23;
 inline constexpr int kControlPoints = 426;
@@ -82,12 +86,11 @@ struct FishBody {
     FinTable fins;
 };
 
-struct Species;
-[[nodiscard]] FishBody makeBody(const Species& species);
+[[nodiscard]] FishBody makeBody(const config::Species& species);
 
 // The cage moved by the nodal points: cubic spine through nose, ring centres and tail, lateral axis
 // from the rings. nodes and the result are in one and the same frame (body or world), body lengths.
 // The rest nodes give the rest cage.
 void poseCage(const FishBody& body, const NodalPoints& nodes, std::span<glm::vec3> controlPoints);
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -6,22 +6,24 @@
 
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
-glm::vec3 colourOf(const Species& species, std::string_view part, const glm::vec3& otherwise) {
-    const auto paint = std::ranges::find(species.palette, part, &Paint::part);
+glm::vec3 colourOf(const config::Species& species,
+                   std::string_view part,
+                   const glm::vec3& otherwise) {
+    const auto paint = std::ranges::find(species.palette, part, &config::Paint::part);
     return paint == species.palette.end() ? otherwise : paint->linear;
 }
 
 }  // namespace
 
-FishSkin skinOf(const Species& species) {
+FishSkin skinOf(const config::Species& species) {
     return {.species = species.name,
             .back = colourOf(species, "back", {0.05F, 0.08F, 0.10F}),
             .flank = colourOf(species, "flank", {0.40F, 0.42F, 0.40F}),
             .belly = colourOf(species, "belly", {0.70F, 0.70F, 0.68F})};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -7,7 +7,11 @@
 
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::config {
+struct Species;
+}
+
+namespace aquarama::body {
 
 struct FishSkin {
     std::string species;  // whose painter is render_node/shaders/skin_SPECIES.glsl
@@ -15,7 +19,6 @@ struct FishSkin {
     glm::vec3 back{}, flank{}, belly{};
 };
 
-struct Species;
-[[nodiscard]] FishSkin skinOf(const Species& species);
+[[nodiscard]] FishSkin skinOf(const config::Species& species);
 
-}  // namespace aquarama
+}  // namespace aquarama::body

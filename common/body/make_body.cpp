@@ -5,14 +5,14 @@
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
-NodalPoints restNodesOf(const Skeleton& skeleton) {
+NodalPoints restNodesOf(const config::Skeleton& skeleton) {
     NodalPoints nodes{};
     std::size_t next = 1;
-    for (const SkeletonRing& ring : skeleton.rings) {
+    for (const config::SkeletonRing& ring : skeleton.rings) {
         const auto x = static_cast<float>(-ring.s);
         const auto y = static_cast<float>(ring.halfHeight);
         const auto z = static_cast<float>(ring.halfWidth);
@@ -27,7 +27,7 @@ NodalPoints restNodesOf(const Skeleton& skeleton) {
     return nodes;
 }
 
-ControlCage makeCage(const Species& species) {
+ControlCage makeCage(const config::Species& species) {
     CageTopology topology = makeCageTopology();
     const CageShape shape(species);
     ControlCage cage;
@@ -39,7 +39,7 @@ ControlCage makeCage(const Species& species) {
 
 }  // namespace
 
-FishBody makeBody(const Species& species) {
+FishBody makeBody(const config::Species& species) {
     FishBody body;
     body.species = species.name;
     body.typicalLengthMetres = static_cast<float>(species.size.meanMetres);
@@ -52,7 +52,7 @@ FishBody makeBody(const Species& species) {
     body.profileHalfWidth = species.profile.halfWidth;
     body.eye = {species.eye.s, species.eye.y, species.eye.radius};
     body.eyeBulge = species.eye.bulge;
-    for (const Thread& thread : species.threads)
+    for (const config::Thread& thread : species.threads)
         body.threads.push_back(
             {thread.at, thread.rootWidth, thread.tipWidth, thread.isOfFirstDorsal});
     body.cage = makeCage(species);
@@ -60,4 +60,4 @@ FishBody makeBody(const Species& species) {
     return body;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -70,4 +70,4 @@ float interpolate(const std::vector<float>& x, const std::vector<float>& y, floa
     return y[i] + (y[i + 1] - y[i]) * t;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

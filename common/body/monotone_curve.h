@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::body {
 
 // Piecewise cubic Hermite with the slopes of Fritsch & Butland 1984 ("A method for constructing
 // local monotone piecewise cubic interpolants"). x must rise; outside of the table the ends hold.
@@ -23,4 +23,4 @@ class MonotoneCurve {
 // Linear between the points of a table; outside of it the ends hold.
 [[nodiscard]] float interpolate(const std::vector<float>& x, const std::vector<float>& y, float at);
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace aquarama {
+namespace aquarama::body {
 
 inline constexpr std::size_t kPointGroup = 16;
 
@@ -19,4 +19,4 @@ constexpr std::size_t firstPointOf(std::size_t group, std::size_t points) {
     return std::min(group * kPointGroup, points - kPointGroup);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

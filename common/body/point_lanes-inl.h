@@ -14,7 +14,7 @@
 #include "common/body/point_groups.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::body::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -61,7 +61,7 @@ class Interleave {
 };
 
 }  // namespace
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::body::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -6,7 +6,7 @@
 #include "common/body/fish_body.h"
 #include "common/body/spine.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -27,4 +27,4 @@ void poseCage(const FishBody& body, const NodalPoints& nodes, std::span<glm::vec
         controlPoints[i] = place(spine, body.cage.vertices[i].rest);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

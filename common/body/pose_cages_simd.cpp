@@ -11,7 +11,7 @@
 #include "common/body/point_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::body::HWY_NAMESPACE {
 namespace {
 
 struct Vector {
@@ -99,11 +99,11 @@ void poseCagesOf(const CageTables& tables,
     }
 }
 
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::body::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace aquarama {
+namespace aquarama::body {
 
 HWY_EXPORT(poseCagesOf);
 
@@ -114,5 +114,5 @@ void poseCages(const CageTables& tables,
     HWY_DYNAMIC_DISPATCH(poseCagesOf)(tables, nodes, lengths.data(), controlPoints.data());
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body
 #endif

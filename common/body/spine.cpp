@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::body {
 
 namespace {
 
@@ -73,4 +73,4 @@ SpineSample sampleAt(const Spine& spine, float station) {
             .right = glm::mix(spine.right[i], spine.right[i + 1], t)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -9,7 +9,7 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::body {
 
 inline constexpr std::size_t kKnots = 7;  // nose, five rings, tail
 
@@ -37,4 +37,4 @@ struct SpineSample {
 // its stations.
 [[nodiscard]] SpineSample sampleAt(const Spine& spine, float station);
 
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -12,7 +12,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -59,4 +59,4 @@ bool tellSupervisor(const std::string& line) {
     return write(std::atoi(pipe), whole.data(), whole.size()) == static_cast<ssize_t>(whole.size());
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

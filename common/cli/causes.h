@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 // The supervisor's end. Every child that is started while it exists tells it.
 class Causes {
@@ -26,4 +26,4 @@ class Causes {
 // A child's end. False where no supervisor waits for it.
 [[nodiscard]] bool tellSupervisor(const std::string& line);
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

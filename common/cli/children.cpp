@@ -11,7 +11,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -83,4 +83,4 @@ void become(const Command& command) {
                 std::system_category().message(errno));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

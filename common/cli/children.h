@@ -11,7 +11,7 @@
 
 #include <sys/types.h>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 struct Command {
     std::filesystem::path program;
@@ -44,4 +44,4 @@ void listenForSignals();
 // Replaces this process by the command. Throws Error where it cannot.
 [[noreturn]] void become(const Command& command);
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

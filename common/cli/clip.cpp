@@ -11,7 +11,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -27,9 +27,9 @@ bool showsAllChannels(const std::string& of) {
     return of == "panorama" || of == "hall";
 }
 
-std::vector<std::string> channelsFor(const Rig& rig, const std::string& of) {
+std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& of) {
     std::vector<std::string> names;
-    for (const Channel& channel : rig.channels) names.push_back(channel.name);
+    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
     if (showsAllChannels(of)) return names;
     if (std::ranges::find(names, of) != names.end()) return {of};
     std::string known = "panorama, hall";
@@ -59,4 +59,4 @@ std::string ClipPipes::pipeOf(const std::string& channel) const {
     return fs::exists(pipe) ? pipe.string() : "";
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

@@ -8,14 +8,14 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 // Whether a clip of `of` is composed of all channels: the panorama and the hall.
 [[nodiscard]] bool showsAllChannels(const std::string& of);
 
 // The channels that a clip of `of` needs: all of them for the panorama and the hall, or the one of
 // that name. Throws Error where the rig has none.
-[[nodiscard]] std::vector<std::string> channelsFor(const Rig& rig, const std::string& of);
+[[nodiscard]] std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& of);
 
 // Named pipes in a folder of their own, which goes with them.
 class ClipPipes {
@@ -32,4 +32,4 @@ class ClipPipes {
     std::filesystem::path folder_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

@@ -71,11 +71,11 @@ constexpr std::array kDelegations{
 };
 
 bool isRepertoire(const std::string& path) {
-    return path.ends_with(".aqrep") || looksLikeRepertoire(path);
+    return path.ends_with(".aqrep") || cli::looksLikeRepertoire(path);
 }
 
 bool isRecording(const std::string& path) {
-    return path.ends_with(".aqrec") || looksLikeRecording(path);
+    return path.ends_with(".aqrec") || cli::looksLikeRecording(path);
 }
 
 // Every other file that we know is a text.
@@ -87,17 +87,17 @@ std::string_view inspectorOf(std::span<char*> arguments) {
 [[noreturn]] void delegate(std::string_view program,
                            std::string_view subcommand,
                            std::span<char*> rest) {
-    Command command{siblingProgram(std::string(program)), {}};
+    cli::Command command{cli::siblingProgram(std::string(program)), {}};
     if (!subcommand.empty()) command.arguments.emplace_back(subcommand);
     command.arguments.insert(command.arguments.end(), rest.begin(), rest.end());
-    become(command);
+    cli::become(command);
 }
 
 // What a new show and a replayed one have in common.
-void describeShow(CLI::App& run, ShowOptions& options) {
+void describeShow(CLI::App& run, cli::ShowOptions& options) {
     run.add_flag("--headless", options.headless, "without a display; implies lockstep");
     run.add_option("--frames", options.frames, "end after so many frames; implies lockstep")
-        ->check(wholeNumber(1, kMostShownFrames));
+        ->check(cli::wholeNumber(1, cli::kMostShownFrames));
     CLI::Option* snapshot = run.add_option(
         "--snapshot",
         options.snapshotFolder,
@@ -112,7 +112,7 @@ void describeShow(CLI::App& run, ShowOptions& options) {
         ->needs(clip);
     run.add_option("--film-every", options.filmEvery, "the clip has every so many frames only")
         ->needs(clip)
-        ->check(wholeNumber(1, 10000));
+        ->check(cli::wholeNumber(1, 10000));
     run.add_option(
         "--trace", options.traceFolder, "folder for a line of times a frame and process");
     run.add_option("--pattern", options.pattern, "show this instead of the world")
@@ -123,19 +123,19 @@ void describeShow(CLI::App& run, ShowOptions& options) {
         ->excludes(clip);
 }
 
-void describeRun(CLI::App& run, ShowOptions& options) {
+void describeRun(CLI::App& run, cli::ShowOptions& options) {
     run.add_option("RIG", options.rigPath, "the rig's file")->default_val(kDesk);
     run.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
-        ->check(wholeNumber(0, kMostSeed));
+        ->check(cli::wholeNumber(0, cli::kMostSeed));
     run.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
     run.add_option(
            "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(wholeNumber(0, kMostFish));
+        ->check(cli::wholeNumber(0, config::kMostFish));
     run.add_option("--record", options.recordPath, "write the show to this new file");
     describeShow(run, options);
 }
 
-void describeReplay(CLI::App& replay, ShowOptions& options, bool& check) {
+void describeReplay(CLI::App& replay, cli::ShowOptions& options, bool& check) {
     replay.add_option("FILE", options.replayPath, "the recording")->required();
     replay.add_option("--rig", options.rigPath, "the wall that shows it")->default_val(kDesk);
     replay.add_flag("--check", check, "no wall: only whether it is the same world again");
@@ -171,22 +171,23 @@ void delegateWhatOthersDo(std::span<char*> arguments) {
 int runAquarama(int count, char** arguments) {
     CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors", "aquarama"};
     app.require_subcommand(0, 1);
-    ShowOptions options;
+    cli::ShowOptions options;
     CLI::App& run = *app.add_subcommand("run", "the master and all nodes of a rig on this machine");
     describeRun(run, options);
-    ShowOptions replayOptions;
+    cli::ShowOptions replayOptions;
     bool check = false;
     CLI::App& replay = *app.add_subcommand("replay", "a recorded show once more");
     describeReplay(replay, replayOptions, check);
     for (const Delegation& delegation : kDelegations)
         app.add_subcommand(std::string(delegation.command), std::string(delegation.what));
     describeInspect(app);
-    return runProgram(app, count, arguments, [&] {
+    return cli::runProgram(app, count, arguments, [&] {
         if (app.get_subcommands().empty()) throw CLI::RequiredError("a command");
-        if (replay.parsed()) requireRecording(replayOptions.replayPath);
-        if (check) become({siblingProgram("master"), {"replay", replayOptions.replayPath}});
-        const ShowOptions& shown = replay.parsed() ? replayOptions : options;
-        return runShow(shown, readRig(shown.rigPath));
+        if (replay.parsed()) cli::requireRecording(replayOptions.replayPath);
+        if (check)
+            cli::become({cli::siblingProgram("master"), {"replay", replayOptions.replayPath}});
+        const cli::ShowOptions& shown = replay.parsed() ? replayOptions : options;
+        return cli::runShow(shown, config::readRig(shown.rigPath));
     });
 }
 
@@ -198,7 +199,7 @@ int main(int count, char** arguments) {
     try {
         aquarama::delegateWhatOthersDo({arguments + 1, arguments + std::max(count, 1)});
     } catch (const std::exception& error) {
-        aquarama::sayError("aquarama", error.what());
+        aquarama::cli::sayError("aquarama", error.what());
         return 1;
     }
     return aquarama::runAquarama(count, arguments);

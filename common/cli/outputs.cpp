@@ -10,7 +10,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -49,4 +49,4 @@ void requireFile(const std::string& option, const std::string& file) {
                                    : tryFolder(fs::absolute(file).parent_path()));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 // Makes the folder where it is missing. Throws Error, which names the option, where no file could
 // be written into it. An empty name asks for nothing.
@@ -12,4 +12,4 @@ void requireFolder(const std::string& option, const std::string& folder);
 // The same for the folder of a file; nor may the file be a folder.
 void requireFile(const std::string& option, const std::string& file);
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

@@ -13,7 +13,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -82,4 +82,4 @@ bool looksLikeRepertoire(const std::string& path) {
     return firstBytesOf(path).starts_with("AQREP");
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

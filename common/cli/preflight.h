@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 // Somewhere to open windows.
 void requireDisplay();
@@ -20,4 +20,4 @@ void requireRecording(const std::string& path);
 [[nodiscard]] bool looksLikeRecording(const std::string& path);
 [[nodiscard]] bool looksLikeRepertoire(const std::string& path);
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

@@ -11,7 +11,7 @@
 #include "common/cli/causes.h"
 #include "common/cli/version.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -84,4 +84,4 @@ CLI::Validator number(double least, double most) {
     return between(least, most, "a number");
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

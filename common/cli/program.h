@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 // What a program does once its command line is read; returns the exit status.
 using Job = std::function<int()>;
@@ -27,4 +27,4 @@ void sayError(const std::string& program, const std::string& what);
 inline constexpr std::uint64_t kMostSeed = UINT32_MAX;
 inline constexpr std::uint64_t kMostShownFrames = 1'000'000'000;  // half a year
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

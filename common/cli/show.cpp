@@ -20,7 +20,7 @@
 #include "common/cli/siblings.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -91,8 +91,8 @@ Process clipProcess(const ShowOptions& options, const std::string& pipes) {
 }
 
 Process nodeProcess(const ShowOptions& options,
-                    const Rig& rig,
-                    const Channel& channel,
+                    const config::Rig& rig,
+                    const config::Channel& channel,
                     const std::string& filmPipe) {
     std::vector<std::string> arguments{channel.name, "--master", rig.controlAddress};
     if (options.headless) arguments.emplace_back("--headless");
@@ -109,7 +109,7 @@ Process nodeProcess(const ShowOptions& options,
 // Software OpenGL takes every core for each process; several nodes on one machine share them
 // better. Two threads at least: those that fill pixels rest while their node prepares vertices, so
 // that nodes take turns.
-void shareCores(const Rig& rig) {
+void shareCores(const config::Rig& rig) {
     const std::size_t perNode = std::thread::hardware_concurrency() / rig.channels.size();
     // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
     setenv("LP_NUM_THREADS",
@@ -237,25 +237,26 @@ bool compose(const ShowOptions& options, const Causes& causes) {
     }
 }
 
-void sayWhatWasMade(const ShowOptions& options, const Rig& rig) {
+void sayWhatWasMade(const ShowOptions& options, const config::Rig& rig) {
     if (options.snapshotFolder.empty()) return;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
-    if (std::ranges::any_of(rig.channels, [&](const Channel& channel) {
-            return channel.display.stereo.value_or(rig.stereo.mode) != StereoMode::Mono;
+    if (std::ranges::any_of(rig.channels, [&](const config::Channel& channel) {
+            return channel.display.stereo.value_or(rig.stereo.mode) != config::StereoMode::Mono;
         }))
         std::cout << " and each eye's";
-    for (const Channel& channel : rig.channels) std::cout << ", channel-" << channel.name << ".png";
+    for (const config::Channel& channel : rig.channels)
+        std::cout << ", channel-" << channel.name << ".png";
     std::cout << '\n';
 }
 
 // The master, the nodes and, first, who waits for their frames.
 std::vector<Process> processesOf(const ShowOptions& options,
-                                 const Rig& rig,
+                                 const config::Rig& rig,
                                  const std::optional<ClipPipes>& pipes) {
     std::vector<Process> processes;
     if (pipes) processes.push_back(clipProcess(options, pipes->folder()));
     processes.push_back(masterProcess(options));
-    for (const Channel& channel : rig.channels)
+    for (const config::Channel& channel : rig.channels)
         processes.push_back(
             nodeProcess(options, rig, channel, pipes ? pipes->pipeOf(channel.name) : ""));
     return processes;
@@ -263,7 +264,7 @@ std::vector<Process> processesOf(const ShowOptions& options,
 
 }  // namespace
 
-int runShow(const ShowOptions& options, const Rig& rig) {
+int runShow(const ShowOptions& options, const config::Rig& rig) {
     if (!options.headless) requireDisplay();
     requireFreePort(rig.controlAddress);
     requireFreePort(rig.stateAddress);
@@ -292,4 +293,4 @@ int runShow(const ShowOptions& options, const Rig& rig) {
     return 0;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

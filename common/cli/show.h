@@ -9,7 +9,7 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 struct ShowOptions {
     std::string rigPath;
@@ -39,6 +39,6 @@ struct ShowOptions {
 
 // Returns the exit status. Live, a process that dies is started again; in lockstep its death ends
 // the show with an error.
-[[nodiscard]] int runShow(const ShowOptions& options, const Rig& rig);
+[[nodiscard]] int runShow(const ShowOptions& options, const config::Rig& rig);
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

@@ -3,7 +3,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::cli {
 
 std::filesystem::path siblingProgram(const std::string& name) {
     const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -15,4 +15,4 @@ std::filesystem::path siblingProgram(const std::string& name) {
     return program;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 // The program `aquarama-NAME` beside the running one. Throws Error where it is missing.
 [[nodiscard]] std::filesystem::path siblingProgram(const std::string& name);
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

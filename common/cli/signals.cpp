@@ -5,7 +5,7 @@
 
 #include <signal.h>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 namespace {
 
@@ -32,4 +32,4 @@ SignalWatch::SignalWatch(std::function<void()> onSignal) {
     });
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

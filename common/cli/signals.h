@@ -6,7 +6,7 @@
 #include <functional>
 #include <thread>
 
-namespace aquarama {
+namespace aquarama::cli {
 
 // Before any other thread is made: all of them leave these signals to the watch.
 void holdSignals();
@@ -19,4 +19,4 @@ class SignalWatch {
     std::jthread thread_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::cli

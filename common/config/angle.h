@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace aquarama {
+namespace aquarama::config {
 
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
@@ -29,4 +29,4 @@ inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
     return degrees;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -6,7 +6,7 @@
 #include "common/config/text_reader.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::string scenePathOf(const Rig& rig, const std::string& rigPath) {
     return path;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

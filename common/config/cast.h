@@ -9,7 +9,7 @@
 #include "common/config/scene.h"
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 struct CastSpecies {
     std::string path;
@@ -25,4 +25,4 @@ struct CastSpecies {
 // Where the scene lies that a rig shows. Throws Error at its place in the rig where there is none.
 [[nodiscard]] std::string scenePathOf(const Rig& rig, const std::string& rigPath);
 
-}  // namespace aquarama
+}  // namespace aquarama::config

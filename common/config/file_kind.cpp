@@ -12,7 +12,7 @@
 #include "common/config/species.pb.h"
 #include "common/config/text_reader.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -59,4 +59,4 @@ FileKind fileKindAt(const std::string& path) {
     return fileKindOf(readTextFile(path));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace aquarama {
+namespace aquarama::config {
 
 enum class FileKind : std::uint8_t { Rig, Scene, Species };
 
@@ -14,4 +14,4 @@ enum class FileKind : std::uint8_t { Rig, Scene, Species };
 [[nodiscard]] FileKind fileKindOf(const std::string& text);
 [[nodiscard]] FileKind fileKindAt(const std::string& path);
 
-}  // namespace aquarama
+}  // namespace aquarama::config

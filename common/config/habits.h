@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::config {
 
 // Prey escapes and schools and does not mate; a pacifist mates and neither escapes nor schools; a
 // predator hunts, and neither escapes, schools, mates nor leaves.
@@ -77,4 +77,4 @@ struct Habits {
     std::vector<std::string> shadows;  // species that it likes to follow closely
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-namespace aquarama {
+namespace aquarama::config {
 
 enum class QualityTier : std::uint8_t {
     Low,     // software OpenGL on two cores, live
@@ -32,4 +32,4 @@ inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "hi
     return tierAt(static_cast<std::uint32_t>(found - kTierNames.begin()));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

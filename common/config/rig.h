@@ -14,7 +14,7 @@
 #include "common/config/quality.h"
 #include "common/config/source_place.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 // A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin on
 // the cylinder's axis at the screen's mid-height, where the sweet spot is unless a rig moves it;
@@ -103,4 +103,4 @@ struct Rig {
 [[nodiscard]] std::string writeRig(
     const Rig& rig);  // text that parseRig reads back to the same rig; sent to the nodes
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -9,7 +9,7 @@
 #include "common/config/stereo_names.h"
 #include "common/config/text_reader.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -262,4 +262,4 @@ Rig readRig(const std::string& path) {
     return parseRig(readTextFile(path), path);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

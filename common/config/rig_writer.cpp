@@ -5,7 +5,7 @@
 #include "common/config/rig.h"
 #include "common/config/rig.pb.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::string writeRig(const Rig& rig) {
     return text;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

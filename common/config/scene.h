@@ -14,7 +14,7 @@
 
 #include "common/config/source_place.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 inline constexpr std::uint32_t kMostFish = 1'000'000;
 inline constexpr std::uint32_t kMostPlankton = 60'000;
@@ -116,4 +116,4 @@ struct Scene {
 // Text that parseScene reads back to the same scene; sent to the nodes.
 [[nodiscard]] std::string writeScene(const Scene& scene);
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -7,7 +7,7 @@
 #include "common/config/scene.pb.h"
 #include "common/config/text_reader.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -196,4 +196,4 @@ Scene readScene(const std::string& path) {
     return parseScene(readTextFile(path), path);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

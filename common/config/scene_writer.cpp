@@ -5,7 +5,7 @@
 #include "common/config/scene.h"
 #include "common/config/scene.pb.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::string writeScene(const Scene& scene) {
     return text;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

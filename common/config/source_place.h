@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace aquarama {
+namespace aquarama::config {
 
 // Counted from 1, for messages; 0 when built in code.
 struct SourcePlace {
@@ -20,4 +20,4 @@ struct SourcePlace {
            why;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -9,7 +9,7 @@
 #include "common/config/species_shape.h"
 #include "common/config/text_reader.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -146,4 +146,4 @@ Species readSpecies(const std::string& path) {
     return parseSpecies(readTextFile(path), path);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -13,7 +13,7 @@
 
 #include "common/config/habits.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 // On the animal lengths are body lengths: s from 0 at the nose to 1 at the tip of the tail, y up.
 // Columns of equal length, ascending s.
@@ -158,4 +158,4 @@ struct Species {
 // that agree in it swim alike.
 [[nodiscard]] std::string motionText(const std::string& text, const std::string& source);
 
-}  // namespace aquarama
+}  // namespace aquarama::config

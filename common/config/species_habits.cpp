@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -180,4 +180,4 @@ Habits readHabits(const TextPlace& at, const std::string& species) {
     return habits;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -5,7 +5,7 @@
 
 #include "common/config/angle.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace {
 
@@ -180,4 +180,4 @@ FishEye readEye(const TextPlace& at) {
             .bulge = static_cast<float>(at.numberOr("bulge", {0, 1}, 0.35))};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -5,7 +5,7 @@
 #include "common/config/species.h"
 #include "common/config/text_reader.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 // Each throws Error with file:line:column for what no body can have.
 [[nodiscard]] BodyProfile readProfile(const TextPlace& root);
@@ -15,4 +15,4 @@ namespace aquarama {
 [[nodiscard]] std::vector<Thread> readThreads(const TextPlace& root);
 [[nodiscard]] FishEye readEye(const TextPlace& at);
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -8,7 +8,7 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 // In the order of the schema's values, from 1.
 inline constexpr std::array<std::pair<std::string_view, StereoMode>, 6> kStereoModes{
@@ -23,4 +23,4 @@ inline constexpr std::array<std::pair<std::string_view, StereoMode>, 6> kStereoM
     return kStereoModes[static_cast<std::size_t>(mode)].first;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -12,7 +12,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 namespace pb = google::protobuf;
 
@@ -213,4 +213,4 @@ void TextPlace::refuse(const std::string& why) const {
     throw Error(placed(*source_, place(), why));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -11,7 +11,7 @@
 
 #include "common/config/source_place.h"
 
-namespace aquarama {
+namespace aquarama::config {
 
 // The whole file; throws Error when it cannot be read or is larger than any configuration is.
 [[nodiscard]] std::string readTextFile(const std::string& path);
@@ -82,4 +82,4 @@ class TextReader {
     google::protobuf::TextFormat::ParseInfoTree tree_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::config

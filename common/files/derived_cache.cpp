@@ -14,7 +14,7 @@
 #include "common/files/files.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::files {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::span<const std::byte> ArrayReader::take(std::uint64_t count, std::size_t si
     return taken;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::files

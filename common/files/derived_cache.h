@@ -18,7 +18,7 @@
 
 #include "common/units/digest.h"
 
-namespace aquarama {
+namespace aquarama::files {
 
 // Of all sources of common and render_node: hexadecimal, from the build. Part of every key.
 [[nodiscard]] std::string_view sourceDigest();
@@ -130,4 +130,4 @@ template <class Tables, class Make>
     return tables;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::files

@@ -10,7 +10,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::files {
 
 namespace {
 
@@ -62,4 +62,4 @@ fs::path cacheFolder() {
     return (home.empty() ? fs::temp_directory_path() : home / ".cache") / "aquarama";
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::files

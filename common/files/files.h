@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::files {
 
 // The content of a file of at most `mostBytes`. Throws Error.
 [[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path,
@@ -22,4 +22,4 @@ void writeWhole(const std::filesystem::path& path, std::span<const std::byte> co
 // ~/.cache/aquarama.
 [[nodiscard]] std::filesystem::path cacheFolder();
 
-}  // namespace aquarama
+}  // namespace aquarama::files

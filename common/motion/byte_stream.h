@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::motion {
 
 class ByteWriter {
   public:
@@ -74,4 +74,4 @@ class ByteReader {
     bool ok_ = true;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::size_t kCycle = kPhases;
@@ -103,4 +103,4 @@ GaitPath pathOf(const ActionSegment& segment) {
     return path;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -11,7 +11,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 inline constexpr std::size_t kPathSamples = 2 * kPhases + 1;
 inline constexpr std::size_t kCycleSamples = kPhases + 1;  // the last repeats the first
@@ -35,4 +35,4 @@ struct GaitPath {
 
 [[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -3,7 +3,7 @@
 #include "common/motion/orientation.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 // The mean of two poses, point by point.
@@ -43,4 +43,4 @@ void addGlide(Repertoire& repertoire) {
                                meanOf(left.controlPoints.back(), right.controlPoints.back()));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -9,7 +9,7 @@
 #include "common/motion/motor.h"
 #include "common/motion/orientation.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 struct HeadingColumns {  // unit vectors, world frame; of the first fish asked for at 0
     float *x, *y, *z;
@@ -31,4 +31,4 @@ void meanHeadings(const MotorTables& tables,
                                 const MotionStates& states,
                                 std::size_t fish);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -11,7 +11,7 @@
 #include "common/motion/motor_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::motion::HWY_NAMESPACE {
 namespace {
 
 constexpr hn::CappedTag<float, 4> kFour;
@@ -67,11 +67,11 @@ void headVectors(const MotorTables& tables,
     }
 }
 
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::motion::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace aquarama {
+namespace aquarama::motion {
 
 HWY_EXPORT(headVectors);
 
@@ -90,5 +90,5 @@ void meanHeadings(const MotorTables& tables,
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion
 #endif

@@ -12,27 +12,27 @@
 #include "common/body/fin_motion.h"
 #include "common/motion/phase_sample.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 namespace {
 
 struct CagePose {
-    std::array<glm::vec3, kControlPoints> points{};
-    std::array<float, kControlPoints> headings{};
-    std::array<float, kControlPoints> drift{};  // to the right, body lengths in a radian
+    std::array<glm::vec3, body::kControlPoints> points{};
+    std::array<float, body::kControlPoints> headings{};
+    std::array<float, body::kControlPoints> drift{};  // to the right, body lengths in a radian
 };
 
-void recordedPose(const FishBody& body,
+void recordedPose(const body::FishBody& body,
                   const ActionSegment& segment,
                   std::size_t phase,
                   CagePose& pose) {
-    NodalPoints nodes{};
+    body::NodalPoints nodes{};
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const auto& [x, y, z] = segment.nodes.at(phase).at(n);
         nodes.at(n) = glm::vec3(x, y, z) * kPoseUnit;
     }
-    headingsOf(body, nodes, pose.headings);
-    if (segment.controlPoints.empty()) return poseCage(body, nodes, pose.points);
+    body::headingsOf(body, nodes, pose.headings);
+    if (segment.controlPoints.empty()) return body::poseCage(body, nodes, pose.points);
     for (std::size_t i = 0; i < pose.points.size(); ++i) {
         const auto& [x, y, z] = segment.controlPoints[phase].at(i);
         pose.points.at(i) = glm::vec3(x, y, z) * kPoseUnit;
@@ -49,7 +49,7 @@ CagePose mixed(const CagePose& a, const CagePose& b, float share) {
     return pose;
 }
 
-CagePose poseAt(const FishBody& body, const ActionSegment& segment, float phase) {
+CagePose poseAt(const body::FishBody& body, const ActionSegment& segment, float phase) {
     const PhaseSample sample = sampleAt(phase);
     CagePose before, after;
     recordedPose(body, segment, sample.before, before);
@@ -58,7 +58,7 @@ CagePose poseAt(const FishBody& body, const ActionSegment& segment, float phase)
     constexpr float kRadians = glm::two_pi<float>() / kPhases;  // from one phase to the next
     for (std::size_t i = 0; i < pose.points.size(); ++i)
         pose.drift.at(i) = glm::dot(after.points.at(i) - before.points.at(i),
-                                    turned({0, 0, 1}, pose.headings.at(i))) /
+                                    body::turned({0, 0, 1}, pose.headings.at(i))) /
                            kRadians;
     return pose;
 }
@@ -71,15 +71,16 @@ float turnOf(std::uint32_t segment, std::size_t side) {
     return segment == first ? kGradual : segment == first + 1 ? 1.0F : 0.0F;
 }
 
-FinDrive driveOf(const PresentedFish& fish, float seconds) {
+body::FinDrive driveOf(const PresentedFish& fish, float seconds) {
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
-    FinDrive drive{.seconds = seconds - kFinSeconds * std::floor(seconds / kFinSeconds),
-                   .speed = fish.speed,
-                   .climb = (rotation * glm::vec3(1, 0, 0)).y,
-                   .id = fish.id,
-                   .phase = fish.phase,
-                   .fromPhase = fish.fromPhase,
-                   .weight = fish.warpWeight};
+    body::FinDrive drive{
+        .seconds = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds),
+        .speed = fish.speed,
+        .climb = (rotation * glm::vec3(1, 0, 0)).y,
+        .id = fish.id,
+        .phase = fish.phase,
+        .fromPhase = fish.fromPhase,
+        .weight = fish.warpWeight};
     for (std::size_t side = 0; side < 2; ++side)
         drive.turning.at(side) =
             glm::mix(turnOf(fish.fromSegment, side), turnOf(fish.segment, side), fish.warpWeight);
@@ -88,7 +89,7 @@ FinDrive driveOf(const PresentedFish& fish, float seconds) {
 
 }  // namespace
 
-void livingCage(const FishBody& body,
+void livingCage(const body::FishBody& body,
                 const Repertoire& repertoire,
                 const PresentedFish& fish,
                 float seconds,
@@ -98,13 +99,13 @@ void livingCage(const FishBody& body,
         pose = mixed(poseAt(body, segmentOf(repertoire, fish.fromSegment), fish.fromPhase),
                      pose,
                      fish.warpWeight);
-    const FinDrive drive = driveOf(fish, seconds);
+    const body::FinDrive drive = driveOf(fish, seconds);
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::vec3 offset = finOffset(body.fins, i, drive, pose.drift.at(i));
-        const glm::vec3 place = pose.points.at(i) + turned(offset, pose.headings.at(i));
+        const glm::vec3 offset = body::finOffset(body.fins, i, drive, pose.drift.at(i));
+        const glm::vec3 place = pose.points.at(i) + body::turned(offset, pose.headings.at(i));
         points[i] = fish.positionMetres + rotation * (fish.lengthMetres * place);
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

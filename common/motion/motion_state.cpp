@@ -5,7 +5,7 @@
 
 #include "common/motion/orientation.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::uint64_t kMask20 = 0xFFFFF;
@@ -188,4 +188,4 @@ std::uint64_t hashOf(const MotionStates& states) {
     return mix(hash);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

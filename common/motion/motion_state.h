@@ -13,7 +13,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
 inline constexpr float kSpeedUnitsPerBodyLength = 262144.0F;  // 2^18
@@ -111,4 +111,4 @@ void setAway(MotionStates& states, std::size_t fish);
 // Folds every bit of the state into one number; equal worlds have equal hashes.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

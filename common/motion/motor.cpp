@@ -9,7 +9,7 @@
 #include "common/motion/headings.h"
 #include "common/motion/motor_tick.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 using Vector = std::array<float, 3>;
@@ -204,4 +204,4 @@ glm::vec3 meanHeadingReference(const MotorTables& tables,
             2.0F * (m.x * m.z - m.w * m.y)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -10,7 +10,7 @@
 #include "common/motion/motion_state.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 // The tables that the step reads, made once from a repertoire by exact arithmetic (no libm), the
 // same on every machine.
@@ -55,4 +55,4 @@ struct MotorStep {
 // Mean rate of turn as recorded, radians a second, left positive.
 [[nodiscard]] float recordedTurnRate(const MotorTables& tables, Action action);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -15,7 +15,7 @@
 #include "common/motion/motor_tick.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::motion::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -283,6 +283,6 @@ HWY_INLINE void move(std::vector<std::int32_t>& column, std::size_t fish, Lanes 
 }
 
 }  // namespace
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::motion::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -15,7 +15,7 @@
 #include "common/motion/motor_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::motion::HWY_NAMESPACE {
 namespace {
 
 // As many as a 64-bit set holds; enough that one vector's arithmetic hides the latency of
@@ -302,11 +302,11 @@ void stepVectors(const MotorStep& step) {
     }
 }
 
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::motion::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace aquarama {
+namespace aquarama::motion {
 
 HWY_EXPORT(stepVectors);
 
@@ -319,5 +319,5 @@ void MotorStep::run() const {
     rest.runReference();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion
 #endif

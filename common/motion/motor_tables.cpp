@@ -5,9 +5,8 @@
 
 #include "common/motion/warp_plan.h"
 #include "common/units/ids.h"
-#include "common/units/quantity.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 Quaternion narrow(const glm::dquat& q) {
@@ -142,4 +141,4 @@ float recordedTurnRate(const MotorTables& tables, Action action) {
     return tables.segments[static_cast<std::size_t>(action)].turnRate;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -10,7 +10,7 @@
 #include "common/motion/orientation.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
@@ -54,4 +54,4 @@ class MotorTables {
     SpeedLoss loss;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -11,7 +11,7 @@
 #include "common/motion/motor_tables.h"
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 // Limits of what a fish adds to the recorded motion, per tick of 1/60 s. The gains let it settle
 // without a jerk; the rates keep it within what a fish does.
@@ -164,4 +164,4 @@ struct Playing {
             .rate = rate};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace aquarama {
+namespace aquarama::motion {
 
 struct Quaternion {
     float w = 1.0F, x = 0.0F, y = 0.0F, z = 0.0F;
@@ -99,4 +99,4 @@ inline constexpr float kOrientationLimit = 524287.0F;  // 2^19 - 1, so that the 
     return packed;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -8,7 +8,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 struct PhaseSample {
     std::size_t before = 0, after = 0;
@@ -27,4 +27,4 @@ struct PhaseSample {
     return repertoire.segments[std::min<std::size_t>(segment, kActions - 1)];
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/pose_tables.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 ReconstructTables makeReconstructTables(const Repertoire& repertoire) {
     const auto nodesOf = [](const ActionSegment& segment) -> const auto& {
@@ -13,4 +13,4 @@ ReconstructTables makeReconstructTables(const Repertoire& repertoire) {
     return {{repertoire, nodesOf}, {repertoire, controlPointsOf}};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -11,21 +11,21 @@
 #include "common/body/point_groups.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 // Every pose of every segment: groups of x, y, z. Behind each cycle its first pose again, so that
 // the two poses about a phase always follow one another.
 template <std::size_t kPoints, class Number>
 class PoseTable {
   public:
-    struct alignas(kPointGroup * sizeof(Number)) Group {
-        std::array<std::array<Number, kPointGroup>, 3> axes;
+    struct alignas(body::kPointGroup * sizeof(Number)) Group {
+        std::array<std::array<Number, body::kPointGroup>, 3> axes;
     };
-    static constexpr std::size_t kGroups = groupsOf(kPoints);
+    static constexpr std::size_t kGroups = body::groupsOf(kPoints);
     using Pose = std::array<Group, kGroups>;
 
     static constexpr std::size_t firstPointOf(std::size_t group) {
-        return aquarama::firstPointOf(group, kPoints);
+        return body::firstPointOf(group, kPoints);
     }
 
     // posesOf(segment)[phase][point] are three numbers. No poses at all where a segment has none.
@@ -51,7 +51,7 @@ class PoseTable {
     void add(const Points& points) {
         Pose& pose = poses_.emplace_back();
         for (std::size_t group = 0; group < kGroups; ++group)
-            for (std::size_t i = 0; i < kPointGroup; ++i)
+            for (std::size_t i = 0; i < body::kPointGroup; ++i)
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     pose[group].axes[axis][i] = points[firstPointOf(group) + i][axis];
     }
@@ -63,10 +63,10 @@ class PoseTable {
 // control points as the 16 bits in which they were recorded, because theirs are read from farther.
 // Both in units of kPoseUnit.
 struct ReconstructTables {
-    PoseTable<kNodalPoints, float> nodes;
-    PoseTable<kControlPoints, std::int16_t> controlPoints;  // empty where none were recorded
+    PoseTable<body::kNodalPoints, float> nodes;
+    PoseTable<body::kControlPoints, std::int16_t> controlPoints;  // empty where none were recorded
 };
 
 [[nodiscard]] ReconstructTables makeReconstructTables(const Repertoire& repertoire);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

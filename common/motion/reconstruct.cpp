@@ -3,7 +3,7 @@
 
 #include "common/motion/phase_sample.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr float kPhaseUnit = 1.0F / 65536.0F;
@@ -116,14 +116,16 @@ PresentedFish present(const FishRecord& before,
     return fish;
 }
 
-void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes) {
+void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes) {
     const auto nodesOf = [](const ActionSegment& s) -> const auto& {
         return s.nodes;
     };
     deform(repertoire, fish, nodesOf, nodes);
 }
 
-void nodalPoints(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes) {
+void nodalPoints(const Repertoire& repertoire,
+                 const PresentedFish& fish,
+                 body::NodalPoints& nodes) {
     nodalPose(repertoire, fish, nodes);
     placeInWorld(fish, nodes);
 }
@@ -134,8 +136,8 @@ void controlPoints(const Repertoire& repertoire,
     const auto controlPointsOf = [](const ActionSegment& s) -> const auto& {
         return s.controlPoints;
     };
-    deform(repertoire, fish, controlPointsOf, points.first(kControlPoints));
-    placeInWorld(fish, points.first(kControlPoints));
+    deform(repertoire, fish, controlPointsOf, points.first(body::kControlPoints));
+    placeInWorld(fish, points.first(body::kControlPoints));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

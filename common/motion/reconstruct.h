@@ -12,7 +12,7 @@
 #include "common/motion/pose_tables.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 // One fish as a frame shows it: between two ticks in the live show, on one in lockstep. 64 bytes,
 // uploaded as it is.
@@ -46,9 +46,9 @@ static_assert(sizeof(PresentedFish) == 64);
 }
 
 // Body frame, body lengths (eq. 12 and 13 before R and o).
-void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes);
+void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes);
 // World frame, metres.
-void nodalPoints(const Repertoire& repertoire, const PresentedFish& fish, NodalPoints& nodes);
+void nodalPoints(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes);
 // Only of segments that were captured with control points.
 void controlPoints(const Repertoire& repertoire,
                    const PresentedFish& fish,
@@ -58,9 +58,9 @@ void controlPoints(const Repertoire& repertoire,
 // points[fish * kControlPoints + i].
 void nodalPoints(const ReconstructTables& tables,
                  std::span<const PresentedFish> fish,
-                 std::span<NodalPoints> nodes);
+                 std::span<body::NodalPoints> nodes);
 void controlPoints(const ReconstructTables& tables,
                    std::span<const PresentedFish> fish,
                    std::span<glm::vec3> points);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

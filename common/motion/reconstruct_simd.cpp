@@ -13,8 +13,10 @@
 #include "common/body/point_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::motion::HWY_NAMESPACE {
 namespace {
+
+using namespace body::HWY_NAMESPACE;  // point_lanes-inl.h
 
 HWY_INLINE Lanes load(const float* numbers) {
     return hn::Load(kFloats, numbers);
@@ -68,7 +70,7 @@ HWY_INLINE void reconstruct(const std::array<Term<typename Table::Pose>, kTerms>
         weights[term] = hn::Set(kFloats, terms[term].weight);
     const std::size_t lanes = hn::Lanes(kFloats);
     for (std::size_t group = 0; group < Table::kGroups; ++group) {
-        for (std::size_t first = 0; first < kPointGroup; first += lanes) {
+        for (std::size_t first = 0; first < body::kPointGroup; first += lanes) {
             Lanes p[3];
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const auto lanesOf = [&](std::size_t term) HWY_ATTR {
@@ -118,7 +120,7 @@ HWY_INLINE void reconstruct(const Table& table,
 
 void reconstructNodes(const ReconstructTables& tables,
                       std::span<const PresentedFish> fish,
-                      NodalPoints* nodes) {
+                      body::NodalPoints* nodes) {
     const Interleave interleave;
     for (std::size_t i = 0; i < fish.size(); ++i)
         reconstruct(tables.nodes, fish[i], interleave, &nodes[i][0].x);
@@ -129,21 +131,21 @@ void reconstructControlPoints(const ReconstructTables& tables,
                               glm::vec3* points) {
     const Interleave interleave;
     for (std::size_t i = 0; i < fish.size(); ++i)
-        reconstruct(tables.controlPoints, fish[i], interleave, &points[i * kControlPoints].x);
+        reconstruct(tables.controlPoints, fish[i], interleave, &points[i * body::kControlPoints].x);
 }
 
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::motion::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace aquarama {
+namespace aquarama::motion {
 
 HWY_EXPORT(reconstructNodes);
 HWY_EXPORT(reconstructControlPoints);
 
 void nodalPoints(const ReconstructTables& tables,
                  std::span<const PresentedFish> fish,
-                 std::span<NodalPoints> nodes) {
+                 std::span<body::NodalPoints> nodes) {
     HWY_DYNAMIC_DISPATCH(reconstructNodes)(tables, fish, nodes.data());
 }
 
@@ -153,5 +155,5 @@ void controlPoints(const ReconstructTables& tables,
     HWY_DYNAMIC_DISPATCH(reconstructControlPoints)(tables, fish, points.data());
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion
 #endif

@@ -10,7 +10,7 @@
 #include "common/units/digest.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::string_view kMagic = "AQREP";
@@ -73,7 +73,7 @@ FrameIncrement readIncrement(ByteReader& in) {
 }
 
 constexpr std::size_t bytesOfSegment(bool withControlPoints) {
-    const std::size_t points = kNodalPoints + (withControlPoints ? kControlPoints : 0);
+    const std::size_t points = body::kNodalPoints + (withControlPoints ? body::kControlPoints : 0);
     return sizeof(float) + 1 + kPhases * (7 * sizeof(float) + points * 3 * sizeof(std::int16_t));
 }
 
@@ -239,4 +239,4 @@ Repertoire decodeRepertoire(std::span<const std::byte> bytes, const std::string&
     return repertoire;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

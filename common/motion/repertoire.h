@@ -15,7 +15,7 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 inline constexpr int kPhases = 64;  // samples of one cycle; phase k is at k / 64 of the period
 
@@ -43,8 +43,8 @@ struct FrameIncrement {
     glm::vec3 translation{};
 };
 
-using ControlPointPose = std::array<std::array<std::int16_t, 3>, kControlPoints>;
-using NodalPose = std::array<std::array<std::int16_t, 3>, kNodalPoints>;
+using ControlPointPose = std::array<std::array<std::int16_t, 3>, body::kControlPoints>;
+using NodalPose = std::array<std::array<std::int16_t, 3>, body::kNodalPoints>;
 
 // Poses are 16-bit: position in the body frame, in body lengths, is component * kPoseUnit.
 inline constexpr float kPoseUnit = 1.0F / 32767.0F;
@@ -90,4 +90,4 @@ void addGlide(Repertoire& repertoire);
 [[nodiscard]] Repertoire decodeRepertoire(std::span<const std::byte> bytes,
                                           const std::string& source);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -5,21 +5,21 @@
 #include <cmath>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 // A repertoire that hardly moves would warp for seconds; this step keeps K within its 8 bits.
 constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
 
-using Pose = std::array<glm::vec3, kNodalPoints>;  // body lengths
-using Cycle = std::array<Pose, kPhases + 1>;       // the last pose repeats the first
+using Pose = std::array<glm::vec3, body::kNodalPoints>;  // body lengths
+using Cycle = std::array<Pose, kPhases + 1>;             // the last pose repeats the first
 // [phase of A][phase of B]: the largest squared travel from one pose to the other.
 using Travels = std::array<std::array<float, kPhases>, kPhases + 1>;
 
 Cycle cycleOf(const ActionSegment& segment) {
     Cycle cycle;
     for (std::size_t k = 0; k < cycle.size(); ++k) {
-        for (std::size_t i = 0; i < kNodalPoints; ++i) {
+        for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
             const auto& d = segment.nodes[k % kPhases][i];
             cycle[k][i] = glm::vec3(d[0], d[1], d[2]) * kPoseUnit;
         }
@@ -31,7 +31,7 @@ Cycle cycleOf(const ActionSegment& segment) {
 // its place may leave the head far from its own.
 float squaredTravel(const Pose& a, const Pose& b) {
     float most = 0;
-    for (std::size_t i = 0; i < kNodalPoints; ++i) {
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
         const glm::vec3 d = a[i] - b[i];
         most = std::max(most, (d.x * d.x + d.y * d.y) + d.z * d.z);
     }
@@ -42,7 +42,7 @@ Pose poseAt(const Cycle& cycle, unsigned phase) {
     const std::size_t cell = (phase & 0xFFFFU) >> kPhaseCellBits;
     const float share = static_cast<float>(phase & 1023U) * kPhaseCellUnit;
     Pose pose;
-    for (std::size_t i = 0; i < kNodalPoints; ++i) {
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
         pose[i] = cycle[cell][i] + share * (cycle[cell + 1][i] - cycle[cell][i]);
     }
     return pose;
@@ -106,4 +106,4 @@ WarpPlans planWarps(const Repertoire& repertoire,
     return plans;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

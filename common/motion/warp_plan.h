@@ -6,7 +6,7 @@
 
 #include "common/motion/motor_tables.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
 
@@ -14,4 +14,4 @@ using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
                                   const std::array<std::int16_t, kActions>& phaseRates);
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -10,7 +10,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 constexpr std::string_view kTcp = "tcp://";
@@ -81,4 +81,4 @@ std::string bindAddress(const std::string& address) {
     return std::string(kTcp) + endpoint.host + ":" + endpoint.port;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::net

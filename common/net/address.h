@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace aquarama {
+namespace aquarama::net {
 
 // Throws Error where the address is malformed; port "*" (any free one) only where one binds.
 void requireConnectAddress(const std::string& address);
@@ -12,4 +12,4 @@ void requireConnectAddress(const std::string& address);
 // address to bind: "localhost" may mean anything to a resolver, here it is 127.0.0.1.
 [[nodiscard]] std::string bindAddress(const std::string& address);
 
-}  // namespace aquarama
+}  // namespace aquarama::net

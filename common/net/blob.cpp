@@ -8,7 +8,7 @@
 #include "common/files/files.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 constexpr std::uintmax_t kMaxCachedBytes = std::uintmax_t{64} << 20U;
@@ -49,7 +49,7 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
     std::error_code error;
     if (!std::filesystem::exists(pathOf(digest), error)) return std::nullopt;
     try {
-        auto bytes = readWhole(pathOf(digest), kMaxCachedBytes);
+        auto bytes = files::readWhole(pathOf(digest), kMaxCachedBytes);
         if (digestOf(bytes) == digest) return bytes;
     } catch (const Error&) {  // no more than a cache: the blob is fetched again
     }
@@ -58,13 +58,13 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
 
 void BlobCache::keep(const Digest& digest, std::span<const std::byte> blob) const {
     try {
-        writeWhole(pathOf(digest), blob);
+        files::writeWhole(pathOf(digest), blob);
     } catch (const Error&) {  // a full disk only costs time
     }
 }
 
 std::filesystem::path defaultBlobDirectory() {
-    return cacheFolder() / "blobs";
+    return files::cacheFolder() / "blobs";
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::net

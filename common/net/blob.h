@@ -11,7 +11,7 @@
 
 #include "common/units/digest.h"
 
-namespace aquarama {
+namespace aquarama::net {
 
 // The part of a blob that starts at `offset`, at most `chunkBytes` of it; empty past its end.
 [[nodiscard]] std::span<const std::byte> chunkAt(std::span<const std::byte> blob,
@@ -56,4 +56,4 @@ class BlobCache {
 // The folder "blobs" of cacheFolder().
 [[nodiscard]] std::filesystem::path defaultBlobDirectory();
 
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace aquarama {
+namespace aquarama::net {
 
 // The lock is held for a move only, never across a call into a socket or a driver.
 template <class T>
@@ -63,4 +63,4 @@ class BoundedQueue {
     bool closed_ = false;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::net

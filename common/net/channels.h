@@ -14,7 +14,7 @@
 
 #include "common/net/clock.h"
 
-namespace aquarama {
+namespace aquarama::net {
 
 using ByteView = std::span<const std::byte>;
 using ByteVector = std::vector<std::byte>;
@@ -72,4 +72,4 @@ using Connect = std::function<std::unique_ptr<NodeChannels>()>;
 [[nodiscard]] std::unique_ptr<NodeChannels> connectNode(const std::string& controlAddress,
                                                         const PacketLimits& limits = {});
 
-}  // namespace aquarama
+}  // namespace aquarama::net

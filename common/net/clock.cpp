@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace aquarama {
+namespace aquarama::net {
 
 Instant monotonicNow() {
     return std::chrono::duration_cast<Instant>(std::chrono::steady_clock::now().time_since_epoch());
@@ -31,4 +31,4 @@ std::optional<Instant> ClockOffset::roundTrip() const {
     return sample != nullptr ? std::optional{sample->roundTrip} : std::nullopt;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -7,7 +7,7 @@
 #include <deque>
 #include <optional>
 
-namespace aquarama {
+namespace aquarama::net {
 
 using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
 
@@ -33,4 +33,4 @@ class ClockOffset {
     std::deque<Sample> samples_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::net

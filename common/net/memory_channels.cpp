@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 constexpr std::size_t kStateQueue = 8;
@@ -180,4 +180,4 @@ std::unique_ptr<NodeChannels> MemoryNet::node() {
     return std::make_unique<MemoryNode>(hub_);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::net

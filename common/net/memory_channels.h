@@ -6,7 +6,7 @@
 
 #include "common/net/channels.h"
 
-namespace aquarama {
+namespace aquarama::net {
 
 struct MemoryNetFaults {
     Instant delay{};               // of every message
@@ -27,4 +27,4 @@ class MemoryNet {
     std::shared_ptr<Hub> hub_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::net

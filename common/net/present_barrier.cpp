@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace aquarama {
+namespace aquarama::net {
 
 PresentBarrier::PresentBarrier(std::size_t nodes, const BarrierLimits& limits, Instant start)
     : limits_(limits), nodes_(nodes) {
@@ -119,4 +119,4 @@ PresentBarrier::Decision PresentBarrier::decideLockstep(Instant now) const {
     return {Verdict::Wait, end, name};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -12,7 +12,7 @@
 #include "common/net/clock.h"
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::net {
 
 struct BarrierLimits {
     bool lockstep = false;
@@ -91,4 +91,4 @@ class PresentBarrier {
     std::optional<Instant> deadline_;  // of frame_, as soon as anybody is ready for it
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::net

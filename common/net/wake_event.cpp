@@ -8,7 +8,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::net {
 
 WakeEvent::WakeEvent() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
     if (descriptor_ < 0) {
@@ -31,4 +31,4 @@ void WakeEvent::clear() const {
     [[maybe_unused]] const auto taken = read(descriptor_, &count, sizeof count);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::net

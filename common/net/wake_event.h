@@ -2,7 +2,7 @@
 // Lets another thread end a poll on sockets.
 #pragma once
 
-namespace aquarama {
+namespace aquarama::net {
 
 class WakeEvent {
   public:
@@ -19,4 +19,4 @@ class WakeEvent {
     int descriptor_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -13,7 +13,7 @@
 #include "common/net/wake_event.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 constexpr int kStateQueue = 8;         // states in flight to one node, each way
@@ -254,4 +254,4 @@ std::unique_ptr<NodeChannels> connectNode(const std::string& controlAddress,
     return std::make_unique<ZmqNodeChannels>(controlAddress, limits);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::place {
 
 inline constexpr float kPi = 3.14159265F;
 inline constexpr float kRadiansPerDegree = kPi / 180.0F;
@@ -56,4 +56,4 @@ inline constexpr float kRadiansPerDegree = kPi / 180.0F;
     return {direction.x * scale, y, direction.z * scale};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::place

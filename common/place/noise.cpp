@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace aquarama {
+namespace aquarama::place {
 
 namespace {
 
@@ -54,4 +54,4 @@ float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves) {
     return sum;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::place

@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace aquarama {
+namespace aquarama::place {
 
 // A well-mixed 32-bit number ("lowbias32", Wellons 2018).
 [[nodiscard]] constexpr std::uint32_t hashOf(std::uint32_t x) {
@@ -38,4 +38,4 @@ namespace aquarama {
 // Octaves of it, each of twice the frequency and half the height; within -2 to 2.
 [[nodiscard]] float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves);
 
-}  // namespace aquarama
+}  // namespace aquarama::place

@@ -5,7 +5,7 @@
 
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::place {
 
 namespace {
 
@@ -256,7 +256,7 @@ void sow(std::vector<Plant>& plants,
 }  // namespace
 
 float floorHeight(const PlaceKey& place, glm::vec2 xz) {
-    if (place.kind == PlaceKind::OpenSea) return -kOpenSeaFloorDepthMetres;
+    if (place.kind == config::PlaceKind::OpenSea) return -kOpenSeaFloorDepthMetres;
     // Two scales: long dunes of 14 m and hummocks of 3 m.
     const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
     const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
@@ -266,7 +266,7 @@ float floorHeight(const PlaceKey& place, glm::vec2 xz) {
 
 std::vector<Rock> rocksOf(const PlaceKey& place) {
     std::vector<Rock> rocks;
-    if (place.kind == PlaceKind::OpenSea) return rocks;
+    if (place.kind == config::PlaceKind::OpenSea) return rocks;
     std::uint32_t next = hashOf(place.seed, Rocks);
     for (const RockGroup& group : kRockGroups) addGroup(rocks, place, group, next);
     addArch(rocks, place);
@@ -276,7 +276,7 @@ std::vector<Rock> rocksOf(const PlaceKey& place) {
 
 std::vector<Plant> plantsOf(const PlaceKey& place) {
     std::vector<Plant> plants;
-    if (place.kind == PlaceKind::OpenSea) return plants;
+    if (place.kind == config::PlaceKind::OpenSea) return plants;
     const std::vector<Rock> rocks = rocksOf(place);
     std::uint32_t stand = 0;
     for (const Stand& kelp : kKelpStands)
@@ -298,4 +298,4 @@ Region schoolRegion() {
     return {glm::vec3{0.0F, -5.8F, -5.5F}, glm::vec3{5.0F, 1.8F, 3.5F}};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::place

@@ -11,7 +11,7 @@
 
 #include "common/config/scene.h"
 
-namespace aquarama {
+namespace aquarama::place {
 
 // World frame: metres, Y up. The surface of the sea is the plane y = 0; the reef's eye is at
 // kEyePosition, looking along -Z.
@@ -22,7 +22,7 @@ inline constexpr float kOpenSeaFloorDepthMetres = 60.0F;
 // All that a place follows from.
 struct PlaceKey {
     std::uint32_t seed = 0;
-    PlaceKind kind = PlaceKind::Reef;
+    config::PlaceKind kind = config::PlaceKind::Reef;
 };
 
 // Height (y, negative) of the sand. Exact arithmetic only: the master's world depends on it.
@@ -54,4 +54,4 @@ struct Region {
 };
 [[nodiscard]] Region schoolRegion();
 
-}  // namespace aquarama
+}  // namespace aquarama::place

@@ -8,7 +8,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::place {
 
 namespace {
 
@@ -19,22 +19,24 @@ constexpr float kRoamMetres = 4;
 constexpr float kHighestHullMetres = -0.75F;  // of the submarine's middle
 constexpr float kLowestStopMetres = 0.8F;     // above the floor: the hull and what it keeps off
 
-double volumeOf(const SceneWater& water) {
+double volumeOf(const config::SceneWater& water) {
     const glm::dvec3 half = water.halfExtent;
     return 8 * half.x * half.y * half.z;
 }
 
-double roomOf(const Scene& scene, double meanLengthMetres) {
+double roomOf(const config::Scene& scene, double meanLengthMetres) {
     return scene.water.leastLengthsCubed * meanLengthMetres * meanLengthMetres * meanLengthMetres;
 }
 
-float floorOf(const Scene& scene) {
-    return scene.place == PlaceKind::Reef ? -kMeanFloorDepthMetres + kFloorBumpsMetres
-                                          : -kOpenSeaFloorDepthMetres;
+float floorOf(const config::Scene& scene) {
+    return scene.place == config::PlaceKind::Reef ? -kMeanFloorDepthMetres + kFloorBumpsMetres
+                                                  : -kOpenSeaFloorDepthMetres;
 }
 
 // Where the tour cannot lead.
-std::string wrongWith(const Scene& scene, const Region& roaming, const TourStop& stop) {
+std::string wrongWith(const config::Scene& scene,
+                      const Region& roaming,
+                      const config::TourStop& stop) {
     const glm::vec3 from = stop.at - roaming.centre;
     const glm::vec3 half = roaming.halfExtent;
     if (std::abs(from.x) > half.x || std::abs(from.y) > half.y || std::abs(from.z) > half.z)
@@ -51,9 +53,9 @@ struct Growth {
 };
 
 // In the open sea depth grows only as the fourth root of length and breadth: the sea is shallow.
-Growth growthFor(const Scene& scene, double more) {
+Growth growthFor(const config::Scene& scene, double more) {
     if (more <= 1) return {};
-    if (scene.place == PlaceKind::Reef) return {std::sqrt(more), 1};
+    if (scene.place == config::PlaceKind::Reef) return {std::sqrt(more), 1};
     const double top = static_cast<double>(scene.water.centre.y + scene.water.halfExtent.y);
     const double most =
         (top - kSeaBottomMetres) / 2 / static_cast<double>(scene.water.halfExtent.y);
@@ -64,8 +66,8 @@ Growth growthFor(const Scene& scene, double more) {
 
 }  // namespace
 
-Region waterFor(const Scene& scene, std::size_t fish, float meanLengthMetres) {
-    const SceneWater& box = scene.water;
+Region waterFor(const config::Scene& scene, std::size_t fish, float meanLengthMetres) {
+    const config::SceneWater& box = scene.water;
     const double wanted =
         static_cast<double>(fish) * roomOf(scene, static_cast<double>(meanLengthMetres));
     const Growth growth = growthFor(scene, wanted / volumeOf(box));
@@ -84,39 +86,40 @@ Region roamingRegion(const Region& fishWater, glm::vec3 eye) {
     return {(least + most) * 0.5F, (most - least) * 0.5F};
 }
 
-std::uint32_t mostFishIn(const Scene& scene, float meanLengthMetres) {
-    if (scene.place == PlaceKind::OpenSea) return kMostFish;
+std::uint32_t mostFishIn(const config::Scene& scene, float meanLengthMetres) {
+    if (scene.place == config::PlaceKind::OpenSea) return config::kMostFish;
     const double wider =
         std::max(1.0, kReefHalfWidthMetres / static_cast<double>(scene.water.halfExtent.x));
     const double fish = volumeOf(scene.water) * wider * wider /
                         roomOf(scene, static_cast<double>(meanLengthMetres));
-    return static_cast<std::uint32_t>(std::min(fish, static_cast<double>(kMostFish)));
+    return static_cast<std::uint32_t>(std::min(fish, static_cast<double>(config::kMostFish)));
 }
 
-void checkRoom(const Scene& scene,
+void checkRoom(const config::Scene& scene,
                const std::string& scenePath,
                std::size_t fish,
                float meanLengthMetres) {
-    const SourcePlace place = scene.cast.front().place;
+    const config::SourcePlace place = scene.cast.front().place;
     const std::uint32_t most = mostFishIn(scene, meanLengthMetres);
     if (fish > most)
-        throw Error(placed(
-            scenePath,
-            place,
-            std::to_string(fish) + " fish: there is room for " + std::to_string(most) +
-                (scene.place == PlaceKind::Reef ? " about this reef; take fewer, or an OPEN_SEA"
-                                                : " in all; take fewer")));
+        throw Error(config::placed(scenePath,
+                                   place,
+                                   std::to_string(fish) + " fish: there is room for " +
+                                       std::to_string(most) +
+                                       (scene.place == config::PlaceKind::Reef
+                                            ? " about this reef; take fewer, or an OPEN_SEA"
+                                            : " in all; take fewer")));
     if (scene.eye.y <= floorOf(scene))
-        throw Error(placed(scenePath, scene.eyePlace, "the eye is in the sand: raise it"));
+        throw Error(config::placed(scenePath, scene.eyePlace, "the eye is in the sand: raise it"));
     if (scene.water.centre.y - scene.water.halfExtent.y <= floorOf(scene) - 2 * kFloorBumpsMetres)
-        throw Error(
-            placed(scenePath, scene.waterPlace, "the water reaches into the sand: raise it"));
+        throw Error(config::placed(
+            scenePath, scene.waterPlace, "the water reaches into the sand: raise it"));
     if (!scene.tour) return;
     const Region roaming = roamingRegion({scene.water.centre, scene.water.halfExtent}, scene.eye);
-    for (const TourStop& stop : scene.tour->stops) {
+    for (const config::TourStop& stop : scene.tour->stops) {
         const std::string wrong = wrongWith(scene, roaming, stop);
-        if (!wrong.empty()) throw Error(placed(scenePath, stop.place, wrong));
+        if (!wrong.empty()) throw Error(config::placed(scenePath, stop.place, wrong));
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::place

@@ -12,7 +12,7 @@
 
 #include "common/skin/rest_binding.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 namespace {
 
@@ -78,7 +78,7 @@ float skinAt(std::span<const RestTriangle> skin, glm::vec2 at) {
 // The right eye's ball: how far out it is at a place in its radii.
 class Ball {
   public:
-    Ball(const FishBody& body, std::span<const RestTriangle> head)
+    Ball(const body::FishBody& body, std::span<const RestTriangle> head)
         : eye_(body.eye), bulge_(body.eyeBulge), head_(head) {
         constexpr float kStep = 0.5F;
         middle_ = skin({0, 0});
@@ -123,11 +123,11 @@ Attachments::Vertex eyeVertex(const Ball& ball,
     const glm::vec3 v = mirror * (side > 0 ? tailwards : upwards);
     Attachments::Vertex vertex = vertexAt(binding, mirror * ball.at(at), u, v);
     vertex.place.fin = at;
-    vertex.place.part = static_cast<std::uint32_t>(CagePart::Eye);
+    vertex.place.part = static_cast<std::uint32_t>(body::CagePart::Eye);
     return vertex;
 }
 
-void addEye(const FishBody& body, const Ball& ball, float side, Attachments& attachments) {
+void addEye(const body::FishBody& body, const Ball& ball, float side, Attachments& attachments) {
     const RestBinding binding(body.cage, body.eye.x);
     const std::size_t middle = attachments.vertices.size();
     attachments.vertices.push_back(eyeVertex(ball, binding, {0, 0}, side));
@@ -154,11 +154,11 @@ void addEye(const FishBody& body, const Ball& ball, float side, Attachments& att
 }
 
 // The margin of the first dorsal fin, from its front.
-std::vector<std::uint32_t> marginOf(const FishBody& body) {
+std::vector<std::uint32_t> marginOf(const body::FishBody& body) {
     const auto& vertices = body.cage.vertices;
     std::vector<std::uint32_t> margin;
     for (std::uint32_t i = 0; i < vertices.size(); ++i)
-        if (vertices[i].part == CagePart::FirstDorsal && vertices[i].fin.y == 1 &&
+        if (vertices[i].part == body::CagePart::FirstDorsal && vertices[i].fin.y == 1 &&
             vertices[i].rest.z > 0)
             margin.push_back(i);
     std::ranges::sort(margin, {}, [&](std::uint32_t i) { return vertices[i].fin.x; });
@@ -166,7 +166,10 @@ std::vector<std::uint32_t> marginOf(const FishBody& body) {
 }
 
 // The ripple of the first dorsal fin's margin at p, which a whip passes on.
-void addRipple(const FishBody& body, float p, float gain, std::vector<StencilEntry>& entries) {
+void addRipple(const body::FishBody& body,
+               float p,
+               float gain,
+               std::vector<StencilEntry>& entries) {
     const std::vector<std::uint32_t> margin = marginOf(body);
     const auto rayOf = [&](std::size_t k) { return body.cage.vertices[margin[k]].fin.x; };
     std::size_t k = 0;
@@ -195,10 +198,10 @@ glm::vec2 along(const std::vector<glm::vec2>& points, float share) {
 }
 
 // Where on the first dorsal fin a thread begins.
-float dorsalRayOf(const FishBody& body, glm::vec2 root) {
+float dorsalRayOf(const body::FishBody& body, glm::vec2 root) {
     float best = 1e9F, p = 0;
-    for (const CageVertex& vertex : body.cage.vertices) {
-        if (vertex.part != CagePart::FirstDorsal || vertex.fin.y < 1) continue;
+    for (const body::CageVertex& vertex : body.cage.vertices) {
+        if (vertex.part != body::CagePart::FirstDorsal || vertex.fin.y < 1) continue;
         const float distance = glm::distance(glm::vec2(vertex.rest), root);
         if (distance >= best) continue;
         best = distance;
@@ -207,7 +210,9 @@ float dorsalRayOf(const FishBody& body, glm::vec2 root) {
     return p;
 }
 
-void addThread(const FishBody& body, const BodyThread& thread, Attachments& attachments) {
+void addThread(const body::FishBody& body,
+               const body::BodyThread& thread,
+               Attachments& attachments) {
     const std::size_t steps = threadSteps(thread);
     const std::size_t first = attachments.vertices.size();
     const float ray = dorsalRayOf(body, thread.at.front());
@@ -235,7 +240,7 @@ void addThread(const FishBody& body, const BodyThread& thread, Attachments& atta
             if (thread.isOfFirstDorsal) {
                 const float wave = std::min(ray + 0.5F * share, 1.0F);
                 addRipple(body, wave, 1 + share, vertex.entries);
-                vertex.place.part = static_cast<std::uint32_t>(CagePart::FirstDorsal);
+                vertex.place.part = static_cast<std::uint32_t>(body::CagePart::FirstDorsal);
                 vertex.place.fin = {ray, 1};
             }
             attachments.vertices.push_back(std::move(vertex));
@@ -250,16 +255,16 @@ void addThread(const FishBody& body, const BodyThread& thread, Attachments& atta
 
 }  // namespace
 
-std::size_t threadSteps(const BodyThread& thread) {
+std::size_t threadSteps(const body::BodyThread& thread) {
     return 2 * (thread.at.size() - 1);
 }
 
-Attachments makeAttachments(const FishBody& body, std::span<const RestTriangle> head) {
+Attachments makeAttachments(const body::FishBody& body, std::span<const RestTriangle> head) {
     Attachments attachments;
     const Ball ball(body, head);
     for (const float side : {1.0F, -1.0F}) addEye(body, ball, side, attachments);
-    for (const BodyThread& thread : body.threads) addThread(body, thread, attachments);
+    for (const body::BodyThread& thread : body.threads) addThread(body, thread, attachments);
     return attachments;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

@@ -13,7 +13,7 @@
 #include "common/body/fish_body.h"
 #include "common/skin/limit_table.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 struct Attachments {
     struct Vertex {
@@ -28,9 +28,10 @@ struct Attachments {
 using RestTriangle = std::array<glm::vec3, 3>;  // (s, y, z)
 
 // head: the skin of its right side, where the eye is.
-[[nodiscard]] Attachments makeAttachments(const FishBody& body, std::span<const RestTriangle> head);
+[[nodiscard]] Attachments makeAttachments(const body::FishBody& body,
+                                          std::span<const RestTriangle> head);
 
 // Into so many pieces a thread is cut from root to tip; each is a tube of four sides.
-[[nodiscard]] std::size_t threadSteps(const BodyThread& thread);
+[[nodiscard]] std::size_t threadSteps(const body::BodyThread& thread);
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

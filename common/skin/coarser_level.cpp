@@ -7,7 +7,7 @@
 
 #include "common/skin/face_grid.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 namespace {
 
@@ -38,7 +38,7 @@ std::set<Pair> diagonalsOf(const LimitTable& table) {
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 2>> coarserParents(const FishBody& body,
+std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
                                                          int level,
                                                          const LimitTable& coarser) {
     const FaceGrid fine{body.cage, 1 << level};
@@ -67,4 +67,4 @@ std::vector<std::array<std::uint32_t, 2>> coarserParents(const FishBody& body,
     return parents;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

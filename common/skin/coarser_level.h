@@ -9,13 +9,13 @@
 
 #include "common/skin/limit_table.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 // For each vertex of makeLimitTable(body, level) the two vertices of the same table in whose middle
 // the triangles of the next coarser level have it; twice itself for those that the coarser level
 // has too. level is at least 1.
-[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> coarserParents(const FishBody& body,
+[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
                                                                        int level,
                                                                        const LimitTable& coarser);
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

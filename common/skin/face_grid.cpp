@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-namespace aquarama {
+namespace aquarama::skin {
 
 namespace {
 
@@ -23,7 +23,7 @@ OnEdge onEdge(const std::array<std::uint16_t, 4>& face, int i, int j, int cuts) 
 
 }  // namespace
 
-FaceGrid::FaceGrid(const ControlCage& cage, int cuts) : cuts_{cuts} {
+FaceGrid::FaceGrid(const body::ControlCage& cage, int cuts) : cuts_{cuts} {
     using EdgePoint = std::array<int, 3>;  // lower end, higher end, cuts from the lower
     std::map<EdgePoint, std::uint32_t> edgePoints;
     locations_.resize(cage.vertices.size());
@@ -66,4 +66,4 @@ std::uint32_t FaceGrid::at(std::size_t face, int i, int j) const {
                     static_cast<std::size_t>(i)];
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

@@ -10,13 +10,13 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 // Vertex numbers of one face, row by row: column i is at u = i / n, row j at v = j / n. Corners of
 // the face are the cage's own vertices.
 class FaceGrid {
   public:
-    FaceGrid(const ControlCage& cage, int cuts);
+    FaceGrid(const body::ControlCage& cage, int cuts);
 
     struct Location {
         std::uint32_t face = 0;
@@ -34,4 +34,4 @@ class FaceGrid {
     std::vector<Location> locations_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

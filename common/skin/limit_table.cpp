@@ -15,7 +15,7 @@
 #include "common/skin/skin_places.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 namespace {
 
@@ -25,13 +25,13 @@ namespace Sdc = OpenSubdiv::Sdc;
 // Semi-sharp creases of the cage end at sharpness 3, so four levels isolate every feature.
 constexpr int kIsolationLevel = 4;
 
-std::unique_ptr<Far::TopologyRefiner> refine(const ControlCage& cage) {
+std::unique_ptr<Far::TopologyRefiner> refine(const body::ControlCage& cage) {
     const std::vector<int> verticesPerFace(cage.faces.size(), 4);
     std::vector<int> corners;
     for (const auto& face : cage.faces) corners.insert(corners.end(), face.begin(), face.end());
     std::vector<int> creaseEnds;
     std::vector<float> creaseSharpness;
-    for (const CageCrease& crease : cage.creases) {
+    for (const body::CageCrease& crease : cage.creases) {
         creaseEnds.insert(creaseEnds.end(), crease.edge.begin(), crease.edge.end());
         creaseSharpness.push_back(crease.sharpness);
     }
@@ -103,15 +103,16 @@ void holdToControlPoint(std::vector<StencilEntry>& entries, std::uint32_t contro
 }
 
 // The limit surface at rest of the right side of the head, about the eye.
-std::vector<RestTriangle> headAtRest(const Far::TopologyRefiner& refiner, const FishBody& body) {
+std::vector<RestTriangle> headAtRest(const Far::TopologyRefiner& refiner,
+                                     const body::FishBody& body) {
     constexpr int kCuts = 4;
     const FaceGrid grid{body.cage, kCuts};
     const float nearest = body.eye.x - 3 * body.eye.z, farthest = body.eye.x + 3 * body.eye.z;
     std::vector<FaceGrid::Location> locations;
     for (std::size_t f = 0; f < body.cage.faces.size(); ++f) {
         const bool isHead = std::ranges::all_of(body.cage.faces[f], [&](std::uint16_t corner) {
-            const CageVertex& vertex = body.cage.vertices[corner];
-            return vertex.part == CagePart::Body && vertex.rest.z > 0;
+            const body::CageVertex& vertex = body.cage.vertices[corner];
+            return vertex.part == body::CagePart::Body && vertex.rest.z > 0;
         });
         const auto [first, last] = std::ranges::minmax(
             body.cage.faces[f], {}, [&](std::uint16_t c) { return body.cage.vertices[c].rest.x; });
@@ -145,7 +146,7 @@ std::vector<RestTriangle> headAtRest(const Far::TopologyRefiner& refiner, const 
     return head;
 }
 
-void append(const FishBody& body, const Attachments& attachments, LimitTable& table) {
+void append(const body::FishBody& body, const Attachments& attachments, LimitTable& table) {
     table.skinVertices = table.vertices.size();
     const auto first = static_cast<std::uint32_t>(table.vertices.size());
     for (const Attachments::Vertex& vertex : attachments.vertices) {
@@ -181,7 +182,7 @@ SkinPoint skinPoint(const LimitTable& table,
     return {position, glm::normalize(glm::cross(u, v))};
 }
 
-LimitTable makeLimitTable(const FishBody& body, int level) {
+LimitTable makeLimitTable(const body::FishBody& body, int level) {
     const FaceGrid grid{body.cage, 1 << level};
     const auto& locations = grid.locations();
 
@@ -212,4 +213,4 @@ LimitTable makeLimitTable(const FishBody& body, int level) {
     return table;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

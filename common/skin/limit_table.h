@@ -14,7 +14,7 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 // Level 0 is the control mesh itself (paper, section 6); 1 and 2 lie on the Catmull-Clark limit
 // surface, at the corners of the faces that so many refinements make.
@@ -61,6 +61,6 @@ struct SkinPoint {
                                   std::span<const glm::vec3> controlPoints);
 
 // Takes 5 to 50 ms.
-[[nodiscard]] LimitTable makeLimitTable(const FishBody& body, int level);
+[[nodiscard]] LimitTable makeLimitTable(const body::FishBody& body, int level);
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

@@ -8,21 +8,21 @@
 
 #include "common/body/cage_topology.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 namespace {
 
 std::uint32_t tubePoint(int ring, int column) {
-    return static_cast<std::uint32_t>(ring * kTubeColumns + column);
+    return static_cast<std::uint32_t>(ring * body::kTubeColumns + column);
 }
 
-int ringNear(const ControlCage& cage, float station) {
+int ringNear(const body::ControlCage& cage, float station) {
     constexpr int kFlank = 3;
     int nearest = 1;
     const auto distance = [&](int ring) {
         return std::abs(cage.vertices[tubePoint(ring, kFlank)].rest.x - station);
     };
-    for (int ring = 2; ring < kBodyEndRing; ++ring)
+    for (int ring = 2; ring < body::kBodyEndRing; ++ring)
         if (distance(ring) < distance(nearest)) nearest = ring;
     return nearest;
 }
@@ -30,7 +30,7 @@ int ringNear(const ControlCage& cage, float station) {
 }  // namespace
 
 // Both flanks a ring before, back and belly a ring behind: never in one plane.
-RestBinding::RestBinding(const ControlCage& cage, float station) {
+RestBinding::RestBinding(const body::ControlCage& cage, float station) {
     const int ring = ringNear(cage, station);
     points_ = {tubePoint(ring - 1, 3),
                tubePoint(ring - 1, 10),
@@ -53,4 +53,4 @@ RestBinding::Weights RestBinding::ofDirection(glm::vec3 direction) const {
     return {w.x, w.y, w.z, w.w};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

@@ -11,12 +11,12 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 // The part of the body about a station, as an affine frame.
 class RestBinding {
   public:
-    RestBinding(const ControlCage& cage, float station);
+    RestBinding(const body::ControlCage& cage, float station);
 
     using Points = std::array<std::uint32_t, 4>;
     using Weights = std::array<float, 4>;
@@ -29,4 +29,4 @@ class RestBinding {
     glm::mat4 weightsFromRest_{1.0F};
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

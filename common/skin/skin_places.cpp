@@ -7,31 +7,31 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::skin {
 
 namespace {
 
 using Face = std::array<std::uint16_t, 4>;
 
-bool onFin(const CageVertex& vertex) {
+bool onFin(const body::CageVertex& vertex) {
     return vertex.fin.y > 0.0F;
 }
 
-CagePart partOf(const ControlCage& cage, const Face& face) {
+body::CagePart partOf(const body::ControlCage& cage, const Face& face) {
     for (const std::uint16_t corner : face) {
         if (onFin(cage.vertices[corner])) return cage.vertices[corner].part;
     }
-    return CagePart::Body;
+    return body::CagePart::Body;
 }
 
 // (p, q) at the corners of a fin's face. Where a fin grows out of the body, the corner is the
 // body's and knows no p: it takes that of the ray which starts there.
-std::array<glm::vec2, 4> finCorners(const ControlCage& cage, const Face& face) {
+std::array<glm::vec2, 4> finCorners(const body::ControlCage& cage, const Face& face) {
     std::array<glm::vec2, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k) {
-        const CageVertex& own = cage.vertices[face[k]];
-        const CageVertex& next = cage.vertices[face[(k + 1) % 4]];
-        const CageVertex& previous = cage.vertices[face[(k + 3) % 4]];
+        const body::CageVertex& own = cage.vertices[face[k]];
+        const body::CageVertex& next = cage.vertices[face[(k + 1) % 4]];
+        const body::CageVertex& previous = cage.vertices[face[(k + 3) % 4]];
         corners[k] = own.fin;
         if (onFin(own)) continue;
         if (onFin(next)) corners[k] = {next.fin.x, 0.0F};
@@ -48,7 +48,7 @@ float tableAt(const std::vector<float>& x, const std::vector<float>& y, float at
     return glm::mix(y[i - 1], y[i], (at - x[i - 1]) / (x[i] - x[i - 1]));
 }
 
-glm::vec4 restOf(const FishBody& body, const LimitTable& table, std::size_t vertex) {
+glm::vec4 restOf(const body::FishBody& body, const LimitTable& table, std::size_t vertex) {
     glm::vec3 rest{};
     for (std::uint32_t k = table.firstEntry[vertex]; k < table.firstEntry[vertex + 1]; ++k) {
         const StencilEntry& entry = table.entries[k];
@@ -57,11 +57,11 @@ glm::vec4 restOf(const FishBody& body, const LimitTable& table, std::size_t vert
     return {rest, heightOnBody(body, rest.x, rest.y)};
 }
 
-void placeFinVertices(const ControlCage& cage, const FaceGrid& grid, LimitTable& table) {
+void placeFinVertices(const body::ControlCage& cage, const FaceGrid& grid, LimitTable& table) {
     const int n = grid.cuts();
     for (std::size_t f = 0; f < cage.faces.size(); ++f) {
-        const CagePart part = partOf(cage, cage.faces[f]);
-        if (part == CagePart::Body) continue;
+        const body::CagePart part = partOf(cage, cage.faces[f]);
+        if (part == body::CagePart::Body) continue;
         const auto corners = finCorners(cage, cage.faces[f]);
         for (int j = 0; j <= n; ++j) {
             for (int i = 0; i <= n; ++i) {
@@ -115,13 +115,13 @@ void addTriangles(const FaceGrid& grid,
 
 }  // namespace
 
-float heightOnBody(const FishBody& body, float s, float y) {
+float heightOnBody(const body::FishBody& body, float s, float y) {
     const auto& halfHeight = y >= 0.0F ? body.profileDorsal : body.profileVentral;
     return glm::clamp(
         y / std::max(tableAt(body.profileStations, halfHeight, s), 1e-3F), -1.0F, 1.0F);
 }
 
-void paintPlaces(const FishBody& body, const FaceGrid& grid, LimitTable& table) {
+void paintPlaces(const body::FishBody& body, const FaceGrid& grid, LimitTable& table) {
     table.vertices.resize(grid.locations().size());
     for (std::size_t i = 0; i < table.vertices.size(); ++i)
         table.vertices[i].rest = restOf(body, table, i);
@@ -129,11 +129,11 @@ void paintPlaces(const FishBody& body, const FaceGrid& grid, LimitTable& table) 
 
     std::vector<std::uint32_t> fins;
     for (std::size_t f = 0; f < body.cage.faces.size(); ++f) {
-        const bool isBody = partOf(body.cage, body.cage.faces[f]) == CagePart::Body;
+        const bool isBody = partOf(body.cage, body.cage.faces[f]) == body::CagePart::Body;
         addTriangles(grid, f, table, isBody ? table.indices : fins);
     }
     table.bodyIndices = table.indices.size();
     table.indices.insert(table.indices.end(), fins.begin(), fins.end());
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

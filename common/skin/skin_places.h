@@ -5,12 +5,12 @@
 #include "common/skin/face_grid.h"
 #include "common/skin/limit_table.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 
 // Height of a place at rest: -1 on the belly .. +1 on the back, as SkinPlace has it.
-[[nodiscard]] float heightOnBody(const FishBody& body, float s, float y);
+[[nodiscard]] float heightOnBody(const body::FishBody& body, float s, float y);
 
 // Fills vertices, indices and bodyIndices of a table whose stencils are made.
-void paintPlaces(const FishBody& body, const FaceGrid& grid, LimitTable& table);
+void paintPlaces(const body::FishBody& body, const FaceGrid& grid, LimitTable& table);
 
-}  // namespace aquarama
+}  // namespace aquarama::skin

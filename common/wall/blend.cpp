@@ -3,7 +3,7 @@
 
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -23,8 +23,8 @@ double pull(const Pinhole& projector, glm::dvec3 point) {
 
 }  // namespace
 
-Blend::Blend(const Rig& rig) {
-    for (const Channel& channel : rig.channels) projectors_.emplace_back(channel);
+Blend::Blend(const config::Rig& rig) {
+    for (const config::Channel& channel : rig.channels) projectors_.emplace_back(channel);
 }
 
 double Blend::weight(std::size_t channel, glm::dvec3 point) const {
@@ -36,8 +36,8 @@ double Blend::weight(std::size_t channel, glm::dvec3 point) const {
     return own / sum;
 }
 
-double blendWeight(const Rig& rig, std::size_t channel, glm::dvec3 screenPointMetres) {
+double blendWeight(const config::Rig& rig, std::size_t channel, glm::dvec3 screenPointMetres) {
     return Blend(rig).weight(channel, screenPointMetres);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

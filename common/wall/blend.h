@@ -6,11 +6,11 @@
 
 #include "common/wall/pinhole.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 class Blend {
   public:
-    explicit Blend(const Rig& rig);
+    explicit Blend(const config::Rig& rig);
     [[nodiscard]] double weight(std::size_t channel, glm::dvec3 screenPointMetres) const;
     [[nodiscard]] const Pinhole& projector(std::size_t channel) const {
         return projectors_[channel];
@@ -20,4 +20,4 @@ class Blend {
     std::vector<Pinhole> projectors_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -8,7 +8,7 @@
 #include "common/wall/outline.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -16,8 +16,10 @@ constexpr int kColumns = 481;
 constexpr int kRows = 121;
 constexpr double kWidestDegrees = 150;  // past it a flat picture would need endless pixels
 
-[[noreturn]] void refuse(const std::string& source, SourcePlace place, const std::string& why) {
-    throw Error(placed(source, place, why));
+[[noreturn]] void refuse(const std::string& source,
+                         config::SourcePlace place,
+                         const std::string& why) {
+    throw Error(config::placed(source, place, why));
 }
 
 std::string oneDecimal(double value) {
@@ -28,11 +30,13 @@ std::string oneDecimal(double value) {
 
 // "12.0 degrees left", "3.5 degrees right"
 std::string sideways(double azimuth) {
-    return oneDecimal(std::abs(azimuth) / kRadiansPerDegree) + " degrees " +
+    return oneDecimal(std::abs(azimuth) / config::kRadiansPerDegree) + " degrees " +
            (azimuth < 0 ? "left" : "right");
 }
 
-void checkProjector(const Rig& rig, const Channel& channel, const std::string& source) {
+void checkProjector(const config::Rig& rig,
+                    const config::Channel& channel,
+                    const std::string& source) {
     const std::vector<glm::dvec3> lit = litOutline(rig.screen, Pinhole(channel), 0);
     if (lit.empty())
         refuse(source,
@@ -42,7 +46,7 @@ void checkProjector(const Rig& rig, const Channel& channel, const std::string& s
                    "move it");
     const auto [low, high] =
         std::ranges::minmax(lit, {}, [](glm::dvec3 point) { return azimuthOf(point); });
-    if (azimuthOf(high) - azimuthOf(low) > radiansOf(kWidestDegrees))
+    if (azimuthOf(high) - azimuthOf(low) > config::radiansOf(kWidestDegrees))
         refuse(source,
                channel.place,
                "projector \"" + channel.name + "\" lights more than " + oneDecimal(kWidestDegrees) +
@@ -55,7 +59,7 @@ double sample(int index, int count) {
 }
 
 // The dark points of one column of the screen, from top to bottom.
-std::vector<glm::dvec3> darkPoints(const Screen& screen,
+std::vector<glm::dvec3> darkPoints(const config::Screen& screen,
                                    const std::vector<Pinhole>& projectors,
                                    int column) {
     std::vector<glm::dvec3> dark;
@@ -71,9 +75,9 @@ std::vector<glm::dvec3> darkPoints(const Screen& screen,
 }
 
 // Names the first stretch of neighbouring columns that hold a dark point.
-void checkCovered(const Rig& rig, const std::string& source) {
+void checkCovered(const config::Rig& rig, const std::string& source) {
     std::vector<Pinhole> projectors;
-    for (const Channel& channel : rig.channels) projectors.emplace_back(channel);
+    for (const config::Channel& channel : rig.channels) projectors.emplace_back(channel);
     std::vector<glm::dvec3> hole;
     bool reachesEdge = false;
     for (int column = 0; column < kColumns; ++column) {
@@ -103,7 +107,7 @@ void checkCovered(const Rig& rig, const std::string& source) {
 }
 
 // The eyes must be before the screen, not beside or behind a part of it.
-void checkEyes(const Rig& rig, const std::string& source) {
+void checkEyes(const config::Rig& rig, const std::string& source) {
     for (std::size_t channel = 0; channel < rig.channels.size(); ++channel)
         for (const EyeSide eye : {EyeSide::Left, EyeSide::Right}) try {
                 (void)channelFrustum(rig, channel, 0, eye);
@@ -114,10 +118,10 @@ void checkEyes(const Rig& rig, const std::string& source) {
 
 }  // namespace
 
-void checkGeometry(const Rig& rig, const std::string& source) {
-    for (const Channel& channel : rig.channels) checkProjector(rig, channel, source);
+void checkGeometry(const config::Rig& rig, const std::string& source) {
+    for (const config::Channel& channel : rig.channels) checkProjector(rig, channel, source);
     checkCovered(rig, source);
     checkEyes(rig, source);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

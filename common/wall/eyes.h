@@ -6,16 +6,16 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 // Between the eyes, where a mono picture is seen from; or one of them.
 enum class EyeSide : std::uint8_t { Between, Left, Right };
 
 // Wall frame, metres. The viewer faces the screen's middle whatever the channel: neighbours, each
 // with the same two eyes, then agree in their overlap.
-[[nodiscard]] glm::dvec3 eyePosition(const Rig& rig, EyeSide side);
+[[nodiscard]] glm::dvec3 eyePosition(const config::Rig& rig, EyeSide side);
 
 // The rig's, unless the channel's display has its own.
-[[nodiscard]] Stereo stereoOf(const Rig& rig, std::size_t channel);
+[[nodiscard]] config::Stereo stereoOf(const config::Rig& rig, std::size_t channel);
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -13,7 +13,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -123,4 +123,4 @@ bool FramePipeReader::readAll(std::span<std::uint8_t> bytes) const {
     return true;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -11,7 +11,7 @@
 
 #include "common/wall/picture.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 // A file that is open; closed with its owner.
 class OpenFile {
@@ -63,4 +63,4 @@ class FramePipeReader {
     std::vector<std::uint8_t> codes_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -10,7 +10,7 @@
 #include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -36,7 +36,7 @@ double widened(double tangent, double byRadians) {
 
 }  // namespace
 
-ChannelFrustum channelFrustum(const Rig& rig,
+ChannelFrustum channelFrustum(const config::Rig& rig,
                               std::size_t channel,
                               double marginRadians,
                               EyeSide eye) {
@@ -78,10 +78,10 @@ glm::mat4 clipFromCamera(const ChannelFrustum& f, float nearMetres) {
     return clip;
 }
 
-double finestPixelRadians(const Rig& rig) {
+double finestPixelRadians(const config::Rig& rig) {
     constexpr int kProbes = 5;  // along each side of a picture
     double finest = std::numbers::pi;
-    for (const Channel& channel : rig.channels) {
+    for (const config::Channel& channel : rig.channels) {
         const glm::dvec2 size(channel.sizePixels);
         for (int i = 0; i < kProbes * kProbes; ++i) {
             const glm::dvec2 pixel =
@@ -99,4 +99,4 @@ double finestPixelRadians(const Rig& rig) {
     return finest;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

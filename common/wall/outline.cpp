@@ -3,7 +3,7 @@
 
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -23,10 +23,10 @@ void walkUnitSquare(Visit visit) {
 
 }  // namespace
 
-std::vector<glm::dvec3> litOutline(const Screen& screen,
+std::vector<glm::dvec3> litOutline(const config::Screen& screen,
                                    const Pinhole& projector,
                                    double spillMetres) {
-    Screen spilled = screen;
+    config::Screen spilled = screen;
     spilled.arcRadians += 2 * spillMetres / screen.radiusMetres;
     spilled.heightMetres += 2 * spillMetres;
     std::vector<glm::dvec3> outline;
@@ -39,4 +39,4 @@ std::vector<glm::dvec3> litOutline(const Screen& screen,
     return outline;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -6,12 +6,12 @@
 
 #include "common/wall/pinhole.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 // Points where the picture's border falls on the screen and where the screen's border falls into
 // the picture: together they enclose all that is lit. Empty when the projector misses the screen.
-[[nodiscard]] std::vector<glm::dvec3> litOutline(const Screen& screen,
+[[nodiscard]] std::vector<glm::dvec3> litOutline(const config::Screen& screen,
                                                  const Pinhole& projector,
                                                  double spillMetres);
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

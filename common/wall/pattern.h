@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::wall {
 
 enum class TestPattern { Grid, Grey };
 
@@ -29,8 +29,8 @@ namespace pattern {
 }
 
 [[nodiscard]] inline double majorAndMinor(double atDegrees) {
-    return std::fmax(kGridMinorLight * lines(atDegrees, kGridDegrees),
-                     lines(atDegrees, kGridMajorDegrees));
+    return std::fmax(kGridMinorLight * pattern::lines(atDegrees, kGridDegrees),
+                     pattern::lines(atDegrees, kGridMajorDegrees));
 }
 
 }  // namespace pattern
@@ -47,4 +47,4 @@ namespace pattern {
     return pattern == TestPattern::Grid ? gridLight(direction) : kGreyLight;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

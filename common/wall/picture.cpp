@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -99,4 +99,4 @@ glm::vec3 bilinear(const Light& light, glm::dvec2 pixel) {
                     t.y);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

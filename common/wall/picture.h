@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::wall {
 
 // Codes of 8 or 16 bits, red green blue, top row first.
 struct Picture {
@@ -48,4 +48,4 @@ struct Light {
 // Between the centres of pixels, which are at +0.5; the border's colour goes on outside.
 [[nodiscard]] glm::vec3 bilinear(const Light& light, glm::dvec2 pixel);
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -5,7 +5,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -18,7 +18,7 @@ glm::dmat3 turned(glm::dvec3 yawPitchRoll) {
 
 }  // namespace
 
-Pinhole::Pinhole(const Channel& channel)
+Pinhole::Pinhole(const config::Channel& channel)
     : wallFromProjector_(turned(channel.projector.yawPitchRollRadians)),
       position_(channel.projector.positionMetres),
       focal_(channel.projector.focalPixels),
@@ -38,7 +38,9 @@ std::optional<glm::dvec2> Pinhole::pixelOf(glm::dvec3 point) const {
     return inside ? std::optional(pixel) : std::nullopt;
 }
 
-std::optional<glm::dvec3> screenHit(const Screen& screen, const Ray& ray, double spillMetres) {
+std::optional<glm::dvec3> screenHit(const config::Screen& screen,
+                                    const Ray& ray,
+                                    double spillMetres) {
     const glm::dvec3& o = ray.origin;
     const glm::dvec3& d = ray.direction;
     const double a = d.x * d.x + d.z * d.z;
@@ -65,4 +67,4 @@ double azimuthOf(glm::dvec3 point) {
     return std::atan2(point.x, -point.z);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -11,7 +11,7 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 struct Ray {
     glm::dvec3 origin{};  // wall frame, metres
@@ -20,7 +20,7 @@ struct Ray {
 
 class Pinhole {
   public:
-    explicit Pinhole(const Channel& channel);
+    explicit Pinhole(const config::Channel& channel);
 
     [[nodiscard]] Ray ray(glm::dvec2 pixel) const;
     // Nothing where the point is outside the picture or behind the projector.
@@ -36,7 +36,7 @@ class Pinhole {
 
 // Where a ray from the audience's side meets the screen's inside; nothing where it passes the
 // screen's edges by more than `spillMetres`.
-[[nodiscard]] std::optional<glm::dvec3> screenHit(const Screen& screen,
+[[nodiscard]] std::optional<glm::dvec3> screenHit(const config::Screen& screen,
                                                   const Ray& ray,
                                                   double spillMetres);
 
@@ -46,4 +46,4 @@ class Pinhole {
 // Azimuth of a point about the screen's axis: 0 straight ahead, positive to the right.
 [[nodiscard]] double azimuthOf(glm::dvec3 point);
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -12,7 +12,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 namespace {
 
@@ -152,4 +152,4 @@ void writePng(const std::string& path, const Picture& picture) {
         throw Error(path + ": writing failed; is the disk full?");
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

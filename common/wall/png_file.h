@@ -6,7 +6,7 @@
 
 #include "common/wall/picture.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 // Throws Error when the file is no readable picture of 16384 pixels or fewer each way, 64
 // million in all. Grey and
@@ -14,4 +14,4 @@ namespace aquarama {
 [[nodiscard]] Picture readPng(const std::string& path);
 void writePng(const std::string& path, const Picture& picture);
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -15,25 +15,27 @@
 #include "common/config/rig.h"
 #include "common/wall/eyes.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
 // Where a projector's pixel (continuous, top left corner of the picture is (0, 0), texel centres at
 // +0.5) lights the screen, wall frame; nothing where its ray misses the screen.
-[[nodiscard]] std::optional<glm::dvec3> screenPoint(const Screen& screen,
-                                                    const Channel& channel,
+[[nodiscard]] std::optional<glm::dvec3> screenPoint(const config::Screen& screen,
+                                                    const config::Channel& channel,
                                                     glm::dvec2 pixel);
 // The other way round; nothing where the point is outside the picture or behind the projector.
-[[nodiscard]] std::optional<glm::dvec2> projectorPixel(const Channel& channel,
+[[nodiscard]] std::optional<glm::dvec2> projectorPixel(const config::Channel& channel,
                                                        glm::dvec3 screenPointMetres);
 
 // The unrolled screen: u from its left edge (0) to its right (1), v from its top (0) to its bottom
 // (1).
-[[nodiscard]] glm::dvec2 unrolled(const Screen& screen, glm::dvec3 screenPointMetres);
-[[nodiscard]] glm::dvec3 screenPointAt(const Screen& screen, glm::dvec2 unrolledPosition);
+[[nodiscard]] glm::dvec2 unrolled(const config::Screen& screen, glm::dvec3 screenPointMetres);
+[[nodiscard]] glm::dvec3 screenPointAt(const config::Screen& screen, glm::dvec2 unrolledPosition);
 
 // The share of the light at a screen point that a channel gives: smooth, 0 at its picture's border,
 // and the shares of all channels that reach the point sum to one in linear light.
-[[nodiscard]] double blendWeight(const Rig& rig, std::size_t channel, glm::dvec3 screenPointMetres);
+[[nodiscard]] double blendWeight(const config::Rig& rig,
+                                 std::size_t channel,
+                                 glm::dvec3 screenPointMetres);
 
 // Light runs over the screen's edges by this much, a few pixels, and is cut off by its frame:
 // otherwise the pixels whose centres lie just past an edge would leave a dark line along it.
@@ -46,7 +48,7 @@ struct WarpMap {
     std::vector<glm::vec4>
         pointAndWeight;  // wall frame, metres; 0 where the ray passes the screen and its spill
 };
-[[nodiscard]] WarpMap warpMap(const Rig& rig, std::size_t channel);
+[[nodiscard]] WarpMap warpMap(const config::Rig& rig, std::size_t channel);
 
 // An off-axis frustum from an eye that just holds what the channel lights, enlarged by
 // `marginRadians`. Both eyes and the place between them look the same way. Camera frame: x right, y
@@ -56,7 +58,7 @@ struct ChannelFrustum {
     double left = 0, right = 0, bottom = 0, top = 0;
 };
 // Throws Error where the channel lights something beside or behind the eye.
-[[nodiscard]] ChannelFrustum channelFrustum(const Rig& rig,
+[[nodiscard]] ChannelFrustum channelFrustum(const config::Rig& rig,
                                             std::size_t channel,
                                             double marginRadians,
                                             EyeSide eye = EyeSide::Between);
@@ -64,13 +66,13 @@ struct ChannelFrustum {
 [[nodiscard]] glm::mat4 clipFromCamera(const ChannelFrustum& frustum, float nearMetres);
 
 // The angle at the sweet spot of the finest pixel that any channel throws on the screen, radians.
-[[nodiscard]] double finestPixelRadians(const Rig& rig);
+[[nodiscard]] double finestPixelRadians(const config::Rig& rig);
 
 // This share of the screen's width and height may stay dark at each of its edges.
 inline constexpr double kDarkBorder = 0.005;
 
 // Throws Error (with `source`) when a projector misses the screen, the screen is not covered, or
 // neighbours leave a gap.
-void checkGeometry(const Rig& rig, const std::string& source);
+void checkGeometry(const config::Rig& rig, const std::string& source);
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

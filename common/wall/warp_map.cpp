@@ -4,9 +4,9 @@
 #include "common/wall/blend.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
-WarpMap warpMap(const Rig& rig, std::size_t channel) {
+WarpMap warpMap(const config::Rig& rig, std::size_t channel) {
     const Blend blend(rig);
     const glm::ivec2 size = rig.channels[channel].sizePixels;
     WarpMap map;
@@ -22,4 +22,4 @@ WarpMap warpMap(const Rig& rig, std::size_t channel) {
     return map;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -9,7 +9,7 @@
 #include "common/wire/envelope.h"
 #include "common/wire/state_codec.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 namespace {
 
 // Printed in logs and errors: no control characters, so that no peer can write lines of its own.
@@ -72,12 +72,12 @@ std::optional<Message> read(const v1::Refusal& message) {
     return Refusal{message.reason()};
 }
 
-std::optional<std::vector<FishTraits>> schoolIn(const v1::Welcome& message) {
+std::optional<std::vector<motion::FishTraits>> schoolIn(const v1::Welcome& message) {
     const int fish = message.fish_ids_size();
     if (message.length_millimetres_size() != fish || std::size_t(fish) > kMaxFish) {
         return std::nullopt;
     }
-    std::vector<FishTraits> school;
+    std::vector<motion::FishTraits> school;
     school.reserve(std::size_t(fish));
     for (int i = 0; i < fish; ++i) {
         if (message.length_millimetres(i) > UINT16_MAX) return std::nullopt;
@@ -104,9 +104,9 @@ std::optional<std::vector<SpeciesBlobs>> castIn(const v1::Welcome& message, std:
 }
 
 template <class Message>
-std::optional<QualityTier> tierIn(const Message& message) {
+std::optional<config::QualityTier> tierIn(const Message& message) {
     if (!message.has_quality()) return std::nullopt;
-    return tierAt(message.quality());
+    return config::tierAt(message.quality());
 }
 
 std::optional<Message> read(const v1::Welcome& message) {
@@ -373,4 +373,4 @@ std::optional<Envelope> decode(std::span<const std::byte> packet) {
     return Envelope{envelope.session(), std::move(*message)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -5,7 +5,7 @@
 #include "common/wire/envelope.h"
 #include "common/wire/state_codec.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 namespace {
 
 std::string bytesOf(const Digest& digest) {
@@ -77,7 +77,7 @@ void write(const Welcome& welcome, v1::Envelope& envelope) {
     message.set_pace(paceOf(welcome.pace));
     message.set_pattern(patternOf(welcome.pattern));
     if (welcome.quality) message.set_quality(static_cast<std::uint32_t>(*welcome.quality));
-    for (const FishTraits& fish : welcome.school) {
+    for (const motion::FishTraits& fish : welcome.school) {
         message.add_fish_ids(fish.id);
         message.add_length_millimetres(fish.lengthMillimetres);
     }
@@ -226,4 +226,4 @@ Packet encodeState(std::uint64_t session, const StateFrame& state) {
     return packed(message);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

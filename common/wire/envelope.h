@@ -15,7 +15,7 @@
 #include "common/units/steering.h"
 #include "common/wire/messages.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 
 inline constexpr std::uint32_t kProtocolMajor = 1;  // peers refuse any other
 
@@ -61,7 +61,7 @@ struct BlobChunk {
 // The node has built all that it needs and hears the state channel. It would keep up with this
 // tier.
 struct Prepared {
-    QualityTier quality = QualityTier::Low;
+    config::QualityTier quality = config::QualityTier::Low;
 };
 
 // The answer to Prepared: from this frame on the node is waited for.
@@ -184,4 +184,4 @@ using Packet = std::vector<std::byte>;
 // packet's own size. A hello of another major version is read: its sender is to be told.
 [[nodiscard]] std::optional<Envelope> decode(std::span<const std::byte> packet);
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -11,10 +11,10 @@
 
 #include "common/config/scene.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 
 inline constexpr float kFoodUnitMetres = 1.0F / 8192.0F;
-inline constexpr std::size_t kMostFood = kMostPlankton + 256;  // and pellets
+inline constexpr std::size_t kMostFood = config::kMostPlankton + 256;  // and pellets
 
 // Where it is from the cloud's origin, x | y << 20 | z << 40, each in 20-bit two's complement and
 // units of 2^-13 m (64 m to each side; a finer step than a particle drifts in a tick, so that none
@@ -65,4 +65,4 @@ struct FoodCloud {
     std::vector<FoodRecord> particles;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -17,7 +17,7 @@
 #include "common/units/ids.h"
 #include "common/wire/food_record.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 
 // The submarine: where the wall's origin is in the world.
 struct Eye {
@@ -34,13 +34,13 @@ struct StateFrame {
     float fraction = 1.0F;
     Eye eye;
     std::uint64_t worldHash = 0;
-    std::vector<FishRecord> before;
-    std::vector<FishRecord> after;
+    std::vector<motion::FishRecord> before;
+    std::vector<motion::FishRecord> after;
     glm::vec3 foodOriginMetres{};  // of FoodRecord::offsetMetres
     std::vector<FoodRecord> foodBefore;
     std::vector<FoodRecord> foodAfter;
     float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
-    QualityTier quality = QualityTier::Low;  // of the whole wall
+    config::QualityTier quality = config::QualityTier::Low;  // of the whole wall
 };
 
 enum class Pace : std::uint8_t { Live, Lockstep };
@@ -63,10 +63,10 @@ struct Welcome {
     std::uint32_t seed = 0;
     Pace pace = Pace::Live;
     Pattern pattern = Pattern::World;
-    std::vector<FishTraits> school;
+    std::vector<motion::FishTraits> school;
     std::vector<SpeciesBlobs> cast;  // of all fish of the school, in its order
-    std::optional<QualityTier> quality =
+    std::optional<config::QualityTier> quality =
         {};  // of the whole wall; nothing: the node measures its own
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -13,7 +13,7 @@
 #include "common/units/error.h"
 #include "common/wire/recording.pb.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 namespace {
 
 constexpr std::string_view kMagic = "AQREC";
@@ -335,4 +335,4 @@ std::vector<std::string> doubtsAbout(const Recording& recording) {
     return doubts;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -18,7 +18,7 @@
 #include "common/units/steering.h"
 #include "common/wire/envelope.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 
 inline constexpr std::uint32_t kRecordingVersion = 1;
 // Nothing larger is read or written.
@@ -93,4 +93,4 @@ struct Recording {
 // What may keep a replay from being the same, a line each; none where all agrees.
 [[nodiscard]] std::vector<std::string> doubtsAbout(const Recording& recording);
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -11,14 +11,14 @@
 #include "common/wire/aquarama.pb.h"
 #include "common/wire/envelope.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 namespace {
 
 // The records are copied as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::uint32_t kLayoutVersion = 3;
-constexpr std::size_t kStride = sizeof(FishRecord);
+constexpr std::size_t kStride = sizeof(motion::FishRecord);
 constexpr int kEyeNumbers = 7;
 constexpr int kPlaceNumbers = 3;
 
@@ -41,7 +41,7 @@ std::optional<std::vector<Record>> readRecords(const std::string& bytes,
 }
 
 auto readFish(const std::string& bytes) {
-    return readRecords<FishRecord>(bytes, kMaxFish, isPlayable);
+    return readRecords<motion::FishRecord>(bytes, kMaxFish, motion::isPlayable);
 }
 
 auto readFood(const std::string& bytes) {
@@ -115,7 +115,7 @@ std::optional<StateFrame> readState(const v1::State& message) {
     if (!eye || !before || !after || !foodBefore || !foodAfter) return std::nullopt;
     const float fraction = message.fraction();
     const float daylight = message.daylight();
-    const auto quality = tierAt(message.quality());
+    const auto quality = config::tierAt(message.quality());
     const auto& origin = message.food_origin();
     if (!isShare(fraction) || !isShare(daylight) || !quality) return std::nullopt;
     if (origin.size() != kPlaceNumbers || !areFinite(origin)) return std::nullopt;
@@ -135,4 +135,4 @@ std::optional<StateFrame> readState(const v1::State& message) {
                       *quality};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -8,11 +8,11 @@
 
 #include "common/wire/messages.h"
 
-namespace aquarama {
-
-namespace v1 {
+namespace aquarama::v1 {
 class State;  // generated; its header stays inside the .cpp files
 }
+
+namespace aquarama::wire {
 
 // x y z in metres, then w x y z of worldFromWall.
 void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
@@ -21,4 +21,4 @@ void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
 void writeState(const StateFrame& state, v1::State& message);
 [[nodiscard]] std::optional<StateFrame> readState(const v1::State& message);
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

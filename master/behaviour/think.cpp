@@ -8,24 +8,24 @@
 #include "master/behaviour/perceive/perceive.h"
 #include "master/fish/drives.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 void think(const Environment& environment,
            std::uint32_t fish,
-           Minds& minds,
-           Courses& courses,
+           fish::Minds& minds,
+           fish::Courses& courses,
            Deeds& deeds) {
-    const Nature& nature = environment.natures[environment.view->kind[fish]];
-    Mind mind = minds[fish];
-    passTime(nature, mind);
+    const fish::Nature& nature = environment.natures[environment.view->kind[fish]];
+    fish::Mind mind = minds[fish];
+    fish::passTime(nature, mind);
     const Senses senses = perceive(environment, nature, fish, mind);
     const Feelings feelings = feel(nature, mind, senses);
     remember(mind, decide(nature, mind, senses, feelings));
-    Course course = act({environment, nature, fish, senses, feelings}, mind, deeds);
+    fish::Course course = act({environment, nature, fish, senses, feelings}, mind, deeds);
     course.openToChange = environment.adaptation.recommendations &&
                           acceptsRecommendation(nature, mind, senses, feelings);
     courses[fish] = course;
     minds[fish] = mind;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

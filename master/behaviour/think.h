@@ -9,13 +9,13 @@
 #include "master/fish/courses.h"
 #include "master/fish/minds.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Writes the fish's own mind and course, and adds to the deeds; nothing else changes.
 void think(const Environment& environment,
            std::uint32_t fish,
-           Minds& minds,
-           Courses& courses,
+           fish::Minds& minds,
+           fish::Courses& courses,
            Deeds& deeds);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

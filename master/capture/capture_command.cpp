@@ -31,41 +31,42 @@ struct CaptureOptions {
     std::string config;
 };
 
-std::vector<RepertoireFile> captured(const std::vector<SpeciesText>& texts) {
+std::vector<capture::RepertoireFile> captured(const std::vector<capture::SpeciesText>& texts) {
     std::atomic<bool> isStopped = false;
-    const SignalWatch watch([&] { isStopped = true; });
-    ProgressBar bar("capturing");
-    return repertoiresFor(texts,
-                          cacheFolder() / "repertoires",
-                          {.progress = [&](double share) { bar.show(share); },
-                           .isStopped = [&] { return isStopped.load(); }});
+    const cli::SignalWatch watch([&] { isStopped = true; });
+    capture::ProgressBar bar("capturing");
+    return capture::repertoiresFor(texts,
+                                   files::cacheFolder() / "repertoires",
+                                   {.progress = [&](double share) { bar.show(share); },
+                                    .isStopped = [&] { return isStopped.load(); }});
 }
 
-void write(const RepertoireFile& file, const CaptureOptions& options) {
+void write(const capture::RepertoireFile& file, const CaptureOptions& options) {
     const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
-    writeWhole(path, file.bytes);
+    files::writeWhole(path, file.bytes);
     std::cout << path.string() << '\n';
     if (options.report.empty()) return;
-    const Repertoire repertoire = decodeRepertoire(file.bytes, path.string());
-    std::cout << writeReport(repertoire, options.report).string() << '\n';
+    const motion::Repertoire repertoire = motion::decodeRepertoire(file.bytes, path.string());
+    std::cout << report::writeReport(repertoire, options.report).string() << '\n';
 }
 
 // A species that fails is named, and the others still come out. Returns the exit status.
 int captureAll(const CaptureOptions& options) {
-    holdSignals();
-    requireFolder("--out", options.out);
-    requireFolder("--report", options.report);
-    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
-    std::vector<SpeciesText> texts;
-    for (const fs::path& file : speciesFiles(options.species, config))
-        texts.push_back(readSpeciesText(file));
-    const std::vector<RepertoireFile> files = captured(texts);
+    cli::holdSignals();
+    cli::requireFolder("--out", options.out);
+    cli::requireFolder("--report", options.report);
+    const fs::path config =
+        options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
+    std::vector<capture::SpeciesText> texts;
+    for (const fs::path& file : capture::speciesFiles(options.species, config))
+        texts.push_back(capture::readSpeciesText(file));
+    const std::vector<capture::RepertoireFile> files = captured(texts);
     int status = 0;
-    for (const RepertoireFile& file : files) {
+    for (const capture::RepertoireFile& file : files) {
         if (file.error.empty()) {
             write(file, options);
         } else {
-            sayError("aquarama-capture", file.error);
+            cli::sayError("aquarama-capture", file.error);
             status = 1;
         }
     }
@@ -74,7 +75,7 @@ int captureAll(const CaptureOptions& options) {
 
 }  // namespace
 
-void addCaptureCommand(CLI::App& app, Job& job) {
+void addCaptureCommand(CLI::App& app, cli::Job& job) {
     const auto options = std::make_shared<CaptureOptions>();
     app.add_option("--species",
                    options->species,

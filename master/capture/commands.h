@@ -7,12 +7,12 @@
 
 namespace aquarama {
 
-void addCaptureCommand(CLI::App& app, Job& job);  // the program without a subcommand
-void addInspectCommand(CLI::App& app, Job& job);
-void addSearchCommand(CLI::App& app, Job& job);
-void addGaitsCommand(CLI::App& app, Job& job);
-void addExportCommand(CLI::App& app, Job& job);
-void addFidelityCommand(CLI::App& app, Job& job);
-void addControllersCommand(CLI::App& app, Job& job);
+void addCaptureCommand(CLI::App& app, cli::Job& job);  // the program without a subcommand
+void addInspectCommand(CLI::App& app, cli::Job& job);
+void addSearchCommand(CLI::App& app, cli::Job& job);
+void addGaitsCommand(CLI::App& app, cli::Job& job);
+void addExportCommand(CLI::App& app, cli::Job& job);
+void addFidelityCommand(CLI::App& app, cli::Job& job);
+void addControllersCommand(CLI::App& app, cli::Job& job);
 
 }  // namespace aquarama

@@ -25,18 +25,19 @@ struct ControllersOptions {
 
 void draw(const ControllersOptions& options) {
     namespace fs = std::filesystem;
-    requireFolder("--out", options.out);
-    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
-    const fs::path file = speciesFiles({options.species}, config).front();
-    const std::string svg = drawControllers(readSpecies(file.string()));
+    cli::requireFolder("--out", options.out);
+    const fs::path config =
+        options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
+    const fs::path file = capture::speciesFiles({options.species}, config).front();
+    const std::string svg = report::drawControllers(config::readSpecies(file.string()));
     const fs::path path = fs::path(options.out) / "controllers.svg";
-    writeWhole(path, std::as_bytes(std::span(svg.data(), svg.size())));
+    files::writeWhole(path, std::as_bytes(std::span(svg.data(), svg.size())));
     std::cout << path.string() << '\n';
 }
 
 }  // namespace
 
-void addControllersCommand(CLI::App& app, Job& job) {
+void addControllersCommand(CLI::App& app, cli::Job& job) {
     const auto options = std::make_shared<ControllersOptions>();
     CLI::App& controllers = *app.add_subcommand(
         "controllers",

@@ -34,52 +34,57 @@ struct ExportOptions {
 
 std::vector<std::string> segmentNames() {
     std::vector<std::string> names;
-    names.reserve(kCapturedActions);
-    for (int i = 0; i < kCapturedActions; ++i) names.emplace_back(nameOf(static_cast<Action>(i)));
+    names.reserve(motion::kCapturedActions);
+    for (int i = 0; i < motion::kCapturedActions; ++i)
+        names.emplace_back(motion::nameOf(static_cast<motion::Action>(i)));
     return names;
 }
 
-Action actionNamed(const std::string& segment) {
+motion::Action actionNamed(const std::string& segment) {
     const std::vector<std::string> names = segmentNames();
-    return static_cast<Action>(std::ranges::find(names, segment) - names.begin());
+    return static_cast<motion::Action>(std::ranges::find(names, segment) - names.begin());
 }
 
-GltfContainer containerOf(const fs::path& path) {
-    if (path.extension() == ".glb") return GltfContainer::Binary;
-    if (path.extension() == ".gltf") return GltfContainer::Text;
+exchange::GltfContainer containerOf(const fs::path& path) {
+    if (path.extension() == ".glb") return exchange::GltfContainer::Binary;
+    if (path.extension() == ".gltf") return exchange::GltfContainer::Text;
     throw Error(path.string() + ": name it .glb (binary) or .gltf (text)");
 }
 
 // The skin is not in the repertoire but in the species' file.
-FishBody bodyOf(const Repertoire& repertoire, const ExportOptions& options) {
-    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
-    return makeBody(readSpecies(speciesFiles({repertoire.species}, config).front().string()));
+body::FishBody bodyOf(const motion::Repertoire& repertoire, const ExportOptions& options) {
+    const fs::path config =
+        options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
+    return body::makeBody(
+        config::readSpecies(capture::speciesFiles({repertoire.species}, config).front().string()));
 }
 
 void exportSegment(const ExportOptions& options) {
-    requireFile("--c3d", options.c3d);
-    requireFile("--gltf", options.gltf);
-    requireFile("--csv", options.csv);
-    const Action action = actionNamed(options.segment);
-    const Repertoire repertoire = decodeRepertoire(readRepertoireFile(options.file), options.file);
+    cli::requireFile("--c3d", options.c3d);
+    cli::requireFile("--gltf", options.gltf);
+    cli::requireFile("--csv", options.csv);
+    const motion::Action action = actionNamed(options.segment);
+    const motion::Repertoire repertoire =
+        motion::decodeRepertoire(capture::readRepertoireFile(options.file), options.file);
     if (!options.gltf.empty()) {
-        const GltfContainer container = containerOf(options.gltf);
-        const FishBody body = bodyOf(repertoire, options);
-        writeWhole(options.gltf, gltfOf(repertoire, body, action, options.cycles, container));
+        const exchange::GltfContainer container = containerOf(options.gltf);
+        const body::FishBody body = bodyOf(repertoire, options);
+        files::writeWhole(options.gltf,
+                          exchange::gltfOf(repertoire, body, action, options.cycles, container));
         return;
     }
-    const Take take = takeAtTicks(repertoire, action, options.cycles);
+    const exchange::Take take = exchange::takeAtTicks(repertoire, action, options.cycles);
     if (options.csv.empty()) {
-        writeWhole(options.c3d, c3dOf(take));
+        files::writeWhole(options.c3d, exchange::c3dOf(take));
     } else {
-        const std::string rows = csvOf(take);
-        writeWhole(options.csv, std::as_bytes(std::span(rows)));
+        const std::string rows = exchange::csvOf(take);
+        files::writeWhole(options.csv, std::as_bytes(std::span(rows)));
     }
 }
 
 }  // namespace
 
-void addExportCommand(CLI::App& app, Job& job) {
+void addExportCommand(CLI::App& app, cli::Job& job) {
     const auto options = std::make_shared<ExportOptions>();
     CLI::App& command = *app.add_subcommand(
         "export", "a segment for other programs: metres, Y up, from the origin along +x");
@@ -88,7 +93,7 @@ void addExportCommand(CLI::App& app, Job& job) {
         ->required()
         ->check(CLI::IsMember(segmentNames()));
     command.add_option("--cycles", options->cycles, "how often it is repeated")
-        ->check(wholeNumber(1, kMostCycles))
+        ->check(cli::wholeNumber(1, exchange::kMostCycles))
         ->capture_default_str();
     CLI::Option_group& out = *command.add_option_group("format", "one of");
     out.add_option("--c3d", options->c3d, "nodal points as markers, 60 frames a second");

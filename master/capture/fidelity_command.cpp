@@ -32,38 +32,41 @@ struct FidelityOptions {
 };
 
 void writeText(const fs::path& path, const std::string& text) {
-    writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
+    files::writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
     std::cerr << path.string() << '\n';
 }
 
 void compareAll(const FidelityOptions& options) {
-    requireFolder("--out", options.out);
-    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
-    std::vector<Fidelity> fidelities;
-    std::vector<SpeciesVocabularies> vocabularies;
-    for (const fs::path& file : speciesFiles(options.species, config)) {
-        const Species species = readSpecies(file.string());
-        ProgressBar bar("comparing " + species.name);
-        const Repertoire repertoire =
-            captureRepertoire(species, [&](double share) { bar.show(0.5 * share); });
-        fidelities.push_back(measureFidelity(species, repertoire, options.seed, options.seconds));
+    cli::requireFolder("--out", options.out);
+    const fs::path config =
+        options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
+    std::vector<fidelity::Fidelity> fidelities;
+    std::vector<fidelity::SpeciesVocabularies> vocabularies;
+    for (const fs::path& file : capture::speciesFiles(options.species, config)) {
+        const config::Species species = config::readSpecies(file.string());
+        capture::ProgressBar bar("comparing " + species.name);
+        const motion::Repertoire repertoire =
+            capture::captureRepertoire(species, [&](double share) { bar.show(0.5 * share); });
+        fidelities.push_back(
+            fidelity::measureFidelity(species, repertoire, options.seed, options.seconds));
         bar.show(0.6);
         vocabularies.push_back(
             {species.name,
-             compareVocabularies(species, repertoire, options.seed, options.seconds)});
+             fidelity::compareVocabularies(species, repertoire, options.seed, options.seconds)});
         bar.show(1);
     }
     const fs::path out = options.out;
-    writeText(out / "fidelity.html", fidelityPage(fidelities, vocabularies, options.seed));
-    writeText(out / "fidelity.csv", fidelityCsv(fidelities));
-    writeText(out / "fidelity_ways.svg", drawWaysOfAll(fidelities));
-    writeText(out / "fidelity_segments.svg", drawVocabularies(vocabularies));
-    std::cout << fidelityMarkdown(fidelities);
+    writeText(out / "fidelity.html",
+              fidelity::fidelityPage(fidelities, vocabularies, options.seed));
+    writeText(out / "fidelity.csv", fidelity::fidelityCsv(fidelities));
+    writeText(out / "fidelity_ways.svg", fidelity::drawWaysOfAll(fidelities));
+    writeText(out / "fidelity_segments.svg", fidelity::drawVocabularies(vocabularies));
+    std::cout << fidelity::fidelityMarkdown(fidelities);
 }
 
 }  // namespace
 
-void addFidelityCommand(CLI::App& app, Job& job) {
+void addFidelityCommand(CLI::App& app, cli::Job& job) {
     const auto options = std::make_shared<FidelityOptions>();
     CLI::App& fidelity =
         *app.add_subcommand("fidelity", "how far replicas are from the fish that they stand for");
@@ -71,9 +74,9 @@ void addFidelityCommand(CLI::App& app, Job& job) {
                         options->species,
                         "name of a species in the config folder, or a file; all when not given");
     fidelity.add_option("--seed", options->seed, "which script of commands; 1 when not given")
-        ->check(wholeNumber(0, kMostSeed));
+        ->check(cli::wholeNumber(0, cli::kMostSeed));
     fidelity.add_option("--seconds", options->seconds, "how long the script is; 60 when not given")
-        ->check(number(1, 3600));
+        ->check(cli::number(1, 3600));
     fidelity.add_option("--out", options->out, "folder for the page, the table and the pictures")
         ->required();
     fidelity.add_option("--config", options->config, "folder that holds species/*.txtpb");

@@ -20,20 +20,21 @@ struct GaitsOptions {
 };
 
 void printGaits(const GaitsOptions& options) {
-    const std::filesystem::path config =
-        options.config.empty() ? findConfigFolder() : std::filesystem::path(options.config);
-    const auto files = speciesFiles(options.species, config);
-    std::cout << gaitTableHead();
+    const std::filesystem::path config = options.config.empty()
+                                             ? capture::findConfigFolder()
+                                             : std::filesystem::path(options.config);
+    const auto files = capture::speciesFiles(options.species, config);
+    std::cout << search::gaitTableHead();
     for (const auto& file : files)
-        std::cout << gaitTableRows(readSpecies(file.string())) << std::flush;
-    std::cout << '\n' << turnTableHead();
+        std::cout << search::gaitTableRows(config::readSpecies(file.string())) << std::flush;
+    std::cout << '\n' << search::turnTableHead();
     for (const auto& file : files)
-        std::cout << turnTableRow(readSpecies(file.string())) << std::flush;
+        std::cout << search::turnTableRow(config::readSpecies(file.string())) << std::flush;
 }
 
 }  // namespace
 
-void addGaitsCommand(CLI::App& app, Job& job) {
+void addGaitsCommand(CLI::App& app, cli::Job& job) {
     const auto options = std::make_shared<GaitsOptions>();
     CLI::App& command =
         *app.add_subcommand("gaits", "how species swim and turn, as tables in Markdown");

@@ -21,17 +21,17 @@ struct InspectOptions {
 };
 
 void inspect(const InspectOptions& options) {
-    requireFolder("--report", options.report);
-    const std::vector<std::byte> bytes = readRepertoireFile(options.file);
-    std::cout << inspectRepertoire(bytes, options.file);
+    cli::requireFolder("--report", options.report);
+    const std::vector<std::byte> bytes = capture::readRepertoireFile(options.file);
+    std::cout << report::inspectRepertoire(bytes, options.file);
     if (options.report.empty()) return;
-    const Repertoire repertoire = decodeRepertoire(bytes, options.file);
-    std::cout << '\n' << writeReport(repertoire, options.report).string() << '\n';
+    const motion::Repertoire repertoire = motion::decodeRepertoire(bytes, options.file);
+    std::cout << '\n' << report::writeReport(repertoire, options.report).string() << '\n';
 }
 
 }  // namespace
 
-void addInspectCommand(CLI::App& app, Job& job) {
+void addInspectCommand(CLI::App& app, cli::Job& job) {
     const auto options = std::make_shared<InspectOptions>();
     CLI::App& command = *app.add_subcommand("inspect", "what a repertoire holds");
     command.add_option("FILE", options->file, "a repertoire")->required();

@@ -12,7 +12,7 @@ int main(int count, char** arguments) {
         "Simulates the biomechanical fish of each species and compiles its repertoire of actions",
         "aquarama-capture"};
     app.require_subcommand(0, 1);
-    Job job;
+    cli::Job job;
     for (const auto add : {addCaptureCommand,
                            addInspectCommand,
                            addSearchCommand,
@@ -21,5 +21,5 @@ int main(int count, char** arguments) {
                            addFidelityCommand,
                            addControllersCommand})
         add(app, job);
-    return runProgram(app, count, arguments, [&] { return job(); });
+    return cli::runProgram(app, count, arguments, [&] { return job(); });
 }

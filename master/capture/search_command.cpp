@@ -37,7 +37,7 @@ struct SearchOptions {
 };
 
 fs::path configFolder(const std::string& given) {
-    return given.empty() ? findConfigFolder() : fs::path(given);
+    return given.empty() ? capture::findConfigFolder() : fs::path(given);
 }
 
 std::string textOf(const fs::path& path) {
@@ -45,7 +45,7 @@ std::string textOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string told(std::size_t trials, const Trial& best) {
+std::string told(std::size_t trials, const search::SearchTrial& best) {
     std::ostringstream note;
     note << std::fixed << std::setprecision(2) << "trial " << trials << ", Strouhal "
          << best.leastStrouhal << "-" << best.mostStrouhal << ", stride " << best.leastStride << "-"
@@ -53,31 +53,36 @@ std::string told(std::size_t trials, const Trial& best) {
     return note.str();
 }
 
-void search(const SearchOptions& options) {
-    requireFile("--out", options.out);
-    const fs::path file = speciesFiles({options.species}, configFolder(options.config)).front();
+void searchGaitsOf(const SearchOptions& options) {
+    cli::requireFile("--out", options.out);
+    const fs::path file =
+        capture::speciesFiles({options.species}, configFolder(options.config)).front();
     const std::string text = textOf(file);
-    const Species species = parseSpecies(text, file.string());
-    SearchJournal journal(options.out + ".journal", searchName(text));
-    ProgressBar bar("searching " + species.name);
-    const Trial best =
-        searchGaits(species, options.trials, journal, [&](std::size_t trials, const Trial& soFar) {
+    const config::Species species = config::parseSpecies(text, file.string());
+    search::SearchJournal journal(options.out + ".journal", search::searchName(text));
+    capture::ProgressBar bar("searching " + species.name);
+    const search::SearchTrial best = search::searchGaits(
+        species,
+        options.trials,
+        journal,
+        [&](std::size_t trials, const search::SearchTrial& soFar) {
             bar.show(static_cast<double>(trials) / static_cast<double>(options.trials),
                      told(trials, soFar));
         });
     bar.show(1, told(journal.trials().size(), best));
 
-    Species swimmer = speciesAt(best.point, species);
-    swimmer.turn = withFittingStrengths(swimmer);
-    const std::string found = withGaitsOf(swimmer, text);
-    writeWhole(options.out, std::as_bytes(std::span(found)));
+    config::Species swimmer = search::speciesAt(best.point, species);
+    swimmer.turn = search::withFittingStrengths(swimmer);
+    const std::string found = search::withGaitsOf(swimmer, text);
+    files::writeWhole(options.out, std::as_bytes(std::span(found)));
     std::cout << options.out << "\n\n"
-              << gaitTableHead() << gaitTableRows(parseSpecies(found, options.out));
+              << search::gaitTableHead()
+              << search::gaitTableRows(config::parseSpecies(found, options.out));
 }
 
 }  // namespace
 
-void addSearchCommand(CLI::App& app, Job& job) {
+void addSearchCommand(CLI::App& app, cli::Job& job) {
     const auto options = std::make_shared<SearchOptions>();
     CLI::App& command =
         *app.add_subcommand("search", "find gait parameters with which a species swims");
@@ -91,12 +96,12 @@ void addSearchCommand(CLI::App& app, Job& job) {
             "goes on where it was interrupted")
         ->required();
     command.add_option("--trials", options->trials, "the most to make")
-        ->check(wholeNumber(1, 1'000'000))
+        ->check(cli::wholeNumber(1, 1'000'000))
         ->capture_default_str();
     command.add_option("--config", options->config, "folder that holds species/*.txtpb");
     command.callback([options, &job] {
         job = [options] {
-            search(*options);
+            searchGaitsOf(*options);
             return 0;
         };
     });

@@ -12,22 +12,22 @@
 #include "common/units/error.h"
 #include "common/wire/envelope.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 class MasterLine {
   public:
     explicit MasterLine(const std::string& controlAddress)
-        : address_(controlAddress), channels_(connectNode(controlAddress)) {}
+        : address_(controlAddress), channels_(net::connectNode(controlAddress)) {}
 
     // The newest answer; the question is repeated until there is one, since the connection may not
     // stand yet. Throws Error where nobody answers.
     template <class Reply>
-    Reply ask(const Message& question) {
-        constexpr Instant kPatience = std::chrono::seconds(2);
-        constexpr Instant kRepeat = std::chrono::milliseconds(50);
-        const Instant giveUp = monotonicNow() + kPatience;
-        while (monotonicNow() < giveUp) {
-            channels_->sendControl(encode({0, question}));
+    Reply ask(const wire::Message& question) {
+        constexpr net::Instant kPatience = std::chrono::seconds(2);
+        constexpr net::Instant kRepeat = std::chrono::milliseconds(50);
+        const net::Instant giveUp = net::monotonicNow() + kPatience;
+        while (net::monotonicNow() < giveUp) {
+            channels_->sendControl(wire::encode({0, question}));
             channels_->wait(kRepeat);
             if (auto reply = newest<Reply>()) return *std::move(reply);
         }
@@ -36,14 +36,14 @@ class MasterLine {
     }
 
     // What is not answered.
-    void tell(const Message& message) { channels_->sendControl(encode({0, message})); }
+    void tell(const wire::Message& message) { channels_->sendControl(wire::encode({0, message})); }
 
   private:
     template <class Reply>
     std::optional<Reply> newest() {
         std::optional<Reply> newest;
         while (const auto bytes = channels_->receiveControl()) {
-            auto envelope = decode(*bytes);
+            auto envelope = wire::decode(*bytes);
             if (!envelope) continue;
             if (auto* reply = std::get_if<Reply>(&envelope->message)) newest = std::move(*reply);
         }
@@ -51,7 +51,7 @@ class MasterLine {
     }
 
     std::string address_;
-    std::unique_ptr<NodeChannels> channels_;
+    std::unique_ptr<net::NodeChannels> channels_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

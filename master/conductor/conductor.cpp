@@ -10,36 +10,36 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 using std::chrono::milliseconds;
 
 // Time for the word to reach every node: ten times the median of a busy machine's loopback.
-constexpr Instant kLead = milliseconds(2);
+constexpr net::Instant kLead = milliseconds(2);
 // A frame shows the world two ticks before it is released: both are simulated by then.
-constexpr Instant kShownAge = 2 * kTickPeriod;
-constexpr Instant kBeacon = milliseconds(50);
-constexpr Instant kRepeat = std::chrono::seconds(1);
-constexpr Instant kLongestWait = milliseconds(10);
+constexpr net::Instant kShownAge = 2 * kTickPeriod;
+constexpr net::Instant kBeacon = milliseconds(50);
+constexpr net::Instant kRepeat = std::chrono::seconds(1);
+constexpr net::Instant kLongestWait = milliseconds(10);
 
-Instant fromSeconds(double seconds) {
-    return std::chrono::duration_cast<Instant>(std::chrono::duration<double>(seconds));
+net::Instant fromSeconds(double seconds) {
+    return std::chrono::duration_cast<net::Instant>(std::chrono::duration<double>(seconds));
 }
 
-BarrierLimits limitsOf(const Timing& timing, const ConductorOptions& options) {
+net::BarrierLimits limitsOf(const config::Timing& timing, const ConductorOptions& options) {
     const double deadline = timing.presentDeadlineSeconds > 0 ? timing.presentDeadlineSeconds
                                                               : 1.0 / timing.refreshHertz;
-    return {options.pace == Pace::Lockstep,
+    return {options.pace == wire::Pace::Lockstep,
             fromSeconds(deadline),
             fromSeconds(timing.membershipSeconds),
             options.patience};
 }
 
-std::vector<std::string> namesOf(const Rig& rig, const ConductorOptions& options) {
+std::vector<std::string> namesOf(const config::Rig& rig, const ConductorOptions& options) {
     if (!options.expected.empty()) return options.expected;
     std::vector<std::string> names;
-    for (const Channel& channel : rig.channels) names.push_back(channel.name);
+    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
     return names;
 }
 
@@ -61,19 +61,19 @@ std::ofstream openTrace(const std::filesystem::path& directory) {
 
 }  // namespace
 
-Conductor::Conductor(const Rig& rig,
+Conductor::Conductor(const config::Rig& rig,
                      ConductorOptions options,
                      Simulation& simulation,
-                     Welcome welcome,
+                     wire::Welcome welcome,
                      Blobs blobs,
-                     std::unique_ptr<MasterChannels> channels)
+                     std::unique_ptr<net::MasterChannels> channels)
     : options_(std::move(options)),
       simulation_(simulation),
       welcome_(std::move(welcome)),
       blobs_(std::move(blobs)),
       channels_(std::move(channels)),
       session_(freshSession()),
-      barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), monotonicNow()),
+      barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
       refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
       trace_(openTrace(options_.traceDirectory)) {
     for (const std::string& name : namesOf(rig, options_)) seats_.emplace_back().name = name;
@@ -96,13 +96,13 @@ ShowReport Conductor::run() {
     ticker_ = std::make_unique<Ticker>(
         simulation_, options_.pace, lastTick, [this] { channels_->wake(); });
     while (!over_ && !stopped_) {
-        const Instant now = monotonicNow();
+        const net::Instant now = net::monotonicNow();
         hear(now);
         takeTicks();
         answer();
         conduct(now);
         if (now - lastPublished_ > kBeacon) {
-            channels_->publishState(encode({session_, Beacon{}}));
+            channels_->publishState(wire::encode({session_, wire::Beacon{}}));
             lastPublished_ = now;
         }
         channels_->wait(kLongestWait);
@@ -116,19 +116,19 @@ ShowReport Conductor::run() {
 // Until every node has answered, or long enough: closing a connection on what a node still says to
 // us would throw away what we said last.
 void Conductor::sayFarewell() {
-    constexpr Instant kLongest = std::chrono::seconds(2);
-    constexpr Instant kRepeat = std::chrono::milliseconds(100);
-    const Instant begin = monotonicNow();
-    Instant lastSaid = begin - kRepeat;
+    constexpr net::Instant kLongest = std::chrono::seconds(2);
+    constexpr net::Instant kRepeat = std::chrono::milliseconds(100);
+    const net::Instant begin = net::monotonicNow();
+    net::Instant lastSaid = begin - kRepeat;
     while (std::ranges::any_of(seats_, [](const Seat& seat) { return !seat.peer.empty(); })) {
-        const Instant now = monotonicNow();
+        const net::Instant now = net::monotonicNow();
         if (now - begin > kLongest) return;
         if (now - lastSaid >= kRepeat) {
-            sayToAll(Farewell{});
+            sayToAll(wire::Farewell{});
             lastSaid = now;
         }
         channels_->wait(kRepeat / 4);
-        hear(monotonicNow());
+        hear(net::monotonicNow());
     }
 }
 
@@ -145,13 +145,13 @@ bool Conductor::isLast(Frame frame) const {
     return options_.frames && frame.value + 1 >= *options_.frames;
 }
 
-void Conductor::conduct(Instant now) {
+void Conductor::conduct(net::Instant now) {
     for (const std::size_t node : barrier_.expelSilent(now)) {
         ++seats_[node].dropped;
         vacate(node, "you were silent for too long");
     }
     const auto decision = barrier_.decide(now);
-    if (decision.verdict == PresentBarrier::Verdict::Silent) {
+    if (decision.verdict == net::PresentBarrier::Verdict::Silent) {
         failure_ = "node \"" + seats_[decision.node].name + "\" has been silent for " +
                    std::to_string(options_.patience / std::chrono::seconds(1)) +
                    " s; see its own output, and start the show again";
@@ -161,8 +161,8 @@ void Conductor::conduct(Instant now) {
     if (!drawing_) return beginNext(now);
     // As late as possible, so that what it shows is fresh; early enough to be there on time.
     if (barrier_.anyReady() && !isLast(next_)) publish({next_.value + 1}, now);
-    if (decision.verdict == PresentBarrier::Verdict::Present) return release(now);
-    if (decision.verdict == PresentBarrier::Verdict::Idle) {
+    if (decision.verdict == net::PresentBarrier::Verdict::Present) return release(now);
+    if (decision.verdict == net::PresentBarrier::Verdict::Idle) {
         if (const auto awaited = barrier_.nextAwaited()) {
             next_ = *awaited;
             beginNext(now);
@@ -171,19 +171,19 @@ void Conductor::conduct(Instant now) {
     if (isLockstep() && now - lastRepeat_ > kRepeat) publishAgain(now);
 }
 
-void Conductor::beginNext(Instant now) {
+void Conductor::beginNext(net::Instant now) {
     const bool mayBegin = isLockstep() ? barrier_.allPrepared() : barrier_.hasMembers();
     drawing_ = mayBegin && publish(next_, now);
     if (drawing_) barrier_.begin(next_);
 }
 
-Instant Conductor::nextRelease(Instant now) const {
+net::Instant Conductor::nextRelease(net::Instant now) const {
     return std::max(now + kLead, lastRelease_ + refresh_);
 }
 
-void Conductor::release(Instant now) {
-    lastPresent_ = Present{next_, 0};
-    const Instant at = nextRelease(now);
+void Conductor::release(net::Instant now) {
+    lastPresent_ = wire::Present{next_, 0};
+    const net::Instant at = nextRelease(now);
     if (!isLockstep()) lastPresent_->atNs = at.count();
     for (const Seat& seat : seats_) {
         if (seat.prepared) say(seat.peer, *lastPresent_);
@@ -197,16 +197,16 @@ void Conductor::release(Instant now) {
 }
 
 // True where the frame's state has been published, now or earlier.
-bool Conductor::publish(Frame frame, Instant now) {
+bool Conductor::publish(Frame frame, net::Instant now) {
     if (frame < unpublished_) return true;
     takeTicks();
     auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
                               : timeline_.showing(frame, nextRelease(now) - kShownAge);
     if (!state) return false;
     state->quality = quality();
-    const Packet& packet = published_[frame] = encodeState(session_, *state);
+    const wire::Packet& packet = published_[frame] = wire::encodeState(session_, *state);
     channels_->publishState(packet);
-    lastPublished_ = lastRepeat_ = monotonicNow();
+    lastPublished_ = lastRepeat_ = net::monotonicNow();
     if (trace_.is_open()) trace_ << frame.value << ',' << lastPublished_.count() << ",,\n";
     if (published_.size() > 2) published_.erase(published_.begin());
     unpublished_ = {frame.value + 1};
@@ -216,7 +216,7 @@ bool Conductor::publish(Frame frame, Instant now) {
     return true;
 }
 
-void Conductor::noteEye(const StateFrame& state) {
+void Conductor::noteEye(const wire::StateFrame& state) {
     const double ticks =
         static_cast<double>(state.tick.value) - 1 + static_cast<double>(state.fraction);
     const double seconds = (ticks - std::exchange(eyeTicks_, ticks)) / kTicksPerSecond;
@@ -226,19 +226,19 @@ void Conductor::noteEye(const StateFrame& state) {
 }
 
 // Lockstep passes nobody over, so a state that was lost on its way must come again.
-void Conductor::publishAgain(Instant now) {
+void Conductor::publishAgain(net::Instant now) {
     for (const auto& [frame, packet] : published_) channels_->publishState(packet);
     lastRepeat_ = now;
 }
 
-void Conductor::say(const PeerId& peer, const Message& message) {
-    channels_->sendControl(peer, encode({session_, message}));
+void Conductor::say(const net::PeerId& peer, const wire::Message& message) {
+    channels_->sendControl(peer, wire::encode({session_, message}));
 }
 
-void Conductor::sayToAll(const Message& message) {
+void Conductor::sayToAll(const wire::Message& message) {
     for (const Seat& seat : seats_) {
         if (!seat.peer.empty()) say(seat.peer, message);
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -24,21 +24,23 @@
 #include "master/conductor/ticker.h"
 #include "master/conductor/timeline.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 struct ConductorOptions {
-    Pace pace = Pace::Live;
-    Pattern pattern = Pattern::World;
+    wire::Pace pace = wire::Pace::Live;
+    wire::Pattern pattern = wire::Pattern::World;
     std::optional<std::uint64_t> frames;   // the show ends after so many
     std::uint32_t seed = 1;                // of what the nodes draw by themselves
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
-    std::optional<QualityTier> quality;    // of the wall; nothing: the finest that every node bears
-    Instant patience = std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
+    std::optional<config::QualityTier>
+        quality;  // of the wall; nothing: the finest that every node bears
+    net::Instant patience =
+        std::chrono::seconds(60);  // lockstep: silence of a node that ends the show
 };
 
 // What nodes fetch, by digest.
-using Blobs = std::map<Digest, ByteVector>;
+using Blobs = std::map<Digest, net::ByteVector>;
 
 struct ShowReport {
     std::uint64_t frames = 0;  // presented
@@ -50,12 +52,12 @@ struct ShowReport {
 class Conductor {
   public:
     // Of the welcome only rig text, school and digests are taken; the rest is filled in here.
-    Conductor(const Rig& rig,
+    Conductor(const config::Rig& rig,
               ConductorOptions options,
               Simulation& simulation,
-              Welcome welcome,
+              wire::Welcome welcome,
               Blobs blobs,
-              std::unique_ptr<MasterChannels> channels);
+              std::unique_ptr<net::MasterChannels> channels);
 
     // Until the frames are done, a node asks to quit, or stop(). Throws Error where a node of a
     // lockstep show stays silent, and where the trace cannot be written.
@@ -66,80 +68,80 @@ class Conductor {
     // A channel of the rig, and who drives it.
     struct Seat {
         std::string name;
-        PeerId peer;  // empty: nobody
+        net::PeerId peer;  // empty: nobody
         bool prepared = false;
-        std::optional<QualityTier> bears;  // the finest tier that its node has kept up with
-        Instant lastHeard{};
+        std::optional<config::QualityTier> bears;  // the finest tier that its node has kept up with
+        net::Instant lastHeard{};
         std::uint64_t dropped = 0;
-        Instant lastFed{};  // when a visitor last dropped food in its window
+        net::Instant lastFed{};  // when a visitor last dropped food in its window
     };
 
-    void hear(Instant now);
-    void greet(const PeerId& peer, const Hello& hello, Instant now);
-    void heed(std::size_t node, const Message& message, Instant now);
-    void heed(std::size_t node, const Ready& ready, Instant now);
+    void hear(net::Instant now);
+    void greet(const net::PeerId& peer, const wire::Hello& hello, net::Instant now);
+    void heed(std::size_t node, const wire::Message& message, net::Instant now);
+    void heed(std::size_t node, const wire::Ready& ready, net::Instant now);
     void admit(std::size_t node);
-    void giveChunk(const PeerId& peer, const BlobRequest& request);
+    void giveChunk(const net::PeerId& peer, const wire::BlobRequest& request);
     void vacate(std::size_t node, const std::string& why);
-    void obey(std::size_t node, const Input& input, Instant now);
-    void feed(std::size_t node, glm::vec3 positionMetres, Instant now);
-    void steer(const PeerId& peer, const Steering& steering, Instant now);
-    void ask(const PeerId& peer, const ExplainRequest& question);
+    void obey(std::size_t node, const wire::Input& input, net::Instant now);
+    void feed(std::size_t node, glm::vec3 positionMetres, net::Instant now);
+    void steer(const net::PeerId& peer, const Steering& steering, net::Instant now);
+    void ask(const net::PeerId& peer, const wire::ExplainRequest& question);
     void answer();
-    [[nodiscard]] StatusReply status(Instant now) const;
-    [[nodiscard]] std::string pilotName(Instant now) const;
-    [[nodiscard]] QualityTier quality() const;
+    [[nodiscard]] wire::StatusReply status(net::Instant now) const;
+    [[nodiscard]] std::string pilotName(net::Instant now) const;
+    [[nodiscard]] config::QualityTier quality() const;
 
-    void noteEye(const StateFrame& state);
+    void noteEye(const wire::StateFrame& state);
     void takeTicks();
-    void conduct(Instant now);
-    void beginNext(Instant now);
-    void release(Instant now);
-    bool publish(Frame frame, Instant now);
-    void publishAgain(Instant now);
-    [[nodiscard]] Instant nextRelease(Instant now) const;
+    void conduct(net::Instant now);
+    void beginNext(net::Instant now);
+    void release(net::Instant now);
+    bool publish(Frame frame, net::Instant now);
+    void publishAgain(net::Instant now);
+    [[nodiscard]] net::Instant nextRelease(net::Instant now) const;
     [[nodiscard]] bool isLast(Frame frame) const;
 
-    void say(const PeerId& peer, const Message& message);
-    void sayToAll(const Message& message);
+    void say(const net::PeerId& peer, const wire::Message& message);
+    void sayToAll(const wire::Message& message);
     void sayFarewell();
     [[nodiscard]] std::optional<std::size_t> seatNamed(const std::string& name) const;
-    [[nodiscard]] std::optional<std::size_t> seatOf(const PeerId& peer) const;
-    [[nodiscard]] bool isLockstep() const { return options_.pace == Pace::Lockstep; }
+    [[nodiscard]] std::optional<std::size_t> seatOf(const net::PeerId& peer) const;
+    [[nodiscard]] bool isLockstep() const { return options_.pace == wire::Pace::Lockstep; }
 
     ConductorOptions options_;
     Simulation& simulation_;
-    Welcome welcome_;
+    wire::Welcome welcome_;
     Blobs blobs_;
-    std::unique_ptr<MasterChannels> channels_;
+    std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;
     std::vector<Seat> seats_;
-    PresentBarrier barrier_;
-    Instant refresh_;
+    net::PresentBarrier barrier_;
+    net::Instant refresh_;
     std::ofstream trace_;
     std::atomic<bool> stopped_ = false;
     bool over_ = false;
     std::string failure_;
 
     // From the tick thread; whoever hears no answer asks again.
-    BoundedQueue<std::pair<PeerId, Explanation>> explanations_{256};
+    net::BoundedQueue<std::pair<net::PeerId, wire::Explanation>> explanations_{256};
     std::unique_ptr<Ticker> ticker_;
     Timeline timeline_;
-    Frame next_;                         // is drawn, or will be as soon as it can
-    bool drawing_ = false;               // next_ is
-    Frame unpublished_;                  // the first
-    std::map<Frame, Packet> published_;  // the last two: sent again to whoever may lack them
-    Instant lastPublished_{};            // of anything, also of a beacon
-    Instant lastRepeat_{};
+    Frame next_;                               // is drawn, or will be as soon as it can
+    bool drawing_ = false;                     // next_ is
+    Frame unpublished_;                        // the first
+    std::map<Frame, wire::Packet> published_;  // the last two: sent again to whoever may lack them
+    net::Instant lastPublished_{};             // of anything, also of a beacon
+    net::Instant lastRepeat_{};
     Helm helm_;
-    Eye eye_;              // of the last state that was published
+    wire::Eye eye_;        // of the last state that was published
     double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
     float speedMetresPerSecond_ = 0;
-    std::optional<Present> lastPresent_;
-    Instant lastRelease_{};
+    std::optional<wire::Present> lastPresent_;
+    net::Instant lastRelease_{};
     ShowReport report_;
     RecentTimes frameTimes_;
     SkewMeter skew_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -5,26 +5,26 @@
 
 #include "master/conductor/timeline.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 namespace {
 
-constexpr Instant kSilence = kTicksOfAHand * kTickPeriod;
+constexpr net::Instant kSilence = kTicksOfAHand * kTickPeriod;
 // A window says thirty times a second what its hands do; who says much more is not heard.
-constexpr Instant kBetween = std::chrono::milliseconds(8);
+constexpr net::Instant kBetween = std::chrono::milliseconds(8);
 constexpr std::size_t kMostHands = 256;
 
 }  // namespace
 
-bool Helm::holds(const Hand& hand, Instant now) {
+bool Helm::holds(const Hand& hand, net::Instant now) {
     return hand.holds && now - hand.heard < kSilence;
 }
 
-void Helm::forgetTheSilent(Instant now) {
+void Helm::forgetTheSilent(net::Instant now) {
     std::erase_if(hands_, [&](const auto& one) { return now - one.second.heard >= kSilence; });
 }
 
-bool Helm::heeds(const PeerId& pilot, const Steering& steering, Instant now) {
+bool Helm::heeds(const net::PeerId& pilot, const Steering& steering, net::Instant now) {
     forgetTheSilent(now);
     const bool holdsNow = steering != Steering{};
     const auto known = hands_.find(pilot);
@@ -39,10 +39,10 @@ bool Helm::heeds(const PeerId& pilot, const Steering& steering, Instant now) {
     return holder_ == pilot && (holdsNow || held);
 }
 
-std::optional<PeerId> Helm::pilot(Instant now) const {
+std::optional<net::PeerId> Helm::pilot(net::Instant now) const {
     const auto holder = hands_.find(holder_);
     if (holder == hands_.end() || !holds(holder->second, now)) return std::nullopt;
     return holder_;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -11,25 +11,25 @@
 #include "common/net/clock.h"
 #include "common/units/steering.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 class Helm {
   public:
     // What a pilot's window says. True: the submarine is to hear it.
-    [[nodiscard]] bool heeds(const PeerId& pilot, const Steering& steering, Instant now);
+    [[nodiscard]] bool heeds(const net::PeerId& pilot, const Steering& steering, net::Instant now);
     // Who has it; empty: nobody.
-    [[nodiscard]] std::optional<PeerId> pilot(Instant now) const;
+    [[nodiscard]] std::optional<net::PeerId> pilot(net::Instant now) const;
 
   private:
     struct Hand {
         bool holds = false;
-        Instant heard{};
+        net::Instant heard{};
     };
-    [[nodiscard]] static bool holds(const Hand& hand, Instant now);
-    void forgetTheSilent(Instant now);
+    [[nodiscard]] static bool holds(const Hand& hand, net::Instant now);
+    void forgetTheSilent(net::Instant now);
 
-    std::map<PeerId, Hand> hands_;
-    PeerId holder_;
+    std::map<net::PeerId, Hand> hands_;
+    net::PeerId holder_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

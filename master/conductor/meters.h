@@ -10,23 +10,23 @@
 #include "common/net/clock.h"
 #include "common/wire/envelope.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 // The last ten seconds of something, at 60 Hz.
 class RecentTimes {
   public:
-    void add(Instant time);
+    void add(net::Instant time);
     [[nodiscard]] float quantileMs(double quantile) const;  // 0 where there is nothing yet
 
   private:
     static constexpr std::size_t kKept = 600;
-    std::deque<Instant> times_;
+    std::deque<net::Instant> times_;
 };
 
 // Release skew of a frame: latest minus earliest node.
 class SkewMeter {
   public:
-    void add(const ReleaseReport& report);
+    void add(const wire::ReleaseReport& report);
     [[nodiscard]] const RecentTimes& skews() const { return skews_; }
 
   private:
@@ -40,4 +40,4 @@ class SkewMeter {
     RecentTimes skews_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -9,15 +9,15 @@
 #include "common/units/log.h"
 #include "master/conductor/conductor.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 // Of one turn of the loop: a flood of packets never stops the frames.
 constexpr int kMostPackets = 256;
 // A node whose name comes up again is taken for dead after so much silence.
-constexpr Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
+constexpr net::Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
 // Of food from one window.
-constexpr Instant kBetweenPinches = std::chrono::milliseconds(200);
+constexpr net::Instant kBetweenPinches = std::chrono::milliseconds(200);
 constexpr float kReachMetres = 8.0F;  // from the eye
 
 std::string listed(const std::vector<std::string>& names) {
@@ -26,10 +26,10 @@ std::string listed(const std::vector<std::string>& names) {
     return list;
 }
 
-NodeCondition conditionOf(bool present, bool prepared, bool waitedFor) {
-    if (!present) return NodeCondition::Absent;
-    if (!prepared) return NodeCondition::Preparing;
-    return waitedFor ? NodeCondition::InStep : NodeCondition::Late;
+wire::NodeCondition conditionOf(bool present, bool prepared, bool waitedFor) {
+    if (!present) return wire::NodeCondition::Absent;
+    if (!prepared) return wire::NodeCondition::Preparing;
+    return waitedFor ? wire::NodeCondition::InStep : wire::NodeCondition::Late;
 }
 
 }  // namespace
@@ -40,28 +40,28 @@ std::optional<std::size_t> Conductor::seatNamed(const std::string& name) const {
     return static_cast<std::size_t>(seat - seats_.begin());
 }
 
-std::optional<std::size_t> Conductor::seatOf(const PeerId& peer) const {
+std::optional<std::size_t> Conductor::seatOf(const net::PeerId& peer) const {
     const auto seat = std::ranges::find(seats_, peer, &Seat::peer);
     if (seat == seats_.end()) return std::nullopt;
     return static_cast<std::size_t>(seat - seats_.begin());
 }
 
-void Conductor::hear(Instant now) {
+void Conductor::hear(net::Instant now) {
     report_.refusedPackets += channels_->discardNoise();
     for (int packet = 0; packet < kMostPackets; ++packet) {
         const auto from = channels_->receiveControl();
         if (!from) return;
-        const auto envelope = decode(from->bytes);
+        const auto envelope = wire::decode(from->bytes);
         if (!envelope || from->peer.empty()) {
             ++report_.refusedPackets;
-        } else if (const auto* hello = std::get_if<Hello>(&envelope->message)) {
+        } else if (const auto* hello = std::get_if<wire::Hello>(&envelope->message)) {
             greet(from->peer, *hello, now);
-        } else if (std::holds_alternative<StatusRequest>(envelope->message)) {
+        } else if (std::holds_alternative<wire::StatusRequest>(envelope->message)) {
             say(from->peer, status(now));
-        } else if (const auto* question = std::get_if<ExplainRequest>(&envelope->message)) {
+        } else if (const auto* question = std::get_if<wire::ExplainRequest>(&envelope->message)) {
             ask(from->peer, *question);
-        } else if (const auto* input = std::get_if<Input>(&envelope->message);
-                   input && input->kind == InputKind::Steer && !seatOf(from->peer)) {
+        } else if (const auto* input = std::get_if<wire::Input>(&envelope->message);
+                   input && input->kind == wire::InputKind::Steer && !seatOf(from->peer)) {
             steer(from->peer, input->steering, now);
         } else if (const auto node = seatOf(from->peer); node && envelope->session == session_) {
             seats_[*node].lastHeard = now;
@@ -69,20 +69,20 @@ void Conductor::hear(Instant now) {
             heed(*node, envelope->message, now);
         } else {
             ++report_.refusedPackets;
-            say(from->peer, Dismissed{"the master does not know this connection"});
+            say(from->peer, wire::Dismissed{"the master does not know this connection"});
         }
     }
 }
 
-void Conductor::greet(const PeerId& peer, const Hello& hello, Instant now) {
+void Conductor::greet(const net::PeerId& peer, const wire::Hello& hello, net::Instant now) {
     const auto refuse = [&](const std::string& reason) {
         ++report_.refusedPackets;
         logWarning("refused node {}: {}", hello.channel, reason);
-        say(peer, Refusal{reason});
+        say(peer, wire::Refusal{reason});
     };
-    if (hello.major != kProtocolMajor) {
+    if (hello.major != wire::kProtocolMajor) {
         return refuse("it speaks protocol " + std::to_string(hello.major) + " (build " +
-                      hello.build + "), the master " + std::to_string(kProtocolMajor) +
+                      hello.build + "), the master " + std::to_string(wire::kProtocolMajor) +
                       "; install the same version on both");
     }
     const auto node = seatNamed(hello.channel);
@@ -94,7 +94,7 @@ void Conductor::greet(const PeerId& peer, const Hello& hello, Instant now) {
     Seat& seat = seats_[*node];
     const bool another = !seat.peer.empty() && seat.peer != peer;
     if (another && now - seat.lastHeard < kSilenceOfTheDead) {
-        return say(peer, Dismissed{"another node of this name takes part already"});
+        return say(peer, wire::Dismissed{"another node of this name takes part already"});
     }
     if (seat.peer != peer) logInfo("welcomed node {}", seat.name);
     barrier_.leave(*node);
@@ -105,20 +105,20 @@ void Conductor::greet(const PeerId& peer, const Hello& hello, Instant now) {
     say(peer, welcome_);
 }
 
-void Conductor::heed(std::size_t node, const Message& message, Instant now) {
-    const PeerId& peer = seats_[node].peer;
-    if (const auto* ping = std::get_if<Ping>(&message)) {
-        say(peer, Pong{ping->sentNs, monotonicNow().count()});
-    } else if (const auto* ready = std::get_if<Ready>(&message)) {
+void Conductor::heed(std::size_t node, const wire::Message& message, net::Instant now) {
+    const net::PeerId& peer = seats_[node].peer;
+    if (const auto* ping = std::get_if<wire::Ping>(&message)) {
+        say(peer, wire::Pong{ping->sentNs, net::monotonicNow().count()});
+    } else if (const auto* ready = std::get_if<wire::Ready>(&message)) {
         heed(node, *ready, now);
-    } else if (const auto* request = std::get_if<BlobRequest>(&message)) {
+    } else if (const auto* request = std::get_if<wire::BlobRequest>(&message)) {
         giveChunk(peer, *request);
-    } else if (const auto* prepared = std::get_if<Prepared>(&message)) {
+    } else if (const auto* prepared = std::get_if<wire::Prepared>(&message)) {
         seats_[node].bears = prepared->quality;
         admit(node);
-    } else if (const auto* input = std::get_if<Input>(&message)) {
+    } else if (const auto* input = std::get_if<wire::Input>(&message)) {
         obey(node, *input, now);
-    } else if (std::holds_alternative<Farewell>(message)) {
+    } else if (std::holds_alternative<wire::Farewell>(message)) {
         barrier_.leave(node);
         seats_[node].peer.clear();
         seats_[node].prepared = false;
@@ -128,7 +128,7 @@ void Conductor::heed(std::size_t node, const Message& message, Instant now) {
     }
 }
 
-void Conductor::heed(std::size_t node, const Ready& ready, Instant now) {
+void Conductor::heed(std::size_t node, const wire::Ready& ready, net::Instant now) {
     barrier_.ready(node, ready.frame, now);
     if (ready.released) skew_.add(*ready.released);
     // It asks again for a release that never came.
@@ -141,33 +141,33 @@ void Conductor::admit(std::size_t node) {
     const Frame first = isLockstep() ? next_ : unpublished_;
     seats_[node].prepared = true;
     barrier_.join(node, first);
-    say(seats_[node].peer, Joined{first});
-    if (isLockstep()) publishAgain(monotonicNow());
+    say(seats_[node].peer, wire::Joined{first});
+    if (isLockstep()) publishAgain(net::monotonicNow());
     logInfo("node {} takes part from frame {}", seats_[node].name, first.value);
 }
 
-void Conductor::giveChunk(const PeerId& peer, const BlobRequest& request) {
+void Conductor::giveChunk(const net::PeerId& peer, const wire::BlobRequest& request) {
     const auto blob = blobs_.find(request.digest);
     if (blob == blobs_.end() || request.offset > blob->second.size()) {
         ++report_.refusedPackets;
         return;
     }
-    const auto chunk = chunkAt(blob->second, request.offset, kBlobChunkBytes);
+    const auto chunk = net::chunkAt(blob->second, request.offset, wire::kBlobChunkBytes);
     say(peer,
-        BlobChunk{
+        wire::BlobChunk{
             request.digest, request.offset, blob->second.size(), {chunk.begin(), chunk.end()}});
 }
 
 void Conductor::vacate(std::size_t node, const std::string& why) {
     Seat& seat = seats_[node];
     logWarning("node {} is not counted any more: silent", seat.name);
-    say(seat.peer, Dismissed{why});
+    say(seat.peer, wire::Dismissed{why});
     seat.peer.clear();
     seat.prepared = false;
 }
 
 // Minds are looked into between two ticks.
-void Conductor::ask(const PeerId& peer, const ExplainRequest& question) {
+void Conductor::ask(const net::PeerId& peer, const wire::ExplainRequest& question) {
     if (!ticker_) return;  // farewells are being said
     const bool asked =
         ticker_->betweenTicks([this, peer, fish = question.fish](const Simulation& simulation) {
@@ -182,12 +182,12 @@ void Conductor::answer() {
         say(explanation->first, explanation->second);
 }
 
-void Conductor::obey(std::size_t node, const Input& input, Instant now) {
-    if (input.kind == InputKind::Quit) {
+void Conductor::obey(std::size_t node, const wire::Input& input, net::Instant now) {
+    if (input.kind == wire::InputKind::Quit) {
         over_ = true;
-    } else if (input.kind == InputKind::DropFood) {
+    } else if (input.kind == wire::InputKind::DropFood) {
         feed(node, input.positionMetres, now);
-    } else if (input.kind == InputKind::Steer) {
+    } else if (input.kind == wire::InputKind::Steer) {
         steer(seats_[node].peer, input.steering, now);
     } else if (!isLockstep() && ticker_) {  // there is none any more while farewells are said
         ticker_->togglePause();
@@ -196,12 +196,12 @@ void Conductor::obey(std::size_t node, const Input& input, Instant now) {
 
 // The world says how many pellets there may be; here a key that is stuck is slowed down, and nobody
 // feeds what he cannot reach.
-void Conductor::feed(std::size_t node, glm::vec3 positionMetres, Instant now) {
-    Instant& lastFed = seats_[node].lastFed;
+void Conductor::feed(std::size_t node, glm::vec3 positionMetres, net::Instant now) {
+    net::Instant& lastFed = seats_[node].lastFed;
     if (now - lastFed < kBetweenPinches || !ticker_) return;
     const bool isInReach = glm::distance(positionMetres, eye_.positionMetres) < kReachMetres;
     const auto drop = [positionMetres](Simulation& simulation) {
-        simulation.apply(DropFood{.position = positionMetres});
+        simulation.apply(world::DropFood{.position = positionMetres});
     };
     if (isInReach && ticker_->betweenTicks(drop))
         lastFed = now;
@@ -210,30 +210,30 @@ void Conductor::feed(std::size_t node, glm::vec3 positionMetres, Instant now) {
 }
 
 // A node that has left counts on: when it comes back, nothing changes.
-QualityTier Conductor::quality() const {
+config::QualityTier Conductor::quality() const {
     if (options_.quality) return *options_.quality;
-    std::optional<QualityTier> least;
+    std::optional<config::QualityTier> least;
     for (const Seat& seat : seats_)
         if (seat.bears) least = std::min(least.value_or(*seat.bears), *seat.bears);
-    return least.value_or(QualityTier::Low);
+    return least.value_or(config::QualityTier::Low);
 }
 
 // Anybody may steer who can reach the control address, as anybody may ask.
-void Conductor::steer(const PeerId& peer, const Steering& steering, Instant now) {
+void Conductor::steer(const net::PeerId& peer, const Steering& steering, net::Instant now) {
     if (!ticker_ || !helm_.heeds(peer, steering, now)) return;
     const auto hold = [steering](Simulation& simulation) { simulation.apply(steering); };
     if (!ticker_->betweenTicks(hold)) ++report_.refusedPackets;
 }
 
-std::string Conductor::pilotName(Instant now) const {
+std::string Conductor::pilotName(net::Instant now) const {
     const auto pilot = helm_.pilot(now);
     if (!pilot) return {};
     const auto seat = seatOf(*pilot);
     return seat ? seats_[*seat].name : "pilot";
 }
 
-StatusReply Conductor::status(Instant now) const {
-    StatusReply reply;
+wire::StatusReply Conductor::status(net::Instant now) const {
+    wire::StatusReply reply;
     reply.pace = options_.pace;
     reply.paused = ticker_ && ticker_->paused();
     reply.frame = next_;
@@ -257,4 +257,4 @@ StatusReply Conductor::status(Instant now) const {
     return reply;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -11,7 +11,7 @@
 #include "common/wire/messages.h"
 #include "master/world/input.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 // Called from the tick thread only.
 class Simulation {
@@ -19,15 +19,15 @@ class Simulation {
     virtual ~Simulation() = default;
     virtual void advance() = 0;  // by one tick
     // Between two ticks. Whatever reaches the world from outside comes this way.
-    virtual void apply(const WorldInput& input) = 0;
+    virtual void apply(const world::WorldInput& input) = 0;
     [[nodiscard]] virtual Tick tick() const = 0;
-    virtual void records(std::vector<FishRecord>& fish) const = 0;
-    virtual void food(FoodCloud& cloud) const = 0;
-    [[nodiscard]] virtual Eye eye() const = 0;
+    virtual void records(std::vector<motion::FishRecord>& fish) const = 0;
+    virtual void food(wire::FoodCloud& cloud) const = 0;
+    [[nodiscard]] virtual wire::Eye eye() const = 0;
     [[nodiscard]] virtual float daylight() const = 0;  // of the sky, 0 to 1
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
     // What goes on in the mind of a fish; no lines for one that is not of the school.
-    [[nodiscard]] virtual Explanation explain(std::uint32_t fish) const = 0;
+    [[nodiscard]] virtual wire::Explanation explain(std::uint32_t fish) const = 0;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

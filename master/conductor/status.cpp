@@ -9,25 +9,25 @@
 
 #include "master/conductor/ask.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
-const char* wordFor(NodeCondition condition) {
+const char* wordFor(wire::NodeCondition condition) {
     switch (condition) {
-        case NodeCondition::Absent:
+        case wire::NodeCondition::Absent:
             return "absent";
-        case NodeCondition::Preparing:
+        case wire::NodeCondition::Preparing:
             return "preparing";
-        case NodeCondition::InStep:
+        case wire::NodeCondition::InStep:
             return "in step";
-        case NodeCondition::Late:
+        case wire::NodeCondition::Late:
             break;
     }
     return "late";
 }
 
 // Of the compass: 0 where the wall looks at first, 90 to the right of it.
-int headingDegrees(const Eye& eye) {
+int headingDegrees(const wire::Eye& eye) {
     const glm::vec3 nose = eye.worldFromWall * glm::vec3(0, 0, -1);
     const float degrees = glm::degrees(std::atan2(nose.x, -nose.z));
     return static_cast<int>(std::lround(degrees + 360)) % 360;
@@ -35,7 +35,7 @@ int headingDegrees(const Eye& eye) {
 
 }  // namespace
 
-std::string submarineText(const StatusReply& status) {
+std::string submarineText(const wire::StatusReply& status) {
     const glm::vec3 at = status.eye.positionMetres;
     return fmt::format(
         "at {:.1f} {:.1f} {:.1f} m   depth {:.1f} m   heading {:03}   {:.2f} m/s   {}",
@@ -48,9 +48,9 @@ std::string submarineText(const StatusReply& status) {
         status.pilot.empty() ? "nobody steers" : status.pilot + " steers");
 }
 
-std::string statusText(const StatusReply& status) {
+std::string statusText(const wire::StatusReply& status) {
     std::string text = fmt::format("{}{}   frame {}   tick {}\n",
-                                   status.pace == Pace::Live ? "live" : "lockstep",
+                                   status.pace == wire::Pace::Live ? "live" : "lockstep",
                                    status.paused ? ", paused" : "",
                                    status.frame.value,
                                    status.tick.value);
@@ -63,7 +63,7 @@ std::string statusText(const StatusReply& status) {
     text += fmt::format("submarine     {}\n", submarineText(status));
     text += fmt::format("refused packets {}\n\n", status.refusedPackets);
     text += fmt::format("{:<16} {:<10} {:>8} {:>8}\n", "node", "state", "late", "dropped");
-    for (const NodeStatus& node : status.nodes) {
+    for (const wire::NodeStatus& node : status.nodes) {
         text += fmt::format("{:<16} {:<10} {:>8} {:>8}\n",
                             node.name,
                             wordFor(node.condition),
@@ -74,7 +74,7 @@ std::string statusText(const StatusReply& status) {
 }
 
 std::string runStatus(const std::string& controlAddress) {
-    return statusText(MasterLine(controlAddress).ask<StatusReply>(StatusRequest{}));
+    return statusText(MasterLine(controlAddress).ask<wire::StatusReply>(wire::StatusRequest{}));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -6,14 +6,14 @@
 
 #include "common/wire/envelope.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 // Where the submarine is, how fast, and who steers it; one line.
-[[nodiscard]] std::string submarineText(const StatusReply& status);
+[[nodiscard]] std::string submarineText(const wire::StatusReply& status);
 
-[[nodiscard]] std::string statusText(const StatusReply& status);
+[[nodiscard]] std::string statusText(const wire::StatusReply& status);
 
 // Asks the master at this control address. Throws Error where none answers.
 [[nodiscard]] std::string runStatus(const std::string& controlAddress);
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

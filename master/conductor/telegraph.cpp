@@ -7,7 +7,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string Telegraph::text() const {
     return text.empty() ? "hands off" : text;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

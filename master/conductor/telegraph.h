@@ -8,7 +8,7 @@
 
 #include "common/units/steering.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 class Telegraph {
   public:
@@ -29,4 +29,4 @@ inline constexpr std::string_view kTelegraphHelp =
     "space "
     "lets go   q leaves";
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

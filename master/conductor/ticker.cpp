@@ -6,25 +6,25 @@
 
 #include "common/units/log.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 // Ticks that are overdue by less are simulated at once, one after the other; beyond it the world
 // has lost time for good, and we say so.
-constexpr Instant kMostCatchUp = 15 * kTickPeriod;
+constexpr net::Instant kMostCatchUp = 15 * kTickPeriod;
 // Between two ticks: nobody who asks for more holds up the world.
 constexpr std::size_t kMostJobs = 64;
 
 }  // namespace
 
 Ticker::Ticker(Simulation& simulation,
-               Pace pace,
+               wire::Pace pace,
                std::optional<Tick> lastTick,
                std::function<void()> onTick)
     : simulation_(simulation),
       lastTick_(lastTick),
       onTick_(std::move(onTick)),
-      thread_([this, pace] { pace == Pace::Live ? runLive() : runLockstep(); }) {}
+      thread_([this, pace] { pace == wire::Pace::Live ? runLive() : runLockstep(); }) {}
 
 Ticker::~Ticker() {
     {
@@ -94,7 +94,7 @@ void Ticker::serveUntilStopped() {
     }
 }
 
-bool Ticker::put(Instant due) {
+bool Ticker::put(net::Instant due) {
     Snapshot snapshot{simulation_.tick(),
                       due,
                       simulation_.hash(),
@@ -110,39 +110,39 @@ bool Ticker::put(Instant due) {
 }
 
 void Ticker::runLockstep() {
-    while (awaitRoom() && put(Instant{})) {
+    while (awaitRoom() && put(net::Instant{})) {
         if (lastTick_ && simulation_.tick() >= *lastTick_) return serveUntilStopped();
         simulation_.advance();
     }
 }
 
-bool Ticker::sleepUntil(Instant due, Instant& pausedFor) {
+bool Ticker::sleepUntil(net::Instant due, net::Instant& pausedFor) {
     std::unique_lock lock(mutex_);
     const auto when = std::chrono::steady_clock::time_point(due);
     const auto disturbed = [&] { return stopped_ || paused_ || !jobs_.empty(); };
     while (changed_.wait_until(lock, when, disturbed) && !stopped_ && !paused_) {
         serve(lock);
-        if (monotonicNow() >= due) break;
+        if (net::monotonicNow() >= due) break;
     }
-    const Instant pause = monotonicNow();
+    const net::Instant pause = net::monotonicNow();
     const bool wasPaused = paused_;
     while (paused_ && !stopped_) {
         serve(lock);
         changed_.wait(lock, [&] { return stopped_ || !paused_ || !jobs_.empty(); });
     }
-    pausedFor = wasPaused ? monotonicNow() - pause : Instant{};
+    pausedFor = wasPaused ? net::monotonicNow() - pause : net::Instant{};
     return !stopped_;
 }
 
 // Tick k is due at start + k / 60 s, not counting pauses and what could not be caught up.
 void Ticker::runLive() {
-    Instant due = monotonicNow();
+    net::Instant due = net::monotonicNow();
     while (put(due)) {
         due += kTickPeriod;
-        Instant pausedFor{};
+        net::Instant pausedFor{};
         if (!sleepUntil(due, pausedFor)) return;
         due += pausedFor;
-        const Instant overdue = monotonicNow() - due;
+        const net::Instant overdue = net::monotonicNow() - due;
         if (overdue > kMostCatchUp) {
             logWarning("the world is {} ms behind and goes on from here",
                        std::chrono::duration_cast<std::chrono::milliseconds>(overdue).count());
@@ -152,4 +152,4 @@ void Ticker::runLive() {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

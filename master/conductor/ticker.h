@@ -15,14 +15,14 @@
 #include "master/conductor/simulation.h"
 #include "master/conductor/timeline.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
 class Ticker {
   public:
     // onTick is called from the tick thread after every tick. lastTick: lockstep simulates no
     // further.
     Ticker(Simulation& simulation,
-           Pace pace,
+           wire::Pace pace,
            std::optional<Tick> lastTick,
            std::function<void()> onTick);
     ~Ticker();
@@ -42,20 +42,20 @@ class Ticker {
   private:
     void runLive();
     void runLockstep();
-    bool put(Instant due);
+    bool put(net::Instant due);
     // Does the jobs that wait; others may be given meanwhile.
     void serve(std::unique_lock<std::mutex>& lock);
     // Serves until there is room for a snapshot. False: stopped.
     bool awaitRoom();
     void serveUntilStopped();
     // False: stopped. True: the instant has come, and `pausedFor` it came later than planned.
-    bool sleepUntil(Instant due, Instant& pausedFor);
+    bool sleepUntil(net::Instant due, net::Instant& pausedFor);
 
     Simulation& simulation_;
     std::optional<Tick> lastTick_;
     std::function<void()> onTick_;
     // Less than a timeline keeps, so that lockstep finds every tick there.
-    BoundedQueue<Snapshot> snapshots_{Timeline::kKept / 2};
+    net::BoundedQueue<Snapshot> snapshots_{Timeline::kKept / 2};
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<Job> jobs_;
@@ -64,4 +64,4 @@ class Ticker {
     std::thread thread_;  // last: it uses all of the above
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

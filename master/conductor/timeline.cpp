@@ -6,10 +6,10 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
-StateFrame showingOne(Frame frame, const Snapshot& snapshot) {
+wire::StateFrame showingOne(Frame frame, const Snapshot& snapshot) {
     return {frame,
             snapshot.tick,
             1.0F,
@@ -23,7 +23,7 @@ StateFrame showingOne(Frame frame, const Snapshot& snapshot) {
             snapshot.daylight};
 }
 
-Eye between(const Eye& before, const Eye& after, float fraction) {
+wire::Eye between(const wire::Eye& before, const wire::Eye& after, float fraction) {
     return {glm::mix(before.positionMetres, after.positionMetres, fraction),
             glm::slerp(before.worldFromWall, after.worldFromWall, fraction)};
 }
@@ -39,13 +39,13 @@ std::optional<Tick> Timeline::newest() const {
     return snapshots_.empty() ? std::nullopt : std::optional{snapshots_.back().tick};
 }
 
-std::optional<StateFrame> Timeline::showing(Frame frame, Tick tick) const {
+std::optional<wire::StateFrame> Timeline::showing(Frame frame, Tick tick) const {
     const auto found = std::ranges::find(snapshots_, tick, &Snapshot::tick);
     if (found == snapshots_.end()) return std::nullopt;
     return showingOne(frame, *found);
 }
 
-std::optional<StateFrame> Timeline::showing(Frame frame, Instant moment) const {
+std::optional<wire::StateFrame> Timeline::showing(Frame frame, net::Instant moment) const {
     if (snapshots_.empty()) return std::nullopt;
     const auto after = std::ranges::lower_bound(snapshots_, moment, {}, &Snapshot::due);
     if (after == snapshots_.end()) return showingOne(frame, snapshots_.back());
@@ -53,21 +53,21 @@ std::optional<StateFrame> Timeline::showing(Frame frame, Instant moment) const {
     const Snapshot& before = *std::prev(after);
     // After a pause two ticks lie far apart; the world stood still until one period before the
     // second.
-    const Instant sinceBefore = moment - (after->due - kTickPeriod);
+    const net::Instant sinceBefore = moment - (after->due - kTickPeriod);
     const float fraction = static_cast<float>(sinceBefore.count()) / float{kTickPeriod.count()};
     if (fraction <= 0.0F) return showingOne(frame, before);
     if (fraction >= 1.0F) return showingOne(frame, *after);
-    return StateFrame{frame,
-                      after->tick,
-                      fraction,
-                      between(before.eye, after->eye, fraction),
-                      after->hash,
-                      before.fish,
-                      after->fish,
-                      after->food.originMetres,
-                      before.food.particles,
-                      after->food.particles,
-                      glm::mix(before.daylight, after->daylight, fraction)};
+    return wire::StateFrame{frame,
+                            after->tick,
+                            fraction,
+                            between(before.eye, after->eye, fraction),
+                            after->hash,
+                            before.fish,
+                            after->fish,
+                            after->food.originMetres,
+                            before.food.particles,
+                            after->food.particles,
+                            glm::mix(before.daylight, after->daylight, fraction)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -10,19 +10,19 @@
 #include "common/net/clock.h"
 #include "common/wire/messages.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 
-inline constexpr Instant kTickPeriod{1'000'000'000 / 60};
+inline constexpr net::Instant kTickPeriod{1'000'000'000 / 60};
 static_assert(kTicksPerSecond == 60.0);
 
 struct Snapshot {
     Tick tick;
-    Instant due{};  // live: when the world was like this
+    net::Instant due{};  // live: when the world was like this
     std::uint64_t hash = 0;
-    Eye eye;
+    wire::Eye eye;
     float daylight = 1.0F;
-    std::vector<FishRecord> fish;
-    FoodCloud food;
+    std::vector<motion::FishRecord> fish;
+    wire::FoodCloud food;
 };
 
 class Timeline {
@@ -32,9 +32,9 @@ class Timeline {
     [[nodiscard]] std::optional<Tick> newest() const;
 
     // Lockstep: the tick itself. Empty: not there.
-    [[nodiscard]] std::optional<StateFrame> showing(Frame frame, Tick tick) const;
+    [[nodiscard]] std::optional<wire::StateFrame> showing(Frame frame, Tick tick) const;
     // Live: the moment, held between the oldest and the newest tick. Empty: no tick yet.
-    [[nodiscard]] std::optional<StateFrame> showing(Frame frame, Instant moment) const;
+    [[nodiscard]] std::optional<wire::StateFrame> showing(Frame frame, net::Instant moment) const;
 
     static constexpr std::size_t kKept = 8;
 
@@ -42,4 +42,4 @@ class Timeline {
     std::deque<Snapshot> snapshots_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::conductor

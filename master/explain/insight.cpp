@@ -3,30 +3,31 @@
 
 #include "master/behaviour/perceive/perceive.h"
 
-namespace aquarama {
+namespace aquarama::explain {
 
-std::optional<Insight> insightInto(const World& world, std::uint32_t fish) {
+std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish) {
     if (fish >= world.traits().size()) return std::nullopt;
-    const Environment environment = world.environment();
-    const FishView& view = *environment.view;
-    const Courses& courses = world.courses();
-    const MotionStates& states = world.states();
+    const behaviour::Environment environment = world.environment();
+    const fish::FishView& view = *environment.view;
+    const fish::Courses& courses = world.courses();
+    const motion::MotionStates& states = world.states();
     Insight insight;
     insight.fish = fish;
     insight.tick = world.tick();
     insight.nature = environment.natures[view.kind[fish]];
     insight.lengthMetres = static_cast<float>(world.traits()[fish].lengthMillimetres) * 0.001F;
-    insight.away = view.shows(fish, kAway);
+    insight.away = view.shows(fish, fish::kAway);
     insight.mind = world.minds()[fish];
     insight.course = courses[fish];
-    insight.segment = static_cast<Action>(states.segment[fish]);
+    insight.segment = static_cast<motion::Action>(states.segment[fish]);
     insight.phase = static_cast<float>(states.phase[fish]) / 65536.0F;
-    insight.swims = speedBodyLengths(states, fish);
+    insight.swims = motion::speedBodyLengths(states, fish);
     if (insight.away) return insight;
-    insight.senses = perceive(environment, insight.nature, fish, insight.mind);
-    insight.feelings = feel(insight.nature, insight.mind, insight.senses);
-    insight.reasoning = reason(insight.nature, insight.mind, insight.senses, insight.feelings);
+    insight.senses = behaviour::perceive(environment, insight.nature, fish, insight.mind);
+    insight.feelings = behaviour::feel(insight.nature, insight.mind, insight.senses);
+    insight.reasoning =
+        behaviour::reason(insight.nature, insight.mind, insight.senses, insight.feelings);
     return insight;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::explain

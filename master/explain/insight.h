@@ -17,25 +17,25 @@
 #include "master/fish/nature.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::explain {
 
 struct Insight {
     std::uint32_t fish = 0;
     Tick tick;
-    Nature nature;
+    fish::Nature nature;
     float lengthMetres = 0;
     bool away = false;  // eaten, or not yet come: it thinks nothing
-    Mind mind;          // as its last thought left it
-    Senses senses;
-    Feelings feelings;
-    Reasoning reasoning;  // of a thought now; the mind may not have come to it yet
-    Course course;        // that it asks its motor for
-    Action segment = Action::ForwardMedium;  // that is playing
-    float phase = 0;                         // of it, 0 to 1
-    float swims = 0;                         // body lengths a second
+    fish::Mind mind;    // as its last thought left it
+    behaviour::Senses senses;
+    behaviour::Feelings feelings;
+    behaviour::Reasoning reasoning;  // of a thought now; the mind may not have come to it yet
+    fish::Course course;             // that it asks its motor for
+    motion::Action segment = motion::Action::ForwardMedium;  // that is playing
+    float phase = 0;                                         // of it, 0 to 1
+    float swims = 0;                                         // body lengths a second
 };
 
 // Empty where the world has no such fish.
-[[nodiscard]] std::optional<Insight> insightInto(const World& world, std::uint32_t fish);
+[[nodiscard]] std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish);
 
-}  // namespace aquarama
+}  // namespace aquarama::explain

@@ -12,7 +12,7 @@
 #include "common/place/angle.h"
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::explain {
 
 namespace {
 
@@ -24,24 +24,25 @@ double seconds(std::uint32_t ticks) {
     return static_cast<double>(ticks) / kTicksPerSecond;
 }
 
-const char* wordFor(Intention intention) {
-    constexpr std::array<const char*, kIntentions> kWords{
+const char* wordFor(fish::Intention intention) {
+    constexpr std::array<const char*, fish::kIntentions> kWords{
         "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
     return kWords[static_cast<std::size_t>(intention)];
 }
 
-const char* wordFor(Role role) {
+const char* wordFor(config::Role role) {
     constexpr std::array<const char*, 3> kWords{"prey", "pacifist", "predator"};
     return kWords[static_cast<std::size_t>(role)];
 }
 
-std::string likesOf(const Mind& mind) {
-    std::string words = (mind.likes & kIsFemale) != 0 ? "female" : "male";
-    constexpr std::array<std::pair<Like, const char*>, 5> kWords{{{kLikesSchooling, "company"},
-                                                                  {kLikesBrightness, "light"},
-                                                                  {kLikesDarkness, "darkness"},
-                                                                  {kLikesWarmth, "warmth"},
-                                                                  {kLikesCold, "cold"}}};
+std::string likesOf(const fish::Mind& mind) {
+    std::string words = (mind.likes & fish::kIsFemale) != 0 ? "female" : "male";
+    constexpr std::array<std::pair<fish::Like, const char*>, 5> kWords{
+        {{fish::kLikesSchooling, "company"},
+         {fish::kLikesBrightness, "light"},
+         {fish::kLikesDarkness, "darkness"},
+         {fish::kLikesWarmth, "warmth"},
+         {fish::kLikesCold, "cold"}}};
     bool first = true;
     for (const auto& [like, word] : kWords) {
         if ((mind.likes & like) == 0) continue;
@@ -52,7 +53,7 @@ std::string likesOf(const Mind& mind) {
 }
 
 double degreesLeft(glm::vec3 heading, glm::vec3 direction) {
-    return static_cast<double>(yawBetween(heading, direction)) * kDegreesPerRadian;
+    return static_cast<double>(place::yawBetween(heading, direction)) * kDegreesPerRadian;
 }
 
 std::string whereabouts(glm::vec3 heading, glm::vec3 offset) {
@@ -102,7 +103,8 @@ class Screen {
         return format("#{} {}", fish, speciesOf(fish));
     }
 
-    [[nodiscard]] std::string at(const Sighting& sighting, const std::string& who) const {
+    [[nodiscard]] std::string at(const behaviour::Sighting& sighting,
+                                 const std::string& who) const {
         if (!sighting.seen()) return "-";
         return format("{}, {:.1f} L {}",
                       who,
@@ -119,7 +121,7 @@ class Screen {
                    likesOf(of_.mind)));
     }
 
-    [[nodiscard]] std::string listed(const Neighbours& near) const {
+    [[nodiscard]] std::string listed(const behaviour::Neighbours& near) const {
         std::string list = near.count == 0 ? "-" : "";
         for (std::size_t i = 0; i < near.count; ++i) {
             const double distance = std::sqrt(static_cast<double>(near.distanceSquared[i]));
@@ -132,19 +134,19 @@ class Screen {
     }
 
     [[nodiscard]] std::string predators() const {
-        const Senses& senses = of_.senses;
+        const behaviour::Senses& senses = of_.senses;
         if (senses.predatorCount == 0) return "-";
         const std::string others =
             senses.predatorCount > 1 ? format(" and {} more", senses.predatorCount - 1) : "";
         return at(senses.predators[0], named(senses.predators[0].object)) + others;
     }
 
-    [[nodiscard]] std::string fishSeen(const Sighting& sighting) const {
+    [[nodiscard]] std::string fishSeen(const behaviour::Sighting& sighting) const {
         return at(sighting, named(sighting.object));
     }
 
     void sees() {
-        const Senses& senses = of_.senses;
+        const behaviour::Senses& senses = of_.senses;
         add("SEES", "schoolmates " + listed(senses.schoolmates));
         add("", "others      " + listed(senses.others));
         add("", "predator    " + predators());
@@ -170,21 +172,22 @@ class Screen {
         add("", "fear   " + bar(of_.feelings.fear));
     }
 
-    [[nodiscard]] std::string targeted(Intention intention, std::uint32_t target) const {
-        if (target == kNobody) return wordFor(intention);
-        const bool isParticle = intention == Intention::Eat && of_.nature.role != Role::Predator;
+    [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
+        if (target == fish::kNobody) return wordFor(intention);
+        const bool isParticle =
+            intention == fish::Intention::Eat && of_.nature.role != config::Role::Predator;
         return format("{} {}",
                       wordFor(intention),
                       isParticle ? format("particle {}", target) : named(target));
     }
 
     void intends() {
-        const Mind& mind = of_.mind;
+        const fish::Mind& mind = of_.mind;
         add("INTENDS",
             format("{}, its aim for {:.1f} s",
                    targeted(mind.intention, mind.target),
                    seconds(mind.pursued)));
-        if (mind.remembered != Intention::Wander)
+        if (mind.remembered != fish::Intention::Wander)
             add("",
                 format("remembers: {}, {:.1f} s ago",
                        targeted(mind.remembered, mind.rememberedTarget),
@@ -192,14 +195,14 @@ class Screen {
     }
 
     void does() {
-        const Course& course = of_.course;
+        const fish::Course& course = of_.course;
         const double climb =
             std::asin(std::clamp(static_cast<double>(course.direction.y), -1.0, 1.0)) *
             kDegreesPerRadian;
         const double left = degreesLeft(of_.senses.heading, course.direction);
         add("DOES",
             format("{} at {:.0f} %, swims {:.2f} L/s, urgency {:.2f}",
-                   nameOf(of_.segment),
+                   motion::nameOf(of_.segment),
                    100 * static_cast<double>(of_.phase),
                    of_.swims,
                    course.urgency));
@@ -212,7 +215,8 @@ class Screen {
                    course.speed));
     }
 
-    [[nodiscard]] std::string verdictOn(Rung rung, const Weighed& weighed) const;
+    [[nodiscard]] std::string verdictOn(behaviour::Rung rung,
+                                        const behaviour::Weighed& weighed) const;
     void why();
 
     static constexpr std::size_t kListColumns = 54;
@@ -221,59 +225,60 @@ class Screen {
     std::vector<std::string> lines_;
 };
 
-constexpr std::array<const char*, kRungs> kRungNames{
+constexpr std::array<const char*, behaviour::kRungs> kRungNames{
     "obstacle", "other fish", "fear", "memory", "hunger", "libido", "climate", "company", "ease"};
 
-std::string notInView(Rung rung) {
+std::string notInView(behaviour::Rung rung) {
     switch (rung) {
-        case Rung::OtherFish:
+        case behaviour::Rung::OtherFish:
             return "nobody is in its way";
-        case Rung::Climate:
+        case behaviour::Rung::Climate:
             return "it is nowhere better";
-        case Rung::Memory:
+        case behaviour::Rung::Memory:
             return "what was interrupted cannot be resumed";
         default:
             return "none is in view";
     }
 }
 
-std::string Screen::verdictOn(Rung rung, const Weighed& weighed) const {
-    const bool shelters = rung == Rung::Fear && weighed.intention == Intention::School;
+std::string Screen::verdictOn(behaviour::Rung rung, const behaviour::Weighed& weighed) const {
+    const bool shelters =
+        rung == behaviour::Rung::Fear && weighed.intention == fish::Intention::School;
     switch (weighed.verdict) {
-        case Verdict::Wins:
+        case behaviour::Verdict::Wins:
             return format("WINS: {}{}",
                           targeted(weighed.intention, weighed.target),
                           shelters ? ", for shelter" : "");
-        case Verdict::Outranked:
+        case behaviour::Verdict::Outranked:
             return format("{}: comes after {}",
                           targeted(weighed.intention, weighed.target),
                           kRungNames[static_cast<std::size_t>(of_.reasoning.winner)]);
-        case Verdict::AgainstNature:
+        case behaviour::Verdict::AgainstNature:
             return "not in its nature";
-        case Verdict::TooWeak:
+        case behaviour::Verdict::TooWeak:
             return format("too weak, {:.2f} of {:.2f}", weighed.value, weighed.threshold);
-        case Verdict::NoTarget:
+        case behaviour::Verdict::NoTarget:
             return notInView(rung);
-        case Verdict::Nothing:
+        case behaviour::Verdict::Nothing:
             return "nothing was interrupted";
-        case Verdict::TooOld:
+        case behaviour::Verdict::TooOld:
             return format(
                 "forgotten: {:.1f} s ago, more than {:.0f}", weighed.value, weighed.threshold);
-        case Verdict::Resting:
+        case behaviour::Verdict::Resting:
             return "rests from the last chase";
-        case Verdict::Yields:
+        case behaviour::Verdict::Yields:
             break;
     }
-    return rung == Rung::Hunger ? "yields to libido" : "yields to hunger";
+    return rung == behaviour::Rung::Hunger ? "yields to libido" : "yields to hunger";
 }
 
 void Screen::why() {
     const bool changes = of_.reasoning.decision.intention != of_.mind.intention;
-    for (std::size_t i = 0; i < kRungs; ++i)
+    for (std::size_t i = 0; i < behaviour::kRungs; ++i)
         add(i == 0 ? "WHY" : "",
             format("{:<12}{}",
                    kRungNames[i],
-                   verdictOn(static_cast<Rung>(i), of_.reasoning.rungs[i])) +
+                   verdictOn(static_cast<behaviour::Rung>(i), of_.reasoning.rungs[i])) +
                 (changes && i == static_cast<std::size_t>(of_.reasoning.winner)
                      ? ", at its next thought"
                      : ""));
@@ -285,4 +290,4 @@ std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& ot
     return Screen(insight, others).drawn();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::explain

@@ -10,17 +10,17 @@
 #include "master/explain/insight.h"
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::explain {
 
 inline constexpr std::size_t kScreenLines = 24;
 inline constexpr std::size_t kScreenColumns = 78;
 
 // Of whom the fish is aware: where all are, and what their species are called, by FishView::kind.
 struct Acquaintances {
-    const FishView& view;
+    const fish::FishView& view;
     std::span<const std::string> species;
 };
 
 [[nodiscard]] std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others);
 
-}  // namespace aquarama
+}  // namespace aquarama::explain

@@ -3,7 +3,7 @@
 // and 5.2). All are on in the show; a study takes each away to see what it gives.
 #pragma once
 
-namespace aquarama {
+namespace aquarama::fish {
 
 struct Adaptation {
     bool recommendations = true;  // another swim pattern when one was pursued for too long
@@ -11,4 +11,4 @@ struct Adaptation {
     bool earlierPursuit = true;   // careful steering begins farther from a target
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

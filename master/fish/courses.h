@@ -11,7 +11,7 @@
 
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // A fish thinks every eighth tick (Reynolds 2006), each in its turn.
 inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
@@ -29,4 +29,4 @@ struct Course {
 
 using Courses = std::vector<Course>;  // of all fish
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

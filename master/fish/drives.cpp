@@ -7,7 +7,7 @@
 #include "common/units/ids.h"
 #include "master/fish/courses.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 namespace {
 
@@ -44,7 +44,7 @@ float innerLibido(const Nature& nature, const Mind& mind, float hunger) {
 }
 
 bool mates(const Nature& nature) {
-    return nature.role == Role::Pacifist && nature.libido > 0;
+    return nature.role == config::Role::Pacifist && nature.libido > 0;
 }
 
 void passTime(const Nature& nature, Mind& mind) {
@@ -67,4 +67,4 @@ void setMood(const Nature& nature, float hunger, float libido, Mind& mind) {
     mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

@@ -6,7 +6,7 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // r of Tu & Terzopoulos 1994: hunger or libido above this is heeded.
 inline constexpr float kDesire = 0.25F;
@@ -33,4 +33,4 @@ void passTime(const Nature& nature, Mind& mind);
 // So hungry and in such a mood, both 0 to 1, as a scene may want it to begin.
 void setMood(const Nature& nature, float hunger, float libido, Mind& mind);
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

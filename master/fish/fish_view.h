@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::fish {
 
 inline constexpr std::uint32_t kNobody = 0xffffffffU;  // no fish, no particle
 
@@ -52,4 +52,4 @@ struct FishView {
     [[nodiscard]] bool shows(std::size_t i, Sign sign) const { return (signs[i] & sign) != 0; }
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

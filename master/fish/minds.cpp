@@ -3,7 +3,7 @@
 
 #include "common/units/folded_hash.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // Member by member: what lies between them has no meaning.
 std::uint64_t Minds::hash() const {
@@ -30,4 +30,4 @@ std::size_t Minds::bytes() const {
     return bytesIn(minds_);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

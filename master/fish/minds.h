@@ -8,7 +8,7 @@
 
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // The routines of Tu & Terzopoulos 1994. Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
@@ -106,4 +106,4 @@ struct Deed {
     std::uint32_t object = kNobody;  // particle, prey or mate
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

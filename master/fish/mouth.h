@@ -8,7 +8,7 @@
 
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // Of the mouth before the origin of the body frame: nodal point 0 of every species' rest shape.
 inline constexpr float kMouthBodyLengths = 0.385F;
@@ -17,4 +17,4 @@ inline constexpr float kMouthBodyLengths = 0.385F;
     return view.position(fish) + view.heading(fish) * (kMouthBodyLengths * view.fish[fish].length);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

@@ -8,12 +8,12 @@
 
 #include "common/config/habits.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 inline constexpr std::size_t kMostKinds = 64;
 
 struct Nature {
-    Role role = Role::Prey;
+    config::Role role = config::Role::Prey;
     std::uint8_t kind = 0;              // its own index in the cast
     std::uint32_t first = 0, last = 0;  // its fish are [first, last) of all
     std::uint64_t hunts = 0;            // a bit for each kind that it eats
@@ -25,7 +25,7 @@ struct Nature {
     float visionBodyLengths = 14, smellBodyLengths = 16;
     float boxAhead = 1.2F, boxAside = 0.4F, boxUp = 0.35F;  // body lengths
     float persistence = 0.3F;
-    Habits habits;  // all of it, as the file has it
+    config::Habits habits;  // all of it, as the file has it
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

@@ -3,7 +3,7 @@
 
 #include "master/fish/drives.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 namespace {
 
@@ -23,7 +23,8 @@ unsigned moodOf(std::uint8_t likes, Intention aim) {
 void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, FishView& view) {
     const unsigned away = view.signs[fish] & unsigned{kAway};
     const Mind& mind = minds[fish];
-    if (nature.role == Role::Prey) {  // most fish are; they need but three bytes of their mind
+    if (nature.role ==
+        config::Role::Prey) {  // most fish are; they need but three bytes of their mind
         const bool schools =
             mind.intention == Intention::School || mind.remembered == Intention::School;
         view.signs[fish] = static_cast<std::uint8_t>(
@@ -33,10 +34,10 @@ void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, Fish
     const Aim aim = aimOf(mind);
     unsigned signs = away | moodOf(mind.likes, aim.intention);
     if (wouldMate(nature, mind, aim.intention)) signs |= kWilling;
-    if (nature.role == Role::Predator && aim.intention == Intention::Eat) signs |= kHunting;
+    if (nature.role == config::Role::Predator && aim.intention == Intention::Eat) signs |= kHunting;
     view.signs[fish] = static_cast<std::uint8_t>(signs);
     view.stage[fish] = mind.stage;
     view.partner[fish] = aim.intention == Intention::Mate ? aim.target : kNobody;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

@@ -8,9 +8,9 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // Writes all signs of a fish but kAway, which is kept, and whom it courts.
 void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, FishView& view);
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

@@ -7,31 +7,32 @@
 
 #include "common/motion/motor.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // Indexed by Action.
 struct Gaits {
-    std::array<std::int16_t, kActions> phaseRate{};  // as recorded, 1/65536 of a cycle in a tick
-    std::array<float, kActions> speed{};             // body lengths a second
-    std::array<float, kActions> turn{};              // radians from start to end, left positive
+    std::array<std::int16_t, motion::kActions>
+        phaseRate{};                              // as recorded, 1/65536 of a cycle in a tick
+    std::array<float, motion::kActions> speed{};  // body lengths a second
+    std::array<float, motion::kActions> turn{};   // radians from start to end, left positive
 };
-[[nodiscard]] Gaits gaitsOf(const MotorTables& tables);
+[[nodiscard]] Gaits gaitsOf(const motion::MotorTables& tables);
 
-[[nodiscard]] constexpr std::size_t indexOf(Action action) {
+[[nodiscard]] constexpr std::size_t indexOf(motion::Action action) {
     return static_cast<std::size_t>(action);
 }
-[[nodiscard]] constexpr bool isForward(Action action) {
-    return action <= Action::ForwardFast;
+[[nodiscard]] constexpr bool isForward(motion::Action action) {
+    return action <= motion::Action::ForwardFast;
 }
 // Played from the first phase to the last.
-[[nodiscard]] constexpr bool isTurn(Action action) {
-    return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
+[[nodiscard]] constexpr bool isTurn(motion::Action action) {
+    return action >= motion::Action::TurnLeftGradual && action <= motion::Action::TurnRightSharp;
 }
-[[nodiscard]] constexpr bool isSharp(Action action) {
-    return action == Action::TurnLeftSharp || action == Action::TurnRightSharp;
+[[nodiscard]] constexpr bool isSharp(motion::Action action) {
+    return action == motion::Action::TurnLeftSharp || action == motion::Action::TurnRightSharp;
 }
-[[nodiscard]] constexpr bool isLeft(Action action) {
-    return action == Action::TurnLeftGradual || action == Action::TurnLeftSharp;
+[[nodiscard]] constexpr bool isLeft(motion::Action action) {
+    return action == motion::Action::TurnLeftGradual || action == motion::Action::TurnLeftSharp;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

@@ -6,36 +6,36 @@
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 namespace {
 
 // Streams of one seed: what a number is drawn for.
 enum Draw : std::uint32_t { Tempo = 101, Patience, Recommended, Hold };
 
-constexpr float kGradualFrom = 22.0F * kRadiansPerDegree;  // error at which a turn begins
-constexpr float kSharpFrom = 70.0F * kRadiansPerDegree;
-constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree;
-constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree;  // beyond, either side serves
+constexpr float kGradualFrom = 22.0F * place::kRadiansPerDegree;  // error at which a turn begins
+constexpr float kSharpFrom = 70.0F * place::kRadiansPerDegree;
+constexpr float kSharpFromInDanger = 45.0F * place::kRadiansPerDegree;
+constexpr float kSideIsOpen = 150.0F * place::kRadiansPerDegree;  // beyond, either side serves
 
-constexpr float kYawGain = 1.6F;                       // radians a second for a radian
-constexpr float kMostYaw = 30.0F * kRadiansPerDegree;  // a second: beyond, a turn is played
-constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);  // MotorCommands::yawRate
-constexpr float kUnitsOfPitchSine = 32768.0F;          // MotorCommands::pitch
-constexpr float kRateMargin = 0.15F;                   // of the recorded phase rate
-constexpr float kTempoMargin = 0.08F;                  // about a fish's own tempo
-constexpr float kSpeedHysteresis = 0.12F;              // body lengths a second
-constexpr float kBrakeFrom = 0.6F;                     // of these too fast; by one more, wholly
-constexpr float kHoverBelow = 0.25F;                   // of the slow gait's speed
-constexpr float kHoverBrakeGain = 4.0F;                // wholly from a quarter body length a second
+constexpr float kYawGain = 1.6F;                              // radians a second for a radian
+constexpr float kMostYaw = 30.0F * place::kRadiansPerDegree;  // a second: beyond, a turn is played
+constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);         // MotorCommands::yawRate
+constexpr float kUnitsOfPitchSine = 32768.0F;                 // MotorCommands::pitch
+constexpr float kRateMargin = 0.15F;                          // of the recorded phase rate
+constexpr float kTempoMargin = 0.08F;                         // about a fish's own tempo
+constexpr float kSpeedHysteresis = 0.12F;                     // body lengths a second
+constexpr float kBrakeFrom = 0.6F;       // of these too fast; by one more, wholly
+constexpr float kHoverBelow = 0.25F;     // of the slow gait's speed
+constexpr float kHoverBrakeGain = 4.0F;  // wholly from a quarter body length a second
 constexpr std::uint64_t kShortestGaitTicks = 36;
 constexpr float kSpeedMayDiffer = 0.9F;  // of a recommended gait, body lengths a second
-constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree;
+constexpr float kCourseMayDiffer = 40.0F * place::kRadiansPerDegree;
 constexpr std::uint32_t kShortestHoldTicks = 30, kHoldSpreadTicks = 46;  // of a recommended one
 
 std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Draw draw, std::uint64_t tick) {
-    return hashOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(fish)), draw),
-                  static_cast<std::uint32_t>(tick));
+    return place::hashOf(place::hashOf(place::hashOf(seed, static_cast<std::uint32_t>(fish)), draw),
+                         static_cast<std::uint32_t>(tick));
 }
 
 // U(4, 10) seconds.
@@ -44,42 +44,42 @@ std::uint16_t patienceOf(std::uint32_t seed, std::size_t fish, std::uint64_t tic
 }
 
 // Any of the other patterns.
-Action otherThan(Action present, std::uint32_t hash) {
-    const std::size_t step = 1 + hash % (kActions - 1);
-    return static_cast<Action>((indexOf(present) + step) % kActions);
+motion::Action otherThan(motion::Action present, std::uint32_t hash) {
+    const std::size_t step = 1 + hash % (motion::kActions - 1);
+    return static_cast<motion::Action>((indexOf(present) + step) % motion::kActions);
 }
 
-Action gradual(bool left) {
-    return left ? Action::TurnLeftGradual : Action::TurnRightGradual;
+motion::Action gradual(bool left) {
+    return left ? motion::Action::TurnLeftGradual : motion::Action::TurnRightGradual;
 }
 
-Action sharp(bool left) {
-    return left ? Action::TurnLeftSharp : Action::TurnRightSharp;
+motion::Action sharp(bool left) {
+    return left ? motion::Action::TurnLeftSharp : motion::Action::TurnRightSharp;
 }
 
-Action gaitFor(const Gaits& gaits, float speed, Action present) {
+motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) {
     const float slowToMedium = 0.5F * (gaits.speed[0] + gaits.speed[1]);
     const float mediumToFast = 0.5F * (gaits.speed[1] + gaits.speed[2]);
-    const auto isAbove = [&](float border, Action upper) {
+    const auto isAbove = [&](float border, motion::Action upper) {
         const bool isUpper = isForward(present) && present >= upper;
         return speed > border + (isUpper ? -kSpeedHysteresis : kSpeedHysteresis);
     };
-    if (isAbove(mediumToFast, Action::ForwardFast)) return Action::ForwardFast;
-    return isAbove(slowToMedium, Action::ForwardMedium) ? Action::ForwardMedium
-                                                        : Action::ForwardSlow;
+    if (isAbove(mediumToFast, motion::Action::ForwardFast)) return motion::Action::ForwardFast;
+    return isAbove(slowToMedium, motion::Action::ForwardMedium) ? motion::Action::ForwardMedium
+                                                                : motion::Action::ForwardSlow;
 }
 
 }  // namespace
 
 // The situation of one fish at its decision.
 struct SecondaryController::Moment {
-    Action present;       // segment that was asked for last
-    float yawError;       // radians, left positive
-    float speed;          // wanted, body lengths a second
-    float swims;          // at present
-    float urgency;        // of the surroundings
-    std::uint64_t since;  // ticks that the present segment has been pursued
-    bool isOpen;          // to what is recommended
+    motion::Action present;  // segment that was asked for last
+    float yawError;          // radians, left positive
+    float speed;             // wanted, body lengths a second
+    float swims;             // at present
+    float urgency;           // of the surroundings
+    std::uint64_t since;     // ticks that the present segment has been pursued
+    bool isOpen;             // to what is recommended
 };
 
 namespace {
@@ -88,17 +88,17 @@ using Moment = SecondaryController::Moment;
 
 // Wants to be where it is: its fins brake and turn it.
 bool hovers(const Gaits& gaits, const Moment& moment) {
-    return moment.speed < kHoverBelow * gaits.speed[indexOf(Action::ForwardSlow)];
+    return moment.speed < kHoverBelow * gaits.speed[indexOf(motion::Action::ForwardSlow)];
 }
 
-Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
+motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
     const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
     if (error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
-    if (hovers(gaits, moment) && moment.urgency < 1) return Action::Glide;
+    if (hovers(gaits, moment) && moment.urgency < 1) return motion::Action::Glide;
     if (error > kGradualFrom) return gradual(left);
-    const Action gait = gaitFor(gaits, moment.speed, moment.present);
+    const motion::Action gait = gaitFor(gaits, moment.speed, moment.present);
     const bool tooSoon =
         isForward(moment.present) && moment.since < kShortestGaitTicks && moment.urgency < 1;
     return tooSoon ? moment.present : gait;
@@ -117,12 +117,12 @@ std::uint8_t brakeFor(const Gaits& gaits, const Moment& moment) {
 }
 
 // Whether a pattern still leads about where the fish wants to go, about as fast.
-bool serves(const Gaits& gaits, const Moment& moment, Action recommended) {
+bool serves(const Gaits& gaits, const Moment& moment, motion::Action recommended) {
     if (isSharp(recommended)) return false;
     if (isTurn(recommended))
         return std::abs(moment.yawError - gaits.turn[indexOf(recommended)]) < kCourseMayDiffer;
     if (std::abs(moment.yawError) > kGradualFrom) return false;
-    return recommended == Action::Glide
+    return recommended == motion::Action::Glide
                ? moment.swims > moment.speed
                : std::abs(gaits.speed[indexOf(recommended)] - moment.speed) < kSpeedMayDiffer;
 }
@@ -136,18 +136,18 @@ void ControllerMemory::resize(std::size_t fish) {
 }
 
 float tempoOf(std::uint32_t seed, std::size_t fish) {
-    return 1 + 0.1F * signedUnitOf(drawn(seed, fish, Tempo, 0));
+    return 1 + 0.1F * place::signedUnitOf(drawn(seed, fish, Tempo, 0));
 }
 
 void startCommands(const Gaits& gaits,
                    std::uint32_t seed,
                    std::size_t first,
                    std::size_t last,
-                   MotorCommands& commands,
+                   motion::MotorCommands& commands,
                    ControllerMemory& memory) {
     for (std::size_t fish = first; fish < last; ++fish) {
-        commands.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
-        commands.phaseRate[fish] = gaits.phaseRate[indexOf(Action::ForwardMedium)];
+        commands.segment[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
+        commands.phaseRate[fish] = gaits.phaseRate[indexOf(motion::Action::ForwardMedium)];
         commands.pitch[fish] = 0;
         commands.yawRate[fish] = 0;
         commands.brake[fish] = 0;
@@ -164,7 +164,8 @@ void SecondaryController::run(std::size_t first, std::size_t last) const {
 
 bool SecondaryController::endsTurn(std::size_t fish) const {
     const std::size_t playing = states->segment[fish];
-    if (!isTurn(static_cast<Action>(playing))) return false;  // one byte is read of most fish
+    if (!isTurn(static_cast<motion::Action>(playing)))
+        return false;  // one byte is read of most fish
     const bool goesOn = commands->segment[fish] == playing;
     const int rate = goesOn ? commands->phaseRate[fish] : gaits->phaseRate[playing];
     return states->phase[fish] + rate > 0xffff;
@@ -172,7 +173,7 @@ bool SecondaryController::endsTurn(std::size_t fish) const {
 
 void SecondaryController::decide(std::size_t fish) const {
     const Moment moment = momentOf(fish);
-    const Action chosen = choose(fish, moment);
+    const motion::Action chosen = choose(fish, moment);
     if (chosen != moment.present) memory->chosenAt[fish] = tick.value;
     commands->segment[fish] = static_cast<std::uint8_t>(chosen);
     commands->phaseRate[fish] = phaseRateFor(fish, chosen, moment);
@@ -184,28 +185,29 @@ void SecondaryController::decide(std::size_t fish) const {
 
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
     const Course& course = (*courses)[fish];
-    Moment moment{static_cast<Action>(commands->segment[fish]),
-                  yawBetween(view->heading(fish), course.direction),
+    Moment moment{static_cast<motion::Action>(commands->segment[fish]),
+                  place::yawBetween(view->heading(fish), course.direction),
                   course.speed,
-                  speedBodyLengths(*states, fish),
+                  motion::speedBodyLengths(*states, fish),
                   course.urgency,
                   tick.value - memory->chosenAt[fish],
                   course.openToChange};
     // A turn will be played to its end: what is chosen comes after it.
     const std::size_t playing = states->segment[fish];
     const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
-    if (isTurn(static_cast<Action>(playing))) moment.yawError -= gaits->turn[playing] * toCome;
+    if (isTurn(static_cast<motion::Action>(playing)))
+        moment.yawError -= gaits->turn[playing] * toCome;
     return moment;
 }
 
-Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
-    const Action chosen = turnOrSwim(*gaits, moment);
+motion::Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
+    const motion::Action chosen = turnOrSwim(*gaits, moment);
     if (tick.value < memory->heldUntil[fish])
         return moment.isOpen && !isSharp(chosen) ? moment.present : chosen;
     if (chosen != moment.present || moment.since <= memory->patience[fish]) return chosen;
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);
-    const Action recommended =
+    const motion::Action recommended =
         otherThan(moment.present, drawn(seed, fish, Recommended, tick.value));
     if (!moment.isOpen || !serves(*gaits, moment, recommended)) return chosen;
     if (isTurn(recommended)) return recommended;  // it holds by itself
@@ -215,7 +217,7 @@ Action SecondaryController::choose(std::size_t fish, const Moment& moment) const
 }
 
 std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
-                                               Action chosen,
+                                               motion::Action chosen,
                                                const Moment& moment) const {
     const std::size_t action = indexOf(chosen);
     const float tempo = tempoOf(seed, fish);
@@ -225,4 +227,4 @@ std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
     return static_cast<std::int16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

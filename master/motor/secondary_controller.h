@@ -12,7 +12,7 @@
 #include "master/fish/fish_view.h"
 #include "master/motor/gaits.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 
 // What the controller remembers of each fish from one decision to the next.
 struct ControllerMemory {
@@ -28,7 +28,7 @@ void startCommands(const Gaits& gaits,
                    std::uint32_t seed,
                    std::size_t first,
                    std::size_t last,
-                   MotorCommands& commands,
+                   motion::MotorCommands& commands,
                    ControllerMemory& memory);
 
 // Each fish has its own tempo, within 10 % of the recorded: 51 fish of one cycle would look cloned.
@@ -39,10 +39,10 @@ struct SecondaryController {
     const Gaits* gaits = nullptr;
     const FishView* view = nullptr;
     const Courses* courses = nullptr;
-    const MotionStates* states = nullptr;
+    const motion::MotionStates* states = nullptr;
     std::uint32_t seed = 0;
     Tick tick;
-    MotorCommands* commands = nullptr;
+    motion::MotorCommands* commands = nullptr;
     ControllerMemory* memory = nullptr;
 
     void run(std::size_t first, std::size_t last) const;
@@ -54,10 +54,10 @@ struct SecondaryController {
     [[nodiscard]] bool endsTurn(std::size_t fish) const;
     void decide(std::size_t fish) const;
     [[nodiscard]] Moment momentOf(std::size_t fish) const;
-    [[nodiscard]] Action choose(std::size_t fish, const Moment& moment) const;
+    [[nodiscard]] motion::Action choose(std::size_t fish, const Moment& moment) const;
     [[nodiscard]] std::int16_t phaseRateFor(std::size_t fish,
-                                            Action chosen,
+                                            motion::Action chosen,
                                             const Moment& moment) const;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fish

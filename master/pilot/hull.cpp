@@ -11,7 +11,7 @@
 #include "common/place/water.h"
 #include "master/pilot/vessel.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 namespace {
 
@@ -29,20 +29,21 @@ struct Face {
 // The sand as a plane through the point below: dunes are long.
 Face sandFace(const Waters& waters, glm::vec3 at) {
     constexpr float kStep = 0.25F;
-    const float here = floorHeight(waters.place, {at.x, at.z});
-    const float slopeX = (floorHeight(waters.place, {at.x + kStep, at.z}) - here) / kStep;
-    const float slopeZ = (floorHeight(waters.place, {at.x, at.z + kStep}) - here) / kStep;
-    const glm::vec3 up = directionOf({-slopeX, 1, -slopeZ}, {0, 1, 0});
+    const float here = place::floorHeight(waters.place, {at.x, at.z});
+    const float slopeX = (place::floorHeight(waters.place, {at.x + kStep, at.z}) - here) / kStep;
+    const float slopeZ = (place::floorHeight(waters.place, {at.x, at.z + kStep}) - here) / kStep;
+    const glm::vec3 up = place::directionOf({-slopeX, 1, -slopeZ}, {0, 1, 0});
     return {up, (at.y - here) * up.y - kHullRadiusMetres};
 }
 
 Face ballFace(glm::vec3 centre, float radius, glm::vec3 at) {
     const glm::vec3 from = at - centre;
-    return {directionOf(from, {0, 1, 0}), lengthOf(from) - radius - kHullRadiusMetres};
+    return {place::directionOf(from, {0, 1, 0}),
+            place::lengthOf(from) - radius - kHullRadiusMetres};
 }
 
 // A post with a round top.
-Face stemFace(const Stem& stem, glm::vec3 at) {
+Face stemFace(const surroundings::Stem& stem, glm::vec3 at) {
     const glm::vec3 nearest{stem.foot.x, std::min(at.y, stem.topMetres), stem.foot.y};
     return ballFace(nearest, kStemRadiusMetres, at);
 }
@@ -62,10 +63,10 @@ void visitFaces(const Waters& waters, glm::vec3 at, const Visit& visit) {
         const float reach = radius + kHullRadiusMetres + kFeltMetres;
         return std::abs(at.x - x) < reach && std::abs(at.z - z) < reach;
     };
-    for (const Rock& rock : waters.rocks)
+    for (const place::Rock& rock : waters.rocks)
         if (isNear(rock.centre.x, rock.centre.z, rock.radiusMetres))
             visit(ballFace(rock.centre, rock.radiusMetres, at));
-    for (const Stem& stem : waters.stems)
+    for (const surroundings::Stem& stem : waters.stems)
         if (isNear(stem.foot.x, stem.foot.y, kStemRadiusMetres)) visit(stemFace(stem, at));
 }
 
@@ -98,7 +99,7 @@ float allowedInward(float gapMetres) {
 }
 
 glm::vec3 heldOff(const Face& face, glm::vec3 velocity) {
-    const float outward = dot(velocity, face.away);
+    const float outward = place::dot(velocity, face.away);
     const float least = -allowedInward(face.gapMetres);
     if (outward < least) velocity += face.away * (least - outward);
     return velocity;
@@ -106,7 +107,7 @@ glm::vec3 heldOff(const Face& face, glm::vec3 velocity) {
 
 glm::vec3 ledAway(const Face& face, glm::vec3 velocity) {
     const float depth = std::clamp(1 - face.gapMetres / kStandOffMetres, 0.0F, 1.0F);
-    const float missing = kLeadAwayMetresPerSecond * depth - dot(velocity, face.away);
+    const float missing = kLeadAwayMetresPerSecond * depth - place::dot(velocity, face.away);
     if (depth > 0 && missing > 0)
         velocity += face.away * std::min(missing, kBrakingMetres * kTickSeconds);
     return velocity;
@@ -114,10 +115,10 @@ glm::vec3 ledAway(const Face& face, glm::vec3 velocity) {
 
 }  // namespace
 
-Waters watersOf(const PlaceKey& place, const Region& fishWater, glm::vec3 eye) {
-    Waters waters{place, roamingRegion(fishWater, eye), rocksOf(place), {}};
-    for (const Plant& plant : plantsOf(place))
-        if (plant.kind == PlantKind::Kelp)
+Waters watersOf(const place::PlaceKey& place, const place::Region& fishWater, glm::vec3 eye) {
+    Waters waters{place, place::roamingRegion(fishWater, eye), place::rocksOf(place), {}};
+    for (const place::Plant& plant : place::plantsOf(place))
+        if (plant.kind == place::PlantKind::Kelp)
             waters.stems.push_back(
                 {{plant.root.x, plant.root.z}, plant.root.y + plant.heightMetres});
     return waters;
@@ -140,4 +141,4 @@ void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity) {
         position = next;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

@@ -10,7 +10,7 @@
 #include "common/place/place.h"
 #include "master/surroundings/chart.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 inline constexpr float kHullRadiusMetres = 0.5F;  // about the eye: nothing comes nearer to it
 inline constexpr float kStandOffMetres = 0.25F;   // off the hull, where it is pushed back
@@ -18,12 +18,14 @@ inline constexpr float kBrakingMetres = 1.1F;     // a second squared, before an
 
 // Where the submarine may go.
 struct Waters {
-    PlaceKey place;
-    Region region;
-    std::vector<Rock> rocks;
-    std::vector<Stem> stems;
+    place::PlaceKey place;
+    place::Region region;
+    std::vector<place::Rock> rocks;
+    std::vector<surroundings::Stem> stems;
 };
-[[nodiscard]] Waters watersOf(const PlaceKey& place, const Region& fishWater, glm::vec3 eye);
+[[nodiscard]] Waters watersOf(const place::PlaceKey& place,
+                              const place::Region& fishWater,
+                              glm::vec3 eye);
 
 // How far the hull is from all of it; negative inside something.
 [[nodiscard]] float gapAt(const Waters& waters, glm::vec3 position);
@@ -33,4 +35,4 @@ struct Waters {
 // was outside of.
 void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity);
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

@@ -5,9 +5,9 @@
 
 #include "common/units/folded_hash.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
-Voyage voyageOf(const Scene& scene, std::uint32_t seed, const Region& fishWater) {
+Voyage voyageOf(const config::Scene& scene, std::uint32_t seed, const place::Region& fishWater) {
     return {.waters = watersOf({seed, scene.place}, fishWater, scene.eye),
             .tour = tourOf(scene),
             .stays = !scene.tour,
@@ -61,4 +61,4 @@ std::uint64_t foldedPilot(std::uint64_t hash, const Pilot& pilot) {
     return foldedOne(hash, (pilot.touring ? 1 : 0) | (pilot.everSteered ? 2 : 0));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

@@ -14,7 +14,7 @@
 #include "master/pilot/tour.h"
 #include "master/pilot/vessel.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 // What does not change during a show.
 struct Voyage {
@@ -23,7 +23,9 @@ struct Voyage {
     bool stays = true;            // at the eye, until somebody steers
     std::uint64_t idleTicks = 0;  // without a hand, until the autopilot takes over
 };
-[[nodiscard]] Voyage voyageOf(const Scene& scene, std::uint32_t seed, const Region& fishWater);
+[[nodiscard]] Voyage voyageOf(const config::Scene& scene,
+                              std::uint32_t seed,
+                              const place::Region& fishWater);
 
 // What a world remembers of its submarine.
 struct Pilot {
@@ -44,4 +46,4 @@ void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now
 
 [[nodiscard]] std::uint64_t foldedPilot(std::uint64_t hash, const Pilot& pilot);
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

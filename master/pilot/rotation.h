@@ -9,7 +9,7 @@
 #include "common/motion/orientation.h"
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 struct SineCosine {
     float sine = 0;
@@ -18,8 +18,8 @@ struct SineCosine {
 
 // Of angles up to some turns, within 1e-6: Taylor's series about the nearest quarter turn.
 [[nodiscard]] inline SineCosine sineAndCosine(float radians) {
-    const float quarters = roundToEven(radians * (2 / kPi));
-    const float x = radians - quarters * (kPi / 2);
+    const float quarters = motion::roundToEven(radians * (2 / place::kPi));
+    const float x = radians - quarters * (place::kPi / 2);
     const float s = x * x;
     const float sine = x * (1 - s / 6 * (1 - s / 20 * (1 - s / 42)));
     const float cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56)));
@@ -37,7 +37,7 @@ struct SineCosine {
 
 // The same angle, -pi to pi.
 [[nodiscard]] inline float wrapped(float radians) {
-    return radians - roundToEven(radians / (2 * kPi)) * (2 * kPi);
+    return radians - motion::roundToEven(radians / (2 * place::kPi)) * (2 * place::kPi);
 }
 
 // How the submarine stands in the world. Without any it looks along -z.
@@ -47,12 +47,12 @@ struct Attitude {
     float roll = 0;   // right side up
 };
 
-[[nodiscard]] inline Quaternion worldFromBody(const Attitude& attitude) {
+[[nodiscard]] inline motion::Quaternion worldFromBody(const Attitude& attitude) {
     const auto [ys, yc] = sineAndCosine(attitude.yaw / 2);
     const auto [ps, pc] = sineAndCosine(attitude.pitch / 2);
     const auto [rs, rc] = sineAndCosine(attitude.roll / 2);
-    return normalised(Quaternion{yc, 0, ys, 0} * Quaternion{pc, ps, 0, 0} *
-                      Quaternion{rc, 0, 0, rs});
+    return motion::normalised(motion::Quaternion{yc, 0, ys, 0} * motion::Quaternion{pc, ps, 0, 0} *
+                              motion::Quaternion{rc, 0, 0, rs});
 }
 
 // Along the nose; to the right, level.
@@ -66,4 +66,4 @@ struct Attitude {
     return {yc, 0, -ys};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

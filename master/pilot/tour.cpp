@@ -8,7 +8,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 namespace {
 
@@ -25,13 +25,13 @@ constexpr float kWaitsWhollyMetres = 1.5F;
 constexpr float kOverSeconds = 0.25F;  // rises so much faster than it is kept from going on
 
 // The circle about the middle of the water that leads through the eye.
-std::vector<Tour::Stop> circleOf(const Scene& scene) {
+std::vector<Tour::Stop> circleOf(const config::Scene& scene) {
     constexpr int kStops = 12;
     const glm::vec3 middle{scene.water.centre.x, scene.eye.y, scene.water.centre.z};
     const glm::vec3 from = scene.eye - middle;
     std::vector<Tour::Stop> stops;
     for (int i = 0; i < kStops; ++i) {
-        const auto [sine, cosine] = sineAndCosine(2 * kPi * static_cast<float>(i) / kStops);
+        const auto [sine, cosine] = sineAndCosine(2 * place::kPi * static_cast<float>(i) / kStops);
         const glm::vec3 arm{from.x * cosine + from.z * sine, 0, from.z * cosine - from.x * sine};
         stops.push_back({middle + arm, scene.water.centre});
     }
@@ -52,7 +52,7 @@ glm::vec3 slopeBetween(const std::array<glm::vec3, 4>& p, float u) {
 
 // The direction and size of v, no larger than `most`.
 glm::vec3 atMost(glm::vec3 v, float most) {
-    const float length = lengthOf(v);
+    const float length = place::lengthOf(v);
     return length > most ? v * (most / length) : v;
 }
 
@@ -62,12 +62,13 @@ float share(float value, float most) {
 
 // Pushes that bring the velocity to what is wanted, against the drag.
 void makeFor(glm::vec3 wanted, const Vessel& vessel, Push& push) {
-    const float drag = kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * lengthOf(wanted);
+    const float drag = kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * place::lengthOf(wanted);
     const glm::vec3 newtons =
         wanted * drag + (wanted - vessel.velocity) * (kVesselKilograms / kTimeToSpeedSeconds);
     const auto [sine, cosine] = sineAndCosine(vessel.attitude.yaw);
     push.ahead = share((-newtons.x * sine - newtons.z * cosine) / kThrustNewtons, kMostThrust);
-    push.aside = share(dot(newtons, rightOf(vessel.attitude)) / kSideThrustNewtons, kMostThrust);
+    push.aside =
+        share(place::dot(newtons, rightOf(vessel.attitude)) / kSideThrustNewtons, kMostThrust);
     push.up = share(newtons.y / kSideThrustNewtons, kMostThrust);
 }
 
@@ -76,18 +77,19 @@ void lookAt(glm::vec3 place, const Vessel& vessel, Push& push) {
     const float level = std::sqrt(to.x * to.x + to.z * to.z);
     constexpr float kTooNear = 0.5F;  // to say where it is
     if (level < kTooNear) return;
-    const float missing = wrapped(angleOf(-to.x, -to.z) - vessel.attitude.yaw);
+    const float missing = wrapped(place::angleOf(-to.x, -to.z) - vessel.attitude.yaw);
     push.turn = share(kLookPerSecond * missing, kFastestLook) / kFastestTurn;
-    push.tilt = share(angleOf(to.y, level) / kSteepestPitch, kMostTilt);
+    push.tilt = share(place::angleOf(to.y, level) / kSteepestPitch, kMostTilt);
 }
 
 }  // namespace
 
-Tour tourOf(const Scene& scene) {
+Tour tourOf(const config::Scene& scene) {
     constexpr glm::vec3 kAhead{0, 0, -1000};
     if (!scene.tour) return {{{scene.eye, scene.eye + kAhead}}, 0};
     Tour tour{{}, static_cast<float>(scene.tour->metresPerSecond)};
-    for (const TourStop& stop : scene.tour->stops) tour.stops.push_back({stop.at, stop.lookAt});
+    for (const config::TourStop& stop : scene.tour->stops)
+        tour.stops.push_back({stop.at, stop.lookAt});
     if (tour.stops.empty()) tour.stops = circleOf(scene);
     return tour;
 }
@@ -114,7 +116,7 @@ float nearestAlong(const Tour& tour, glm::vec3 place) {
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < kLooks * tour.stops.size(); ++i) {
         const float along = static_cast<float>(i) / kLooks;
-        const float distance = lengthOf(pointOf(tour, along, {}).at - place);
+        const float distance = place::lengthOf(pointOf(tour, along, {}).at - place);
         if (distance >= least) continue;
         least = distance;
         nearest = along;
@@ -125,14 +127,15 @@ float nearestAlong(const Tour& tour, glm::vec3 place) {
 Push followTour(const Tour& tour, const Vessel& vessel, glm::vec3 school, float& along) {
     const TourPoint point = pointOf(tour, along, school);
     const glm::vec3 missing = point.at - vessel.position;
-    const float behind = lengthOf(missing);
+    const float behind = place::lengthOf(missing);
     const float pace = std::clamp(
         (kWaitsWhollyMetres - behind) / (kWaitsWhollyMetres - kWaitsFromMetres), 0.0F, 1.0F);
-    const float metresPerStop = lengthOf(point.perStop);
-    const glm::vec3 course = directionOf(point.perStop, {}) * (tour.metresPerSecond * pace);
+    const float metresPerStop = place::lengthOf(point.perStop);
+    const glm::vec3 course = place::directionOf(point.perStop, {}) * (tour.metresPerSecond * pace);
     glm::vec3 wanted = atMost(course + missing * kCorrectionPerSecond, kFastestMetresPerSecond);
     // What stands in the way is gone over.
-    wanted.y += std::max(0.0F, lengthOf(wanted) - lengthOf(vessel.velocity) - kOverSeconds);
+    wanted.y +=
+        std::max(0.0F, place::lengthOf(wanted) - place::lengthOf(vessel.velocity) - kOverSeconds);
     Push push;
     makeFor(wanted, vessel, push);
     lookAt(point.lookAt, vessel, push);
@@ -144,4 +147,4 @@ Push followTour(const Tour& tour, const Vessel& vessel, glm::vec3 school, float&
     return push;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

@@ -12,7 +12,7 @@
 #include "common/place/place.h"
 #include "master/pilot/vessel.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 // Stops in order, the last leads to the first; a single one is a place to stay at.
 struct Tour {
@@ -26,7 +26,7 @@ struct Tour {
 
 // The scene's tour; without stops of its own, round the middle of the water through the eye. A
 // scene without a tour: to its eye, looking along -z.
-[[nodiscard]] Tour tourOf(const Scene& scene);
+[[nodiscard]] Tour tourOf(const config::Scene& scene);
 
 // Of the path, at a number of stops from the first.
 struct TourPoint {
@@ -47,4 +47,4 @@ inline constexpr float kAutopilotSlew = 0.25F;  // of its pushes, a second: nobo
                               glm::vec3 school,
                               float& along);
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

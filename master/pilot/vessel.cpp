@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 namespace {
 
@@ -33,7 +33,7 @@ void turn(Vessel& vessel) {
     is.yaw = wrapped(is.yaw + rate.yaw * kTickSeconds);
     settle(kSteepestPitch * vessel.push.tilt, kPitchFrequency, is.pitch, rate.pitch);
     is.pitch = std::clamp(is.pitch, -kSteepestPitch, kSteepestPitch);
-    const float speedAhead = dot(vessel.velocity, noseOf(is));
+    const float speedAhead = place::dot(vessel.velocity, noseOf(is));
     const float bank =
         std::clamp(kBankPerTurn * rate.yaw * speedAhead, -kStrongestBank, kStrongestBank);
     settle(bank, kRollFrequency, is.roll, rate.roll);
@@ -63,7 +63,7 @@ void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
                               glm::vec3{0, kSideThrustNewtons * push.up, 0};
     // Drag is taken at the end of the tick: whatever the speed, it brakes and never turns back.
     const float drag =
-        kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * lengthOf(vessel.velocity);
+        kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * place::lengthOf(vessel.velocity);
     constexpr float kSecondsPerKilogram = kTickSeconds / kVesselKilograms;
     vessel.velocity =
         (vessel.velocity + newtons * kSecondsPerKilogram) / (1 + drag * kSecondsPerKilogram);
@@ -75,4 +75,4 @@ float terminalSpeed(float newtons) {
     return (std::sqrt(a * a + 4 * b * newtons) - a) / (2 * b);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

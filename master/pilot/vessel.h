@@ -8,7 +8,7 @@
 #include "common/units/steering.h"
 #include "master/pilot/rotation.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
 inline constexpr float kTickSeconds = 1.0F / 60.0F;
 
@@ -47,4 +47,4 @@ void pushVessel(Vessel& vessel, const Push& wanted, float slew);
 // The speed that so much thrust comes to, metres a second.
 [[nodiscard]] float terminalSpeed(float newtons);
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

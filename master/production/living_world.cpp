@@ -5,50 +5,50 @@
 #include "master/explain/insight.h"
 #include "master/explain/lines.h"
 
-namespace aquarama {
+namespace aquarama::production {
 
 namespace {
 
-FoodRecord::Kind kindOf(FoodKind kind) {
+wire::FoodRecord::Kind kindOf(surroundings::FoodKind kind) {
     switch (kind) {
-        case FoodKind::Plankton:
-            return FoodRecord::Kind::Plankton;
-        case FoodKind::Pellet:
-            return FoodRecord::Kind::Pellet;
-        case FoodKind::None:
+        case surroundings::FoodKind::Plankton:
+            return wire::FoodRecord::Kind::Plankton;
+        case surroundings::FoodKind::Pellet:
+            return wire::FoodRecord::Kind::Pellet;
+        case surroundings::FoodKind::None:
             break;
     }
-    return FoodRecord::Kind::None;
+    return wire::FoodRecord::Kind::None;
 }
 
 }  // namespace
 
-LivingWorld::LivingWorld(const WorldOptions& options) : world_(options) {
-    for (const WorldSpecies& species : options.cast) species_.push_back(species.name);
+LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
+    for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
 }
 
 // As the nodes are told of it.
-void LivingWorld::food(FoodCloud& cloud) const {
-    const Food& food = world_.surroundings().food;
+void LivingWorld::food(wire::FoodCloud& cloud) const {
+    const surroundings::Food& food = world_.surroundings().food;
     cloud.originMetres = world_.surroundings().obstacles.water.centre;
     cloud.particles.resize(food.size());
     for (std::size_t i = 0; i < food.size(); ++i)
-        cloud.particles[i] = foodRecord(
+        cloud.particles[i] = wire::foodRecord(
             kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
 }
 
-Eye LivingWorld::eye() const {
-    const Vessel& vessel = world_.pilot().vessel;
-    const Quaternion q = worldFromBody(vessel.attitude);
+wire::Eye LivingWorld::eye() const {
+    const pilot::Vessel& vessel = world_.pilot().vessel;
+    const motion::Quaternion q = pilot::worldFromBody(vessel.attitude);
     return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
 }
 
-Explanation LivingWorld::explain(std::uint32_t fish) const {
-    Explanation explanation{
+wire::Explanation LivingWorld::explain(std::uint32_t fish) const {
+    wire::Explanation explanation{
         fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    if (const auto insight = insightInto(world_, fish))
-        explanation.lines = linesOf(*insight, {world_.view(), species_});
+    if (const auto insight = explain::insightInto(world_, fish))
+        explanation.lines = explain::linesOf(*insight, {world_.view(), species_});
     return explanation;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::production

@@ -8,26 +8,26 @@
 #include "master/conductor/simulation.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::production {
 
-class LivingWorld : public Simulation {
+class LivingWorld : public conductor::Simulation {
   public:
-    explicit LivingWorld(const WorldOptions& options);
+    explicit LivingWorld(const world::WorldOptions& options);
     void advance() override { world_.advance(); }
-    void apply(const WorldInput& input) override { world_.apply(input); }
+    void apply(const world::WorldInput& input) override { world_.apply(input); }
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    void food(FoodCloud& cloud) const override;
-    [[nodiscard]] Eye eye() const override;
+    void records(std::vector<motion::FishRecord>& fish) const override { world_.records(fish); }
+    void food(wire::FoodCloud& cloud) const override;
+    [[nodiscard]] wire::Eye eye() const override;
     [[nodiscard]] float daylight() const override { return world_.surroundings().daylight; }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override;
+    [[nodiscard]] wire::Explanation explain(std::uint32_t fish) const override;
 
-    [[nodiscard]] const World& world() const { return world_; }
+    [[nodiscard]] const world::World& world() const { return world_; }
 
   private:
-    World world_;
+    world::World world_;
     std::vector<std::string> species_;  // their names, in the order of the cast
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::production

@@ -18,7 +18,7 @@
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
 
-namespace aquarama {
+namespace aquarama::production {
 
 namespace {
 
@@ -27,27 +27,31 @@ namespace {
 constexpr std::uint32_t kFishOfAThread = 2000;
 
 // The first show of a species on this machine simulates it; later ones find what it swam.
-std::vector<RepertoireFile> capturedOnce(const std::vector<CastSpecies>& cast) {
-    std::vector<SpeciesText> texts;
-    for (const CastSpecies& member : cast) texts.push_back({member.path, member.text});
-    ProgressBar bar("capturing");
-    std::vector<RepertoireFile> files = repertoiresFor(
-        texts, cacheFolder() / "repertoires", {.progress = [&](double share) { bar.show(share); }});
-    for (const RepertoireFile& file : files)
+std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::CastSpecies>& cast) {
+    std::vector<capture::SpeciesText> texts;
+    for (const config::CastSpecies& member : cast) texts.push_back({member.path, member.text});
+    capture::ProgressBar bar("capturing");
+    std::vector<capture::RepertoireFile> files =
+        capture::repertoiresFor(texts,
+                                files::cacheFolder() / "repertoires",
+                                {.progress = [&](double share) { bar.show(share); }});
+    for (const capture::RepertoireFile& file : files)
         if (!file.error.empty()) throw Error(file.error);
     return files;
 }
 
-FishLengths lengthsOf(const SizeRange& size) {
+world::FishLengths lengthsOf(const config::SizeRange& size) {
     return {.meanMetres = static_cast<float>(size.meanMetres),
             .deviationMetres = static_cast<float>(size.deviationMetres),
             .leastMetres = static_cast<float>(size.leastMetres),
             .mostMetres = static_cast<float>(size.mostMetres)};
 }
 
-WorldSpecies worldSpeciesOf(const ProducedSpecies& produced, const std::optional<Start>& start) {
-    const Species species = parseSpecies(produced.text, produced.file);
-    return {.tables = makeMotorTables(decodeRepertoire(produced.repertoire, produced.file)),
+world::WorldSpecies worldSpeciesOf(const wire::ProducedSpecies& produced,
+                                   const std::optional<config::Start>& start) {
+    const config::Species species = config::parseSpecies(produced.text, produced.file);
+    return {.tables = motion::makeMotorTables(
+                motion::decodeRepertoire(produced.repertoire, produced.file)),
             .fish = produced.fish,
             .lengths = lengthsOf(species.size),
             .name = species.name,
@@ -55,43 +59,45 @@ WorldSpecies worldSpeciesOf(const ProducedSpecies& produced, const std::optional
             .start = start};
 }
 
-std::uint32_t fishIn(const Scene& scene) {
+std::uint32_t fishIn(const config::Scene& scene) {
     std::uint32_t fish = 0;
-    for (const CastMember& member : scene.cast) fish += member.fish;
+    for (const config::CastMember& member : scene.cast) fish += member.fish;
     return fish;
 }
 
 // The scene with the number of fish that is asked for.
-Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
-    Scene scene = readScene(path);
-    CastMember& school = scene.cast.front();
+config::Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
+    config::Scene scene = config::readScene(path);
+    config::CastMember& school = scene.cast.front();
     school.fish = choice.fish.value_or(school.fish);
-    if (school.fish == 0 && scene.place != PlaceKind::OpenSea)
-        throw Error(placed(
+    if (school.fish == 0 && scene.place != config::PlaceKind::OpenSea)
+        throw Error(config::placed(
             path, school.place, "0 fish: only an open sea may be without; take another --scene"));
     return scene;
 }
 
 }  // namespace
 
-Production readProduction(const std::string& scenePath, const ProductionChoice& choice) {
-    const Scene scene = chosenScene(scenePath, choice);
-    const std::vector<CastSpecies> cast = readCastSpecies(scene, scenePath);
-    checkRoom(
+wire::Production readProduction(const std::string& scenePath, const ProductionChoice& choice) {
+    const config::Scene scene = chosenScene(scenePath, choice);
+    const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, scenePath);
+    place::checkRoom(
         scene, scenePath, fishIn(scene), static_cast<float>(cast.front().species.size.meanMetres));
-    Production production{
-        .seed = choice.seed, .sceneFile = scenePath, .scene = writeScene(scene), .cast = {}};
-    std::vector<RepertoireFile> captured = capturedOnce(cast);
+    wire::Production production{.seed = choice.seed,
+                                .sceneFile = scenePath,
+                                .scene = config::writeScene(scene),
+                                .cast = {}};
+    std::vector<capture::RepertoireFile> captured = capturedOnce(cast);
     for (std::size_t i = 0; i < cast.size(); ++i)
         production.cast.push_back(
             {cast[i].path, cast[i].text, std::move(captured[i].bytes), scene.cast[i].fish});
     return production;
 }
 
-WorldOptions worldOptionsOf(const Production& production) {
-    WorldOptions options;
+world::WorldOptions worldOptionsOf(const wire::Production& production) {
+    world::WorldOptions options;
     options.seed = production.seed;
-    options.scene = parseScene(production.scene, production.sceneFile);
+    options.scene = config::parseScene(production.scene, production.sceneFile);
     if (options.scene.cast.size() != production.cast.size())
         throw Error(production.sceneFile + ": its cast has " +
                     std::to_string(options.scene.cast.size()) + " members, and there are " +
@@ -104,4 +110,4 @@ WorldOptions worldOptionsOf(const Production& production) {
     return options;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::production

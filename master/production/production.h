@@ -10,7 +10,7 @@
 #include "common/wire/recording.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::production {
 
 struct ProductionChoice {
     std::uint32_t seed = 1;
@@ -19,10 +19,10 @@ struct ProductionChoice {
 
 // Reads the scene and the files of its cast; a species that was never shown on this machine is
 // captured, behind a bar of progress. Throws Error with file:line:column.
-[[nodiscard]] Production readProduction(const std::string& scenePath,
-                                        const ProductionChoice& choice);
+[[nodiscard]] wire::Production readProduction(const std::string& scenePath,
+                                              const ProductionChoice& choice);
 
 // Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.
-[[nodiscard]] WorldOptions worldOptionsOf(const Production& production);
+[[nodiscard]] world::WorldOptions worldOptionsOf(const wire::Production& production);
 
-}  // namespace aquarama
+}  // namespace aquarama::production

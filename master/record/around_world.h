@@ -8,23 +8,23 @@
 
 #include "master/conductor/simulation.h"
 
-namespace aquarama {
+namespace aquarama::record {
 
-class AroundWorld : public Simulation {
+class AroundWorld : public conductor::Simulation {
   public:
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<FishRecord>& fish) const override { world_.records(fish); }
-    void food(FoodCloud& cloud) const override { world_.food(cloud); }
-    [[nodiscard]] Eye eye() const override { return world_.eye(); }
+    void records(std::vector<motion::FishRecord>& fish) const override { world_.records(fish); }
+    void food(wire::FoodCloud& cloud) const override { world_.food(cloud); }
+    [[nodiscard]] wire::Eye eye() const override { return world_.eye(); }
     [[nodiscard]] float daylight() const override { return world_.daylight(); }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] Explanation explain(std::uint32_t fish) const override {
+    [[nodiscard]] wire::Explanation explain(std::uint32_t fish) const override {
         return world_.explain(fish);
     }
 
   protected:
-    explicit AroundWorld(Simulation& world) : world_(world) {}
-    Simulation& world_;
+    explicit AroundWorld(conductor::Simulation& world) : world_(world) {}
+    conductor::Simulation& world_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::record

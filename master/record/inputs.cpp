@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/record/inputs.h"
 
-namespace aquarama {
+namespace aquarama::record {
 
 namespace {
 
-RecordedFood recordedOne(const DropFood& food) {
+wire::RecordedFood recordedOne(const world::DropFood& food) {
     return {food.position, food.pellets};
 }
-RecordedSubmarine recordedOne(const MoveSubmarine& moved) {
+wire::RecordedSubmarine recordedOne(const world::MoveSubmarine& moved) {
     return {moved.position, moved.velocityMetresPerSecond};
 }
 Steering recordedOne(const Steering& steering) {
     return steering;
 }
-DropFood inputOfOne(const RecordedFood& food) {
+world::DropFood inputOfOne(const wire::RecordedFood& food) {
     return {food.position, food.pellets};
 }
-MoveSubmarine inputOfOne(const RecordedSubmarine& moved) {
+world::MoveSubmarine inputOfOne(const wire::RecordedSubmarine& moved) {
     return {moved.position, moved.velocityMetresPerSecond};
 }
 Steering inputOfOne(const Steering& steering) {
@@ -26,15 +26,15 @@ Steering inputOfOne(const Steering& steering) {
 
 }  // namespace
 
-RecordedInput recorded(Tick tick, const WorldInput& input) {
-    RecordedInput recorded{tick, {}};
+wire::RecordedInput recorded(Tick tick, const world::WorldInput& input) {
+    wire::RecordedInput recorded{tick, {}};
     std::visit([&](const auto& what) { recorded.input = recordedOne(what); }, input);
     return recorded;
 }
 
-WorldInput inputOf(const RecordedInput& recorded) {
-    return std::visit([](const auto& what) { return WorldInput{inputOfOne(what)}; },
+world::WorldInput inputOf(const wire::RecordedInput& recorded) {
+    return std::visit([](const auto& what) { return world::WorldInput{inputOfOne(what)}; },
                       recorded.input);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::record

@@ -5,9 +5,9 @@
 #include "common/wire/recording.h"
 #include "master/world/input.h"
 
-namespace aquarama {
+namespace aquarama::record {
 
-[[nodiscard]] RecordedInput recorded(Tick tick, const WorldInput& input);
-[[nodiscard]] WorldInput inputOf(const RecordedInput& recorded);
+[[nodiscard]] wire::RecordedInput recorded(Tick tick, const world::WorldInput& input);
+[[nodiscard]] world::WorldInput inputOf(const wire::RecordedInput& recorded);
 
-}  // namespace aquarama
+}  // namespace aquarama::record

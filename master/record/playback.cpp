@@ -6,9 +6,9 @@
 #include "common/units/log.h"
 #include "master/record/inputs.h"
 
-namespace aquarama {
+namespace aquarama::record {
 
-Playback::Playback(const Recording& recording, Simulation& world)
+Playback::Playback(const wire::Recording& recording, conductor::Simulation& world)
     : recording_(recording), world_(world) {
     compare();
 }
@@ -29,7 +29,7 @@ void Playback::compare() {
     if (recording_.end && recording_.end->tick == world_.tick()) compareWith(*recording_.end);
 }
 
-void Playback::compareWith(const RecordedHash& expected) {
+void Playback::compareWith(const wire::RecordedHash& expected) {
     ++compared_;
     const std::uint64_t hash = world_.hash();
     if (hash != expected.hash && !difference_)
@@ -37,8 +37,8 @@ void Playback::compareWith(const RecordedHash& expected) {
     if (hash == expected.hash) lastSame_ = expected.tick;
 }
 
-ReplayedWorld::ReplayedWorld(const Recording& recording,
-                             Simulation& world,
+ReplayedWorld::ReplayedWorld(const wire::Recording& recording,
+                             conductor::Simulation& world,
                              std::function<void()> onEnd)
     : AroundWorld(world), playback_(recording, world), onEnd_(std::move(onEnd)) {}
 
@@ -50,9 +50,9 @@ void ReplayedWorld::advance() {
     if (playback_.over() && !std::exchange(ended_, true)) onEnd_();
 }
 
-void ReplayedWorld::apply(const WorldInput& /*input*/) {
+void ReplayedWorld::apply(const world::WorldInput& /*input*/) {
     if (!std::exchange(toldOfInput_, true))
         logWarning("this is a replay: what visitors do does not reach its world");
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::record

@@ -12,7 +12,7 @@
 #include "master/conductor/simulation.h"
 #include "master/record/around_world.h"
 
-namespace aquarama {
+namespace aquarama::record {
 
 // Where a replay first was another world than the recorded one.
 struct Difference {
@@ -24,7 +24,7 @@ struct Difference {
 class Playback {
   public:
     // `recording` outlives it; `world` is at tick 0.
-    Playback(const Recording& recording, Simulation& world);
+    Playback(const wire::Recording& recording, conductor::Simulation& world);
 
     void advance();  // by one tick, with what reached the world before it
     [[nodiscard]] bool over() const { return world_.tick() >= recording_.lastTick(); }
@@ -34,10 +34,10 @@ class Playback {
 
   private:
     void compare();
-    void compareWith(const RecordedHash& expected);
+    void compareWith(const wire::RecordedHash& expected);
 
-    const Recording& recording_;
-    Simulation& world_;
+    const wire::Recording& recording_;
+    conductor::Simulation& world_;
     std::size_t nextInput_ = 0, nextCheckpoint_ = 0, compared_ = 0;
     std::optional<Tick> lastSame_;
     std::optional<Difference> difference_;
@@ -47,10 +47,12 @@ class Playback {
 class ReplayedWorld final : public AroundWorld {
   public:
     // onEnd is called once, from the tick thread, when all that was recorded has been replayed.
-    ReplayedWorld(const Recording& recording, Simulation& world, std::function<void()> onEnd);
+    ReplayedWorld(const wire::Recording& recording,
+                  conductor::Simulation& world,
+                  std::function<void()> onEnd);
 
     void advance() override;
-    void apply(const WorldInput& input) override;
+    void apply(const world::WorldInput& input) override;
 
   private:
     Playback playback_;
@@ -58,4 +60,4 @@ class ReplayedWorld final : public AroundWorld {
     bool toldOfInput_ = false, toldOfDifference_ = false, ended_ = false;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::record

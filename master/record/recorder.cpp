@@ -10,11 +10,11 @@
 #include "common/units/log.h"
 #include "master/record/inputs.h"
 
-namespace aquarama {
+namespace aquarama::record {
 
 namespace {
 
-bool wrote(std::ofstream& file, const Packet& bytes) {
+bool wrote(std::ofstream& file, const wire::Packet& bytes) {
     file.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
     return static_cast<bool>(file.flush());
@@ -31,36 +31,36 @@ void requireNewRecording(const std::string& path) {
         throw Error(path + ": is there already; a recording never overwrites a file: name another");
 }
 
-RecordingFile::RecordingFile(std::string path, const Production& production)
+RecordingFile::RecordingFile(std::string path, const wire::Production& production)
     : path_(std::move(path)) {
     requireNewRecording(path_);
     file_.open(path_, std::ios::binary);
-    if (!file_ || !wrote(file_, beginningOf(production)))
+    if (!file_ || !wrote(file_, wire::beginningOf(production)))
         throw Error(path_ + ": cannot be written: " + reason());
 }
 
-void RecordingFile::add(const Packet& entry) {
+void RecordingFile::add(const wire::Packet& entry) {
     if (!file_.is_open() || wrote(file_, entry)) return;
     logError("{}: the show is recorded no further: {}", path_, reason());
     file_.close();
 }
 
-RecordedWorld::RecordedWorld(Simulation& world, RecordingFile& file)
+RecordedWorld::RecordedWorld(conductor::Simulation& world, RecordingFile& file)
     : AroundWorld(world), file_(file) {
-    file_.add(entryOf(now()));
+    file_.add(wire::entryOf(now()));
 }
 
 RecordedWorld::~RecordedWorld() {
-    file_.add(endOf(now()));
+    file_.add(wire::endOf(now()));
 }
 
 void RecordedWorld::advance() {
-    for (const WorldInput& input : std::exchange(pending_, {})) {
-        file_.add(entryOf(recorded(world_.tick(), input)));
+    for (const world::WorldInput& input : std::exchange(pending_, {})) {
+        file_.add(wire::entryOf(recorded(world_.tick(), input)));
         world_.apply(input);
     }
     world_.advance();
-    if (world_.tick().value % kTicksBetweenCheckpoints == 0) file_.add(entryOf(now()));
+    if (world_.tick().value % kTicksBetweenCheckpoints == 0) file_.add(wire::entryOf(now()));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::record

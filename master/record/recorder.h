@@ -11,7 +11,7 @@
 #include "master/conductor/simulation.h"
 #include "master/record/around_world.h"
 
-namespace aquarama {
+namespace aquarama::record {
 
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
@@ -23,11 +23,11 @@ void requireNewRecording(const std::string& path);
 class RecordingFile {
   public:
     // Throws Error where there is such a file already, and where it cannot be written.
-    RecordingFile(std::string path, const Production& production);
+    RecordingFile(std::string path, const wire::Production& production);
 
     // A show does not end because a disk is full: the first entry that cannot be written is
     // reported, and nothing is recorded from then on.
-    void add(const Packet& entry);
+    void add(const wire::Packet& entry);
     [[nodiscard]] bool recording() const { return file_.is_open(); }
 
   private:
@@ -39,19 +39,19 @@ class RecordingFile {
 // that no snapshot tells the two apart.
 class RecordedWorld final : public AroundWorld {
   public:
-    RecordedWorld(Simulation& world, RecordingFile& file);
+    RecordedWorld(conductor::Simulation& world, RecordingFile& file);
     ~RecordedWorld() override;  // writes the end
     RecordedWorld(const RecordedWorld&) = delete;
     RecordedWorld& operator=(const RecordedWorld&) = delete;
 
     void advance() override;
-    void apply(const WorldInput& input) override { pending_.push_back(input); }
+    void apply(const world::WorldInput& input) override { pending_.push_back(input); }
 
   private:
-    [[nodiscard]] RecordedHash now() const { return {world_.tick(), world_.hash()}; }
+    [[nodiscard]] wire::RecordedHash now() const { return {world_.tick(), world_.hash()}; }
 
     RecordingFile& file_;
-    std::vector<WorldInput> pending_;
+    std::vector<world::WorldInput> pending_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::record

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -29,10 +29,10 @@ bool mayTouch(const Rod& a, const Rod& b, float room) {
 
 }  // namespace
 
-void rodsOf(const FishView& view, std::span<const float> halfWidths, std::vector<Rod>& rods) {
+void rodsOf(const fish::FishView& view, std::span<const float> halfWidths, std::vector<Rod>& rods) {
     rods.resize(view.size());
     for (std::size_t fish = 0; fish < view.size(); ++fish) {
-        const float length = view.shows(fish, kAway) ? 0.0F : view.fish[fish].length;
+        const float length = view.shows(fish, fish::kAway) ? 0.0F : view.fish[fish].length;
         rods[fish] = {
             view.position(fish), view.heading(fish), length, length * halfWidths[view.kind[fish]]};
     }
@@ -57,4 +57,4 @@ float overlapOf(const Rod& a, const Rod& b) {
     return static_cast<float>(inside) / (kSamples + 1);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -10,7 +10,7 @@
 
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 // The body frame's origin is this share of the length behind the nose.
 inline constexpr float kNoseAhead = 0.385F;
@@ -24,7 +24,7 @@ struct Rod {
 
 // Of all fish but those that are away, whose length is 0. Half-widths are given by kind, in body
 // lengths.
-void rodsOf(const FishView& view, std::span<const float> halfWidths, std::vector<Rod>& rods);
+void rodsOf(const fish::FishView& view, std::span<const float> halfWidths, std::vector<Rod>& rods);
 
 // Between the middle lines from nose to tail, metres.
 [[nodiscard]] float distanceBetween(const Rod& a, const Rod& b);
@@ -33,4 +33,4 @@ void rodsOf(const FishView& view, std::span<const float> halfWidths, std::vector
 // together; 0 where they do not overlap.
 [[nodiscard]] float overlapOf(const Rod& a, const Rod& b);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

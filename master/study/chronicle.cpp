@@ -8,25 +8,25 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
 constexpr std::uint64_t kTicksBetweenSteps = 30;  // at which places are noted
 constexpr double kTicksOfMinute = 60.0 * kTicksPerSecond;
 
-glm::ivec3 cubicMetres(const Region& water) {
+glm::ivec3 cubicMetres(const place::Region& water) {
     return glm::max(glm::ivec3(glm::ceil(2.0F * water.halfExtent)), 1);
 }
 
-std::size_t cellOf(const Region& water, glm::vec3 place) {
+std::size_t cellOf(const place::Region& water, glm::vec3 place) {
     const glm::ivec3 size = cubicMetres(water);
     const glm::ivec3 cell = glm::clamp(
         glm::ivec3(glm::floor(place - water.centre + water.halfExtent)), glm::ivec3(0), size - 1);
     return static_cast<std::size_t>((cell.z * size.y + cell.y) * size.x + cell.x);
 }
 
-WorldCounts since(const WorldCounts& before, const WorldCounts& now) {
+world::WorldCounts since(const world::WorldCounts& before, const world::WorldCounts& now) {
     return {now.meals - before.meals,
             now.catches - before.catches,
             now.spawnings - before.spawnings,
@@ -35,7 +35,9 @@ WorldCounts since(const WorldCounts& before, const WorldCounts& now) {
 
 }  // namespace
 
-Chronicle::Chronicle(const World& world, std::vector<float> halfWidths, std::uint64_t ticksOfHour)
+Chronicle::Chronicle(const world::World& world,
+                     std::vector<float> halfWidths,
+                     std::uint64_t ticksOfHour)
     : diary_(world, std::move(halfWidths)),
       ticksOfHour_(ticksOfHour),
       counts_(world.counts()),
@@ -45,7 +47,7 @@ Chronicle::Chronicle(const World& world, std::vector<float> halfWidths, std::uin
     beginHour(world);
 }
 
-void Chronicle::beginHour(const World& world) {
+void Chronicle::beginHour(const world::World& world) {
     now_ = {};
     now_.fewest = static_cast<std::uint32_t>(ways_.size());
     now_.farthestOutMetres = -1e3F;
@@ -57,7 +59,7 @@ void Chronicle::beginHour(const World& world) {
     squares_ = samples_ = 0;
 }
 
-void Chronicle::note(const World& world) {
+void Chronicle::note(const world::World& world) {
     diary_.note(world);
     counts_ = world.counts();
     ++now_.ticks;
@@ -67,12 +69,12 @@ void Chronicle::note(const World& world) {
     beginHour(world);
 }
 
-void Chronicle::notePlaces(const World& world) {
-    const FishView& view = world.view();
+void Chronicle::notePlaces(const world::World& world) {
+    const fish::FishView& view = world.view();
     std::uint32_t there = 0;
     glm::vec3 middle{};
     for (std::size_t fish = 0; fish < ways_.size(); ++fish) {
-        if (view.shows(fish, kAway)) continue;
+        if (view.shows(fish, fish::kAway)) continue;
         ++there;
         middle += view.position(fish);
     }
@@ -80,19 +82,19 @@ void Chronicle::notePlaces(const World& world) {
     middle /= static_cast<float>(std::max(there, 1U));
     for (std::size_t fish = 0; fish < ways_.size(); ++fish) {
         noteWay(world, fish);
-        if (view.shows(fish, kAway)) continue;
+        if (view.shows(fish, fish::kAway)) continue;
         const glm::vec3 from = view.position(fish) - middle;
         squares_ += static_cast<double>(glm::dot(from, from));
         ++samples_;
     }
 }
 
-void Chronicle::noteWay(const World& world, std::size_t fish) {
+void Chronicle::noteWay(const world::World& world, std::size_t fish) {
     Way& way = ways_[fish];
     const glm::vec3 place = world.view().position(fish);
     const std::uint64_t tick = world.tick().value;
-    const Region& water = world.surroundings().obstacles.water;
-    if (world.view().shows(fish, kAway)) {
+    const place::Region& water = world.surroundings().obstacles.water;
+    if (world.view().shows(fish, fish::kAway)) {
         way.last = way.anchor = place;
         way.anchoredAt = tick;
         return;
@@ -118,7 +120,7 @@ Hour Chronicle::finished(const Hour& hour) const {
     const Tally& tally = diary_.tally();
     const double fishTicks = tally.fishTicks - before_.fishTicks;
     const double perFishMinute = kTicksOfMinute / fishTicks;
-    for (std::size_t i = 0; i < kIntentions; ++i)
+    for (std::size_t i = 0; i < fish::kIntentions; ++i)
         whole.intentionShare.at(i) =
             (tally.intentionTicks.at(i) - before_.intentionTicks.at(i)) / fishTicks;
     whole.counts = since(countsBefore_, counts_);
@@ -139,4 +141,4 @@ std::vector<Hour> Chronicle::hours() const {
     return hours;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -10,14 +10,14 @@
 #include "master/study/diary.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 // A piece of it; the last one may be shorter.
 struct Hour {
     std::uint64_t ticks = 0;
-    WorldCounts counts;        // what happened in it
-    std::uint32_t fewest = 0;  // fish that were there at once
-    std::array<double, kIntentions> intentionShare{};
+    world::WorldCounts counts;  // what happened in it
+    std::uint32_t fewest = 0;   // fish that were there at once
+    std::array<double, fish::kIntentions> intentionShare{};
     double changes = 0;         // of intention, a fish and minute
     double touches = 0;         // overlaps that began, a fish and minute
     double overlapPercent = 0;  // of the time of a fish
@@ -35,9 +35,9 @@ inline constexpr float kStayMetres = 0.1F;
 class Chronicle {
   public:
     // Half-widths in body lengths, by kind.
-    Chronicle(const World& world, std::vector<float> halfWidths, std::uint64_t ticksOfHour);
+    Chronicle(const world::World& world, std::vector<float> halfWidths, std::uint64_t ticksOfHour);
 
-    void note(const World& world);  // after each tick
+    void note(const world::World& world);  // after each tick
     // With the hour under way, unless it has only begun.
     [[nodiscard]] std::vector<Hour> hours() const;
     [[nodiscard]] const OverlapLog& overlaps() const { return diary_.overlaps(); }
@@ -48,9 +48,9 @@ class Chronicle {
         std::uint64_t anchoredAt = 0;
         double metres = 0;
     };
-    void noteWay(const World& world, std::size_t fish);
-    void notePlaces(const World& world);
-    void beginHour(const World& world);
+    void noteWay(const world::World& world, std::size_t fish);
+    void notePlaces(const world::World& world);
+    void beginHour(const world::World& world);
     [[nodiscard]] Hour finished(const Hour& hour) const;
 
     Diary diary_;
@@ -58,11 +58,11 @@ class Chronicle {
     std::vector<Hour> done_;
     Hour now_;
     Tally before_;  // as the hour began
-    WorldCounts countsBefore_;
-    WorldCounts counts_;
+    world::WorldCounts countsBefore_;
+    world::WorldCounts counts_;
     std::vector<Way> ways_;
     std::vector<std::uint8_t> visited_;  // of the cubic metres of the water
     double squares_ = 0, samples_ = 0;   // of distances from the middle
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::study

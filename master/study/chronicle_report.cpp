@@ -8,11 +8,11 @@
 
 #include "master/capture/report/svg.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
-constexpr std::array<const char*, kIntentions> kRoutines{
+constexpr std::array<const char*, fish::kIntentions> kRoutines{
     "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
 
 struct Group {
@@ -26,7 +26,7 @@ double secondsOf(std::uint64_t ticks) {
     return static_cast<double>(ticks) / kTicksPerSecond;
 }
 
-void add(Group& group, const Overlap& overlap) {
+void add(Group& group, const BodyOverlap& overlap) {
     ++group.count;
     group.seconds += secondsOf(overlap.ticks);
     group.longest = std::max(group.longest, secondsOf(overlap.ticks));
@@ -48,9 +48,11 @@ std::string tableOf(const std::map<std::pair<std::string, std::string>, Group>& 
                         "quarter of a body, s | deepest, % of the shorter body |\n"
                         "|---|---|---|---|---|---|\n";
     for (const Group& row : rows)
-        table += "| " + row.name + " | " + fixed(static_cast<double>(row.count) / hours, 1) +
-                 " | " + fixed(row.seconds / hours, 1) + " | " + fixed(row.longest, 1) + " | " +
-                 fixed(row.longestDeep, 1) + " | " + fixed(100 * row.deepest, 0) + " |\n";
+        table += "| " + row.name + " | " +
+                 report::fixed(static_cast<double>(row.count) / hours, 1) + " | " +
+                 report::fixed(row.seconds / hours, 1) + " | " + report::fixed(row.longest, 1) +
+                 " | " + report::fixed(row.longestDeep, 1) + " | " +
+                 report::fixed(100 * row.deepest, 0) + " |\n";
     return table;
 }
 
@@ -72,32 +74,32 @@ std::string hoursMarkdown(std::span<const Hour> hours) {
     for (const Hour& hour : hours) {
         std::string shares;
         for (const double share : hour.intentionShare)
-            shares += (shares.empty() ? "" : " / ") + fixed(100 * share, 1);
+            shares += (shares.empty() ? "" : " / ") + report::fixed(100 * share, 1);
         table += "| " + std::to_string(++number) + " | " + std::to_string(hour.fewest) + " | " +
                  std::to_string(hour.counts.meals) + " | " + std::to_string(hour.counts.catches) +
                  " | " + std::to_string(hour.counts.returns) + " | " +
                  std::to_string(hour.counts.spawnings) + " | " + shares + " | " +
-                 fixed(hour.changes, 1) + " | " + fixed(hour.touches, 3) + " | " +
-                 fixed(hour.overlapPercent, 2) + " | " + std::to_string(hour.bumps) + " | " +
-                 fixed(static_cast<double>(hour.shortestWayMetres), 0) + " | " +
-                 fixed(hour.longestStaySeconds, 0) + " (" + std::to_string(hour.whoStayed) +
-                 ") | " + fixed(static_cast<double>(hour.farthestOutMetres), 2) + " | " +
-                 fixed(static_cast<double>(hour.spreadMetres), 2) + " | " +
-                 fixed(hour.waterUsedPercent, 0) + " |\n";
+                 report::fixed(hour.changes, 1) + " | " + report::fixed(hour.touches, 3) + " | " +
+                 report::fixed(hour.overlapPercent, 2) + " | " + std::to_string(hour.bumps) +
+                 " | " + report::fixed(static_cast<double>(hour.shortestWayMetres), 0) + " | " +
+                 report::fixed(hour.longestStaySeconds, 0) + " (" + std::to_string(hour.whoStayed) +
+                 ") | " + report::fixed(static_cast<double>(hour.farthestOutMetres), 2) + " | " +
+                 report::fixed(static_cast<double>(hour.spreadMetres), 2) + " | " +
+                 report::fixed(hour.waterUsedPercent, 0) + " |\n";
     }
     return table;
 }
 
 std::string overlapsMarkdown(const OverlapLog& log,
-                             const World& world,
-                             std::span<const WorldSpecies> cast,
+                             const world::World& world,
+                             std::span<const world::WorldSpecies> cast,
                              double hours) {
     std::map<std::pair<std::string, std::string>, Group> bySpecies, byRoutine;
     const auto nameOf = [&](std::uint32_t fish) { return cast[world.view().kind[fish]].name; };
-    const auto routineOf = [](Intention intention) {
+    const auto routineOf = [](fish::Intention intention) {
         return kRoutines.at(static_cast<std::size_t>(intention));
     };
-    for (const Overlap& overlap : log.all()) {
+    for (const BodyOverlap& overlap : log.all()) {
         add(bySpecies[ordered(nameOf(overlap.a), nameOf(overlap.b))], overlap);
         add(byRoutine[ordered(routineOf(overlap.intentionOfA), routineOf(overlap.intentionOfB))],
             overlap);
@@ -106,4 +108,4 @@ std::string overlapsMarkdown(const OverlapLog& log,
            tableOf(byRoutine, "as it began they would", hours);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -8,15 +8,15 @@
 
 #include "master/study/chronicle.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 // A line an hour.
 [[nodiscard]] std::string hoursMarkdown(std::span<const Hour> hours);
 
 // Overlaps by the pair of species, and by the pair of routines that they began in; the most first.
 [[nodiscard]] std::string overlapsMarkdown(const OverlapLog& log,
-                                           const World& world,
-                                           std::span<const WorldSpecies> cast,
+                                           const world::World& world,
+                                           std::span<const world::WorldSpecies> cast,
                                            double hours);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -9,7 +9,7 @@
 #include "master/behaviour/act/hunt.h"
 #include "master/study/school_figures.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -17,17 +17,17 @@ constexpr std::uint64_t kTicksBetweenGlances = 5;
 
 }  // namespace
 
-bool isInTerrain(const Obstacles& obstacles, const Rod& rod) {
+bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod) {
     if (rod.length == 0) return false;
     const glm::vec3 at = rod.origin;
     if (at.y > -rod.halfWidth) return true;
-    if (at.y < floorHeight(obstacles.place, {at.x, at.z}) + rod.halfWidth) return true;
-    return std::ranges::any_of(obstacles.rocks, [&](const Rock& rock) {
+    if (at.y < place::floorHeight(obstacles.place, {at.x, at.z}) + rod.halfWidth) return true;
+    return std::ranges::any_of(obstacles.rocks, [&](const place::Rock& rock) {
         return glm::distance(rock.centre, at) < rock.radiusMetres + rod.halfWidth;
     });
 }
 
-Diary::Diary(const World& world, std::vector<float> halfWidths)
+Diary::Diary(const world::World& world, std::vector<float> halfWidths)
     : halfWidths_(std::move(halfWidths)),
       overlaps_(kTicksBetweenGlances),
       bumps_(world.view().size()),
@@ -41,39 +41,39 @@ Diary::Diary(const World& world, std::vector<float> halfWidths)
     }
 }
 
-void Diary::note(const World& world) {
+void Diary::note(const world::World& world) {
     ++tally_.ticks;
     tally_.particles = world.counts().meals - before_.meals;
     tally_.catches = world.counts().catches - before_.catches;
     for (std::size_t fish = 0; fish < world.view().size(); ++fish)
-        if (!world.view().shows(fish, kAway)) noteMind(world, fish);
+        if (!world.view().shows(fish, fish::kAway)) noteMind(world, fish);
     if (world.tick().value % kTicksBetweenGlances != 0) return;
     ++tally_.glances;
     noteBodies(world);
     noteSchool(world);
 }
 
-void Diary::noteMind(const World& world, std::size_t fish) {
-    const Minds& minds = world.minds();
-    const Intention intention = minds[fish].intention;
-    const bool hunts = world.natures()[world.view().kind[fish]].role == Role::Predator;
+void Diary::noteMind(const world::World& world, std::size_t fish) {
+    const fish::Minds& minds = world.minds();
+    const fish::Intention intention = minds[fish].intention;
+    const bool hunts = world.natures()[world.view().kind[fish]].role == config::Role::Predator;
     const bool isNew = intention != intention_[fish];
     const bool another = isNew || minds[fish].target != target_[fish];
     ++tally_.fishTicks;
     ++tally_.intentionTicks.at(static_cast<std::size_t>(intention));
     tally_.changes += isNew ? 1 : 0;
-    if (intention == Intention::Eat && !hunts && another) {
+    if (intention == fish::Intention::Eat && !hunts && another) {
         ++tally_.tries;
     }
-    const bool rushes = hunts && intention == Intention::Eat &&
-                        minds[fish].stage == static_cast<std::uint8_t>(HuntStage::Rush);
+    const bool rushes = hunts && intention == fish::Intention::Eat &&
+                        minds[fish].stage == static_cast<std::uint8_t>(behaviour::HuntStage::Rush);
     tally_.rushes += rushes && rushes_[fish] == 0 ? 1 : 0;
     rushes_[fish] = rushes ? 1 : 0;
     intention_[fish] = intention;
     target_[fish] = minds[fish].target;
 }
 
-void Diary::noteBodies(const World& world) {
+void Diary::noteBodies(const world::World& world) {
     rodsOf(world.view(), halfWidths_, rods_);
     const std::uint64_t before = overlaps_.pairTicks();
     tally_.touches += overlaps_.note(world.tick(), rods_, intention_).size();
@@ -85,8 +85,8 @@ void Diary::noteBodies(const World& world) {
     }
 }
 
-void Diary::noteSchool(const World& world) {
-    const Nature& first = world.natures().front();
+void Diary::noteSchool(const world::World& world) {
+    const fish::Nature& first = world.natures().front();
     const SchoolFigures figures = schoolFigures(world.view(), first.first, first.last);
     tally_.nearestNeighbour += figures.nearestNeighbour;
     tally_.polarisation += figures.polarisation;
@@ -97,4 +97,4 @@ void Diary::noteSchool(const World& world) {
     tally_.inStep += synchrony.inStep;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -12,7 +12,7 @@
 #include "master/study/overlap_log.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 // Sums over the time watched.
 struct Tally {
@@ -26,7 +26,7 @@ struct Tally {
     double resultant = 0, sameSegment = 0, inStep = 0;            // likewise
     std::uint64_t glances = 0;
 
-    std::array<double, kIntentions> intentionTicks{};
+    std::array<double, fish::kIntentions> intentionTicks{};
     std::uint64_t changes = 0;  // of intention
     // By fish that eat what drifts: targets that they went for, and particles that they had.
     std::uint64_t tries = 0, particles = 0;
@@ -37,16 +37,16 @@ struct Tally {
 class Diary {
   public:
     // Half-widths in body lengths, by kind. The school is the first kind.
-    Diary(const World& world, std::vector<float> halfWidths);
+    Diary(const world::World& world, std::vector<float> halfWidths);
 
-    void note(const World& world);  // after each tick
+    void note(const world::World& world);  // after each tick
     [[nodiscard]] const Tally& tally() const { return tally_; }
     [[nodiscard]] const OverlapLog& overlaps() const { return overlaps_; }
 
   private:
-    void noteBodies(const World& world);
-    void noteSchool(const World& world);
-    void noteMind(const World& world, std::size_t fish);
+    void noteBodies(const world::World& world);
+    void noteSchool(const world::World& world);
+    void noteMind(const world::World& world, std::size_t fish);
 
     std::vector<float> halfWidths_;
     Tally tally_;
@@ -54,13 +54,13 @@ class Diary {
     std::vector<Rod> rods_;
     std::vector<std::uint8_t> bumps_;  // at the last glance
     // As they were at the last tick.
-    std::vector<Intention> intention_;
+    std::vector<fish::Intention> intention_;
     std::vector<std::uint32_t> target_;
     std::vector<std::uint8_t> rushes_;
-    WorldCounts before_;
+    world::WorldCounts before_;
 };
 
 // Whether the middle of its body is in rock, under the sand with its half-width, or in the air.
-[[nodiscard]] bool isInTerrain(const Obstacles& obstacles, const Rod& rod);
+[[nodiscard]] bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -5,7 +5,7 @@
 
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -13,26 +13,28 @@ constexpr std::uint32_t kPellets = 12;
 constexpr std::uint32_t kPinches = 701;  // stream of the seed
 
 // In the upper half of the water, not at its borders.
-glm::vec3 placeOf(const Region& water, std::uint32_t hash) {
-    const glm::vec3 share{
-        signedUnitOf(hash), unitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+glm::vec3 placeOf(const place::Region& water, std::uint32_t hash) {
+    const glm::vec3 share{place::signedUnitOf(hash),
+                          place::unitOf(place::hashOf(hash, 1)),
+                          place::signedUnitOf(place::hashOf(hash, 2))};
     return water.centre + water.halfExtent * share * 0.6F;
 }
 
 }  // namespace
 
-void Feeding::before(World& world) {
+void Feeding::before(world::World& world) {
     if (between_ == 0 || world.tick().value % between_ != 0) return;
     if (waits_) ticks_ += between_;
-    const Region& water = world.surroundings().obstacles.water;
-    world.apply(DropFood{placeOf(water, hashOf(hashOf(seed_, kPinches), pinches_)), kPellets});
+    const place::Region& water = world.surroundings().obstacles.water;
+    world.apply(world::DropFood{
+        placeOf(water, place::hashOf(place::hashOf(seed_, kPinches), pinches_)), kPellets});
     ++pinches_;
     waits_ = true;
     thrownAt_ = world.tick().value;
     eatenBefore_ = eaten_;
 }
 
-void Feeding::after(const World& world, std::uint64_t particlesEaten) {
+void Feeding::after(const world::World& world, std::uint64_t particlesEaten) {
     eaten_ = particlesEaten;
     if (!waits_ || eaten_ - eatenBefore_ < kPellets / 2) return;
     ticks_ += world.tick().value - thrownAt_;
@@ -45,4 +47,4 @@ double Feeding::meanSeconds() const {
     return static_cast<double>(ticks_) / timed / static_cast<double>(kTicksPerSecond);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -6,14 +6,14 @@
 
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 class Feeding {
   public:
     // Between pinches; 0: never feeds.
     Feeding(std::uint64_t ticksBetween, std::uint32_t seed) : between_(ticksBetween), seed_(seed) {}
-    void before(World& world);  // each tick
-    void after(const World& world, std::uint64_t particlesEaten);
+    void before(world::World& world);  // each tick
+    void after(const world::World& world, std::uint64_t particlesEaten);
     // Until half of a pinch was eaten; a pinch of which less was eaten counts with all its time.
     // NaN where none was thrown.
     [[nodiscard]] double meanSeconds() const;
@@ -27,4 +27,4 @@ class Feeding {
     std::uint64_t ticks_ = 0;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::study

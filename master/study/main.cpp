@@ -34,31 +34,32 @@ struct StudyOptions {
 };
 
 void writeText(const fs::path& path, const std::string& text) {
-    writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
+    files::writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
     std::cerr << path.string() << '\n';
 }
 
-std::vector<Sample> watched(const StudyPlan& plan) {
-    ProgressBar bar("studying");
+std::vector<study::Sample> watched(const study::StudyPlan& plan) {
+    capture::ProgressBar bar("studying");
     std::mutex mutex;
-    return runStudy(plan, [&](double share) {
+    return study::runStudy(plan, [&](double share) {
         const std::scoped_lock lock(mutex);
         bar.show(share);
     });
 }
 
-void study(const StudyOptions& options) {
-    requireFolder("--out", options.out);
-    const fs::path config = options.config.empty() ? findConfigFolder() : fs::path(options.config);
-    const StudyPlan plan{.scenarios = scenariosOf(config),
-                         .minutes = options.minutes,
-                         .seeds = options.seeds,
-                         .threads = std::max(std::thread::hardware_concurrency(), 1U)};
-    const std::vector<Sample> samples = watched(plan);
-    std::cout << studyMarkdown(plan, samples);
+void runStudy(const StudyOptions& options) {
+    cli::requireFolder("--out", options.out);
+    const fs::path config =
+        options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
+    const study::StudyPlan plan{.scenarios = study::scenariosOf(config),
+                                .minutes = options.minutes,
+                                .seeds = options.seeds,
+                                .threads = std::max(std::thread::hardware_concurrency(), 1U)};
+    const std::vector<study::Sample> samples = watched(plan);
+    std::cout << study::studyMarkdown(plan, samples);
     if (options.out.empty()) return;
-    writeText(fs::path(options.out) / "adaptation.csv", studyCsv(plan, samples));
-    writeText(fs::path(options.out) / "adaptation.svg", drawStudy(plan, samples));
+    writeText(fs::path(options.out) / "adaptation.csv", study::studyCsv(plan, samples));
+    writeText(fs::path(options.out) / "adaptation.svg", study::drawStudy(plan, samples));
 }
 
 struct ChronicleOptions {
@@ -69,13 +70,13 @@ struct ChronicleOptions {
 
 // Prints what happened as Markdown.
 void chronicle(const ChronicleOptions& options) {
-    Scenario scenario = readScenario(options.scene);
+    study::Scenario scenario = study::readScenario(options.scene);
     scenario.world.seed = options.seed;
-    World world(scenario.world);
+    world::World world(scenario.world);
     constexpr std::uint64_t kTicksOfMinute = 3600;
     constexpr std::uint64_t kTicksOfHour = 60 * kTicksOfMinute;
-    Chronicle chronicle(world, scenario.halfWidths, kTicksOfHour);
-    ProgressBar bar("living");
+    study::Chronicle chronicle(world, scenario.halfWidths, kTicksOfHour);
+    capture::ProgressBar bar("living");
     const auto ticks = static_cast<std::uint64_t>(options.hours * kTicksOfHour);
     for (std::uint64_t tick = 0; tick < ticks; ++tick) {
         world.advance();
@@ -83,8 +84,9 @@ void chronicle(const ChronicleOptions& options) {
         if (tick % kTicksOfMinute == 0)
             bar.show(static_cast<double>(tick) / static_cast<double>(ticks));
     }
-    std::cout << hoursMarkdown(chronicle.hours()) << '\n'
-              << overlapsMarkdown(chronicle.overlaps(), world, scenario.world.cast, options.hours)
+    std::cout << study::hoursMarkdown(chronicle.hours()) << '\n'
+              << study::overlapsMarkdown(
+                     chronicle.overlaps(), world, scenario.world.cast, options.hours)
               << "\nhash of the world: " << std::hex << world.hash() << '\n';
 }
 
@@ -99,23 +101,23 @@ int main(int count, char** arguments) {
     StudyOptions options;
     app.add_option("--out", options.out, "folder for a table of all runs and a figure");
     app.add_option("--minutes", options.minutes, "of each run; 10 when not given")
-        ->check(number(0.1, 1440));
+        ->check(cli::number(0.1, 1440));
     app.add_option("--seeds", options.seeds, "runs of each kind; 5 when not given")
-        ->check(wholeNumber(1, 100));
+        ->check(cli::wholeNumber(1, 100));
     app.add_option("--config", options.config, "folder that holds scenes and species");
     ChronicleOptions life;
     CLI::App& chronicled =
         *app.add_subcommand("chronicle", "what happens in a scene, hour by hour");
     chronicled.add_option("SCENE", life.scene, "the scene's file")->required();
     chronicled.add_option("--hours", life.hours, "of the scene; 1 when not given")
-        ->check(number(0.01, 1000));
+        ->check(cli::number(0.01, 1000));
     chronicled.add_option("--seed", life.seed, "of the world; 1 when not given")
-        ->check(wholeNumber(0, kMostSeed));
-    return runProgram(app, count, arguments, [&] {
+        ->check(cli::wholeNumber(0, cli::kMostSeed));
+    return cli::runProgram(app, count, arguments, [&] {
         if (chronicled.parsed())
             chronicle(life);
         else
-            study(options);
+            runStudy(options);
         return 0;
     });
 }

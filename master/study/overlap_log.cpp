@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-namespace aquarama {
+namespace aquarama::study {
 
-std::span<const Overlap> OverlapLog::note(Tick tick,
-                                          std::span<const Rod> rods,
-                                          std::span<const Intention> intentions) {
+std::span<const BodyOverlap> OverlapLog::note(Tick tick,
+                                              std::span<const Rod> rods,
+                                              std::span<const fish::Intention> intentions) {
     fresh_.clear();
     for (std::uint32_t a = 0; a < rods.size(); ++a)
         for (std::uint32_t b = a + 1; b < rods.size(); ++b)
@@ -26,7 +26,7 @@ std::span<const Overlap> OverlapLog::note(Tick tick,
     return fresh_;
 }
 
-void OverlapLog::meet(const Overlap& overlap, float share) {
+void OverlapLog::meet(const BodyOverlap& overlap, float share) {
     const auto [entry, isNew] =
         open_.try_emplace({overlap.a, overlap.b}, Open{overlap, 0, overlap.from});
     if (isNew) fresh_.push_back(overlap);
@@ -39,10 +39,10 @@ void OverlapLog::meet(const Overlap& overlap, float share) {
     pairTicks_ += between_;
 }
 
-std::vector<Overlap> OverlapLog::all() const {
-    std::vector<Overlap> all = ended_;
+std::vector<BodyOverlap> OverlapLog::all() const {
+    std::vector<BodyOverlap> all = ended_;
     for (const auto& [pair, open] : open_) all.push_back(open.overlap);
     return all;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -12,11 +12,12 @@
 #include "master/fish/minds.h"
 #include "master/study/bodies.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
-struct Overlap {
-    std::uint32_t a = 0, b = 0;                                                    // fish, a < b
-    Intention intentionOfA = Intention::Wander, intentionOfB = Intention::Wander;  // as it began
+struct BodyOverlap {
+    std::uint32_t a = 0, b = 0;  // fish, a < b
+    fish::Intention intentionOfA = fish::Intention::Wander,
+                    intentionOfB = fish::Intention::Wander;  // as it began
     Tick from;
     std::uint64_t ticks = 0;      // in which any of them was in the other
     std::uint64_t deepTicks = 0;  // in which more than kDeepShare was, the longest run of them
@@ -30,26 +31,26 @@ class OverlapLog {
   public:
     explicit OverlapLog(std::uint64_t ticksBetweenGlances) : between_(ticksBetweenGlances) {}
     // Answers the overlaps that are new.
-    std::span<const Overlap> note(Tick tick,
-                                  std::span<const Rod> rods,
-                                  std::span<const Intention> intentions);
+    std::span<const BodyOverlap> note(Tick tick,
+                                      std::span<const Rod> rods,
+                                      std::span<const fish::Intention> intentions);
 
-    [[nodiscard]] std::vector<Overlap> all() const;  // those that go on as well
+    [[nodiscard]] std::vector<BodyOverlap> all() const;  // those that go on as well
     [[nodiscard]] std::uint64_t pairTicks() const { return pairTicks_; }
 
   private:
     struct Open {
-        Overlap overlap;
+        BodyOverlap overlap;
         std::uint64_t deepRun = 0;
         Tick last;
     };
-    void meet(const Overlap& overlap, float share);
+    void meet(const BodyOverlap& overlap, float share);
 
     std::uint64_t between_;
     std::uint64_t pairTicks_ = 0;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Open> open_;
-    std::vector<Overlap> ended_;
-    std::vector<Overlap> fresh_;
+    std::vector<BodyOverlap> ended_;
+    std::vector<BodyOverlap> fresh_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::study

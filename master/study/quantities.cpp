@@ -6,7 +6,7 @@
 
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -50,9 +50,9 @@ const QuantityInfo& infoOf(Quantity quantity) {
 Figures figuresOf(const Diary& diary, double pinchSeconds) {
     const Tally& tally = diary.tally();
     const double fishMinutes = tally.fishTicks / kTicksOfMinute;
-    const std::vector<Overlap> overlaps = diary.overlaps().all();
+    const std::vector<BodyOverlap> overlaps = diary.overlaps().all();
     const auto deep = std::ranges::count_if(
-        overlaps, [](const Overlap& overlap) { return overlap.deepest > kDeepShare; });
+        overlaps, [](const BodyOverlap& overlap) { return overlap.deepest > kDeepShare; });
     Figures figures{};
     const auto set = [&](Quantity quantity, double value) {
         figures.at(static_cast<std::size_t>(quantity)) = value;
@@ -75,4 +75,4 @@ Figures figuresOf(const Diary& diary, double pinchSeconds) {
     return figures;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -8,7 +8,7 @@
 
 #include "master/study/diary.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 enum class Quantity : std::uint8_t {
     Touches,
@@ -43,4 +43,4 @@ using Figures = std::array<double, kQuantities>;
 // pinchSeconds: until half of a pinch of pellets was eaten, mean of those thrown.
 [[nodiscard]] Figures figuresOf(const Diary& diary, double pinchSeconds);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -8,26 +8,26 @@
 #include "common/config/species.h"
 #include "master/production/production.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
 constexpr std::uint64_t kTicksBetweenPinches = 30 * kTicksPerSecond;
 
 // The greatest of the body.
-float halfWidthOf(const ProducedSpecies& species) {
-    return std::ranges::max(parseSpecies(species.text, species.file).profile.halfWidth);
+float halfWidthOf(const wire::ProducedSpecies& species) {
+    return std::ranges::max(config::parseSpecies(species.text, species.file).profile.halfWidth);
 }
 
 }  // namespace
 
 Scenario readScenario(const std::filesystem::path& scene) {
-    const Production production = readProduction(scene.string(), {});
+    const wire::Production production = production::readProduction(scene.string(), {});
     Scenario scenario;
-    scenario.world = worldOptionsOf(production);
+    scenario.world = production::worldOptionsOf(production);
     scenario.world.scene.tour.reset();  // fish are measured, not how they make way
     scenario.name = scenario.world.scene.name;
-    for (const ProducedSpecies& species : production.cast)
+    for (const wire::ProducedSpecies& species : production.cast)
         scenario.halfWidths.push_back(halfWidthOf(species));
     return scenario;
 }
@@ -42,4 +42,4 @@ std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
     return scenarios;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -7,7 +7,7 @@
 
 #include "master/study/study.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 // A scene's file, whose own name the scenario bears. Throws Error.
 [[nodiscard]] Scenario readScenario(const std::filesystem::path& scene);
@@ -16,4 +16,4 @@ namespace aquarama {
 // other's way; and hungry ones that are fed.
 [[nodiscard]] std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -21,14 +21,14 @@ int phaseBetween(std::uint16_t a, std::uint16_t b) {
     return std::abs(static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)));
 }
 
-std::vector<std::size_t> present(const FishView& view, std::size_t first, std::size_t last) {
+std::vector<std::size_t> present(const fish::FishView& view, std::size_t first, std::size_t last) {
     std::vector<std::size_t> fish;
     for (std::size_t i = first; i < last; ++i)
-        if (!view.shows(i, kAway)) fish.push_back(i);
+        if (!view.shows(i, fish::kAway)) fish.push_back(i);
     return fish;
 }
 
-float distanceToNearest(const FishView& view,
+float distanceToNearest(const fish::FishView& view,
                         const std::vector<std::size_t>& all,
                         std::size_t one) {
     float nearest = std::numeric_limits<float>::max();
@@ -40,7 +40,7 @@ float distanceToNearest(const FishView& view,
 
 }  // namespace
 
-SchoolFigures schoolFigures(const FishView& view, std::size_t first, std::size_t last) {
+SchoolFigures schoolFigures(const fish::FishView& view, std::size_t first, std::size_t last) {
     const std::vector<std::size_t> fish = present(view, first, last);
     SchoolFigures figures;
     if (fish.size() < 2) return figures;
@@ -62,7 +62,7 @@ SchoolFigures schoolFigures(const FishView& view, std::size_t first, std::size_t
     return figures;
 }
 
-Synchrony synchronyOf(const MotionStates& states, std::size_t first, std::size_t last) {
+Synchrony synchronyOf(const motion::MotionStates& states, std::size_t first, std::size_t last) {
     double sine = 0, cosine = 0;
     double alike = 0, inStep = 0;
     for (std::size_t i = first; i < last; ++i) {
@@ -80,4 +80,4 @@ Synchrony synchronyOf(const MotionStates& states, std::size_t first, std::size_t
     return {std::hypot(sine, cosine) / fish, alike / pairs, inStep / pairs};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -7,7 +7,7 @@
 #include "common/motion/motion_state.h"
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 // Of fish [first, last) that are there.
 struct SchoolFigures {
@@ -16,7 +16,7 @@ struct SchoolFigures {
     double rotation = 0;          // of the mean angular momentum about the group's middle (same)
     double radiusMetres = 0;      // root mean square distance from the group's middle
 };
-[[nodiscard]] SchoolFigures schoolFigures(const FishView& view,
+[[nodiscard]] SchoolFigures schoolFigures(const fish::FishView& view,
                                           std::size_t first,
                                           std::size_t last);
 
@@ -26,8 +26,8 @@ struct Synchrony {
     double sameSegment = 0;  // share of pairs that play the same segment
     double inStep = 0;       // share of pairs
 };
-[[nodiscard]] Synchrony synchronyOf(const MotionStates& states,
+[[nodiscard]] Synchrony synchronyOf(const motion::MotionStates& states,
                                     std::size_t first,
                                     std::size_t last);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

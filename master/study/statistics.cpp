@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -54,4 +54,4 @@ bool isClear(const Estimate& difference) {
     return std::abs(difference.mean) > bound * difference.standardError;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -6,7 +6,7 @@
 
 #include "master/study/quantities.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 struct Estimate {
     double mean = 0;
@@ -23,4 +23,4 @@ struct Estimate {
 // More than chance would do in 95 of 100 studies.
 [[nodiscard]] bool isClear(const Estimate& difference);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -9,7 +9,7 @@
 #include "common/place/noise.h"
 #include "master/study/feeding.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -32,14 +32,14 @@ std::vector<Task> tasksOf(const StudyPlan& plan) {
 }  // namespace
 
 Figures runOnce(const Scenario& scenario,
-                const Adaptation& adaptation,
+                const fish::Adaptation& adaptation,
                 std::uint32_t seed,
                 double minutes) {
-    WorldOptions options = scenario.world;
+    world::WorldOptions options = scenario.world;
     options.seed = seed;
     options.threads = 1;
     options.adaptation = adaptation;
-    World world(options);
+    world::World world(options);
     for (std::uint64_t tick = 0; tick < kSettlingTicks; ++tick) world.advance();
     Diary diary(world, scenario.halfWidths);
     Feeding feeding(scenario.ticksBetweenPinches, seed);
@@ -76,4 +76,4 @@ std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(dou
     return samples;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -13,11 +13,11 @@
 #include "master/study/quantities.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 struct Condition {
     const char* name;
-    Adaptation adaptation;
+    fish::Adaptation adaptation;
 };
 inline constexpr std::array kConditions{
     Condition{"all", {}},
@@ -30,7 +30,7 @@ inline constexpr std::array kConditions{
 
 struct Scenario {
     std::string name;
-    WorldOptions world;                     // its seed and adaptation are the run's
+    world::WorldOptions world;              // its seed and adaptation are the run's
     std::vector<float> halfWidths;          // body lengths, by kind of the cast
     std::uint64_t ticksBetweenPinches = 0;  // of food; 0: nobody feeds
 };
@@ -46,7 +46,7 @@ struct StudyPlan {
 };
 
 [[nodiscard]] Figures runOnce(const Scenario& scenario,
-                              const Adaptation& adaptation,
+                              const fish::Adaptation& adaptation,
                               std::uint32_t seed,
                               double minutes);
 
@@ -54,4 +54,4 @@ struct StudyPlan {
 [[nodiscard]] std::vector<Sample> runStudy(const StudyPlan& plan,
                                            const std::function<void(double)>& done);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

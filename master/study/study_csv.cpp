@@ -4,7 +4,7 @@
 
 #include "master/study/study_report.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 std::string studyCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {
     std::ostringstream csv;
@@ -26,4 +26,4 @@ std::string studyCsv(const StudyPlan& plan, const std::vector<Sample>& samples) 
     return csv.str();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -7,7 +7,7 @@
 #include "master/study/statistics.h"
 #include "master/study/study_report.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -39,7 +39,9 @@ double niceTick(double most) {
     return power * (lead > 5 ? 2 : lead > 2 ? 1 : 0.5);
 }
 
-Axis valueAxis(const std::vector<Figures>& a, const std::vector<Figures>& b, Quantity quantity) {
+report::Axis valueAxis(const std::vector<Figures>& a,
+                       const std::vector<Figures>& b,
+                       Quantity quantity) {
     double most = 1e-6;
     for (const auto* runs : {&a, &b})
         for (const Figures& run : *runs)
@@ -54,8 +56,8 @@ Axis valueAxis(const std::vector<Figures>& a, const std::vector<Figures>& b, Qua
 }
 
 // Each seed a thin line from without to with, and the means.
-void drawSeeds(Svg& svg,
-               const Plot& plot,
+void drawSeeds(report::Svg& svg,
+               const report::Plot& plot,
                const std::vector<Figures>& without,
                const std::vector<Figures>& with,
                Quantity quantity) {
@@ -72,27 +74,28 @@ void drawSeeds(Svg& svg,
     }
     const auto mean = [&](double x, const std::vector<Figures>& runs, const std::string& colour) {
         const double at = estimateOf(runs, quantity).mean;
-        svg.line(plot.at(x - 0.25, at), plot.at(x + 0.25, at), stroke(colour, 2.5));
+        svg.line(plot.at(x - 0.25, at), plot.at(x + 0.25, at), report::stroke(colour, 2.5));
     };
     mean(1, without, kWithout);
     mean(2, with, kWith);
 }
 
-void drawPanel(Svg& svg, const Panel& panel, const Sample& sample, glm::dvec2 corner) {
+void drawPanel(report::Svg& svg, const Panel& panel, const Sample& sample, glm::dvec2 corner) {
     const auto& without = sample.at(panel.without);
     const auto& with = sample.front();
-    Axis x{.least = 0.4, .most = 2.6, .tick = 10, .digits = 0, .label = ""};
-    const Plot plot(
+    report::Axis x{.least = 0.4, .most = 2.6, .tick = 10, .digits = 0, .label = ""};
+    const report::Plot plot(
         corner, {kPanelWidth, kPanelHeight}, x, valueAxis(without, with, panel.quantity));
     plot.drawAxes(svg);
     drawSeeds(svg, plot, without, with, panel.quantity);
-    svg.text(plot.at(1, 0) + glm::dvec2{0, 16}, "without", letters(11, "middle"));
-    svg.text(plot.at(2, 0) + glm::dvec2{0, 16}, "with", letters(11, "middle"));
+    svg.text(plot.at(1, 0) + glm::dvec2{0, 16}, "without", report::letters(11, "middle"));
+    svg.text(plot.at(2, 0) + glm::dvec2{0, 16}, "with", report::letters(11, "middle"));
     svg.text(corner + glm::dvec2{0, -26},
              std::string(panel.adaptation) + ", " + panel.scenario,
-             letters(12));
-    svg.text(
-        corner + glm::dvec2{0, -11}, infoOf(panel.quantity).words, letters(10, "start", kQuietInk));
+             report::letters(12));
+    svg.text(corner + glm::dvec2{0, -11},
+             infoOf(panel.quantity).words,
+             report::letters(10, "start", report::kQuietInk));
 }
 
 }  // namespace
@@ -100,7 +103,7 @@ void drawPanel(Svg& svg, const Panel& panel, const Sample& sample, glm::dvec2 co
 std::string drawStudy(const StudyPlan& plan, const std::vector<Sample>& samples) {
     const double across = kPanelWidth + 2 * kMargin;
     const double down = kPanelHeight + kTop + 36;
-    Svg svg(kColumns * across, down * 2);
+    report::Svg svg(kColumns * across, down * 2);
     int place = 0;
     for (const Panel& panel : kPanels) {
         const auto scenario = std::ranges::find(plan.scenarios, panel.scenario, &Scenario::name);
@@ -113,4 +116,4 @@ std::string drawStudy(const StudyPlan& plan, const std::vector<Sample>& samples)
     return std::move(svg).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

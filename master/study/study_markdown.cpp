@@ -5,7 +5,7 @@
 #include "master/study/statistics.h"
 #include "master/study/study_report.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 namespace {
 
@@ -14,8 +14,8 @@ std::string cellOf(const Sample& sample, std::size_t condition, Quantity quantit
     const Estimate estimate = estimateOf(sample.at(condition), quantity);
     if (estimate.seeds == 0) return "–";
     const int digits = infoOf(quantity).digits;
-    const std::string words =
-        fixed(estimate.mean, digits) + " ± " + fixed(estimate.standardError, digits);
+    const std::string words = report::fixed(estimate.mean, digits) + " ± " +
+                              report::fixed(estimate.standardError, digits);
     const bool differs =
         condition > 0 && isClear(differenceOf(sample.at(condition), sample.front(), quantity));
     return differs ? "**" + words + "**" : words;
@@ -57,4 +57,4 @@ std::string studyMarkdown(const StudyPlan& plan, const std::vector<Sample>& samp
     return page;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::study

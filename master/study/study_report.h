@@ -7,7 +7,7 @@
 
 #include "master/study/study.h"
 
-namespace aquarama {
+namespace aquarama::study {
 
 // The tables of docs/adaptation.md: for each scenario a row a quantity and a column a condition.
 [[nodiscard]] std::string studyMarkdown(const StudyPlan& plan, const std::vector<Sample>& samples);
@@ -18,4 +18,4 @@ namespace aquarama {
 // With and without each adaptation, a dot for each seed.
 [[nodiscard]] std::string drawStudy(const StudyPlan& plan, const std::vector<Sample>& samples);
 
-}  // namespace aquarama
+}  // namespace aquarama::study

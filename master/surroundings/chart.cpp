@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 namespace {
 
@@ -22,7 +22,9 @@ float squaredDistanceToCell(glm::vec2 point, glm::vec2 least) {
 
 }  // namespace
 
-Chart::Chart(const PlaceKey& place, const Region& water, std::span<const Footprint> footprints)
+Chart::Chart(const place::PlaceKey& place,
+             const place::Region& water,
+             std::span<const Footprint> footprints)
     : origin_{water.centre.x - water.halfExtent.x - kAboutMetres,
               water.centre.z - water.halfExtent.z - kAboutMetres},
       extent_{2 * (water.halfExtent.x + kAboutMetres), 2 * (water.halfExtent.z + kAboutMetres)} {
@@ -30,18 +32,19 @@ Chart::Chart(const PlaceKey& place, const Region& water, std::span<const Footpri
     list(footprints);
 }
 
-void Chart::measure(const PlaceKey& place) {
-    if (place.kind == PlaceKind::OpenSea) {
-        highest_ = -kOpenSeaFloorDepthMetres;
+void Chart::measure(const place::PlaceKey& place) {
+    if (place.kind == config::PlaceKind::OpenSea) {
+        highest_ = -place::kOpenSeaFloorDepthMetres;
         return;
     }
     corners_ = steps(extent_.x, kChartStepMetres) + 1;
     const int rows = steps(extent_.y, kChartStepMetres) + 1;
     for (int z = 0; z < rows; ++z)
         for (int x = 0; x < corners_; ++x)
-            sand_.push_back(floorHeight(place,
-                                        {origin_.x + static_cast<float>(x) * kChartStepMetres,
-                                         origin_.y + static_cast<float>(z) * kChartStepMetres}));
+            sand_.push_back(
+                place::floorHeight(place,
+                                   {origin_.x + static_cast<float>(x) * kChartStepMetres,
+                                    origin_.y + static_cast<float>(z) * kChartStepMetres}));
     highest_ = *std::ranges::max_element(sand_);
 }
 
@@ -81,4 +84,4 @@ std::span<const std::uint32_t> Chart::near(glm::vec2 xz) const {
     return std::span(listed_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

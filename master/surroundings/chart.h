@@ -13,7 +13,7 @@
 
 #include "common/place/place.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 // A kelp plant, as fish pass it: upright, from the sand to its top.
 struct Stem {
@@ -34,7 +34,9 @@ class Chart {
     };
     Chart() = default;
     // Covers the water and a metre and a half about it.
-    Chart(const PlaceKey& place, const Region& water, std::span<const Footprint> footprints);
+    Chart(const place::PlaceKey& place,
+          const place::Region& water,
+          std::span<const Footprint> footprints);
 
     // Whether a place is on the chart; only there may it be asked.
     [[nodiscard]] bool covers(glm::vec2 xz) const {
@@ -47,7 +49,7 @@ class Chart {
     [[nodiscard]] std::span<const std::uint32_t> near(glm::vec2 xz) const;
 
   private:
-    void measure(const PlaceKey& place);
+    void measure(const place::PlaceKey& place);
     void list(std::span<const Footprint> footprints);
 
     glm::vec2 origin_{};
@@ -59,4 +61,4 @@ class Chart {
     std::vector<std::uint32_t> starts_, listed_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 namespace {
 
@@ -13,13 +13,13 @@ constexpr float kLostPerMetre = 0.02F;
 
 }  // namespace
 
-Climate climateOf(const Scene& scene) {
+Climate climateOf(const config::Scene& scene) {
     return {scene.day,
             static_cast<float>(scene.water.surfaceCelsius),
             static_cast<float>(scene.water.celsiusPerMetre)};
 }
 
-float daylight(const Day& day, Tick tick) {
+float daylight(const config::Day& day, Tick tick) {
     double time = day.startsAt;
     if (day.lengthSeconds > 0)
         time += static_cast<double>(tick.value) /
@@ -39,4 +39,4 @@ float celsiusAt(const Climate& climate, float y) {
     return climate.surfaceCelsius - climate.celsiusPerMetre * std::min(y, 0.0F);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

@@ -5,18 +5,18 @@
 #include "common/config/scene.h"
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 struct Climate {
-    Day day;
+    config::Day day;
     float surfaceCelsius = 28, celsiusPerMetre = -0.15F;
 };
-[[nodiscard]] Climate climateOf(const Scene& scene);
+[[nodiscard]] Climate climateOf(const config::Scene& scene);
 
 // 1 at noon, Day::night at midnight, a smooth wave between; the sky's, before the water takes any.
-[[nodiscard]] float daylight(const Day& day, Tick tick);
+[[nodiscard]] float daylight(const config::Day& day, Tick tick);
 // At a height y (negative), 0 to 1.
 [[nodiscard]] float lightAt(const Climate& climate, float daylight, float y);
 [[nodiscard]] float celsiusAt(const Climate& climate, float y);
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

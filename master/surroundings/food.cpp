@@ -7,7 +7,7 @@
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 namespace {
 
@@ -34,25 +34,25 @@ constexpr std::uint64_t kSwellTicks = 12'288;  // of its longest period, some th
 constexpr float kPerTick = 1.0F / static_cast<float>(kTicksPerSecond);
 
 // Where plankton may be.
-Region reachable(const Region& water) {
+place::Region reachable(const place::Region& water) {
     const auto within = [](float half) { return std::max(half - kShoreMetres, 0.5F * half); };
     return {water.centre,
             {within(water.halfExtent.x), within(water.halfExtent.y), within(water.halfExtent.z)}};
 }
 
 float lowestAt(const Obstacles& obstacles, float x, float z) {
-    return floorHeight(obstacles.place, {x, z}) + kFloorRoomMetres;
+    return place::floorHeight(obstacles.place, {x, z}) + kFloorRoomMetres;
 }
 
-bool isWithin(const Region& water, glm::vec3 place) {
+bool isWithin(const place::Region& water, glm::vec3 place) {
     const glm::vec3 from = place - water.centre;
     return std::abs(from.x) < water.halfExtent.x && std::abs(from.y) < water.halfExtent.y &&
            std::abs(from.z) < water.halfExtent.z;
 }
 
 bool isClear(const Obstacles& obstacles, glm::vec3 place) {
-    return std::ranges::none_of(obstacles.rocks, [&](const Rock& rock) {
-        return lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
+    return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
+        return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
     });
 }
 
@@ -60,12 +60,14 @@ glm::vec3 strewn(std::uint32_t seed,
                  const Obstacles& obstacles,
                  std::uint32_t particle,
                  std::uint32_t turn) {
-    const Region water = reachable(obstacles.water);
+    const place::Region water = reachable(obstacles.water);
     glm::vec3 place{};
     for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
-        const std::uint32_t hash = hashOf(hashOf(hashOf(hashOf(seed, Place), particle), turn), i);
-        const glm::vec3 share{
-            signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+        const std::uint32_t hash = place::hashOf(
+            place::hashOf(place::hashOf(place::hashOf(seed, Place), particle), turn), i);
+        const glm::vec3 share{place::signedUnitOf(hash),
+                              place::signedUnitOf(place::hashOf(hash, 1)),
+                              place::signedUnitOf(place::hashOf(hash, 2))};
         place = water.centre + water.halfExtent * share;
         place.y =
             std::min(std::max(place.y, lowestAt(obstacles, place.x, place.z)), -kSurfaceRoomMetres);
@@ -105,7 +107,7 @@ struct Swell {
     glm::vec3 centre, perHalf;
     float time;  // cycles of the longest period
 
-    Swell(const Region& water, Tick tick)
+    Swell(const place::Region& water, Tick tick)
         : centre(water.centre),
           perHalf(1 / water.halfExtent.x, 1 / water.halfExtent.y, 1 / water.halfExtent.z),
           time(static_cast<float>(tick.value % kSwellTicks) / static_cast<float>(kSwellTicks)) {}
@@ -214,11 +216,14 @@ void dropPellets(Food& food,
     const auto now = static_cast<std::uint32_t>(tick.value);
     for (std::size_t i = food.size() - kMostPellets; i < food.size() && pellets > 0; ++i) {
         if (food.isThere(i)) continue;
-        const std::uint32_t hash = hashOf(hashOf(hashOf(seed, Spread), now), pellets--);
-        const glm::vec3 aside{
-            signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+        const std::uint32_t hash =
+            place::hashOf(place::hashOf(place::hashOf(seed, Spread), now), pellets--);
+        const glm::vec3 aside{place::signedUnitOf(hash),
+                              place::signedUnitOf(place::hashOf(hash, 1)),
+                              place::signedUnitOf(place::hashOf(hash, 2))};
         glm::vec3 place = position + aside * kSpreadMetres;
-        const float sand = floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
+        const float sand =
+            place::floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
         const float deepest = obstacles.water.centre.y - obstacles.water.halfExtent.y;
         place.y = std::min(std::max(place.y, sand), 0.0F);
         put(food, i, FoodKind::Pellet, place, sand);
@@ -243,14 +248,15 @@ void removeFood(Food& food, std::uint32_t particle, Tick tick) {
     food.taken[particle] = 0;
     const auto now = static_cast<std::uint32_t>(tick.value);
     food.absentUntil[particle] =
-        now + kShortestAbsence + hashOf(hashOf(particle, Absence), now) % kShortestAbsence;
+        now + kShortestAbsence +
+        place::hashOf(place::hashOf(particle, Absence), now) % kShortestAbsence;
 }
 
-glm::vec3 currentAt(const Region& water, glm::vec3 position, Tick tick) {
+glm::vec3 currentAt(const place::Region& water, glm::vec3 position, Tick tick) {
     const Swell swell(reachable(water), tick);
     return {swell.alongX(position.x, position.y, position.z),
             swell.alongY(position.x, position.y, position.z),
             swell.alongZ(position.x, position.y, position.z)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

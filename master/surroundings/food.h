@@ -11,7 +11,7 @@
 #include "common/units/ids.h"
 #include "master/surroundings/obstacles.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 enum class FoodKind : std::uint8_t { None, Plankton, Pellet };
 
@@ -57,6 +57,6 @@ void removeFood(Food& food, std::uint32_t particle, Tick tick);
 
 // The water's own motion at a place, metres a second: a slow swell of the whole sea that dies away
 // towards the borders. Exact arithmetic.
-[[nodiscard]] glm::vec3 currentAt(const Region& water, glm::vec3 position, Tick tick);
+[[nodiscard]] glm::vec3 currentAt(const place::Region& water, glm::vec3 position, Tick tick);
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

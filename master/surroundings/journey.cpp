@@ -7,7 +7,7 @@
 
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 namespace {
 
@@ -45,12 +45,12 @@ constexpr std::uint64_t ticksOfRound() {
 glm::vec3 stationAt(std::uint32_t seed, std::uint64_t index) {
     const auto round = static_cast<std::uint32_t>(index / kRound.size());
     const Station& station = kRound[index % kRound.size()];
-    const std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(index));
-    const bool mirrored = (hashOf(~seed, round) & 1U) != 0;
+    const std::uint32_t hash = place::hashOf(seed, static_cast<std::uint32_t>(index));
+    const bool mirrored = (place::hashOf(~seed, round) & 1U) != 0;
     return {(mirrored ? -station.position.x : station.position.x) +
-                station.shiftMetres * signedUnitOf(hash),
-            station.position.y + kHeightShiftMetres * signedUnitOf(hashOf(hash, 1)),
-            station.position.z + station.shiftMetres * signedUnitOf(hashOf(hash, 2))};
+                station.shiftMetres * place::signedUnitOf(hash),
+            station.position.y + kHeightShiftMetres * place::signedUnitOf(place::hashOf(hash, 1)),
+            station.position.z + station.shiftMetres * place::signedUnitOf(place::hashOf(hash, 2))};
 }
 
 float secondsOfLeg(std::uint64_t index) {
@@ -84,7 +84,8 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
     const glm::vec3 square = step * 3.0F - leaving * 2.0F - arriving;
     const glm::vec3 cube = leaving + arriving - step * 2.0F;
     const float side =
-        (hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0 ? 1.0F : -1.0F;
+        (place::hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0 ? 1.0F
+                                                                                           : -1.0F;
     const float fade = std::min(1.0F, 12 * u * (1 - u));
     const float mill = kRound[index % kRound.size()].mills ? side * fade : 0.0F;
     return {from + (leaving + (square + cube * u) * u) * u,
@@ -114,13 +115,13 @@ float ballRadius(std::size_t fish, float lengthMetres) {
 
 }  // namespace
 
-float millRadiusMetres(const Region& water, std::size_t fish, float lengthMetres) {
+float millRadiusMetres(const place::Region& water, std::size_t fish, float lengthMetres) {
     const float ball = ballRadius(fish, lengthMetres);
     const float high = std::min(ball, kHeightOfMill * water.halfExtent.y);
     return ball * std::sqrt(ball / high);
 }
 
-Goal millGoal(std::uint32_t seed, const Region& water, float radius, Tick tick) {
+Goal millGoal(std::uint32_t seed, const place::Region& water, float radius, Tick tick) {
     const float u = static_cast<float>(tick.value % kTicksOfMill) / float{kTicksOfMill};
     // Smoothstep up and down again.
     const float half = u < 0.5F ? 2 * u : 2 - 2 * u;
@@ -130,8 +131,8 @@ Goal millGoal(std::uint32_t seed, const Region& water, float radius, Tick tick) 
     const float metres = std::min(kRiseMetres, 0.25F * water.halfExtent.y);
     return {water.centre + glm::vec3{0, (2 * risen - 1) * metres, 0},
             {0, 2 * slope * metres / seconds, 0},
-            (hashOf(seed) & 1U) != 0 ? 1.0F : -1.0F,
+            (place::hashOf(seed) & 1U) != 0 ? 1.0F : -1.0F,
             std::min(1.0F, kHeightOfMill * water.halfExtent.y / radius)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

@@ -11,7 +11,7 @@
 #include "common/place/place.h"
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 struct Goal {
     glm::vec3 position{};                 // metres
@@ -23,9 +23,14 @@ struct Goal {
 [[nodiscard]] Goal journeyGoal(std::uint32_t seed, Tick tick);
 
 // A bait ball: the middle of the water, which rises and sinks by a metre in 20 s.
-[[nodiscard]] Goal millGoal(std::uint32_t seed, const Region& water, float radius, Tick tick);
+[[nodiscard]] Goal millGoal(std::uint32_t seed,
+                            const place::Region& water,
+                            float radius,
+                            Tick tick);
 // How far out a ball of so many fish of a mean length reaches at ease; broader than high where the
 // water is shallow.
-[[nodiscard]] float millRadiusMetres(const Region& water, std::size_t fish, float lengthMetres);
+[[nodiscard]] float millRadiusMetres(const place::Region& water,
+                                     std::size_t fish,
+                                     float lengthMetres);
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

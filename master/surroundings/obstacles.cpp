@@ -5,7 +5,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 namespace {
 
@@ -48,15 +48,16 @@ glm::vec3 sandPush(float sand, glm::vec3 position) {
 }
 
 float plainSand(const Obstacles& obstacles, glm::vec3 position) {
-    return floorHeight(obstacles.place, {position.x, position.z});
+    return place::floorHeight(obstacles.place, {position.x, position.z});
 }
 
 // From something of a radius. What is near counts more than what the path meets later.
 glm::vec3 pushAway(glm::vec3 away, float radius, float margin, float share) {
     const float felt = radius + margin;
-    if (dot(away, away) >= felt * felt) return {};
-    const float distance = lengthOf(away);
-    return directionOf(away, {0, 1, 0}) * ((1 - 0.5F * share) * ramp(felt - distance, margin));
+    if (place::dot(away, away) >= felt * felt) return {};
+    const float distance = place::lengthOf(away);
+    return place::directionOf(away, {0, 1, 0}) *
+           ((1 - 0.5F * share) * ramp(felt - distance, margin));
 }
 
 // A stem is passed in plan, below its top.
@@ -64,7 +65,7 @@ glm::vec3 stemPush(const Stem& stem, glm::vec3 position, glm::vec3 heading, floa
     if (position.y > stem.topMetres) return {};
     const glm::vec3 to{stem.foot.x - position.x, 0, stem.foot.y - position.z};
     const glm::vec3 level{heading.x, 0, heading.z};
-    const float along = std::clamp(dot(to, level), 0.0F, reachMetres);
+    const float along = std::clamp(place::dot(to, level), 0.0F, reachMetres);
     const glm::vec3 away = level * along - to;
     return pushAway(away, kStemRadiusMetres, kStemMarginMetres, along / reachMetres);
 }
@@ -77,26 +78,26 @@ glm::vec3 pushOf(const Obstacles& obstacles,
     const std::size_t rocks = obstacles.rocks.size();
     if (index >= rocks)
         return stemPush(obstacles.stems[index - rocks], position, heading, reachMetres);
-    const Rock& rock = obstacles.rocks[index];
+    const place::Rock& rock = obstacles.rocks[index];
     return ballPush(
         rock.centre, rock.radiusMetres + kRockClearanceMetres, position, heading, reachMetres);
 }
 
-float distanceToWater(const Region& water, glm::vec3 point) {
+float distanceToWater(const place::Region& water, glm::vec3 point) {
     const glm::vec3 from = point - water.centre;
     const glm::vec3 nearest{std::clamp(from.x, -water.halfExtent.x, water.halfExtent.x),
                             std::clamp(from.y, -water.halfExtent.y, water.halfExtent.y),
                             std::clamp(from.z, -water.halfExtent.z, water.halfExtent.z)};
-    return lengthOf(from - nearest);
+    return place::lengthOf(from - nearest);
 }
 
-std::vector<Stem> stemsIn(const PlaceKey& place, const Region& water) {
+std::vector<Stem> stemsIn(const place::PlaceKey& place, const place::Region& water) {
     std::vector<Stem> stems;
-    for (const Plant& plant : plantsOf(place)) {
+    for (const place::Plant& plant : place::plantsOf(place)) {
         const float top = plant.root.y + plant.heightMetres;
         const float height = std::clamp(water.centre.y, plant.root.y, top);
         const glm::vec3 nearest{plant.root.x, height, plant.root.z};
-        if (plant.kind == PlantKind::Kelp &&
+        if (plant.kind == place::PlantKind::Kelp &&
             distanceToWater(water, nearest) < kStemRadiusMetres + kStemMarginMetres)
             stems.push_back({{plant.root.x, plant.root.z}, top});
     }
@@ -105,7 +106,7 @@ std::vector<Stem> stemsIn(const PlaceKey& place, const Region& water) {
 
 Chart chartOf(const Obstacles& obstacles) {
     std::vector<Chart::Footprint> footprints;
-    for (const Rock& rock : obstacles.rocks)
+    for (const place::Rock& rock : obstacles.rocks)
         footprints.push_back({{rock.centre.x, rock.centre.z},
                               rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres});
     for (const Stem& stem : obstacles.stems)
@@ -120,14 +121,14 @@ glm::vec3 ballPush(
     // Most rocks are low, and most fish swim well above them.
     const float lowest = position.y + std::min(0.0F, heading.y * reachMetres);
     if (lowest - centre.y >= radius + kRockMarginMetres) return {};
-    const float along = std::clamp(dot(centre - position, heading), 0.0F, reachMetres);
+    const float along = std::clamp(place::dot(centre - position, heading), 0.0F, reachMetres);
     const glm::vec3 away = position + heading * along - centre;
     return pushAway(away, radius, kRockMarginMetres, along / reachMetres);
 }
 
-Obstacles obstaclesOf(const PlaceKey& place, const Region& water) {
+Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water) {
     Obstacles obstacles{place, water, {}};
-    for (const Rock& rock : rocksOf(place)) {
+    for (const place::Rock& rock : place::rocksOf(place)) {
         const float reach = rock.radiusMetres + kRockClearanceMetres + kRockMarginMetres;
         if (distanceToWater(water, rock.centre) < reach) obstacles.rocks.push_back(rock);
     }
@@ -169,4 +170,4 @@ glm::vec3 avoidance(const Obstacles& obstacles,
     return push;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

@@ -9,16 +9,16 @@
 #include "common/place/place.h"
 #include "master/surroundings/chart.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 struct Obstacles {
-    PlaceKey place;
-    Region water;
-    std::vector<Rock> rocks;       // only those that reach into the water
-    std::vector<Stem> stems = {};  // likewise
-    Chart chart = {};              // of all that; without one all is looked at each time
+    place::PlaceKey place;
+    place::Region water;
+    std::vector<place::Rock> rocks;  // only those that reach into the water
+    std::vector<Stem> stems = {};    // likewise
+    Chart chart = {};                // of all that; without one all is looked at each time
 };
-[[nodiscard]] Obstacles obstaclesOf(const PlaceKey& place, const Region& water);
+[[nodiscard]] Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water);
 
 // Where the obstacles push a fish that swims from `position` along `heading`. Its length is 0 in
 // the open and grows past 1 where only turning away matters; the path is felt `reachMetres` ahead,
@@ -39,4 +39,4 @@ struct Obstacles {
 [[nodiscard]] glm::vec3 ballPush(
     glm::vec3 centre, float radius, glm::vec3 position, glm::vec3 heading, float reachMetres);
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

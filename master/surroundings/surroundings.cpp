@@ -4,14 +4,14 @@
 #include "common/place/water.h"
 #include "common/units/folded_hash.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 namespace {
 
 void dropWhatIsDue(Surroundings& surroundings, Tick tick) {
     const double now = static_cast<double>(tick.value) / static_cast<double>(kTicksPerSecond);
     for (; surroundings.nextDrop < surroundings.drops.size(); ++surroundings.nextDrop) {
-        const FoodDrop& drop = surroundings.drops[surroundings.nextDrop];
+        const config::FoodDrop& drop = surroundings.drops[surroundings.nextDrop];
         if (drop.atSeconds > now) return;
         dropPellets(surroundings.food,
                     surroundings.seed,
@@ -24,12 +24,12 @@ void dropWhatIsDue(Surroundings& surroundings, Tick tick) {
 
 }  // namespace
 
-Surroundings makeSurroundings(const Scene& scene,
+Surroundings makeSurroundings(const config::Scene& scene,
                               std::uint32_t seed,
                               std::size_t fish,
                               float meanLengthMetres) {
     const Obstacles obstacles =
-        obstaclesOf({seed, scene.place}, waterFor(scene, fish, meanLengthMetres));
+        obstaclesOf({seed, scene.place}, place::waterFor(scene, fish, meanLengthMetres));
     return {.seed = seed,
             .obstacles = obstacles,
             .climate = climateOf(scene),
@@ -57,4 +57,4 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
     return hash;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

@@ -15,7 +15,7 @@
 #include "master/surroundings/food.h"
 #include "master/surroundings/obstacles.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 
 struct Submarine {
     glm::vec3 position{};  // of the eye, metres
@@ -29,13 +29,13 @@ struct Surroundings {
     Climate climate;
     Food food;
     Submarine submarine;
-    float clarityMetres = 12;     // no fish sees farther
-    float daylight = 1;           // of this tick
-    std::vector<FoodDrop> drops;  // of the scene, in their order
+    float clarityMetres = 12;             // no fish sees farther
+    float daylight = 1;                   // of this tick
+    std::vector<config::FoodDrop> drops;  // of the scene, in their order
     std::size_t nextDrop = 0;
 };
 
-[[nodiscard]] Surroundings makeSurroundings(const Scene& scene,
+[[nodiscard]] Surroundings makeSurroundings(const config::Scene& scene,
                                             std::uint32_t seed,
                                             std::size_t fish,
                                             float meanLengthMetres);
@@ -45,4 +45,4 @@ void advanceSurroundings(Surroundings& surroundings, Tick tick);
 [[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,
                                                const Surroundings& surroundings);
 
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

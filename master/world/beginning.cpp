@@ -15,7 +15,7 @@
 #include "master/behaviour/act/school.h"
 #include "master/surroundings/journey.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 namespace {
 
@@ -25,13 +25,13 @@ enum Draw : std::uint32_t { Length = 201, Place, Phase, Heading };
 // Irwin-Hall: four uniform numbers make a bell curve of deviation 1 / sqrt(3), without libm.
 float bell(std::uint32_t hash) {
     float sum = 0;
-    for (std::uint32_t i = 0; i < 4; ++i) sum += unitOf(hashOf(hash, i));
+    for (std::uint32_t i = 0; i < 4; ++i) sum += place::unitOf(place::hashOf(hash, i));
     return (sum - 2) * 1.7320508F;
 }
 
 // The rotation about the world's up that lets x look along `course` (half-angle by square roots).
 glm::quat facing(glm::vec3 course) {
-    const glm::vec3 level = directionOf({course.x, 0, course.z}, {1, 0, 0});
+    const glm::vec3 level = place::directionOf({course.x, 0, course.z}, {1, 0, 0});
     const float cosine = std::sqrt(std::max(0.0F, 0.5F * (1 + level.x)));
     const float sine = std::sqrt(std::max(0.0F, 0.5F * (1 - level.x)));
     return {cosine, 0, level.z > 0 ? -sine : sine, 0};
@@ -66,17 +66,20 @@ std::vector<glm::vec3> schoolCells(std::size_t fish) {
 }
 
 glm::vec3 signedUnits(std::uint32_t hash) {
-    return {signedUnitOf(hashOf(hash, 0)),
-            signedUnitOf(hashOf(hash, 1)),
-            signedUnitOf(hashOf(hash, 2))};
+    return {place::signedUnitOf(place::hashOf(hash, 0)),
+            place::signedUnitOf(place::hashOf(hash, 1)),
+            place::signedUnitOf(place::hashOf(hash, 2))};
 }
 
-void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionStates& states) {
-    setBodyFrame(states, fish, frame);
+void begin(std::uint32_t seed,
+           std::size_t fish,
+           const motion::BodyFrame& frame,
+           motion::MotionStates& states) {
+    motion::setBodyFrame(states, fish, frame);
     const std::uint32_t phase =
-        hashOf(hashOf(seed, Phase), static_cast<std::uint32_t>(fish)) >> 16U;
+        place::hashOf(place::hashOf(seed, Phase), static_cast<std::uint32_t>(fish)) >> 16U;
     states.phase[fish] = static_cast<std::uint16_t>(phase);
-    states.segment[fish] = static_cast<std::uint8_t>(Action::ForwardMedium);
+    states.segment[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
     states.fromPhase[fish] = states.phase[fish];
     states.fromSegment[fish] = states.segment[fish];
     states.warpFrame[fish] = 0;
@@ -86,10 +89,10 @@ void begin(std::uint32_t seed, std::size_t fish, const BodyFrame& frame, MotionS
 // A school about the goal, loosely spaced, each fish a little off its cell and off the common
 // course; a large one is moved into the water.
 void placeSchool(std::uint32_t seed,
-                 const Goal& goal,
-                 const Region& water,
+                 const surroundings::Goal& goal,
+                 const place::Region& water,
                  std::size_t fish,
-                 MotionStates& states) {
+                 motion::MotionStates& states) {
     constexpr float kSpacingMetres = 0.25F;
     constexpr float kOffCell = 0.22F;    // of the spacing
     constexpr float kOffCourse = 0.16F;  // of the course, at most 9 degrees
@@ -97,7 +100,8 @@ void placeSchool(std::uint32_t seed,
     std::vector<glm::vec3> offsets = schoolCells(fish);
     glm::vec3 reach{1.0e-6F};
     for (std::size_t i = 0; i < fish; ++i) {
-        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(i));
+        const std::uint32_t own =
+            place::hashOf(place::hashOf(seed, Place), static_cast<std::uint32_t>(i));
         offsets[i] = rotation * ((offsets[i] + signedUnits(own) * kOffCell) * kSpacingMetres);
         reach = glm::max(reach, glm::abs(offsets[i]));
     }
@@ -107,9 +111,10 @@ void placeSchool(std::uint32_t seed,
     const float fit = std::min({1.0F, fits.x, fits.y, fits.z});
     const glm::vec3 play = glm::max(room - reach * fit, glm::vec3{0});
     const glm::vec3 middle = glm::clamp(goal.position, water.centre - play, water.centre + play);
-    const glm::vec3 course = directionOf(goal.velocityMetresPerSecond, {1, 0, 0});
+    const glm::vec3 course = place::directionOf(goal.velocityMetresPerSecond, {1, 0, 0});
     for (std::size_t i = 0; i < fish; ++i) {
-        const std::uint32_t own = hashOf(hashOf(seed, Heading), static_cast<std::uint32_t>(i));
+        const std::uint32_t own =
+            place::hashOf(place::hashOf(seed, Heading), static_cast<std::uint32_t>(i));
         const glm::vec3 place =
             glm::clamp(middle + offsets[i] * fit, water.centre - room, water.centre + room);
         begin(seed, i, {place, facing(course + signedUnits(own) * kOffCourse)}, states);
@@ -118,19 +123,21 @@ void placeSchool(std::uint32_t seed,
 
 // A bait ball that mills already: in rings about the goal, each fish on its level.
 void placeBall(std::uint32_t seed,
-               const Goal& goal,
+               const surroundings::Goal& goal,
                float radius,
-               const Region& water,
+               const place::Region& water,
                std::size_t fish,
-               MotionStates& states) {
+               motion::MotionStates& states) {
     constexpr float kInnermost = 0.7F;  // of the radius
     const glm::vec3 room = water.halfExtent * 0.85F;
     for (std::uint32_t i = 0; i < fish; ++i) {
-        const std::uint32_t own = hashOf(hashOf(seed, Place), i);
-        const glm::vec3 out =
-            directionOf({signedUnitOf(hashOf(own, 0)), 0, signedUnitOf(hashOf(own, 1))}, {1, 0, 0});
-        const float away = radius * (kInnermost + unitOf(hashOf(own, 2)));
-        const float rise = radius * goal.flatness * levelInBall(seed, i);
+        const std::uint32_t own = place::hashOf(place::hashOf(seed, Place), i);
+        const glm::vec3 out = place::directionOf({place::signedUnitOf(place::hashOf(own, 0)),
+                                                  0,
+                                                  place::signedUnitOf(place::hashOf(own, 1))},
+                                                 {1, 0, 0});
+        const float away = radius * (kInnermost + place::unitOf(place::hashOf(own, 2)));
+        const float rise = radius * goal.flatness * behaviour::levelInBall(seed, i);
         const glm::vec3 place = goal.position + out * away + glm::vec3{0, rise, 0};
         begin(seed,
               i,
@@ -142,28 +149,29 @@ void placeBall(std::uint32_t seed,
 
 // At home, or at the first place that they are bound for.
 glm::vec3 restingPlace(std::uint32_t seed,
-                       const Habits& habits,
-                       const Obstacles& obstacles,
+                       const config::Habits& habits,
+                       const surroundings::Obstacles& obstacles,
                        std::size_t first,
                        std::size_t fish) {
     const auto depth = static_cast<float>(habits.bestDepthMetres);
-    if (habits.home.kind != HomeKind::Place)
-        return wanderingGoal(seed, obstacles.water, depth, fish, {});
+    if (habits.home.kind != config::HomeKind::Place)
+        return behaviour::wanderingGoal(seed, obstacles.water, depth, fish, {});
     const auto index = static_cast<std::uint32_t>(fish);
-    const std::uint32_t own = hashOf(hashOf(seed, Place), index);
+    const std::uint32_t own = place::hashOf(place::hashOf(seed, Place), index);
     const glm::vec3 share = signedUnits(own);
-    const std::uint32_t household = householdOf(static_cast<std::uint32_t>(first), index);
-    return homeOf(seed, habits.home, obstacles, depth, household) +
+    const std::uint32_t household =
+        behaviour::householdOf(static_cast<std::uint32_t>(first), index);
+    return behaviour::homeOf(seed, habits.home, obstacles, depth, household) +
            share * (0.5F * static_cast<float>(habits.home.radiusMetres));
 }
 
 void placeWanderers(std::uint32_t seed,
-                    const Habits& habits,
-                    const Obstacles& obstacles,
+                    const config::Habits& habits,
+                    const surroundings::Obstacles& obstacles,
                     std::size_t first,
                     std::size_t last,
-                    MotionStates& states) {
-    const Region& water = obstacles.water;
+                    motion::MotionStates& states) {
+    const place::Region& water = obstacles.water;
     for (std::size_t fish = first; fish < last; ++fish) {
         const glm::vec3 inner = water.halfExtent * 0.85F;
         const glm::vec3 place = glm::clamp(restingPlace(seed, habits, obstacles, first, fish),
@@ -175,10 +183,10 @@ void placeWanderers(std::uint32_t seed,
 }
 
 void placeAbout(std::uint32_t seed,
-                const Start& start,
+                const config::Start& start,
                 std::size_t first,
                 std::size_t last,
-                MotionStates& states) {
+                motion::MotionStates& states) {
     const auto angle = static_cast<float>(start.headingRadians) * 0.5F;
     // cos and sin of half the angle by their series: no libm.
     const float square = angle * angle;
@@ -186,7 +194,8 @@ void placeAbout(std::uint32_t seed,
     const float sine = angle * (1 - square * (1 / 6.0F - square * (1 / 120.0F - square / 5040)));
     const glm::quat rotation{cosine, 0, sine, 0};
     for (std::size_t fish = first; fish < last; ++fish) {
-        const std::uint32_t own = hashOf(hashOf(seed, Place), static_cast<std::uint32_t>(fish));
+        const std::uint32_t own =
+            place::hashOf(place::hashOf(seed, Place), static_cast<std::uint32_t>(fish));
         const glm::vec3 share = signedUnits(own);
         const glm::vec3 place = start.centre + share * static_cast<float>(start.radiusMetres);
         begin(seed, fish, {place, rotation}, states);
@@ -195,13 +204,13 @@ void placeAbout(std::uint32_t seed,
 
 }  // namespace
 
-std::vector<FishTraits> traitsOf(const WorldOptions& options) {
-    std::vector<FishTraits> traits;
+std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
+    std::vector<motion::FishTraits> traits;
     std::uint32_t id = 0;
     for (const WorldSpecies& species : options.cast) {
         const FishLengths& lengths = species.lengths;
         for (std::uint32_t i = 0; i < species.fish; ++i, ++id) {
-            const float own = bell(hashOf(hashOf(options.seed, Length), id));
+            const float own = bell(place::hashOf(place::hashOf(options.seed, Length), id));
             const float metres = std::clamp(lengths.meanMetres + lengths.deviationMetres * own,
                                             lengths.leastMetres,
                                             lengths.mostMetres);
@@ -212,20 +221,20 @@ std::vector<FishTraits> traitsOf(const WorldOptions& options) {
 }
 
 void placeFish(const WorldOptions& options,
-               const Goal& goal,
-               const Surroundings& surroundings,
-               MotionStates& states) {
-    const Region& water = surroundings.obstacles.water;
+               const surroundings::Goal& goal,
+               const surroundings::Surroundings& surroundings,
+               motion::MotionStates& states) {
+    const place::Region& water = surroundings.obstacles.water;
     std::size_t first = 0;
     for (const WorldSpecies& species : options.cast) {
         const std::size_t last = first + species.fish;
         if (species.start)
             placeAbout(options.seed, *species.start, first, last, states);
         else if (first == 0 && species.habits.shares.schooling > 0)
-            options.scene.gathering == Gathering::Mill
+            options.scene.gathering == config::Gathering::Mill
                 ? placeBall(options.seed,
                             goal,
-                            millRadiusMetres(water, last, species.lengths.meanMetres),
+                            surroundings::millRadiusMetres(water, last, species.lengths.meanMetres),
                             water,
                             last,
                             states)
@@ -237,8 +246,11 @@ void placeFish(const WorldOptions& options,
     }
 }
 
-void placeFishAt(MotionStates& states, std::size_t fish, glm::vec3 place, glm::vec3 course) {
-    setBodyFrame(states, fish, {place, facing(course)});
+void placeFishAt(motion::MotionStates& states,
+                 std::size_t fish,
+                 glm::vec3 place,
+                 glm::vec3 course) {
+    motion::setBodyFrame(states, fish, {place, facing(course)});
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -9,26 +9,26 @@
 #include "master/world/beginning.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
-void World::perform(const Deed& deed) {
+void World::perform(const fish::Deed& deed) {
     switch (deed.kind) {
-        case DeedKind::EatParticle:
-            if (!takeFood(surroundings_.food, deed.object)) return;
+        case fish::DeedKind::EatParticle:
+            if (!surroundings::takeFood(surroundings_.food, deed.object)) return;
             beginSwallow(meals_, deed.fish, deed.object);
             feed(deed.fish);
             ++counts_.meals;
             return;
-        case DeedKind::EatFish:
-            if (isAway(states_, deed.object)) return;
-            setAway(states_, deed.object);
-            view_.signs[deed.object] = kAway;
+        case fish::DeedKind::EatFish:
+            if (motion::isAway(states_, deed.object)) return;
+            motion::setAway(states_, deed.object);
+            view_.signs[deed.object] = fish::kAway;
             absences_.push_back(absenceFrom(seed_, deed.object, tick_));
             feed(deed.fish);
-            minds_[deed.fish].sinceChase = kLongAgo;  // one is enough for a chase
+            minds_[deed.fish].sinceChase = fish::kLongAgo;  // one is enough for a chase
             ++counts_.catches;
             return;
-        case DeedKind::Spawn:
+        case fish::DeedKind::Spawn:
             // Whoever spawned in this very tick has no more to give.
             if (minds_[deed.fish].sinceSpawning == 0 || minds_[deed.object].sinceSpawning == 0)
                 return;
@@ -54,17 +54,17 @@ void World::receive() {
 }
 
 void World::arrive(std::uint32_t fish) {
-    const Nature& nature = natures_[view_.kind[fish]];
+    const fish::Nature& nature = natures_[view_.kind[fish]];
     const glm::vec3 place = arrivalPlace(surroundings_, fish, tick_);
     const glm::vec3 inwards =
-        directionOf(surroundings_.obstacles.water.centre - place, glm::vec3{1, 0, 0});
+        place::directionOf(surroundings_.obstacles.water.centre - place, glm::vec3{1, 0, 0});
     placeFishAt(states_, fish, place, inwards);
-    setSpeedBodyLengths(states_, fish, nature.medium);
-    const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
-    minds_[fish] = freshMind(nature, drawn, fish);
-    courses_[fish] = {levelled(inwards), nature.medium, 0};
+    motion::setSpeedBodyLengths(states_, fish, nature.medium);
+    const auto drawn = place::hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
+    minds_[fish] = behaviour::freshMind(nature, drawn, fish);
+    courses_[fish] = {place::levelled(inwards), nature.medium, 0};
     view_.signs[fish] = 0;
     ++counts_.returns;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

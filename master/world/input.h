@@ -10,7 +10,7 @@
 
 #include "common/units/steering.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 // A visitor feeds the fish.
 struct DropFood {
@@ -26,4 +26,4 @@ struct MoveSubmarine {
 
 using WorldInput = std::variant<DropFood, MoveSubmarine, Steering>;
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -6,15 +6,18 @@
 #include "master/fish/courses.h"
 #include "master/fish/mouth.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 namespace {
 
 constexpr std::uint32_t kSwallowTicks = 6;  // a tenth of a second, as suction feeders do
-static_assert(kSwallowTicks < kTicksBetweenThoughts);
+static_assert(kSwallowTicks < fish::kTicksBetweenThoughts);
 
 // The share of the way that is left grows with every tick: it is gulped, not fetched.
-void drawIn(Food& food, std::uint32_t particle, glm::vec3 mouth, std::uint32_t ticksLeft) {
+void drawIn(surroundings::Food& food,
+            std::uint32_t particle,
+            glm::vec3 mouth,
+            std::uint32_t ticksLeft) {
     const glm::vec3 from = food.position(particle);
     const glm::vec3 at = from + (mouth - from) / static_cast<float>(ticksLeft);
     food.x[particle] = at.x;
@@ -34,16 +37,16 @@ void beginSwallow(Meals& meals, std::uint32_t fish, std::uint32_t particle) {
     meals.swallows.push_back({fish, particle, kSwallowTicks});
 }
 
-void advanceMeals(Meals& meals, const FishView& view, Food& food, Tick tick) {
+void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& food, Tick tick) {
     for (Meals::Swallow& swallow : meals.swallows) {
-        if (view.shows(swallow.fish, kAway))
+        if (view.shows(swallow.fish, fish::kAway))
             swallow.ticksLeft = 1;  // eaten itself: what it had in its mouth goes with it
         else
-            drawIn(food, swallow.particle, mouthOf(view, swallow.fish), swallow.ticksLeft);
-        if (--swallow.ticksLeft == 0) removeFood(food, swallow.particle, tick);
+            drawIn(food, swallow.particle, fish::mouthOf(view, swallow.fish), swallow.ticksLeft);
+        if (--swallow.ticksLeft == 0) surroundings::removeFood(food, swallow.particle, tick);
     }
     std::erase_if(meals.swallows,
                   [](const Meals::Swallow& swallow) { return swallow.ticksLeft == 0; });
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -11,12 +11,12 @@
 #include "master/fish/fish_view.h"
 #include "master/surroundings/food.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 struct Meals {
     struct Swallow {
-        std::uint32_t fish = kNobody;
-        std::uint32_t particle = kNobody;
+        std::uint32_t fish = fish::kNobody;
+        std::uint32_t particle = fish::kNobody;
         std::uint32_t ticksLeft = 0;
     };
     std::vector<Swallow> swallows;  // in the order in which they began
@@ -27,6 +27,6 @@ struct Meals {
 // Of a particle that the fish has taken.
 void beginSwallow(Meals& meals, std::uint32_t fish, std::uint32_t particle);
 // One tick: each particle comes nearer to the mouth, and vanishes in it.
-void advanceMeals(Meals& meals, const FishView& view, Food& food, Tick tick);
+void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& food, Tick tick);
 
-}  // namespace aquarama
+}  // namespace aquarama::world

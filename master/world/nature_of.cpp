@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-namespace aquarama {
+namespace aquarama::world {
 
 namespace {
 
@@ -29,12 +29,12 @@ std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string
 
 }  // namespace
 
-Nature natureOf(const std::vector<WorldSpecies>& cast,
-                std::size_t kind,
-                const Gaits& gaits,
-                std::size_t first,
-                std::size_t last) {
-    const Habits& habits = cast[kind].habits;
+fish::Nature natureOf(const std::vector<WorldSpecies>& cast,
+                      std::size_t kind,
+                      const fish::Gaits& gaits,
+                      std::size_t first,
+                      std::size_t last) {
+    const config::Habits& habits = cast[kind].habits;
     const auto single = [](double value) { return static_cast<float>(value); };
     return {.role = habits.role,
             .kind = static_cast<std::uint8_t>(kind),
@@ -49,9 +49,9 @@ Nature natureOf(const std::vector<WorldSpecies>& cast,
             .fearMetres = single(habits.fearMetres),
             .fearFrom = single(habits.fearFrom),
             .fearAlone = single(habits.fearAlone),
-            .slow = gaits.speed[indexOf(Action::ForwardSlow)],
-            .medium = gaits.speed[indexOf(Action::ForwardMedium)],
-            .fast = gaits.speed[indexOf(Action::ForwardFast)],
+            .slow = gaits.speed[fish::indexOf(motion::Action::ForwardSlow)],
+            .medium = gaits.speed[fish::indexOf(motion::Action::ForwardMedium)],
+            .fast = gaits.speed[fish::indexOf(motion::Action::ForwardFast)],
             .visionBodyLengths = single(habits.visionBodyLengths),
             .smellBodyLengths = single(habits.smellBodyLengths),
             .boxAhead = single(habits.box.aheadBodyLengths),
@@ -61,4 +61,4 @@ Nature natureOf(const std::vector<WorldSpecies>& cast,
             .habits = habits};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -9,13 +9,13 @@
 #include "master/motor/gaits.h"
 #include "master/world/world.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 // Of cast[kind], whose fish are [first, last). Names that nobody of the cast bears are passed over.
-[[nodiscard]] Nature natureOf(const std::vector<WorldSpecies>& cast,
-                              std::size_t kind,
-                              const Gaits& gaits,
-                              std::size_t first,
-                              std::size_t last);
+[[nodiscard]] fish::Nature natureOf(const std::vector<WorldSpecies>& cast,
+                                    std::size_t kind,
+                                    const fish::Gaits& gaits,
+                                    std::size_t first,
+                                    std::size_t last);
 
-}  // namespace aquarama
+}  // namespace aquarama::world

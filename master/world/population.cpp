@@ -6,7 +6,7 @@
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 namespace {
 
@@ -22,26 +22,27 @@ constexpr float kFloorRoomMetres = 1;    // over the sand
 constexpr float kRockRoomMetres = 1;
 constexpr std::uint32_t kPlacesTried = 16;
 
-glm::vec3 placeDrawn(const Obstacles& obstacles, std::uint32_t hash) {
-    const glm::vec3 share{
-        signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+glm::vec3 placeDrawn(const surroundings::Obstacles& obstacles, std::uint32_t hash) {
+    const glm::vec3 share{place::signedUnitOf(hash),
+                          place::signedUnitOf(place::hashOf(hash, 1)),
+                          place::signedUnitOf(place::hashOf(hash, 2))};
     glm::vec3 place = obstacles.water.centre + obstacles.water.halfExtent * share * kShore;
-    const float lowest = floorHeight(obstacles.place, {place.x, place.z}) + kFloorRoomMetres;
+    const float lowest = place::floorHeight(obstacles.place, {place.x, place.z}) + kFloorRoomMetres;
     place.y = std::min(std::max(place.y, lowest), -kSurfaceRoomMetres);
     return place;
 }
 
-bool isClear(const Obstacles& obstacles, glm::vec3 place) {
-    return std::ranges::none_of(obstacles.rocks, [&](const Rock& rock) {
-        return lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
+bool isClear(const surroundings::Obstacles& obstacles, glm::vec3 place) {
+    return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
+        return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
     });
 }
 
 }  // namespace
 
-std::vector<Absence> makeAbsences(std::span<const Nature> natures) {
+std::vector<Absence> makeAbsences(std::span<const fish::Nature> natures) {
     std::size_t hunted = 0;
-    for (const Nature& nature : natures)
+    for (const fish::Nature& nature : natures)
         if (nature.huntedBy != 0) hunted += nature.last - nature.first;
     std::vector<Absence> absences;
     absences.reserve(hunted);
@@ -49,20 +50,24 @@ std::vector<Absence> makeAbsences(std::span<const Nature> natures) {
 }
 
 Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
-    const std::uint32_t hash =
-        hashOf(hashOf(hashOf(seed, Absent), fish), static_cast<std::uint32_t>(now.value));
+    const std::uint32_t hash = place::hashOf(place::hashOf(place::hashOf(seed, Absent), fish),
+                                             static_cast<std::uint32_t>(now.value));
     return {fish, {now.value + kShortestAbsence + hash % (kLongestAbsence - kShortestAbsence)}};
 }
 
-glm::vec3 arrivalPlace(const Surroundings& surroundings, std::uint32_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Arrival), fish),
-                                     static_cast<std::uint32_t>(tick.value));
+glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
+                       std::uint32_t fish,
+                       Tick tick) {
+    const std::uint32_t own =
+        place::hashOf(place::hashOf(place::hashOf(surroundings.seed, Arrival), fish),
+                      static_cast<std::uint32_t>(tick.value));
     glm::vec3 best = surroundings.obstacles.water.centre;
     float farthest = -1;
     for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
-        const glm::vec3 place = placeDrawn(surroundings.obstacles, hashOf(own, i));
+        const glm::vec3 place = placeDrawn(surroundings.obstacles, place::hashOf(own, i));
         if (!isClear(surroundings.obstacles, place)) continue;
-        const float far = std::min(lengthOf(place - surroundings.submarine.position), kHazeMetres);
+        const float far =
+            std::min(place::lengthOf(place - surroundings.submarine.position), kHazeMetres);
         if (far <= farthest) continue;
         farthest = far;
         best = place;
@@ -70,4 +75,4 @@ glm::vec3 arrivalPlace(const Surroundings& surroundings, std::uint32_t fish, Tic
     return best;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -14,7 +14,7 @@
 #include "master/fish/nature.h"
 #include "master/surroundings/surroundings.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 // What happened since tick 0.
 struct WorldCounts {
@@ -31,14 +31,14 @@ struct Absence {
 };
 
 // With room for all fish that somebody hunts; in the order in which they were eaten.
-[[nodiscard]] std::vector<Absence> makeAbsences(std::span<const Nature> natures);
+[[nodiscard]] std::vector<Absence> makeAbsences(std::span<const fish::Nature> natures);
 // 20 to 60 seconds from now.
 [[nodiscard]] Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now);
 
 // Where one comes into sight: of places in the water, clear of rocks and sand, one that is as far
 // from the eye as the water reaches, or in the haze more than 12 m away.
-[[nodiscard]] glm::vec3 arrivalPlace(const Surroundings& surroundings,
+[[nodiscard]] glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
                                      std::uint32_t fish,
                                      Tick tick);
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -18,7 +18,7 @@
 #include "master/world/beginning.h"
 #include "master/world/nature_of.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 namespace {
 
@@ -33,19 +33,23 @@ float meanLengthMetres(const WorldOptions& options) {
 
 // Of a fish that will think soon, what lies apart from all that others of its cell have: so that it
 // is near when it is asked for.
-void fetch(const Minds& minds, const FishView& view, const Courses& courses, std::uint32_t fish) {
+void fetch(const fish::Minds& minds,
+           const fish::FishView& view,
+           const fish::Courses& courses,
+           std::uint32_t fish) {
     __builtin_prefetch(&minds[fish]);
     view.fetch(fish);
     __builtin_prefetch(&courses[fish]);
 }
 
-Mind beginningMind(const Nature& nature,
-                   const std::optional<Start>& start,
-                   std::uint32_t seed,
-                   std::uint32_t fish) {
-    Mind mind = freshMind(nature, seed, fish);
+fish::Mind beginningMind(const fish::Nature& nature,
+                         const std::optional<config::Start>& start,
+                         std::uint32_t seed,
+                         std::uint32_t fish) {
+    fish::Mind mind = behaviour::freshMind(nature, seed, fish);
     if (start)
-        setMood(nature, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
+        fish::setMood(
+            nature, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
     return mind;
 }
 
@@ -57,22 +61,22 @@ World::World(const WorldOptions& options)
       middle_(options.scene.water.centre),
       adaptation_(options.adaptation),
       traits_(traitsOf(options)),
-      surroundings_(
-          makeSurroundings(options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
-      voyage_(voyageOf(options.scene, options.seed, surroundings_.obstacles.water)),
-      pilot_(pilotOf(voyage_, options.scene.eye)),
+      surroundings_(surroundings::makeSurroundings(
+          options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
+      voyage_(pilot::voyageOf(options.scene, options.seed, surroundings_.obstacles.water)),
+      pilot_(pilot::pilotOf(voyage_, options.scene.eye)),
       grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
       pool_(options.threads) {
-    if (options.cast.size() > kMostKinds)
+    if (options.cast.size() > fish::kMostKinds)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
-                    " species: there is room for " + std::to_string(kMostKinds));
+                    " species: there is room for " + std::to_string(fish::kMostKinds));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
     if (!kinds_.empty())
         schoolRadius_ =
-            gathering_ == Gathering::Mill
-                ? millRadiusMetres(
+            gathering_ == config::Gathering::Mill
+                ? surroundings::millRadiusMetres(
                       surroundings_.obstacles.water, kinds_.front().last, meanLengthMetres(options))
-                : schoolRadiusMetres(kinds_.front().last);
+                : behaviour::schoolRadiusMetres(kinds_.front().last);
     goal_ = goal();
     states_.resize(traits_.size());
     commands_.resize(traits_.size());
@@ -92,17 +96,17 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
     for (std::size_t at = first; at < last; at += kFishInChunk) {
         chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk)});
     }
-    kinds_.push_back({species.tables, gaitsOf(*species.tables), first, last});
+    kinds_.push_back({species.tables, fish::gaitsOf(*species.tables), first, last});
     natures_.push_back(natureOf(cast, kinds_.size() - 1, kinds_.back().gaits, first, last));
 }
 
 void World::begin(const WorldOptions& options) {
     placeFish(options, goal_, surroundings_, states_);
-    for (const Nature& nature : natures_) {
+    for (const fish::Nature& nature : natures_) {
         const Kind& kind = kinds_[nature.kind];
-        startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
+        fish::startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
         for (std::uint32_t fish = nature.first; fish < nature.last; ++fish) {
-            setSpeedBodyLengths(states_, fish, nature.medium);
+            motion::setSpeedBodyLengths(states_, fish, nature.medium);
             minds_[fish] = beginningMind(nature, options.cast[nature.kind].start, seed_, fish);
             view_.kind[fish] = nature.kind;
         }
@@ -117,29 +121,30 @@ void World::begin(const WorldOptions& options) {
 void World::makeRoomForDeeds() {
     constexpr std::size_t kSlack = 32;
     slices_.resize((traits_.size() + kSlotsInSlice - 1) / kSlotsInSlice);
-    for (Slice& slice : slices_) slice.deeds.reserve(kSlotsInSlice / kTicksBetweenThoughts * 2);
-    deeds_.reserve(traits_.size() / kTicksBetweenThoughts + kSlack);
+    for (Slice& slice : slices_)
+        slice.deeds.reserve(kSlotsInSlice / fish::kTicksBetweenThoughts * 2);
+    deeds_.reserve(traits_.size() / fish::kTicksBetweenThoughts + kSlack);
 }
 
 void World::apply(const WorldInput& input) {
     if (const auto* food = std::get_if<DropFood>(&input))
-        dropPellets(surroundings_.food,
-                    seed_,
-                    surroundings_.obstacles,
-                    food->position,
-                    food->pellets,
-                    tick_);
+        surroundings::dropPellets(surroundings_.food,
+                                  seed_,
+                                  surroundings_.obstacles,
+                                  food->position,
+                                  food->pellets,
+                                  tick_);
     if (const auto* moved = std::get_if<MoveSubmarine>(&input)) {
         pilot_.vessel.position = moved->position;
         pilot_.vessel.velocity = moved->velocityMetresPerSecond;
         showSubmarine();
     }
     if (const auto* steered = std::get_if<Steering>(&input))
-        steer(pilot_, voyage_, *steered, tick_);
+        pilot::steer(pilot_, voyage_, *steered, tick_);
 }
 
 void World::moveSubmarine() {
-    advancePilot(pilot_, voyage_, goal_.position, tick_);
+    pilot::advancePilot(pilot_, voyage_, goal_.position, tick_);
     showSubmarine();
 }
 
@@ -149,11 +154,11 @@ void World::showSubmarine() {
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
 }
 
-Goal World::goal() const {
-    if (gathering_ == Gathering::None) return {.position = middle_};
-    return gathering_ == Gathering::Mill
-               ? millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
-               : journeyGoal(seed_, tick_);
+surroundings::Goal World::goal() const {
+    if (gathering_ == config::Gathering::None) return {.position = middle_};
+    return gathering_ == config::Gathering::Mill
+               ? surroundings::millGoal(seed_, surroundings_.obstacles.water, schoolRadius_, tick_)
+               : surroundings::journeyGoal(seed_, tick_);
 }
 
 void World::advance() {
@@ -177,7 +182,7 @@ void World::beginTick() {
         natures_,
         [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
         [this](std::size_t first, std::size_t last) {
-            if (first == 0) advanceSurroundings(surroundings_, tick_);
+            if (first == 0) surroundings::advanceSurroundings(surroundings_, tick_);
             for (const Kind& kind : kinds_)
                 look(kind, std::max(first, kind.first), std::min(last, kind.last));
         });
@@ -191,25 +196,25 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
     std::array<float, kAtATime> z;
     for (std::size_t from = first; from < last; from += kAtATime) {
         const std::size_t to = std::min(last, from + kAtATime);
-        meanHeadings(*kind.tables, states_, from, to, {x.data(), y.data(), z.data()});
-        const Nature& nature = natures_[view_.kind[from]];
+        motion::meanHeadings(*kind.tables, states_, from, to, {x.data(), y.data(), z.data()});
+        const fish::Nature& nature = natures_[view_.kind[from]];
         for (std::size_t fish = from; fish < to; ++fish) {
             const std::size_t i = fish - from;
             const float length = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
             const float lengthsASecond =
-                static_cast<float>(states_.speed[fish]) / kSpeedUnitsPerBodyLength;
-            view_.fish[fish] = {{static_cast<float>(states_.x[fish]) * kPositionUnitMetres,
-                                 static_cast<float>(states_.y[fish]) * kPositionUnitMetres,
-                                 static_cast<float>(states_.z[fish]) * kPositionUnitMetres},
+                static_cast<float>(states_.speed[fish]) / motion::kSpeedUnitsPerBodyLength;
+            view_.fish[fish] = {{static_cast<float>(states_.x[fish]) * motion::kPositionUnitMetres,
+                                 static_cast<float>(states_.y[fish]) * motion::kPositionUnitMetres,
+                                 static_cast<float>(states_.z[fish]) * motion::kPositionUnitMetres},
                                 {x[i], y[i], z[i]},
                                 lengthsASecond * length,
                                 length};
-            showMood(nature, minds_, static_cast<std::uint32_t>(fish), view_);
+            fish::showMood(nature, minds_, static_cast<std::uint32_t>(fish), view_);
         }
     }
 }
 
-Environment World::environment() const {
+behaviour::Environment World::environment() const {
     return {.view = &view_,
             .grids = &grids_,
             .surroundings = &surroundings_,
@@ -225,8 +230,8 @@ Environment World::environment() const {
 // In the order in which the fish stand in the grid: those who think one after the other look at the
 // same neighbours. As a thought changes nothing that another sees, any order will do.
 void World::thinkAll() {
-    const SpatialGrid& grid = grids_.fish;
-    const Environment around = environment();
+    const behaviour::SpatialGrid& grid = grids_.fish;
+    const behaviour::Environment around = environment();
     pool_.run(slices_.size(), [&](std::size_t i) {
         const std::size_t first = std::min(grid.size(), i * kSlotsInSlice);
         const std::size_t last = std::min(grid.size(), first + kSlotsInSlice);
@@ -234,14 +239,14 @@ void World::thinkAll() {
         std::size_t count = 0;
         for (std::size_t slot = first; slot < last; ++slot) {
             thinkers[count] = grid.index()[slot];
-            count += thinksAt(tick_, thinkers[count]) ? 1 : 0;
+            count += fish::thinksAt(tick_, thinkers[count]) ? 1 : 0;
         }
-        Deeds& deeds = slices_[i].deeds;
+        behaviour::Deeds& deeds = slices_[i].deeds;
         deeds.clear();
         for (std::size_t t = 0; t < count; ++t) {
             if (t + kFetchedAhead < count)
                 fetch(minds_, view_, courses_, thinkers[t + kFetchedAhead]);
-            think(around, thinkers[t], minds_, courses_, deeds);
+            behaviour::think(around, thinkers[t], minds_, courses_, deeds);
         }
     });
 }
@@ -249,9 +254,11 @@ void World::thinkAll() {
 // Motor commands and motion of a chunk.
 void World::swim(const Chunk& chunk) {
     const Kind& own = kinds_[chunk.kind];
-    SecondaryController{&own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
+    fish::SecondaryController{
+        &own.gaits, &view_, &courses_, &states_, seed_, tick_, &commands_, &memory_}
         .run(chunk.first, chunk.last);
-    MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}.run();
+    motion::MotorStep{own.tables.get(), traits_, &commands_, &states_, chunk.first, chunk.last}
+        .run();
 }
 
 // In the order of the fish.
@@ -259,25 +266,25 @@ void World::performDeeds() {
     deeds_.clear();
     for (const Slice& slice : slices_)
         deeds_.insert(deeds_.end(), slice.deeds.begin(), slice.deeds.end());
-    std::ranges::sort(deeds_, {}, &Deed::fish);
-    for (const Deed& deed : deeds_) perform(deed);
+    std::ranges::sort(deeds_, {}, &fish::Deed::fish);
+    for (const fish::Deed& deed : deeds_) perform(deed);
 }
 
 // All that decides how the world goes on and is no function of seed, scene and tick.
 std::uint64_t World::hash() const {
-    std::uint64_t hash = foldedOne(hashOf(states_) ^ minds_.hash(), tick_.value);
+    std::uint64_t hash = foldedOne(motion::hashOf(states_) ^ minds_.hash(), tick_.value);
     hash = folded(hash, commands_.segment);
     hash = folded(hash, commands_.phaseRate);
     hash = folded(hash, commands_.pitch);
     hash = folded(hash, commands_.yawRate);
     hash = folded(hash, commands_.brake);
     const auto fold = [&](auto member) { hash = folded(hash, courses_, member); };
-    fold([](const Course& course) { return course.direction.x; });
-    fold([](const Course& course) { return course.direction.y; });
-    fold([](const Course& course) { return course.direction.z; });
-    fold(&Course::speed);
-    fold(&Course::urgency);
-    fold(&Course::openToChange);
+    fold([](const fish::Course& course) { return course.direction.x; });
+    fold([](const fish::Course& course) { return course.direction.y; });
+    fold([](const fish::Course& course) { return course.direction.z; });
+    fold(&fish::Course::speed);
+    fold(&fish::Course::urgency);
+    fold(&fish::Course::openToChange);
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
     hash = folded(hash, memory_.patience);
@@ -287,13 +294,13 @@ std::uint64_t World::hash() const {
     for (const Meals::Swallow& swallow : meals_.swallows)
         hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
                          swallow.ticksLeft);
-    return foldedPilot(foldedSurroundings(hash, surroundings_), pilot_);
+    return pilot::foldedPilot(surroundings::foldedSurroundings(hash, surroundings_), pilot_);
 }
 
 std::size_t World::bytes() const {
-    const MotionStates& s = states_;
-    const MotorCommands& c = commands_;
-    const FishView& v = view_;
+    const motion::MotionStates& s = states_;
+    const motion::MotorCommands& c = commands_;
+    const fish::FishView& v = view_;
     return grids_.bytes() + minds_.bytes() +
            bytesIn(traits_, memory_.chosenAt, memory_.heldUntil, memory_.patience) +
            bytesIn(s.x, s.y, s.z, s.orientationA, s.orientationB, s.orientationC) +
@@ -305,10 +312,10 @@ std::size_t World::bytes() const {
            absences_.capacity() * sizeof(Absence);
 }
 
-void World::records(std::vector<FishRecord>& records) const {
+void World::records(std::vector<motion::FishRecord>& records) const {
     records.resize(states_.size());
     for (std::size_t fish = 0; fish < states_.size(); ++fish)
-        records[fish] = recordOf(states_, fish);
+        records[fish] = motion::recordOf(states_, fish);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

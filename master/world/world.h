@@ -29,7 +29,7 @@
 #include "master/world/population.h"
 #include "master/world/worker_pool.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 // How long the fish of a species are: a bell curve, cut off.
 struct FishLengths {
@@ -41,20 +41,20 @@ struct FishLengths {
 
 // The fish of one species.
 struct WorldSpecies {
-    std::shared_ptr<const MotorTables> tables;
+    std::shared_ptr<const motion::MotorTables> tables;
     std::uint32_t fish = 0;
     FishLengths lengths = {};
     std::string name = {};  // as Habits::hunts has it
-    Habits habits = {};
-    std::optional<Start> start = {};
+    config::Habits habits = {};
+    std::optional<config::Start> start = {};
 };
 
 struct WorldOptions {
     std::uint32_t seed = 1;
     unsigned threads = 1;
-    Scene scene;                     // all of it but the cast
+    config::Scene scene;             // all of it but the cast
     std::vector<WorldSpecies> cast;  // the school first; may be without fish
-    Adaptation adaptation;
+    fish::Adaptation adaptation;
 };
 
 class World {
@@ -66,29 +66,29 @@ class World {
     void advance();                       // one tick; allocates nothing
 
     [[nodiscard]] Tick tick() const { return tick_; }
-    [[nodiscard]] const MotionStates& states() const { return states_; }
-    [[nodiscard]] const MotorCommands& commands() const { return commands_; }
-    [[nodiscard]] const Minds& minds() const { return minds_; }
-    [[nodiscard]] const Courses& courses() const { return courses_; }
-    [[nodiscard]] const Surroundings& surroundings() const { return surroundings_; }
-    [[nodiscard]] const Pilot& pilot() const { return pilot_; }
-    [[nodiscard]] std::span<const Nature> natures() const { return natures_; }
-    [[nodiscard]] const FishView& view() const { return view_; }  // as the last tick began
+    [[nodiscard]] const motion::MotionStates& states() const { return states_; }
+    [[nodiscard]] const motion::MotorCommands& commands() const { return commands_; }
+    [[nodiscard]] const fish::Minds& minds() const { return minds_; }
+    [[nodiscard]] const fish::Courses& courses() const { return courses_; }
+    [[nodiscard]] const surroundings::Surroundings& surroundings() const { return surroundings_; }
+    [[nodiscard]] const pilot::Pilot& pilot() const { return pilot_; }
+    [[nodiscard]] std::span<const fish::Nature> natures() const { return natures_; }
+    [[nodiscard]] const fish::FishView& view() const { return view_; }  // as the last tick began
     // As the fish saw it that thought in the last tick.
-    [[nodiscard]] Environment environment() const;
-    [[nodiscard]] std::span<const FishTraits> traits() const { return traits_; }
+    [[nodiscard]] behaviour::Environment environment() const;
+    [[nodiscard]] std::span<const motion::FishTraits> traits() const { return traits_; }
     [[nodiscard]] const WorldCounts& counts() const { return counts_; }
     [[nodiscard]] std::size_t bytes() const;  // of all that grows with the school
 
     // States, commands and all that minds remember; equal worlds have equal hashes.
     [[nodiscard]] std::uint64_t hash() const;
-    void records(std::vector<FishRecord>& records) const;
+    void records(std::vector<motion::FishRecord>& records) const;
 
   private:
     // Fish [first, last) are of one species; of the first kind is the school.
     struct Kind {
-        std::shared_ptr<const MotorTables> tables;
-        Gaits gaits;
+        std::shared_ptr<const motion::MotorTables> tables;
+        fish::Gaits gaits;
         std::size_t first = 0, last = 0;
     };
     struct Chunk {  // a part of a kind, small enough to share out among threads
@@ -96,7 +96,7 @@ class World {
         std::size_t first = 0, last = 0;
     };
     struct Slice {  // a part of those in the grid, as they stand there
-        Deeds deeds;
+        behaviour::Deeds deeds;
     };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     void begin(const WorldOptions& options);
@@ -106,41 +106,41 @@ class World {
     void thinkAll();
     void swim(const Chunk& chunk);
     void performDeeds();
-    void perform(const Deed& deed);
+    void perform(const fish::Deed& deed);
     void feed(std::uint32_t fish);
     void receive();
     void arrive(std::uint32_t fish);
-    [[nodiscard]] Goal goal() const;
+    [[nodiscard]] surroundings::Goal goal() const;
     void moveSubmarine();
     void showSubmarine();
 
     std::uint32_t seed_;
     Tick tick_;
-    Gathering gathering_;
+    config::Gathering gathering_;
     glm::vec3 middle_;  // of the scene's own water, before it grew
-    Adaptation adaptation_;
+    fish::Adaptation adaptation_;
     std::vector<Kind> kinds_;
-    std::vector<Nature> natures_;  // one for each kind
+    std::vector<fish::Nature> natures_;  // one for each kind
     std::vector<Chunk> chunks_;
     std::vector<Slice> slices_;
-    Deeds deeds_;  // of all slices
-    std::vector<FishTraits> traits_;
-    Surroundings surroundings_;
-    Voyage voyage_;
-    Pilot pilot_;
-    MotionStates states_;
-    MotorCommands commands_;
-    Minds minds_;
-    Courses courses_;
-    ControllerMemory memory_;
-    FishView view_;
+    behaviour::Deeds deeds_;  // of all slices
+    std::vector<motion::FishTraits> traits_;
+    surroundings::Surroundings surroundings_;
+    pilot::Voyage voyage_;
+    pilot::Pilot pilot_;
+    motion::MotionStates states_;
+    motion::MotorCommands commands_;
+    fish::Minds minds_;
+    fish::Courses courses_;
+    fish::ControllerMemory memory_;
+    fish::FishView view_;
     Meals meals_;
     std::vector<Absence> absences_;
     WorldCounts counts_;
-    Grids grids_;
-    Goal goal_;
+    behaviour::Grids grids_;
+    surroundings::Goal goal_;
     float schoolRadius_ = 0;
     WorkerPool pool_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::world

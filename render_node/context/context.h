@@ -12,7 +12,7 @@
 #include "common/config/rig.h"
 #include "render_node/context/hands.h"
 
-namespace aquarama {
+namespace aquarama::context {
 
 // Made, pumped and destroyed by the main thread; current on the thread that draws, which releases
 // it before the main thread destroys it.
@@ -58,9 +58,9 @@ inline constexpr char kFullscreenKey = 'f';  // handled by the window itself
 // OpenGL 4.5 core in a window, current on no thread; the display's own GPU draws, whatever device
 // the channel names. Throws Error: no display, no such monitor, a framebuffer or refresh rate that
 // is not the channel's, no GL 4.5, no left and right buffers where they are asked for.
-[[nodiscard]] std::unique_ptr<Context> makeWindowContext(const Display& display,
+[[nodiscard]] std::unique_ptr<Context> makeWindowContext(const config::Display& display,
                                                          const std::string& title,
                                                          glm::ivec2 sizePixels,
                                                          bool quadBuffered = false);
 
-}  // namespace aquarama
+}  // namespace aquarama::context

@@ -7,7 +7,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::context {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::optional<std::string> lossOfContext() {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::context

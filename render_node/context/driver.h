@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace aquarama {
+namespace aquarama::context {
 
 // Throws Error, naming `where` and the driver, unless the current context is OpenGL 4.5 or later
 // with all that our shaders take.
@@ -22,4 +22,4 @@ void requireDriver(const std::string& where);
 // Why the current context is lost; nothing while it is not.
 [[nodiscard]] std::optional<std::string> lossOfContext();
 
-}  // namespace aquarama
+}  // namespace aquarama::context

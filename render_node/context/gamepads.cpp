@@ -8,7 +8,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-namespace aquarama {
+namespace aquarama::context {
 
 namespace {
 
@@ -44,4 +44,4 @@ Pad movedPad() {
     return moved;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::context

@@ -4,10 +4,10 @@
 
 #include "render_node/context/hands.h"
 
-namespace aquarama {
+namespace aquarama::context {
 
 // Of all that are there the one that is moved farthest from rest; at rest where there is none. On
 // the main thread, after GLFW was begun.
 [[nodiscard]] Pad movedPad();
 
-}  // namespace aquarama
+}  // namespace aquarama::context

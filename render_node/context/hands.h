@@ -9,7 +9,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace aquarama {
+namespace aquarama::context {
 
 enum class HeldKey : std::uint8_t {
     W,
@@ -46,4 +46,4 @@ struct Hands {
     void hold(HeldKey key) { keys.set(static_cast<std::size_t>(key)); }
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::context

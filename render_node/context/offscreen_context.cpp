@@ -14,7 +14,7 @@
 #include "render_node/context/context.h"
 #include "render_node/context/driver.h"
 
-namespace aquarama {
+namespace aquarama::context {
 
 namespace {
 
@@ -172,4 +172,4 @@ std::unique_ptr<Context> makeOffscreenContext(const std::string& device, glm::iv
     return std::make_unique<OffscreenContext>(device, sizePixels);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::context

@@ -18,7 +18,7 @@
 #include "render_node/context/driver.h"
 #include "render_node/context/gamepads.h"
 
-namespace aquarama {
+namespace aquarama::context {
 
 namespace {
 
@@ -79,7 +79,7 @@ GLFWmonitor* monitorAt(int index) {
     return monitors[index];
 }
 
-bool refreshDiffers(const Display& display, const GLFWvidmode& mode) {
+bool refreshDiffers(const config::Display& display, const GLFWvidmode& mode) {
     return display.refreshHertz &&
            std::abs(*display.refreshHertz - mode.refreshRate) >= kRefreshToleranceHertz;
 }
@@ -89,7 +89,7 @@ std::string described(const GLFWvidmode& mode) {
 }
 
 // The monitor's mode that is the channel's, to the pixel.
-GLFWvidmode modeFor(const Display& display, glm::ivec2 size, GLFWmonitor* monitor) {
+GLFWvidmode modeFor(const config::Display& display, glm::ivec2 size, GLFWmonitor* monitor) {
     int count = 0;
     const GLFWvidmode* modes = glfwGetVideoModes(monitor, &count);
     for (const GLFWvidmode& mode : std::span{modes, static_cast<std::size_t>(count)})
@@ -126,7 +126,7 @@ struct DestroyWindow {
 
 class WindowContext : public Context {
   public:
-    WindowContext(const Display& display,
+    WindowContext(const config::Display& display,
                   const std::string& title,
                   glm::ivec2 sizePixels,
                   bool quadBuffered)
@@ -198,7 +198,7 @@ class WindowContext : public Context {
     void toggleFullscreen();
 
     GlfwLibrary library_;
-    Display display_;
+    config::Display display_;
     glm::ivec2 size_;
     bool quadBuffered_;
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
@@ -224,7 +224,7 @@ void WindowContext::open(const std::string& title) {
     for (const auto& [hint, value] : kHints) glfwWindowHint(hint, value);
     glfwWindowHint(GLFW_STEREO, quadBuffered_ ? GLFW_TRUE : GLFW_FALSE);
     GLFWmonitor* monitor = nullptr;
-    if (display_.mode == DisplayMode::Fullscreen) {
+    if (display_.mode == config::DisplayMode::Fullscreen) {
         monitor = monitorAt(display_.monitor);
         glfwWindowHint(GLFW_REFRESH_RATE, modeFor(display_, size_, monitor).refreshRate);
     }
@@ -254,7 +254,7 @@ void WindowContext::check() {
         throw Error("display: the window has " + text(actual) + " pixels, the channel " +
                     text(size_) + "; choose a monitor, scale or place where it fits");
     }
-    const int index = display_.mode == DisplayMode::Fullscreen
+    const int index = display_.mode == config::DisplayMode::Fullscreen
                           ? display_.monitor
                           : monitorUnder(display_.windowPosition);
     const GLFWvidmode mode = *glfwGetVideoMode(monitorAt(index));
@@ -330,20 +330,20 @@ void WindowContext::toggleFullscreen() {
             window_.get(), nullptr, place.x, place.y, size_.x, size_.y, GLFW_DONT_CARE);
         return;
     }
-    GLFWmonitor* monitor =
-        monitorAt(display_.mode == DisplayMode::Fullscreen ? display_.monitor
-                                                           : monitorUnder(display_.windowPosition));
+    GLFWmonitor* monitor = monitorAt(display_.mode == config::DisplayMode::Fullscreen
+                                         ? display_.monitor
+                                         : monitorUnder(display_.windowPosition));
     const GLFWvidmode mode = *glfwGetVideoMode(monitor);
     glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode.width, mode.height, mode.refreshRate);
 }
 
 }  // namespace
 
-std::unique_ptr<Context> makeWindowContext(const Display& display,
+std::unique_ptr<Context> makeWindowContext(const config::Display& display,
                                            const std::string& title,
                                            glm::ivec2 sizePixels,
                                            bool quadBuffered) {
     return std::make_unique<WindowContext>(display, title, sizePixels, quadBuffered);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::context

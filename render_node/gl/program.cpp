@@ -114,8 +114,8 @@ bool driverHasBinaries() {
 }
 
 // A driver reads only what it wrote itself.
-DerivedKey binaryKey(std::span<const Stage> stages) {
-    DerivedKey key("program");
+files::DerivedKey binaryKey(std::span<const Stage> stages) {
+    files::DerivedKey key("program");
     for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION})
         key.add(reinterpret_cast<const char*>(glGetString(name)));
     for (const Stage& stage : stages) key.add(stage.source.text);
@@ -149,7 +149,7 @@ std::optional<ProgramHandle> loaded(std::span<const std::byte> bytes) {
 ProgramHandle linkedOrLoaded(std::span<const Stage> stages) {
     if (!driverHasBinaries()) return linked(stages);
     std::optional<ProgramHandle> program;
-    const auto bytes = derivedCache().find(binaryKey(stages), [&] {
+    const auto bytes = files::derivedCache().find(binaryKey(stages), [&] {
         program = linked(stages);
         return binaryOf(*program);
     });

@@ -8,7 +8,7 @@
 #include "common/wall/pattern.h"
 #include "render_node/gl/program.h"
 
-namespace aquarama {
+namespace aquarama::project {
 
 namespace {
 
@@ -23,7 +23,7 @@ constexpr float kNoGrey = -1;  // the grid instead
 
 }  // namespace
 
-PatternPass::PatternPass(const ChannelFrustum& frustum, const Screen& screen)
+PatternPass::PatternPass(const wall::ChannelFrustum& frustum, const config::Screen& screen)
     : frustum_{frustum},
       eyeAndRadius_{glm::dvec3(glm::inverse(frustum.cameraFromWall)[3]), screen.radiusMetres},
       program_{gl::makeProgram({"quad.vert", "pattern.frag"})} {}
@@ -33,7 +33,7 @@ void PatternPass::drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
 }
 
 void PatternPass::drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const {
-    draw(framebuffer, sizePixels, static_cast<float>(kGreyLight));
+    draw(framebuffer, sizePixels, static_cast<float>(wall::kGreyLight));
 }
 
 void PatternPass::addGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
@@ -46,7 +46,10 @@ void PatternPass::addGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
 void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const {
     const glm::mat3 wallFromCamera(glm::transpose(glm::dmat3(frustum_.cameraFromWall)));
     const glm::vec4 extents(frustum_.left, frustum_.bottom, frustum_.right, frustum_.top);
-    const glm::vec4 gridLines(kGridDegrees, kGridMajorDegrees, kGridMinorLight, kGridSigmaDegrees);
+    const glm::vec4 gridLines(wall::kGridDegrees,
+                              wall::kGridMajorDegrees,
+                              wall::kGridMinorLight,
+                              wall::kGridSigmaDegrees);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, sizePixels.x, sizePixels.y);
     glDisable(GL_DEPTH_TEST);
@@ -61,4 +64,4 @@ void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLi
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -7,12 +7,12 @@
 #include "common/wall/wall.h"
 #include "render_node/gl/handle.h"
 
-namespace aquarama {
+namespace aquarama::project {
 
 // Owns its GL objects; construct, use and destroy with the same context current.
 class PatternPass {
   public:
-    PatternPass(const ChannelFrustum& frustum, const Screen& screen);
+    PatternPass(const wall::ChannelFrustum& frustum, const config::Screen& screen);
 
     void drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const;
     void drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const;
@@ -22,10 +22,10 @@ class PatternPass {
   private:
     void draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const;
 
-    ChannelFrustum frustum_;
+    wall::ChannelFrustum frustum_;
     glm::vec4 eyeAndRadius_;  // wall frame
     gl::ProgramHandle program_;
     gl::VertexArray noVertices_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -3,7 +3,7 @@
 
 #include "render_node/gl/program.h"
 
-namespace aquarama {
+namespace aquarama::project {
 
 namespace {
 
@@ -67,7 +67,9 @@ void Projection::draw(const Draw& what) const {
     glBindSampler(kSceneUnit, 0);
 }
 
-PairProjection::PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, StereoMode mode)
+PairProjection::PairProjection(glm::ivec2 sizePixels,
+                               std::uint32_t channelId,
+                               config::StereoMode mode)
     : size_{sizePixels},
       channelId_{channelId},
       mode_{mode},
@@ -90,13 +92,13 @@ void PairProjection::draw(const Eye& left, const Eye& right, const Projection::D
     glBindSampler(kRightSceneUnit, 0);
 }
 
-glm::vec2 pixelOfEye(StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel) {
+glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel) {
     const glm::vec2 half = glm::vec2(sizePixels) / 2.0F;
-    if (mode == StereoMode::SideBySide)
+    if (mode == config::StereoMode::SideBySide)
         pixel.x = 2 * (pixel.x < half.x ? pixel.x : pixel.x - half.x);
-    if (mode == StereoMode::TopBottom)
+    if (mode == config::StereoMode::TopBottom)
         pixel.y = 2 * (pixel.y < half.y ? pixel.y : pixel.y - half.y);
     return pixel;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -9,7 +9,7 @@
 #include "render_node/gl/handle.h"
 #include "render_node/project/projection_map.h"
 
-namespace aquarama {
+namespace aquarama::project {
 
 enum class Encoding : std::uint8_t {
     Dithered8,  // +-1 code of triangular noise, a function of pixel, channel and the frame's parity
@@ -44,7 +44,7 @@ class Projection {
 class PairProjection {
   public:
     // Any mode but mono and quad-buffer.
-    PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, StereoMode mode);
+    PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, config::StereoMode mode);
 
     // The maps are those of the eyes' own projections.
     struct Eye {
@@ -56,7 +56,7 @@ class PairProjection {
   private:
     glm::ivec2 size_;
     std::uint32_t channelId_;
-    StereoMode mode_;
+    config::StereoMode mode_;
     gl::ProgramHandle program_;
     gl::Sampler bilinear_;
     gl::VertexArray noVertices_;
@@ -64,6 +64,6 @@ class PairProjection {
 
 // In the picture of an eye, the pixel that is seen at a pixel (continuous, from the top left
 // corner) of what the display takes.
-[[nodiscard]] glm::vec2 pixelOfEye(StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel);
+[[nodiscard]] glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel);
 
-}  // namespace aquarama
+}  // namespace aquarama::project

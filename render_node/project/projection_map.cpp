@@ -7,11 +7,11 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::project {
 
 namespace {
 
-glm::vec4 place(const glm::vec4& pointAndWeight, const ChannelFrustum& frustum) {
+glm::vec4 place(const glm::vec4& pointAndWeight, const wall::ChannelFrustum& frustum) {
     if (pointAndWeight.w <= 0) return glm::vec4(0);
     const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(glm::dvec3(pointAndWeight), 1);
     const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
@@ -22,7 +22,7 @@ glm::vec4 place(const glm::vec4& pointAndWeight, const ChannelFrustum& frustum) 
 
 }  // namespace
 
-ProjectionMap projectionMap(const WarpMap& warp, const ChannelFrustum& frustum) {
+ProjectionMap projectionMap(const wall::WarpMap& warp, const wall::ChannelFrustum& frustum) {
     ProjectionMap map{.sizePixels = warp.sizePixels, .placeAndWeight = {}};
     map.placeAndWeight.reserve(warp.pointAndWeight.size());
     for (const glm::vec4& point : warp.pointAndWeight)
@@ -48,4 +48,4 @@ glm::ivec2 scenePictureSize(const ProjectionMap& map) {
             std::ceil(1 / std::hypot(acrossColumns.y, acrossRows.y))};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::project

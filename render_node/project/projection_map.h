@@ -9,7 +9,7 @@
 
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::project {
 
 struct ProjectionMap {
     glm::ivec2 sizePixels{};
@@ -19,11 +19,12 @@ struct ProjectionMap {
 };
 
 // The eye is the frustum's.
-[[nodiscard]] ProjectionMap projectionMap(const WarpMap& warp, const ChannelFrustum& frustum);
+[[nodiscard]] ProjectionMap projectionMap(const wall::WarpMap& warp,
+                                          const wall::ChannelFrustum& frustum);
 
 // The size at which the frustum's picture is as fine as the projector's pixels are in the middle of
 // its lit area. Away from there a flat picture of a concave screen only gets finer, as the tangent
 // grows faster than the angle.
 [[nodiscard]] glm::ivec2 scenePictureSize(const ProjectionMap& map);
 
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -8,7 +8,7 @@
 
 #include <glm/gtc/type_precision.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 inline constexpr int kDetailTexels = 512;  // of a tile's side
 
@@ -25,4 +25,4 @@ inline constexpr float kRockTileMetres = 1.1F;  // as in rock.frag
 [[nodiscard]] Tile sandTile();
 [[nodiscard]] Tile rockTile();
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -7,7 +7,7 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/frustum.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -75,4 +75,4 @@ void FoodSpecks::drawPlankton() const {
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(seen_.size()) - pelletCount_);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -10,7 +10,7 @@
 
 #include "render_node/gl/handle.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 struct Viewpoint;
 
@@ -45,4 +45,4 @@ class FoodSpecks {
     int pelletCount_ = 0;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

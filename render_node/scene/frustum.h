@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 class Frustum {
   public:
@@ -57,4 +57,4 @@ struct Viewpoint {
     }
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -14,7 +14,7 @@
 #include "render_node/scene/solid_array.h"
 #include "render_node/scene/texture.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -28,9 +28,9 @@ constexpr int kShadeTexels = 360;
 
 glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     constexpr float kStep = 0.05F;
-    const float here = floorHeight({seed}, xz);
-    const float slopeX = (floorHeight({seed}, {xz.x + kStep, xz.y}) - here) / kStep;
-    const float slopeZ = (floorHeight({seed}, {xz.x, xz.y + kStep}) - here) / kStep;
+    const float here = place::floorHeight({seed}, xz);
+    const float slopeX = (place::floorHeight({seed}, {xz.x + kStep, xz.y}) - here) / kStep;
+    const float slopeZ = (place::floorHeight({seed}, {xz.x, xz.y + kStep}) - here) / kStep;
     return glm::normalize(glm::vec3{-slopeX, 1.0F, -slopeZ});
 }
 
@@ -51,9 +51,9 @@ void darken(glm::u8& value, float share) {
 
 // One rock's part in the shade and the rubble round it; a shadow reaches as far as the rock is
 // high.
-void shadeSand(std::vector<ShadeTexel>& texels, const Rock& rock, float sand) {
+void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float sand) {
     const float reach = 4.0F * rock.radiusMetres + std::max(rock.centre.y - sand, 0.0F);
-    const std::span<const Rock> own{&rock, 1};
+    const std::span<const place::Rock> own{&rock, 1};
     const float above = std::max(rock.centre.y - rock.radiusMetres - sand, 0.0F);
     for (int row = texelAt(rock.centre.z - reach); row <= texelAt(rock.centre.z + reach); ++row)
         for (int column = texelAt(rock.centre.x - reach); column <= texelAt(rock.centre.x + reach);
@@ -74,8 +74,8 @@ void shadeSand(std::vector<ShadeTexel>& texels, const Rock& rock, float sand) {
 std::vector<ShadeTexel> bakeShade(std::uint32_t seed) {
     std::vector<ShadeTexel> texels(static_cast<std::size_t>(kShadeTexels) * kShadeTexels,
                                    {255, 255, 0, 255});
-    for (const Rock& rock : rocksOf({seed}))
-        shadeSand(texels, rock, floorHeight({seed}, {rock.centre.x, rock.centre.z}));
+    for (const place::Rock& rock : place::rocksOf({seed}))
+        shadeSand(texels, rock, place::floorHeight({seed}, {rock.centre.x, rock.centre.z}));
     return texels;
 }
 
@@ -104,7 +104,7 @@ Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells)
             const bool rim = inside != glm::ivec2{column, row} - 1;
             const glm::vec2 xz =
                 corner + glm::vec2(inside) * (sideMetres / static_cast<float>(cells));
-            const float height = floorHeight({seed}, xz) - (rim ? kRimMetres : 0.0F);
+            const float height = place::floorHeight({seed}, xz) - (rim ? kRimMetres : 0.0F);
             addVertex(mesh, {xz.x, height, xz.y}, sandNormal(seed, xz), {}, 1.0F);
         }
     joinRows(mesh, 0, width, width);
@@ -128,7 +128,7 @@ GroundTables makeGroundTables(std::uint32_t seed) {
             glm::vec2{i % kPatchesASide, i / kPatchesASide} * kPatchMetres - kHalf;
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
         GroundTables::Patch& patch = tables.patches.emplace_back();
-        patch.centre = {middle.x, floorHeight({seed}, middle), middle.y};
+        patch.centre = {middle.x, place::floorHeight({seed}, middle), middle.y};
         for (std::size_t level = 0; level < kCells.size(); ++level) {
             const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells.at(level));
             patch.firstVertices.at(level) = static_cast<int>(tables.vertices.size());
@@ -143,8 +143,8 @@ GroundTables makeGroundTables(std::uint32_t seed) {
 }  // namespace
 
 GroundTables groundTables(std::uint32_t seed) {
-    return derivedTables<GroundTables>(DerivedKey("ground").add(seed),
-                                       [&] { return makeGroundTables(seed); });
+    return files::derivedTables<GroundTables>(files::DerivedKey("ground").add(seed),
+                                              [&] { return makeGroundTables(seed); });
 }
 
 Ground::Ground(const GroundTables& tables)
@@ -188,4 +188,4 @@ void Ground::drawPatches(const Viewpoint& viewpoint) const {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

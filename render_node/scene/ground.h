@@ -14,7 +14,7 @@
 #include "render_node/scene/frustum.h"
 #include "render_node/scene/mesh.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // A square of sand with so many cells a side, its rim hanging down a little so that no gap shows
 // where two levels meet.
@@ -61,4 +61,4 @@ class Ground {
     gl::Texture detail_, rubble_, shade_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -7,7 +7,7 @@
 
 #include "render_node/scene/mesh.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 enum class Form : std::uint8_t {
     // Hard corals.
@@ -40,4 +40,4 @@ inline constexpr int kShapesOfForm = 3;
 // the tint.
 [[nodiscard]] Levels grow(Form form, int shape);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

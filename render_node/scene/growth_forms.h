@@ -8,7 +8,7 @@
 #include "render_node/scene/mesh.h"
 #include "render_node/scene/solid_noise.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 void growStaghorn(Mesh& mesh, std::size_t level, Dice dice);
 void growBush(Mesh& mesh, std::size_t level, Dice dice);
@@ -30,4 +30,4 @@ void growTurf(Mesh& mesh, std::size_t level, Dice dice);
 void growKelp(Mesh& mesh, std::size_t level, Dice dice);
 void growSeagrass(Mesh& mesh, std::size_t level, Dice dice);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -11,7 +11,7 @@
 #include "render_node/scene/solid_noise.h"
 #include "render_node/scene/strands.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -326,4 +326,4 @@ void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

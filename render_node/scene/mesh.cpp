@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -97,4 +97,4 @@ void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

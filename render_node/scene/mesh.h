@@ -11,7 +11,7 @@
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // 24 bytes, as instance.glsl and floor.vert read them.
 struct SolidVertex {
@@ -54,4 +54,4 @@ void turnOver(Mesh& mesh, std::size_t firstIndex);
 // Vertices at one place share their normal.
 void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -104,4 +104,4 @@ glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice) {
     return oneOf((soft ? kSoft : kHard).at(patch % kHard.size()), dice) * bright;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

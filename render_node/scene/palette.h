@@ -7,9 +7,9 @@
 #include "render_node/scene/growth.h"
 #include "render_node/scene/solid_noise.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // Linear albedo for a form that grows in a patch of the reef.
 [[nodiscard]] glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

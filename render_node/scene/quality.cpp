@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -51,8 +51,8 @@ std::string definitionsOf(const LightQuality& light) {
     return light.isFine ? "#define FINE_LIGHT\n" : "";
 }
 
-Quality qualityOf(QualityTier tier) {
-    static constexpr std::array<Quality, kTierNames.size()> kTiers{
+Quality qualityOf(config::QualityTier tier) {
+    static constexpr std::array<Quality, config::kTierNames.size()> kTiers{
         Quality{.pictureShare = 0.85F, .fishFineness = 0.75F, .light = {}, .placeDetail = 0.32F},
         Quality{.samples = 1,
                 .softening = true,
@@ -86,4 +86,4 @@ Quality qualityOf(QualityTier tier) {
     return kTiers.at(static_cast<std::size_t>(tier));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

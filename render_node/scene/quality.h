@@ -6,7 +6,7 @@
 
 #include "common/config/quality.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // Of the sunlight in the sea: waves, caustics, shafts, shadows, snow. Texels are of one side.
 struct LightQuality {
@@ -44,6 +44,6 @@ struct Quality {
     bool growthAtPixels = false;  // near corals are lit at pixels, not at corners
 };
 
-[[nodiscard]] Quality qualityOf(QualityTier tier);
+[[nodiscard]] Quality qualityOf(config::QualityTier tier);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

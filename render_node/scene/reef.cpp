@@ -17,7 +17,7 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/solid_array.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -127,7 +127,7 @@ Library growLibrary() {
 
 namespace {
 
-ReefTables makeReefTables(const PlaceKey& place) {
+ReefTables makeReefTables(const place::PlaceKey& place) {
     const Library library = growLibrary();
     std::array<Levels, kRockShapes> rocks;
     std::copy_n(library.begin(), rocks.size(), rocks.begin());
@@ -164,9 +164,10 @@ ReefTables makeReefTables(const PlaceKey& place) {
 
 }  // namespace
 
-ReefTables reefTables(const PlaceKey& place) {
-    return derivedTables<ReefTables>(DerivedKey("reef").add(place.seed).add(place.kind),
-                                     [&] { return makeReefTables(place); });
+ReefTables reefTables(const place::PlaceKey& place) {
+    return files::derivedTables<ReefTables>(
+        files::DerivedKey("reef").add(place.seed).add(place.kind),
+        [&] { return makeReefTables(place); });
 }
 
 Reef::Reef(const ReefTables& tables, const Quality& quality)
@@ -310,4 +311,4 @@ void Reef::drawDepths(const DepthPrograms& programs) const {
     glDisable(GL_CULL_FACE);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

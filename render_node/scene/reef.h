@@ -16,7 +16,7 @@
 #include "render_node/scene/quality.h"
 #include "render_node/scene/scatter.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // Every prototype; grown on all processors.
 using Library = std::array<Levels, kPrototypes>;
@@ -55,7 +55,7 @@ struct ReefTables {
 };
 
 // Grown once on a machine: derived data.
-[[nodiscard]] ReefTables reefTables(const PlaceKey& place);
+[[nodiscard]] ReefTables reefTables(const place::PlaceKey& place);
 
 struct ReefRule {
     bool culling = true;
@@ -95,4 +95,4 @@ class Reef {
     gl::Texture detail_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

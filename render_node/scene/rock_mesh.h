@@ -6,7 +6,7 @@
 
 #include "render_node/scene/mesh.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 inline constexpr int kRockShapes = 12;
 
@@ -15,4 +15,4 @@ inline constexpr int kRockShapes = 12;
 // turf, how much pink crust.
 [[nodiscard]] Levels growRock(int shape);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

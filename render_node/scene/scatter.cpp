@@ -14,7 +14,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/scene/solid_noise.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -60,19 +60,19 @@ struct Planted {
 
 // All that the instances of one rock are chosen by.
 struct Bed {
-    const PlaceKey* place;
-    const Rock* rock;
+    const place::PlaceKey* place;
+    const place::Rock* rock;
     const Mesh* stone;  // of its prototype
     glm::quat turn;
-    std::vector<Rock> others;  // near enough to touch or shade it
+    std::vector<place::Rock> others;  // near enough to touch or shade it
 };
 
-std::size_t shapeOf(const Rock& rock) {
-    return hashOf(rock.seed, 31) % kRockShapes;
+std::size_t shapeOf(const place::Rock& rock) {
+    return place::hashOf(rock.seed, 31) % kRockShapes;
 }
 
-glm::quat turnOf(const Rock& rock) {
-    return glm::angleAxis(kTwoPi * unitOf(hashOf(rock.seed, 32)), glm::vec3{0, 1, 0});
+glm::quat turnOf(const place::Rock& rock) {
+    return glm::angleAxis(kTwoPi * place::unitOf(place::hashOf(rock.seed, 32)), glm::vec3{0, 1, 0});
 }
 
 glm::vec4 packed(const glm::quat& turn) {
@@ -88,8 +88,8 @@ Spot spotOn(const Bed& bed, Dice& dice) {
 
 // Buried in the sand or in another rock.
 bool isBuried(const Bed& bed, glm::vec3 place) {
-    if (place.y < floorHeight(*bed.place, {place.x, place.z}) + 0.04F) return true;
-    return std::ranges::any_of(bed.others, [&](const Rock& other) {
+    if (place.y < place::floorHeight(*bed.place, {place.x, place.z}) + 0.04F) return true;
+    return std::ranges::any_of(bed.others, [&](const place::Rock& other) {
         return glm::distance(other.centre, place) < 0.72F * other.radiusMetres;
     });
 }
@@ -101,18 +101,18 @@ bool isCrowded(std::span<const Planted> planted, glm::vec3 place, float size) {
 }
 
 // Patches of a few metres, their borders bent, in which two forms and one harmony rule.
-std::uint32_t patchAt(const PlaceKey& place, glm::vec3 at, float metres) {
+std::uint32_t patchAt(const place::PlaceKey& place, glm::vec3 at, float metres) {
     const glm::vec3 bent =
         at / metres + 0.45F * glm::vec3{solidNoise(place.seed, at / metres * 1.9F),
                                         0,
                                         solidNoise(place.seed ^ 9U, at / metres * 1.9F)};
     const glm::ivec3 cell{glm::floor(bent)};
-    const std::uint32_t column = hashOf(place.seed, static_cast<std::uint32_t>(cell.x));
-    return hashOf(column, static_cast<std::uint32_t>(cell.z));
+    const std::uint32_t column = place::hashOf(place.seed, static_cast<std::uint32_t>(cell.x));
+    return place::hashOf(column, static_cast<std::uint32_t>(cell.z));
 }
 
 // The chance that a spot is settled: what looks at the light is, and bare patches stay bare.
-float coverAt(const PlaceKey& place, const Spot& spot) {
+float coverAt(const place::PlaceKey& place, const Spot& spot) {
     const float light = glm::smoothstep(-0.5F, 0.7F, spot.normal.y);
     const float luck = solidNoise(place.seed ^ 0x77U, spot.place * 0.9F);
     return glm::mix(0.12F, 1.0F, light) *
@@ -121,7 +121,7 @@ float coverAt(const PlaceKey& place, const Spot& spot) {
 
 const Way& wayFor(float up, std::uint32_t patch, Dice& dice) {
     const std::size_t first = patch % kWays.size();
-    const std::size_t second = hashOf(patch) % 8;  // a hard coral
+    const std::size_t second = place::hashOf(patch) % 8;  // a hard coral
     const auto weightOf = [&](std::size_t i) {
         const Way& way = kWays.at(i);
         const float weight = up > 0.45F ? way.above : up > -0.25F ? way.aside : way.below;
@@ -148,8 +148,8 @@ glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
     return glm::quat_cast(glm::mat3{x, up, glm::cross(x, up)});
 }
 
-Instance instanceOf(const PlaceKey& place,
-                    std::span<const Rock> rocks,
+Instance instanceOf(const place::PlaceKey& place,
+                    std::span<const place::Rock> rocks,
                     Form form,
                     const Spot& spot,
                     float size,
@@ -163,7 +163,7 @@ Instance instanceOf(const PlaceKey& place,
             tintAndSway,
             {sunOpenness(rocks, above),
              skyOpenness(rocks, above, glm::vec3{0, 1, 0}),
-             floorHeight(place, {spot.place.x, spot.place.z}),
+             place::floorHeight(place, {spot.place.x, spot.place.z}),
              static_cast<float>(prototypeOf(form, shape))}};
 }
 
@@ -204,7 +204,7 @@ void crownRock(std::vector<Instance>& all,
 void coverRock(std::vector<Instance>& all, const Bed& bed) {
     const float radius = bed.rock->radiusMetres;
     const auto corals = static_cast<int>(30.0F + 130.0F * std::pow(radius, 1.6F));
-    Dice dice{hashOf(bed.rock->seed, 77)};
+    Dice dice{place::hashOf(bed.rock->seed, 77)};
     std::vector<Planted> planted;
     for (int crown = 0; crown < (radius > 1.2F ? 2 : 1); ++crown)
         crownRock(all, bed, planted, dice);
@@ -229,8 +229,8 @@ void coverRock(std::vector<Instance>& all, const Bed& bed) {
     }
 }
 
-Spot onSand(const PlaceKey& place, glm::vec2 xz) {
-    return {{xz.x, floorHeight(place, xz), xz.y}, {0, 1, 0}};
+Spot onSand(const place::PlaceKey& place, glm::vec2 xz) {
+    return {{xz.x, place::floorHeight(place, xz), xz.y}, {0, 1, 0}};
 }
 
 void addPebble(
@@ -251,8 +251,8 @@ void addPebble(
 
 // What has broken off lies at the foot, and young corals have settled on it.
 void litterFoot(std::vector<Instance>& all, const Bed& bed) {
-    const Rock& rock = *bed.rock;
-    Dice dice{hashOf(rock.seed, 78)};
+    const place::Rock& rock = *bed.rock;
+    Dice dice{place::hashOf(rock.seed, 78)};
     const auto pieces = static_cast<int>(6.0F + 16.0F * rock.radiusMetres);
     for (int i = 0; i < pieces; ++i) {
         const float turn = kTwoPi * dice.unit();
@@ -274,23 +274,25 @@ void litterFoot(std::vector<Instance>& all, const Bed& bed) {
 }
 
 void addRock(std::vector<Instance>& all, const Bed& bed) {
-    const Rock& rock = *bed.rock;
-    const float light = 0.9F + 0.2F * unitOf(hashOf(rock.seed, 33));
-    const float warm = 0.05F * signedUnitOf(hashOf(rock.seed, 34));
+    const place::Rock& rock = *bed.rock;
+    const float light = 0.9F + 0.2F * place::unitOf(place::hashOf(rock.seed, 33));
+    const float warm = 0.05F * place::signedUnitOf(place::hashOf(rock.seed, 34));
     all.push_back({glm::vec4(rock.centre, rock.radiusMetres),
                    packed(bed.turn),
                    {light * (1.0F + warm), light, light * (1.0F - warm), 0.0F},
                    {1.0F,
                     1.0F,
-                    floorHeight(*bed.place, {rock.centre.x, rock.centre.z}),
+                    place::floorHeight(*bed.place, {rock.centre.x, rock.centre.z}),
                     static_cast<float>(shapeOf(rock))}});
 }
 
 // Lone heads, whips and stones on the open sand, in loose groups.
-void strew(std::vector<Instance>& all, const PlaceKey& place, std::span<const Rock> rocks) {
+void strew(std::vector<Instance>& all,
+           const place::PlaceKey& place,
+           std::span<const place::Rock> rocks) {
     constexpr int kGroups = 90;
     constexpr float kReachMetres = 30.0F;
-    Dice dice{hashOf(place.seed, 79)};
+    Dice dice{place::hashOf(place.seed, 79)};
     const Bed bed{&place, nullptr, nullptr, {}, {rocks.begin(), rocks.end()}};
     for (int group = 0; group < kGroups; ++group) {
         const glm::vec2 middle{dice.between(-kReachMetres, kReachMetres),
@@ -311,10 +313,12 @@ void strew(std::vector<Instance>& all, const PlaceKey& place, std::span<const Ro
     }
 }
 
-void sow(std::vector<Instance>& all, const PlaceKey& place, std::span<const Rock> rocks) {
-    for (const Plant& one : plantsOf(place)) {
-        Dice dice{hashOf(one.seed, 80)};
-        const bool kelp = one.kind == PlantKind::Kelp;
+void sow(std::vector<Instance>& all,
+         const place::PlaceKey& place,
+         std::span<const place::Rock> rocks) {
+    for (const place::Plant& one : place::plantsOf(place)) {
+        Dice dice{place::hashOf(one.seed, 80)};
+        const bool kelp = one.kind == place::PlantKind::Kelp;
         const Form form = kelp ? Form::Kelp : Form::Seagrass;
         const float lean = kelp ? 0.07F : 0.15F;
         const glm::vec3 up =
@@ -328,9 +332,9 @@ void sow(std::vector<Instance>& all, const PlaceKey& place, std::span<const Rock
     }
 }
 
-std::vector<Rock> near(std::span<const Rock> rocks, const Rock& rock) {
-    std::vector<Rock> others;
-    for (const Rock& other : rocks)
+std::vector<place::Rock> near(std::span<const place::Rock> rocks, const place::Rock& rock) {
+    std::vector<place::Rock> others;
+    for (const place::Rock& other : rocks)
         if (other.seed != rock.seed && glm::distance(other.centre, rock.centre) <
                                            7.0F * other.radiusMetres + rock.radiusMetres)
             others.push_back(other);
@@ -339,11 +343,11 @@ std::vector<Rock> near(std::span<const Rock> rocks, const Rock& rock) {
 
 }  // namespace
 
-std::vector<Instance> scatter(const PlaceKey& place,
+std::vector<Instance> scatter(const place::PlaceKey& place,
                               const std::array<Levels, kRockShapes>& shapes) {
-    const std::vector<Rock> rocks = rocksOf(place);
+    const std::vector<place::Rock> rocks = place::rocksOf(place);
     std::vector<Instance> all;
-    for (const Rock& rock : rocks) {
+    for (const place::Rock& rock : rocks) {
         const Bed bed{&place, &rock, &shapes.at(shapeOf(rock))[1], turnOf(rock), near(rocks, rock)};
         addRock(all, bed);
         coverRock(all, bed);
@@ -355,4 +359,4 @@ std::vector<Instance> scatter(const PlaceKey& place,
     return all;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

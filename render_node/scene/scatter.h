@@ -15,7 +15,7 @@
 #include "render_node/scene/mesh.h"
 #include "render_node/scene/rock_mesh.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // Rocks first, then each form's shapes.
 inline constexpr std::size_t kPrototypes = kRockShapes + kForms * kShapesOfForm;
@@ -34,7 +34,7 @@ struct Instance {
 static_assert(sizeof(Instance) == 64);
 
 // Sorted by prototype.
-[[nodiscard]] std::vector<Instance> scatter(const PlaceKey& place,
+[[nodiscard]] std::vector<Instance> scatter(const place::PlaceKey& place,
                                             const std::array<Levels, kRockShapes>& rocks);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -22,7 +22,7 @@
 #include "render_node/surface/school_surface.h"
 #include "render_node/surface/skin_programs.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -81,8 +81,9 @@ struct Bottom {
 // Made while this thread compiles shaders.
 struct BottomTables {
     explicit BottomTables(const SceneOptions& options) {
-        if (options.place != PlaceKind::Reef) return;
-        reef = std::async(std::launch::async, reefTables, PlaceKey{options.seed, options.place});
+        if (options.place != config::PlaceKind::Reef) return;
+        reef = std::async(
+            std::launch::async, reefTables, place::PlaceKey{options.seed, options.place});
         ground = std::async(std::launch::async, groundTables, options.seed);
     }
     std::future<ReefTables> reef;
@@ -92,7 +93,7 @@ struct BottomTables {
 }  // namespace
 
 struct SceneRenderer::Parts {
-    Parts(const SceneOptions& chosen, std::span<const SchoolSpecies> cast)
+    Parts(const SceneOptions& chosen, std::span<const surface::SchoolSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
           bottomTables{chosen},
@@ -101,9 +102,10 @@ struct SceneRenderer::Parts {
           school{cast,
                  {.culling = chosen.culling,
                   .levelsOfDetail = chosen.levelsOfDetail,
-                  .finest = quality.closeUps ? DetailLevel::CloseUp : DetailLevel::Hero,
+                  .finest =
+                      quality.closeUps ? surface::DetailLevel::CloseUp : surface::DetailLevel::Hero,
                   .fineness = quality.fishFineness},
-                 makeSkinPrograms()},
+                 surface::makeSkinPrograms()},
           surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
           water{gl::makeProgram({"quad.vert", "water.frag"})},
           snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
@@ -131,7 +133,7 @@ struct SceneRenderer::Parts {
     SeaLight light;
     std::optional<Bottom> bottom;
     ScenePicture picture;
-    SchoolSurface school;
+    surface::SchoolSurface school;
     FoodSpecks food;
     gl::ProgramHandle surface, water, snow;
 };
@@ -156,7 +158,7 @@ void SceneRenderer::Parts::bakeShadows() {
         bottom->reef.drawDepths(reefPrograms);
         bottom->ground.drawDepths(
             groundProgram,
-            Viewpoint{Frustum{clipFromWorld}, kEyePosition, false, options.levelsOfDetail});
+            Viewpoint{Frustum{clipFromWorld}, place::kEyePosition, false, options.levelsOfDetail});
     });
 }
 
@@ -190,7 +192,8 @@ void SceneRenderer::Parts::drawSnow() const {
     glDepthMask(GL_TRUE);
 }
 
-SceneRenderer::SceneRenderer(const SceneOptions& options, std::span<const SchoolSpecies> cast) {
+SceneRenderer::SceneRenderer(const SceneOptions& options,
+                             std::span<const surface::SchoolSpecies> cast) {
     const gl::Definitions tier{definitionsOf(qualityOf(options.quality).light)};
     parts_ = std::make_unique<Parts>(options, cast);
 }
@@ -240,4 +243,4 @@ unsigned SceneRenderer::draw(const View& view) {
     return parts.picture.finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

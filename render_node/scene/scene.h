@@ -15,7 +15,7 @@
 #include "render_node/scene/quality.h"
 #include "render_node/surface/school_surface.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // One camera: at the sweet spot, or one of two eyes beside it. Column vectors; reversed depth, zero
 // to one.
@@ -29,17 +29,17 @@ struct View {
 // tick and the fish.
 struct SceneFrame {
     double timeSeconds = 0;
-    glm::vec3 eyePositionMetres{};  // the shared eye: of the submarine, for levels of detail
-    SchoolMoment fish = {};         // of each species in turn, as many as it has
+    glm::vec3 eyePositionMetres{};    // the shared eye: of the submarine, for levels of detail
+    surface::SchoolMoment fish = {};  // of each species in turn, as many as it has
     std::span<const FoodParticle> food = {};
     float daylight = 1.0F;  // of the sky: 1 at noon, towards 0 at night
 };
 
 struct SceneOptions {
     std::uint32_t seed = 1;
-    PlaceKind place = PlaceKind::Reef;
-    WaterType water = WaterType::IA;
-    QualityTier quality = QualityTier::Low;
+    config::PlaceKind place = config::PlaceKind::Reef;
+    config::WaterType water = config::WaterType::IA;
+    config::QualityTier quality = config::QualityTier::Low;
     float pixelRadians = 0.0016F;  // the finest pixel of the whole wall, seen from the sweet spot
     bool culling = true;           // off only to measure what it saves
     bool levelsOfDetail = true;
@@ -51,7 +51,7 @@ struct SceneOptions {
 class SceneRenderer {
   public:
     // Without a cast it is a sea without fish.
-    SceneRenderer(const SceneOptions& options, std::span<const SchoolSpecies> cast);
+    SceneRenderer(const SceneOptions& options, std::span<const surface::SchoolSpecies> cast);
     ~SceneRenderer();
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;
@@ -72,4 +72,4 @@ class SceneRenderer {
     std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

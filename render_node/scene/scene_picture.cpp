@@ -8,7 +8,7 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -132,4 +132,4 @@ unsigned ScenePicture::finish() {
     return display_.name();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

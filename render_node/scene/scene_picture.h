@@ -10,7 +10,7 @@
 #include "render_node/gl/handle.h"
 #include "render_node/scene/quality.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 class ScenePicture {
   public:
@@ -42,4 +42,4 @@ class ScenePicture {
     gl::Framebuffer softened_, toned_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

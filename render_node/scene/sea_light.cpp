@@ -16,7 +16,7 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -41,7 +41,8 @@ std::vector<std::uint16_t> gridIndices(int cells) {
 
 float layerDepth(int layer, int layers) {
     const int onTheSand = layers > 2 ? layers - 2 : layers - 1;
-    return kMeanFloorDepthMetres * std::pow(kLayerRatio, static_cast<float>(layer - onTheSand));
+    return place::kMeanFloorDepthMetres *
+           std::pow(kLayerRatio, static_cast<float>(layer - onTheSand));
 }
 
 gl::Texture makeLayers(int texels, int layers) {
@@ -57,7 +58,8 @@ gl::Texture makeClouds(std::uint32_t seed) {
     const auto at = [&](glm::vec2 place, int cells) {
         const auto corner = [&](glm::ivec2 c) {
             const auto index = static_cast<std::uint32_t>((c.y % cells) * cells + c.x % cells);
-            return unitOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(cells)), index));
+            return place::unitOf(
+                place::hashOf(place::hashOf(seed, static_cast<std::uint32_t>(cells)), index));
         };
         const glm::vec2 p = place * static_cast<float>(cells);
         const glm::ivec2 c(p);
@@ -129,9 +131,9 @@ Box texelsInView(glm::vec3 eye, const glm::mat4& worldFromClip, int texels) {
 
 SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
     : quality_{options.quality},
-      sea_{options.calm ? calmSea() : seaOf(options.seed, kMeanFloorDepthMetres)},
+      sea_{options.calm ? calmSea() : seaOf(options.seed, place::kMeanFloorDepthMetres)},
       inscatter_{std::move(tables.inscatter)},
-      tableDepthMetres_{-kEyePosition.y},
+      tableDepthMetres_{-place::kEyePosition.y},
       atEye_{inscatter_.atDepth(double{tableDepthMetres_})},
       primariesKd_{primariesDownwelling(seaWater(options.water))},
       direct_{makeTexture(tables.direct)},
@@ -262,4 +264,4 @@ void SeaLight::bind() const {
     shade_.bind();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -15,11 +15,11 @@
 #include "render_node/scene/water_tables.h"
 #include "render_node/scene/waves.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 struct SeaLightOptions {
     std::uint32_t seed = 1;
-    WaterType water = WaterType::IB;
+    config::WaterType water = config::WaterType::IB;
     LightQuality quality;
     bool calm = false;  // a surface without waves
 };
@@ -63,4 +63,4 @@ class SeaLight {
     SeaShade shade_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

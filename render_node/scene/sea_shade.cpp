@@ -12,7 +12,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/scene/texture.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -105,7 +105,7 @@ glm::vec4 SeaShade::fishWindow(glm::vec3 sharedEyeMetres) const {
     return {glm::round(middle / coarsest) * coarsest, 1.0F / kFishMetres, 0.0F};
 }
 
-void SeaShade::updateFish(const SchoolSurface& school) {
+void SeaShade::updateFish(const surface::SchoolSurface& school) {
     const gl::Stage stage{"fish shadows"};
     glBindFramebuffer(GL_FRAMEBUFFER, fishTarget_.name());
     glViewport(0, 0, quality_.fishShadowTexels, quality_.fishShadowTexels);
@@ -132,4 +132,4 @@ void SeaShade::bind() const {
     glBindTextureUnit(18, fishOnTheWay_.name());
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -13,7 +13,7 @@
 #include "render_node/scene/quality.h"
 #include "render_node/surface/school_surface.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 class SeaShade {
   public:
@@ -26,7 +26,7 @@ class SeaShade {
 
     // Expects the frame's uniform block to be bound, and the sea's with fishWindow(): so the map of
     // fish lies about the shared eye, in whole texels of the world.
-    void updateFish(const SchoolSurface& school);
+    void updateFish(const surface::SchoolSurface& school);
     [[nodiscard]] glm::vec4 fishWindow(glm::vec3 sharedEyeMetres) const;  // of SeaNow
     void bind() const;  // to the units that shadow.glsl names
 
@@ -41,4 +41,4 @@ class SeaShade {
     gl::VertexArray empty_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

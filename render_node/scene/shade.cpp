@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -18,10 +18,10 @@ glm::vec3 sunInWater() {
     return glm::normalize(glm::vec3{-0.27F, 0.82F, -0.51F});
 }
 
-float sunOpenness(std::span<const Rock> rocks, glm::vec3 place) {
+float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place) {
     const glm::vec3 sun = sunInWater();
     float open = 1.0F;
-    for (const Rock& rock : rocks) {
+    for (const place::Rock& rock : rocks) {
         const float radius = rock.radiusMetres * kBodyShare;
         const glm::vec3 away = rock.centre - place;
         const float along = glm::dot(away, sun);
@@ -33,9 +33,9 @@ float sunOpenness(std::span<const Rock> rocks, glm::vec3 place) {
     return open;
 }
 
-float skyOpenness(std::span<const Rock> rocks, glm::vec3 place, glm::vec3 normal) {
+float skyOpenness(std::span<const place::Rock> rocks, glm::vec3 place, glm::vec3 normal) {
     float open = 1.0F;
-    for (const Rock& rock : rocks) {
+    for (const place::Rock& rock : rocks) {
         const float radius = rock.radiusMetres * kBodyShare;
         const glm::vec3 away = rock.centre - place;
         const float distance = glm::length(away);
@@ -49,7 +49,7 @@ float skyOpenness(std::span<const Rock> rocks, glm::vec3 place, glm::vec3 normal
     return open;
 }
 
-void shade(Mesh& mesh, std::span<const Rock> others) {
+void shade(Mesh& mesh, std::span<const place::Rock> others) {
     for (SolidVertex& vertex : mesh.vertices) {
         const glm::vec3 normal = glm::vec3(vertex.normal) / 127.0F;
         const glm::vec3 place = vertex.position + normal * 0.05F;
@@ -59,4 +59,4 @@ void shade(Mesh& mesh, std::span<const Rock> others) {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -10,16 +10,18 @@
 #include "common/place/place.h"
 #include "render_node/scene/mesh.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // Towards the sun as seen in the water: before the wall and to its left, 55 degrees up.
 [[nodiscard]] glm::vec3 sunInWater();
 
 // 0 dark to 1 open. Boulders count as balls; soft edges, as the sun's light is already spread.
-[[nodiscard]] float sunOpenness(std::span<const Rock> rocks, glm::vec3 place);
-[[nodiscard]] float skyOpenness(std::span<const Rock> rocks, glm::vec3 place, glm::vec3 normal);
+[[nodiscard]] float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place);
+[[nodiscard]] float skyOpenness(std::span<const place::Rock> rocks,
+                                glm::vec3 place,
+                                glm::vec3 normal);
 
 // A boulder's own ball is left to its baked openness.
-void shade(Mesh& mesh, std::span<const Rock> others);
+void shade(Mesh& mesh, std::span<const place::Rock> others);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

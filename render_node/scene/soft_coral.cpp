@@ -10,7 +10,7 @@
 #include "render_node/scene/growth_forms.h"
 #include "render_node/scene/strands.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -294,4 +294,4 @@ void growFeathers(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -5,7 +5,7 @@
 
 #include "render_node/scene/texture.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -55,4 +55,4 @@ gl::Texture makeTexture(const Tile& tile) {
     return texture;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

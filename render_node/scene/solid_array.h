@@ -10,7 +10,7 @@
 #include "render_node/scene/detail_tiles.h"
 #include "render_node/scene/mesh.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // Fills the two buffers with a mesh and names them in the array.
 void setSolids(const gl::VertexArray& array,
@@ -25,4 +25,4 @@ void setSolids(const gl::VertexArray& array,
     return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 float solidNoise(std::uint32_t seed, glm::vec3 place) {
     const glm::vec3 cell = glm::floor(place);
@@ -15,9 +15,9 @@ float solidNoise(std::uint32_t seed, glm::vec3 place) {
     const glm::vec3 s = t * t * (3.0F - 2.0F * t);
     const glm::ivec3 at{cell};
     const auto corner = [&](int x, int y, int z) {
-        const std::uint32_t column = hashOf(seed, static_cast<std::uint32_t>(at.x + x));
-        const std::uint32_t row = hashOf(column, static_cast<std::uint32_t>(at.y + y));
-        return signedUnitOf(hashOf(row, static_cast<std::uint32_t>(at.z + z)));
+        const std::uint32_t column = place::hashOf(seed, static_cast<std::uint32_t>(at.x + x));
+        const std::uint32_t row = place::hashOf(column, static_cast<std::uint32_t>(at.y + y));
+        return place::signedUnitOf(place::hashOf(row, static_cast<std::uint32_t>(at.z + z)));
     };
     const auto plane = [&](int z) {
         return glm::mix(glm::mix(corner(0, 0, z), corner(1, 0, z), s.x),
@@ -58,4 +58,4 @@ glm::mat3 frameAbout(glm::vec3 up, float turnRadians) {
     return {x * c + z * s, up, z * c - x * s};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

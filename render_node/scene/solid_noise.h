@@ -9,7 +9,7 @@
 
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 [[nodiscard]] float solidNoise(std::uint32_t seed, glm::vec3 place);            // -1 to 1
 [[nodiscard]] float billows(std::uint32_t seed, glm::vec3 place, int octaves);  // about +-1
@@ -18,9 +18,9 @@ namespace aquarama {
 class Dice {
   public:
     explicit Dice(std::uint32_t seed) : seed_{seed} {}
-    float unit() { return unitOf(hashOf(seed_, count_++)); }
+    float unit() { return place::unitOf(place::hashOf(seed_, count_++)); }
     float between(float low, float high) { return low + (high - low) * unit(); }
-    std::uint32_t seed() { return hashOf(seed_, count_++); }
+    std::uint32_t seed() { return place::hashOf(seed_, count_++); }
 
   private:
     std::uint32_t seed_;
@@ -30,4 +30,4 @@ class Dice {
 // Columns x, y, z with y along `up`, turned about it.
 [[nodiscard]] glm::mat3 frameAbout(glm::vec3 up, float turnRadians);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

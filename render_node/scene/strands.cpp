@@ -11,7 +11,7 @@
 
 #include "render_node/scene/solid_noise.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -133,4 +133,4 @@ void addBall(Mesh& mesh, const Ball& ball, const Surface& surface) {
     setSmoothNormals(mesh, first, firstIndex);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

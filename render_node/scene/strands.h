@@ -10,7 +10,7 @@
 
 #include "render_node/scene/mesh.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 struct Joint {
     glm::vec3 centre{};
@@ -69,4 +69,4 @@ struct Ball {
 };
 void addBall(Mesh& mesh, const Ball& ball, const Surface& surface);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

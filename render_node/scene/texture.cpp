@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/scene/texture.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -69,4 +69,4 @@ gl::Framebuffer makeTarget(const gl::Texture& colour) {
     return framebuffer;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -10,7 +10,7 @@
 #include "render_node/gl/handle.h"
 #include "render_node/scene/water_tables.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 enum class Edge : std::uint8_t { Clamp, Repeat };
 
@@ -23,4 +23,4 @@ enum class Edge : std::uint8_t { Clamp, Repeat };
 void refill(const gl::Texture& texture, const Table& table);
 [[nodiscard]] gl::Framebuffer makeTarget(const gl::Texture& colour);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -84,4 +84,4 @@ double plainLobe(glm::dvec3 direction, glm::dvec3 towardsSun) {
            0.10 * henyeyGreenstein(direction.y, 0.40);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 inline constexpr std::array kLobeAlbedos{0.03, 0.20, 0.40, 0.60, 0.75, 0.87};
 inline constexpr std::array kLobeDepths{0.15, 0.6, 1.5, 3.5, 8.0, 20.0};  // optical: c z
@@ -42,4 +42,4 @@ extern const std::array<LobeEntry, kLobeEntries> kLobeTable;
 // The lobes of the shaders: about the refracted sun, and about all light that comes down.
 [[nodiscard]] double plainLobe(glm::dvec3 direction, glm::dvec3 towardsSun);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

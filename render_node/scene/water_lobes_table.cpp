@@ -2,7 +2,7 @@
 // Written by aquarama_trace_water --seed 1 --paths 200000: trace it anew, do not edit it.
 #include "render_node/scene/water_lobes.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 // clang-format off
 const std::array<LobeEntry, kLobeEntries> kLobeTable{{
@@ -333,4 +333,4 @@ const std::array<LobeEntry, kLobeEntries> kLobeTable{{
 }};
 // clang-format on
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -16,7 +16,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/scene/water_lobes.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -232,8 +232,8 @@ struct WaterArrays {
 
 }  // namespace
 
-WaterTables waterTables(WaterType type) {
-    WaterArrays kept = derivedTables<WaterArrays>(DerivedKey("water").add(type), [&] {
+WaterTables waterTables(config::WaterType type) {
+    WaterArrays kept = files::derivedTables<WaterArrays>(files::DerivedKey("water").add(type), [&] {
         const WaterSpectra water = seaWater(type);
         const Inscatter inscatter{water};
         return WaterArrays{inscatter.texels(),
@@ -253,4 +253,4 @@ glm::vec3 primariesDownwelling(const WaterSpectra& water) {
     return glm::vec3(glm::log(above / below) / (kTo - kFrom));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

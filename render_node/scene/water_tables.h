@@ -10,7 +10,7 @@
 
 #include "render_node/scene/water_types.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 inline constexpr double kFarthestMetres = 80.0;
 inline constexpr double kDeepestMetres = 30.0;
@@ -64,9 +64,9 @@ struct WaterTables {
     Inscatter inscatter;
     Table direct, openWater;
 };
-[[nodiscard]] WaterTables waterTables(WaterType type);
+[[nodiscard]] WaterTables waterTables(config::WaterType type);
 
 // Kd of daylight's three primaries about the depth that the filter leaves, 1/m.
 [[nodiscard]] glm::vec3 primariesDownwelling(const WaterSpectra& water);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

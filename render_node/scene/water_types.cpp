@@ -7,7 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -157,28 +157,28 @@ double beamAttenuation(const WaterSpectra& water, std::size_t band) {
     return water.absorption[band] + (1.0 - kStaysInPicture) * water.scattering[band];
 }
 
-WaterSpectra seaWater(WaterType type) {
+WaterSpectra seaWater(config::WaterType type) {
     WaterSpectra water;
     switch (type) {
-        case WaterType::I:
+        case config::WaterType::I:
             derive(water, kDownwellingI, 0.016);
             break;
-        case WaterType::IA:
+        case config::WaterType::IA:
             derive(water, kDownwellingIA, 0.045);
             break;
-        case WaterType::IB:
+        case config::WaterType::IB:
             copy(water, kIB);
             break;
-        case WaterType::II:
+        case config::WaterType::II:
             copy(water, kII);
             break;
-        case WaterType::III:
+        case config::WaterType::III:
             copy(water, kIII);
             break;
-        case WaterType::C1:
+        case config::WaterType::C1:
             copy(water, k1C);
             break;
-        case WaterType::C3:
+        case config::WaterType::C3:
             copy(water, k3C);
             break;
     }
@@ -187,4 +187,4 @@ WaterSpectra seaWater(WaterType type) {
     return water;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -7,7 +7,7 @@
 
 #include "common/config/scene.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 inline constexpr std::size_t kBands = 31;  // 400 to 700 nm by 10
 using Spectrum = std::array<double, kBands>;
@@ -21,11 +21,11 @@ struct WaterSpectra {
     Spectrum weights[3];       // band to linear Rec. 709; daylight D65 gives (1, 1, 1)
     Spectrum reflectances[3];  // smooth red, green, blue surfaces that sum to white
 };
-[[nodiscard]] WaterSpectra seaWater(WaterType type);
+[[nodiscard]] WaterSpectra seaWater(config::WaterType type);
 
 // Of the scattered light, so much goes so nearly straight on that it stays in the picture.
 inline constexpr double kStaysInPicture = 0.49;
 // What dims the way to the eye: a + 0.51 b.
 [[nodiscard]] double beamAttenuation(const WaterSpectra& water, std::size_t band);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -9,7 +9,7 @@
 
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 
 namespace {
 
@@ -43,7 +43,8 @@ WaveSet<Count> wavesOf(std::uint32_t seed, const Band& band, double tileMetres) 
     WaveSet<Count> waves;
     for (std::uint32_t i = 0; i < Count; ++i) {
         const auto unit = [&](std::uint32_t n) {
-            return static_cast<double>(unitOf(hashOf(hashOf(seed ^ 0x7a5eU, i), n)));
+            return static_cast<double>(
+                place::unitOf(place::hashOf(place::hashOf(seed ^ 0x7a5eU, i), n)));
         };
         const double length = band.longestMetres * std::pow(band.shortestShare, (i + 0.5) / Count);
         const double heading = kGoldenAngle * i + 0.6 * (unit(0) - 0.5);
@@ -88,9 +89,10 @@ void setPhases(const WaveSet<Count>& waves, double timeSeconds, std::array<glm::
 }  // namespace
 
 Sea seaOf(std::uint32_t seed, float focusDepthMetres) {
-    Sea sea{wavesOf<kWaves>(seed, kWaveBand, static_cast<double>(kTileMetres)),
-            wavesOf<kWaves>(hashOf(seed), kRippleBand, static_cast<double>(kRippleTileMetres)),
-            wavesOf<kLongWaves>(hashOf(seed, 2), kLongBand, 0.0)};
+    Sea sea{
+        wavesOf<kWaves>(seed, kWaveBand, static_cast<double>(kTileMetres)),
+        wavesOf<kWaves>(place::hashOf(seed), kRippleBand, static_cast<double>(kRippleTileMetres)),
+        wavesOf<kLongWaves>(place::hashOf(seed, 2), kLongBand, 0.0)};
     scale(sea.waves, kSharpestNet / focusNumber(sea.waves, static_cast<double>(focusDepthMetres)));
     scale(sea.ripples, kRippleSteepness / steepness(sea.ripples));
     scale(sea.longWaves, kLongSteepness / std::sqrt(meanSquareSlope(sea.longWaves)));
@@ -126,4 +128,4 @@ double steepness(const Waves& waves) {
     return std::sqrt(meanSquareSlope(waves));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-namespace aquarama {
+namespace aquarama::scene {
 
 inline constexpr int kWaves = 32;
 inline constexpr int kLongWaves = 4;
@@ -60,4 +60,4 @@ struct SeaNow {
 // Root of the mean square of the slope.
 [[nodiscard]] double steepness(const Waves& waves);
 
-}  // namespace aquarama
+}  // namespace aquarama::scene

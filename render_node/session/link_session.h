@@ -9,10 +9,10 @@
 #include "common/net/channels.h"
 #include "render_node/session/session.h"
 
-namespace aquarama {
+namespace aquarama::session {
 
 [[nodiscard]] std::unique_ptr<Session> makeSession(const std::string& name,
-                                                   Connect connect,
+                                                   net::Connect connect,
                                                    const std::filesystem::path& blobDirectory);
 
-}  // namespace aquarama
+}  // namespace aquarama::session

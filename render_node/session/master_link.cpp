@@ -7,23 +7,27 @@
 #include "common/units/error.h"
 #include "common/units/log.h"
 
-namespace aquarama {
+namespace aquarama::session {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr Instant kHello = milliseconds(100);
-constexpr Instant kPing = milliseconds(50);       // a fifth of the silence that ends membership
-constexpr Instant kRepeat = seconds(1);           // of what was not answered
-constexpr Instant kMasterSilence = seconds(2);    // after which the master is taken for gone
-constexpr Instant kComplaint = seconds(3);        // between two lines that say we are still waiting
-constexpr Instant kFarthest = milliseconds(250);  // a release further ahead is a clock gone wrong
+constexpr net::Instant kHello = milliseconds(100);
+constexpr net::Instant kPing = milliseconds(50);     // a fifth of the silence that ends membership
+constexpr net::Instant kRepeat = seconds(1);         // of what was not answered
+constexpr net::Instant kMasterSilence = seconds(2);  // after which the master is taken for gone
+constexpr net::Instant kComplaint = seconds(3);  // between two lines that say we are still waiting
+constexpr net::Instant kFarthest =
+    milliseconds(250);           // a release further ahead is a clock gone wrong
 constexpr int kSpoiltBlobs = 3;  // deliveries of a blob that fail before we give up
 
 }  // namespace
 
-MasterLink::MasterLink(std::string name, Connect connect, BlobCache cache, Meeting& meeting)
+MasterLink::MasterLink(std::string name,
+                       net::Connect connect,
+                       net::BlobCache cache,
+                       Meeting& meeting)
     : name_(std::move(name)),
       connect_(std::move(connect)),
       cache_(std::move(cache)),
@@ -53,7 +57,7 @@ void MasterLink::run() {
     } catch (const Error& error) {  // no new connection could be made
         meeting_.refuse(error.what());
     }
-    if (session_ != 0) say(Farewell{});
+    if (session_ != 0) say(wire::Farewell{});
 }
 
 void MasterLink::turn() {
@@ -62,11 +66,11 @@ void MasterLink::turn() {
     }
     while (const auto bytes = channels_->receiveControl()) readControl(*bytes);
     while (const auto bytes = channels_->receiveState()) readState(*bytes);
-    keepTime(monotonicNow());
+    keepTime(net::monotonicNow());
 }
 
-void MasterLink::say(const Message& message) {
-    channels_->sendControl(encode({session_, message}));
+void MasterLink::say(const wire::Message& message) {
+    channels_->sendControl(wire::encode({session_, message}));
 }
 
 // --- what the render thread wishes
@@ -82,11 +86,11 @@ void MasterLink::obey(const Join&) {
     session_ = 0;
     hearsStates_ = false;
     finished_.reset();
-    lastHello_ = Instant{};
-    lastComplaint_ = monotonicNow();
+    lastHello_ = net::Instant{};
+    lastComplaint_ = net::monotonicNow();
 }
 
-void MasterLink::obey(const Prepared& prepared) {
+void MasterLink::obey(const wire::Prepared& prepared) {
     prepared_ = prepared;
     if (phase_ == Phase::Building) phase_ = Phase::Listening;
 }
@@ -97,50 +101,50 @@ void MasterLink::obey(const Finished& finished) {
     sayReady();
 }
 
-void MasterLink::obey(const Input& input) {
+void MasterLink::obey(const wire::Input& input) {
     say(input);
 }
 
-void MasterLink::obey(const ExplainRequest& request) {
+void MasterLink::obey(const wire::ExplainRequest& request) {
     if (session_ != 0) say(request);
 }
 
 void MasterLink::sayReady() {
-    Ready ready{finished_->frame, finished_->released};
-    if (ready.released) ready.released->atNs += clock_.offset().value_or(Instant{}).count();
+    wire::Ready ready{finished_->frame, finished_->released};
+    if (ready.released) ready.released->atNs += clock_.offset().value_or(net::Instant{}).count();
     say(ready);
-    lastReady_ = monotonicNow();
+    lastReady_ = net::monotonicNow();
 }
 
 // --- what the master says
 
-void MasterLink::readControl(const ByteVector& bytes) {
-    const auto envelope = decode(bytes);
+void MasterLink::readControl(const net::ByteVector& bytes) {
+    const auto envelope = wire::decode(bytes);
     if (!envelope) return;
-    lastHeard_ = monotonicNow();
-    if (const auto* welcome = std::get_if<Welcome>(&envelope->message)) {
+    lastHeard_ = net::monotonicNow();
+    if (const auto* welcome = std::get_if<wire::Welcome>(&envelope->message)) {
         if (phase_ == Phase::Greeting) beWelcomed(envelope->session, *welcome);
-    } else if (const auto* refusal = std::get_if<Refusal>(&envelope->message)) {
+    } else if (const auto* refusal = std::get_if<wire::Refusal>(&envelope->message)) {
         if (phase_ == Phase::Greeting) meeting_.refuse(refusal->reason);
-    } else if (const auto* dismissed = std::get_if<Dismissed>(&envelope->message)) {
+    } else if (const auto* dismissed = std::get_if<wire::Dismissed>(&envelope->message)) {
         take(*dismissed);  // also from another run of the master: it does not know us
     } else if (session_ != 0 && envelope->session == session_) {
         std::visit([&](const auto& message) { take(message); }, envelope->message);
     }
 }
 
-void MasterLink::readState(const ByteVector& bytes) {
-    auto envelope = decode(bytes);
+void MasterLink::readState(const net::ByteVector& bytes) {
+    auto envelope = wire::decode(bytes);
     if (!envelope || session_ == 0) return;
     if (envelope->session != session_) return lose("the master was started again");
     hearsStates_ = true;
-    lastHeard_ = monotonicNow();
-    if (auto* state = std::get_if<StateFrame>(&envelope->message)) {
+    lastHeard_ = net::monotonicNow();
+    if (auto* state = std::get_if<wire::StateFrame>(&envelope->message)) {
         meeting_.put({std::move(*state), lastHeard_});
     }
 }
 
-void MasterLink::beWelcomed(std::uint64_t session, const Welcome& welcome) {
+void MasterLink::beWelcomed(std::uint64_t session, const wire::Welcome& welcome) {
     session_ = session;
     phase_ = Phase::Fetching;
     admitted_ = {welcome, {}};
@@ -156,7 +160,7 @@ void MasterLink::beWelcomed(std::uint64_t session, const Welcome& welcome) {
 
 // Takes from the cache what is there, and asks for the first that is not.
 void MasterLink::fetchNext() {
-    for (const SpeciesBlobs& blobs : admitted_.welcome.cast) {
+    for (const wire::SpeciesBlobs& blobs : admitted_.welcome.cast) {
         for (const Digest& digest : {blobs.species, blobs.repertoire}) {
             if (admitted_.blobs.contains(digest)) continue;
             auto cached = cache_.find(digest);
@@ -171,11 +175,11 @@ void MasterLink::fetchNext() {
 }
 
 void MasterLink::requestChunk() {
-    say(BlobRequest{assembly_->digest(), assembly_->nextOffset()});
-    lastRequest_ = monotonicNow();
+    say(wire::BlobRequest{assembly_->digest(), assembly_->nextOffset()});
+    lastRequest_ = net::monotonicNow();
 }
 
-void MasterLink::take(const BlobChunk& chunk) {
+void MasterLink::take(const wire::BlobChunk& chunk) {
     if (phase_ != Phase::Fetching || !assembly_ || chunk.digest != assembly_->digest()) return;
     if (!assembly_->take(chunk.offset, chunk.total, chunk.content)) return;
     if (!assembly_->whole()) return requestChunk();
@@ -195,24 +199,24 @@ void MasterLink::admit() {
     meeting_.admit(admitted_);
 }
 
-void MasterLink::take(const Pong& pong) {
-    clock_.add(Instant{pong.sentNs}, Instant{pong.masterNs}, monotonicNow());
+void MasterLink::take(const wire::Pong& pong) {
+    clock_.add(net::Instant{pong.sentNs}, net::Instant{pong.masterNs}, net::monotonicNow());
 }
 
-void MasterLink::take(const Joined& joined) {
+void MasterLink::take(const wire::Joined& joined) {
     meeting_.start(admitted_.welcome.pace, joined.first);
 }
 
-void MasterLink::take(const Present& present) {
-    const Instant now = monotonicNow();
-    Instant at = now;
-    if (present.atNs != 0 && clock_.offset()) at = Instant{present.atNs} - *clock_.offset();
+void MasterLink::take(const wire::Present& present) {
+    const net::Instant now = net::monotonicNow();
+    net::Instant at = now;
+    if (present.atNs != 0 && clock_.offset()) at = net::Instant{present.atNs} - *clock_.offset();
     if (at > now + kFarthest) at = now;
     if (finished_ && finished_->frame <= present.frame) finished_.reset();
     meeting_.release({present.frame, at});
 }
 
-void MasterLink::take(const Dismissed& dismissed) {
+void MasterLink::take(const wire::Dismissed& dismissed) {
     if (phase_ == Phase::Greeting) {
         lastDismissal_ = dismissed.reason;
     } else if (phase_ != Phase::Outside) {
@@ -221,14 +225,14 @@ void MasterLink::take(const Dismissed& dismissed) {
 }
 
 // Answered, so that the master knows that we have heard it.
-void MasterLink::take(const Farewell&) {
-    say(Farewell{});
+void MasterLink::take(const wire::Farewell&) {
+    say(wire::Farewell{});
     phase_ = Phase::Outside;
     session_ = 0;
     meeting_.interrupt(Release::Quit);
 }
 
-void MasterLink::take(const Explanation& explanation) {
+void MasterLink::take(const wire::Explanation& explanation) {
     meeting_.tellMind(explanation);
 }
 
@@ -247,12 +251,12 @@ void MasterLink::lose(const std::string& why) {
 
 // --- what the time asks for
 
-void MasterLink::keepTime(Instant now) {
+void MasterLink::keepTime(net::Instant now) {
     if (phase_ == Phase::Outside) return;
     if (phase_ == Phase::Greeting) return greet(now);
     if (now - lastHeard_ > kMasterSilence) return lose("the master has fallen silent");
     if (now - lastPing_ >= kPing) {
-        say(Ping{now.count()});
+        say(wire::Ping{now.count()});
         lastPing_ = now;
     }
     if (phase_ == Phase::Fetching && now - lastRequest_ > kRepeat) requestChunk();
@@ -263,9 +267,9 @@ void MasterLink::keepTime(Instant now) {
     if (finished_ && now - lastReady_ > kRepeat) sayReady();
 }
 
-void MasterLink::greet(Instant now) {
+void MasterLink::greet(net::Instant now) {
     if (now - lastHello_ >= kHello) {
-        say(Hello{name_, kProtocolMajor, AQUARAMA_VERSION});
+        say(wire::Hello{name_, wire::kProtocolMajor, AQUARAMA_VERSION});
         lastHello_ = now;
     }
     if (now - lastComplaint_ < kComplaint) return;
@@ -275,4 +279,4 @@ void MasterLink::greet(Instant now) {
                lastDismissal_.empty() ? "no master answers" : std::exchange(lastDismissal_, {}));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::session

@@ -15,20 +15,20 @@
 #include "common/wire/envelope.h"
 #include "render_node/session/meeting.h"
 
-namespace aquarama {
+namespace aquarama::session {
 
 class MasterLink {
   public:
     // Connects once, so that a malformed address is refused here.
-    MasterLink(std::string name, Connect connect, BlobCache cache, Meeting& meeting);
+    MasterLink(std::string name, net::Connect connect, net::BlobCache cache, Meeting& meeting);
 
     // The render thread's wishes.
     struct Join {};
     struct Finished {  // the picture of this frame
         Frame frame;
-        std::optional<ReleaseReport> released;  // in this machine's clock
+        std::optional<wire::ReleaseReport> released;  // in this machine's clock
     };
-    using Wish = std::variant<Join, Prepared, Finished, Input, ExplainRequest>;
+    using Wish = std::variant<Join, wire::Prepared, Finished, wire::Input, wire::ExplainRequest>;
     void wish(const Wish& wish);
     void stop();  // from any thread
 
@@ -39,57 +39,58 @@ class MasterLink {
     enum class Phase : std::uint8_t { Outside, Greeting, Fetching, Building, Listening, Member };
 
     void turn();
-    void say(const Message& message);
+    void say(const wire::Message& message);
     void obey(const Join& join);
-    void obey(const Prepared& prepared);
+    void obey(const wire::Prepared& prepared);
     void obey(const Finished& finished);
-    void obey(const Input& input);
-    void obey(const ExplainRequest& request);
+    void obey(const wire::Input& input);
+    void obey(const wire::ExplainRequest& request);
 
-    void readControl(const ByteVector& bytes);
-    void readState(const ByteVector& bytes);
+    void readControl(const net::ByteVector& bytes);
+    void readState(const net::ByteVector& bytes);
     // Messages that mean nothing to a node fall through to the last.
-    void take(const Pong& pong);
-    void take(const BlobChunk& chunk);
-    void take(const Joined& joined);
-    void take(const Present& present);
-    void take(const Dismissed& dismissed);
-    void take(const Farewell& farewell);
-    void take(const Explanation& explanation);
+    void take(const wire::Pong& pong);
+    void take(const wire::BlobChunk& chunk);
+    void take(const wire::Joined& joined);
+    void take(const wire::Present& present);
+    void take(const wire::Dismissed& dismissed);
+    void take(const wire::Farewell& farewell);
+    void take(const wire::Explanation& explanation);
     template <class Other>
     void take(const Other&) {}
 
-    void beWelcomed(std::uint64_t session, const Welcome& welcome);
+    void beWelcomed(std::uint64_t session, const wire::Welcome& welcome);
     void fetchNext();
     void requestChunk();
     void admit();
     void sayReady();
     void lose(const std::string& why);
-    void keepTime(Instant now);
-    void greet(Instant now);
+    void keepTime(net::Instant now);
+    void greet(net::Instant now);
 
     std::string name_;
-    Connect connect_;
-    BlobCache cache_;
+    net::Connect connect_;
+    net::BlobCache cache_;
     Meeting& meeting_;
 
     std::mutex channelsMutex_;  // held to replace or wake the channels, never to use them
-    std::unique_ptr<NodeChannels> channels_;
-    BoundedQueue<Wish> wishes_{64};
+    std::unique_ptr<net::NodeChannels> channels_;
+    net::BoundedQueue<Wish> wishes_{64};
     std::atomic<bool> stopped_ = false;
 
     bool connectionUsed_ = false;
     Phase phase_ = Phase::Outside;
     std::uint64_t session_ = 0;
     Admitted admitted_;
-    std::optional<BlobAssembly> assembly_;  // of the blob that is being fetched
+    std::optional<net::BlobAssembly> assembly_;  // of the blob that is being fetched
     int spoiltBlobs_ = 0;
     bool hearsStates_ = false;
-    Prepared prepared_;
+    wire::Prepared prepared_;
     std::optional<Finished> finished_;  // and not released yet, as far as we know
-    ClockOffset clock_;
+    net::ClockOffset clock_;
     std::string lastDismissal_;
-    Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{}, lastComplaint_{};
+    net::Instant lastHeard_{}, lastPing_{}, lastHello_{}, lastReady_{}, lastRequest_{},
+        lastComplaint_{};
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::session

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace aquarama {
+namespace aquarama::session {
 
 void Meeting::admit(Admitted admitted) {
     const std::lock_guard lock(mutex_);
@@ -18,7 +18,7 @@ void Meeting::refuse(const std::string& reason) {
     changed_.notify_all();
 }
 
-void Meeting::start(Pace pace, Frame first) {
+void Meeting::start(wire::Pace pace, Frame first) {
     const std::lock_guard lock(mutex_);
     pace_ = pace;
     next_ = first;
@@ -40,7 +40,7 @@ void Meeting::release(const ReleaseOrder& order) {
     changed_.notify_all();
 }
 
-void Meeting::tellMind(Explanation explanation) {
+void Meeting::tellMind(wire::Explanation explanation) {
     const std::lock_guard lock(mutex_);
     mind_ = std::move(explanation);
 }
@@ -75,8 +75,8 @@ std::optional<ArrivedState> Meeting::takeNext() {
     std::erase_if(states_, [&](const ArrivedState& s) { return s.state.frame < next_; });
     if (!pace_ || states_.empty()) return std::nullopt;
     const auto frameOf = [](const ArrivedState& s) { return s.state.frame; };
-    auto chosen = *pace_ == Pace::Live ? std::ranges::max_element(states_, {}, frameOf)
-                                       : std::ranges::find(states_, next_, frameOf);
+    auto chosen = *pace_ == wire::Pace::Live ? std::ranges::max_element(states_, {}, frameOf)
+                                             : std::ranges::find(states_, next_, frameOf);
     if (chosen == states_.end()) return std::nullopt;
     ArrivedState taken = std::move(*chosen);
     states_.erase(chosen);
@@ -98,7 +98,7 @@ std::optional<ReleaseOrder> Meeting::awaitRelease(Frame frame) {
     return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
 }
 
-std::optional<Explanation> Meeting::latestMind() const {
+std::optional<wire::Explanation> Meeting::latestMind() const {
     const std::lock_guard lock(mutex_);
     return mind_;
 }
@@ -108,4 +108,4 @@ Release Meeting::interruption() const {
     return interruption_.value_or(Release::Quit);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::session

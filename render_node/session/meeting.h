@@ -15,22 +15,22 @@
 #include "common/net/channels.h"
 #include "render_node/session/session.h"
 
-namespace aquarama {
+namespace aquarama::session {
 
 struct ArrivedState {
-    StateFrame state;
-    Instant arrival{};
+    wire::StateFrame state;
+    net::Instant arrival{};
 };
 
 struct ReleaseOrder {
     Frame frame;
-    Instant at{};  // on this machine's clock; past instants mean at once
+    net::Instant at{};  // on this machine's clock; past instants mean at once
 };
 
 // What the master gave to a node that it welcomed.
 struct Admitted {
-    Welcome welcome;
-    std::map<Digest, ByteVector> blobs;  // all that the welcome names
+    wire::Welcome welcome;
+    std::map<Digest, net::ByteVector> blobs;  // all that the welcome names
 };
 struct Refused {
     std::string reason;
@@ -43,10 +43,10 @@ class Meeting {
     // The net thread's side.
     void admit(Admitted admitted);
     void refuse(const std::string& reason);
-    void start(Pace pace, Frame first);  // frames are taken from this one on
+    void start(wire::Pace pace, Frame first);  // frames are taken from this one on
     void put(ArrivedState arrived);
     void release(const ReleaseOrder& order);
-    void tellMind(Explanation explanation);
+    void tellMind(wire::Explanation explanation);
     void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
 
     // The render thread's side. Each blocks until there is an answer.
@@ -57,7 +57,7 @@ class Meeting {
     [[nodiscard]] std::optional<ReleaseOrder> awaitRelease(Frame frame);
     [[nodiscard]] Release interruption() const;
     // The last that was told in this run of the master; does not block.
-    [[nodiscard]] std::optional<Explanation> latestMind() const;
+    [[nodiscard]] std::optional<wire::Explanation> latestMind() const;
 
   private:
     [[nodiscard]] std::optional<ArrivedState> takeNext();
@@ -67,11 +67,11 @@ class Meeting {
     std::condition_variable changed_;
     std::optional<JoinOutcome> join_;
     std::optional<Release> interruption_;
-    std::optional<Pace> pace_;  // set once frames are expected
+    std::optional<wire::Pace> pace_;  // set once frames are expected
     Frame next_;
     std::deque<ArrivedState> states_;
     std::optional<ReleaseOrder> release_;
-    std::optional<Explanation> mind_;
+    std::optional<wire::Explanation> mind_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::session

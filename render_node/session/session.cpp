@@ -10,28 +10,29 @@
 #include "render_node/session/master_link.h"
 #include "render_node/session/meeting.h"
 
-namespace aquarama {
+namespace aquarama::session {
 namespace {
 
-std::string textOf(const ByteVector& bytes) {
+std::string textOf(const net::ByteVector& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::vector<AdmittedSpecies> castOf(const Admitted& admitted) {
     std::vector<AdmittedSpecies> cast;
     for (const auto& [species, repertoire, fish] : admitted.welcome.cast)
-        cast.push_back({textOf(admitted.blobs.at(species)),
-                        decodeRepertoire(admitted.blobs.at(repertoire), "the master's repertoire"),
-                        fish,
-                        digestOf(toHex(species) + toHex(repertoire))});
+        cast.push_back(
+            {textOf(admitted.blobs.at(species)),
+             motion::decodeRepertoire(admitted.blobs.at(repertoire), "the master's repertoire"),
+             fish,
+             digestOf(toHex(species) + toHex(repertoire))});
     return cast;
 }
 
 class LinkSession final : public Session {
   public:
-    LinkSession(const std::string& name, Connect connect, const std::filesystem::path& blobs)
+    LinkSession(const std::string& name, net::Connect connect, const std::filesystem::path& blobs)
         : name_(name),
-          link_(name, std::move(connect), BlobCache(blobs), meeting_),
+          link_(name, std::move(connect), net::BlobCache(blobs), meeting_),
           netThread_([this] { link_.run(); }) {}
 
     ~LinkSession() override {
@@ -52,14 +53,14 @@ class LinkSession final : public Session {
         auto* admitted = std::get_if<Admitted>(&outcome);
         if (admitted == nullptr) return std::nullopt;
         return Admission{admitted->welcome,
-                         parseRig(admitted->welcome.rigText, "the master's rig"),
-                         parseScene(admitted->welcome.sceneText, "the master's scene"),
+                         config::parseRig(admitted->welcome.rigText, "the master's rig"),
+                         config::parseScene(admitted->welcome.sceneText, "the master's scene"),
                          castOf(*admitted)};
     }
 
-    void prepared(QualityTier quality) override { link_.wish(Prepared{quality}); }
+    void prepared(config::QualityTier quality) override { link_.wish(wire::Prepared{quality}); }
 
-    std::optional<StateFrame> nextFrame() override {
+    std::optional<wire::StateFrame> nextFrame() override {
         auto arrived = meeting_.takeState();
         if (!arrived) return std::nullopt;
         stateArrival_ = arrived->arrival;
@@ -77,22 +78,24 @@ class LinkSession final : public Session {
         // A node that is always late shows its late pictures: better than none.
         skipped_ = false;
         std::this_thread::sleep_until(std::chrono::steady_clock::time_point(order->at));
-        released_ = ReleaseReport{frame, monotonicNow().count()};
+        released_ = wire::ReleaseReport{frame, net::monotonicNow().count()};
         return Release::Present;
     }
 
     void send(NodeInput input) override {
-        link_.wish(
-            Input{input == NodeInput::Quit ? InputKind::Quit : InputKind::TogglePause, {}, {}});
+        link_.wish(wire::Input{
+            input == NodeInput::Quit ? wire::InputKind::Quit : wire::InputKind::TogglePause,
+            {},
+            {}});
     }
     void dropFood(glm::vec3 positionMetres) override {
-        link_.wish(Input{InputKind::DropFood, positionMetres, {}});
+        link_.wish(wire::Input{wire::InputKind::DropFood, positionMetres, {}});
     }
     void steer(const Steering& steering) override {
-        link_.wish(Input{InputKind::Steer, {}, steering});
+        link_.wish(wire::Input{wire::InputKind::Steer, {}, steering});
     }
-    void askMind(std::uint32_t fish) override { link_.wish(ExplainRequest{fish}); }
-    std::optional<Explanation> latestMind() const override { return meeting_.latestMind(); }
+    void askMind(std::uint32_t fish) override { link_.wish(wire::ExplainRequest{fish}); }
+    std::optional<wire::Explanation> latestMind() const override { return meeting_.latestMind(); }
 
     void stop() override { link_.stop(); }
 
@@ -100,7 +103,7 @@ class LinkSession final : public Session {
     std::string name_;
     Meeting meeting_;
     MasterLink link_;
-    std::optional<ReleaseReport> released_;
+    std::optional<wire::ReleaseReport> released_;
     bool skipped_ = false;
     std::chrono::nanoseconds stateArrival_{};
     std::thread netThread_;  // last: it uses all of the above
@@ -109,21 +112,21 @@ class LinkSession final : public Session {
 }  // namespace
 
 std::unique_ptr<Session> makeSession(const std::string& name,
-                                     Connect connect,
+                                     net::Connect connect,
                                      const std::filesystem::path& blobDirectory) {
     return std::make_unique<LinkSession>(name, std::move(connect), blobDirectory);
 }
 
 std::unique_ptr<Session> connectSession(const std::string& name,
                                         const std::string& controlAddress) {
-    return connectSession(name, controlAddress, defaultBlobDirectory());
+    return connectSession(name, controlAddress, net::defaultBlobDirectory());
 }
 
 std::unique_ptr<Session> connectSession(const std::string& name,
                                         const std::string& controlAddress,
                                         const std::filesystem::path& blobDirectory) {
     return makeSession(
-        name, [controlAddress] { return connectNode(controlAddress); }, blobDirectory);
+        name, [controlAddress] { return net::connectNode(controlAddress); }, blobDirectory);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::session

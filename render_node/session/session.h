@@ -16,7 +16,7 @@
 #include "common/units/digest.h"
 #include "common/wire/envelope.h"
 
-namespace aquarama {
+namespace aquarama::session {
 
 enum class NodeInput : std::uint8_t { Quit, TogglePause };
 
@@ -31,15 +31,15 @@ enum class Release : std::uint8_t {
 // The fish of one species: in the school they follow those of the species before it.
 struct AdmittedSpecies {
     std::string text;  // of the species file
-    Repertoire repertoire;
+    motion::Repertoire repertoire;
     std::uint32_t fish = 0;
     std::optional<Digest> source = {};  // of text and repertoire as they came
 };
 
 struct Admission {
-    Welcome welcome;
-    Rig rig;
-    Scene scene;
+    wire::Welcome welcome;
+    config::Rig rig;
+    config::Scene scene;
     std::vector<AdmittedSpecies> cast;
 };
 
@@ -54,10 +54,10 @@ class Session {
     virtual std::optional<Admission> join() = 0;
     // All that must be built before the first frame is built, and this is the finest tier that the
     // node keeps up with: from now on the master waits for it.
-    virtual void prepared(QualityTier quality) = 0;
+    virtual void prepared(config::QualityTier quality) = 0;
     // The next frame to draw: in lockstep every one in order, live the newest. Empty: see
     // `interruption`.
-    virtual std::optional<StateFrame> nextFrame() = 0;
+    virtual std::optional<wire::StateFrame> nextFrame() = 0;
     // When the state of the frame that nextFrame() gave had arrived, on CLOCK_MONOTONIC.
     [[nodiscard]] virtual std::chrono::nanoseconds stateArrival() const = 0;
     // Why nextFrame() was empty.
@@ -71,7 +71,7 @@ class Session {
     virtual void steer(const Steering& steering) = 0;
     // Asks what goes on in the mind of a fish; the answer comes when it comes.
     virtual void askMind(std::uint32_t fish) = 0;
-    [[nodiscard]] virtual std::optional<Explanation> latestMind() const = 0;
+    [[nodiscard]] virtual std::optional<wire::Explanation> latestMind() const = 0;
     virtual void stop() = 0;
 };
 
@@ -83,4 +83,4 @@ class Session {
                                                       const std::string& controlAddress,
                                                       const std::filesystem::path& blobDirectory);
 
-}  // namespace aquarama
+}  // namespace aquarama::session

@@ -17,7 +17,7 @@
 #include "render_node/shaders/post_radii.h"
 #include "render_node/show/presented.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -50,15 +50,16 @@ std::vector<Label> helpLabels(float dot) {
     return labels;
 }
 
-std::vector<SchoolSpecies> castOf(const Admission& admission) {
-    std::vector<SchoolSpecies> cast;
-    std::span<const FishTraits> rest = admission.welcome.school;
-    for (const AdmittedSpecies& admitted : admission.cast) {
-        const Species species = parseSpecies(admitted.text, "the master's species file");
+std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) {
+    std::vector<surface::SchoolSpecies> cast;
+    std::span<const motion::FishTraits> rest = admission.welcome.school;
+    for (const session::AdmittedSpecies& admitted : admission.cast) {
+        const config::Species species =
+            config::parseSpecies(admitted.text, "the master's species file");
         const auto own = rest.first(std::min<std::size_t>(admitted.fish, rest.size()));
         rest = rest.subspan(own.size());
-        cast.push_back({makeBody(species),
-                        skinOf(species),
+        cast.push_back({body::makeBody(species),
+                        body::skinOf(species),
                         admitted.repertoire,
                         {own.begin(), own.end()},
                         admitted.source});
@@ -66,58 +67,62 @@ std::vector<SchoolSpecies> castOf(const Admission& admission) {
     return cast;
 }
 
-glm::mat4 clipOf(const View& view) {
+glm::mat4 clipOf(const scene::View& view) {
     return view.clipFromCamera * view.cameraFromWorld;
 }
 
 }  // namespace
 
-std::size_t channelIndex(const Rig& rig, const std::string& name) {
-    const auto found = std::ranges::find(rig.channels, name, &Channel::name);
+std::size_t channelIndex(const config::Rig& rig, const std::string& name) {
+    const auto found = std::ranges::find(rig.channels, name, &config::Channel::name);
     if (found == rig.channels.end())
         throw Error("rig \"" + rig.name + "\" has no channel \"" + name +
                     "\"; name one that it has");
     return static_cast<std::size_t>(found - rig.channels.begin());
 }
 
-ChannelPicture::Viewing::Viewing(const ChannelFrustum& from,
-                                 const WarpMap& warp,
-                                 const Screen& screen,
+ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
+                                 const wall::WarpMap& warp,
+                                 const config::Screen& screen,
                                  std::uint32_t channelId)
-    : frustum{from}, pattern{from, screen}, projection{projectionMap(warp, from), channelId} {}
+    : frustum{from},
+      pattern{from, screen},
+      projection{project::projectionMap(warp, from), channelId} {}
 
-ChannelPicture::ChannelPicture(const Admission& admission, std::size_t channel, QualityTier quality)
+ChannelPicture::ChannelPicture(const session::Admission& admission,
+                               std::size_t channel,
+                               config::QualityTier quality)
     : pattern_{admission.welcome.pattern},
-      stereo_{stereoOf(admission.rig, channel)},
+      stereo_{wall::stereoOf(admission.rig, channel)},
       school_{admission.welcome.school} {
-    const Rig& rig = admission.rig;
+    const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
-    const WarpMap warp = warpMap(rig, channel);
-    map_ = projectionMap(warp, channelFrustum(rig, channel, kMarginRadians));
-    sceneSize_ = scenePictureSize(map_);
-    if (pattern_ == Pattern::World)
-        sceneSize_ = glm::ceil(glm::vec2(sceneSize_) * qualityOf(quality).pictureShare);
-    const bool two = stereo_.mode != StereoMode::Mono;
-    for (const EyeSide side :
-         two ? std::vector{EyeSide::Left, EyeSide::Right} : std::vector{EyeSide::Between})
+    const wall::WarpMap warp = wall::warpMap(rig, channel);
+    map_ = project::projectionMap(warp, wall::channelFrustum(rig, channel, kMarginRadians));
+    sceneSize_ = project::scenePictureSize(map_);
+    if (pattern_ == wire::Pattern::World)
+        sceneSize_ = glm::ceil(glm::vec2(sceneSize_) * scene::qualityOf(quality).pictureShare);
+    const bool two = stereo_.mode != config::StereoMode::Mono;
+    for (const wall::EyeSide side : two ? std::vector{wall::EyeSide::Left, wall::EyeSide::Right}
+                                        : std::vector{wall::EyeSide::Between})
         eyes_.emplace_back(
-            channelFrustum(rig, channel, kMarginRadians, side), warp, rig.screen, id);
-    if (two && stereo_.mode != StereoMode::QuadBuffer)
+            wall::channelFrustum(rig, channel, kMarginRadians, side), warp, rig.screen, id);
+    if (two && stereo_.mode != config::StereoMode::QuadBuffer)
         together_.emplace(map_.sizePixels, id, stereo_.mode);
-    const bool world = pattern_ == Pattern::World;
+    const bool world = pattern_ == wire::Pattern::World;
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
     if (world)
-        scene_.emplace(
-            SceneOptions{.seed = admission.welcome.seed,
-                         .place = admission.scene.place,
-                         .water = admission.scene.water.jerlov,
-                         .quality = quality,
-                         .pixelRadians = static_cast<float>(finestPixelRadians(admission.rig))},
-            castOf(admission));
+        scene_.emplace(scene::SceneOptions{.seed = admission.welcome.seed,
+                                           .place = admission.scene.place,
+                                           .water = admission.scene.water.jerlov,
+                                           .quality = quality,
+                                           .pixelRadians = static_cast<float>(
+                                               wall::finestPixelRadians(admission.rig))},
+                       castOf(admission));
 }
 
-void ChannelPicture::drawScene(const StateFrame& frame,
+void ChannelPicture::drawScene(const wire::StateFrame& frame,
                                const Overlays& overlays,
                                const std::optional<WatchedMind>& mind) {
     frame_ = frame.frame;
@@ -131,16 +136,16 @@ void ChannelPicture::drawScene(const StateFrame& frame,
     }
 }
 
-void ChannelPicture::drawWorld(const StateFrame& frame) {
+void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
     presentFood(frame, food_);
-    const SceneFrame scene{.timeSeconds = presentedSeconds(frame),
-                           .eyePositionMetres = frame.eye.positionMetres,
-                           .fish = {frame.before, frame.after, frame.fraction},
-                           .food = food_,
-                           .daylight = frame.daylight};
+    const scene::SceneFrame scene{.timeSeconds = presentedSeconds(frame),
+                                  .eyePositionMetres = frame.eye.positionMetres,
+                                  .fish = {frame.before, frame.after, frame.fraction},
+                                  .food = food_,
+                                  .daylight = frame.daylight};
     scene_->update(scene);
     for (Viewing& eye : eyes_) {
-        const View view = viewOf(eye, frame.eye);
+        const scene::View view = viewOf(eye, frame.eye);
         eye.clipFromWorld = clipOf(view);
         eye.sceneTexture = scene_->draw(view);
         if (!eye.kept) continue;
@@ -165,14 +170,14 @@ void ChannelPicture::drawWorld(const StateFrame& frame) {
 
 void ChannelPicture::drawPattern(Viewing& eye) const {
     eye.sceneTexture = eye.kept->texture();
-    if (pattern_ == Pattern::Grid)
+    if (pattern_ == wire::Pattern::Grid)
         eye.pattern.drawGrid(eye.kept->framebuffer(), sceneSize_);
     else
         eye.pattern.drawGrey(eye.kept->framebuffer(), sceneSize_);
 }
 
 std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
-                                                 const PresentedFish& fish) const {
+                                                 const motion::PresentedFish& fish) const {
     const glm::vec4 clip = clipFromWorld * glm::vec4(fish.positionMetres, 1);
     if (clip.w <= 0) return std::nullopt;
     const glm::vec2 size(sceneSize_);
@@ -184,10 +189,10 @@ std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
 }
 
 // Each number stands on its fish's body frame.
-void ChannelPicture::drawFishIds(const Viewing& eye, const StateFrame& frame) {
+void ChannelPicture::drawFishIds(const Viewing& eye, const wire::StateFrame& frame) {
     const float dot = dotPixels(sceneSize_);
     std::vector<Label> labels;
-    for (const PresentedFish& fish : presentedFish(frame, school_)) {
+    for (const motion::PresentedFish& fish : presentedFish(frame, school_)) {
         const auto place = placeOf(eye.clipFromWorld, fish);
         if (!place) continue;
         const std::string text = std::to_string(fish.id);
@@ -197,7 +202,7 @@ void ChannelPicture::drawFishIds(const Viewing& eye, const StateFrame& frame) {
 }
 
 void ChannelPicture::drawMind(const Viewing& eye,
-                              const StateFrame& frame,
+                              const wire::StateFrame& frame,
                               const WatchedMind& mind) {
     const auto fish = presentedFish(frame, school_, mind.fish);
     if (!fish) return;
@@ -207,9 +212,9 @@ void ChannelPicture::drawMind(const Viewing& eye,
     text_.draw(mindLabels(*place, mind, sceneSize_, dot), eye.onScene.name(), sceneSize_, dot);
 }
 
-std::optional<std::uint32_t> ChannelPicture::fishNearest(const StateFrame& frame,
+std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame& frame,
                                                          glm::vec2 pixel) const {
-    const glm::vec2 own = pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
+    const glm::vec2 own = project::pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
     const glm::ivec2 texel = glm::clamp(glm::ivec2(own), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
         map_.placeAndWeight[static_cast<std::size_t>(texel.y * map_.sizePixels.x + texel.x)];
@@ -217,7 +222,7 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(const StateFrame& frame
     std::optional<std::uint32_t> nearest;
     float least = std::numeric_limits<float>::infinity();
     const glm::mat4 clipFromWorld = clipOf(viewOf(eyes_.front(), frame.eye));
-    const std::vector<PresentedFish> fish = presentedFish(frame, school_);
+    const std::vector<motion::PresentedFish> fish = presentedFish(frame, school_);
     for (std::uint32_t i = 0; i < fish.size(); ++i) {
         const auto place = placeOf(clipFromWorld, fish[i]);
         if (!place) continue;
@@ -230,16 +235,16 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(const StateFrame& frame
 }
 
 void ChannelPicture::project(unsigned framebuffer,
-                             Encoding encoding,
+                             project::Encoding encoding,
                              const Overlays& overlays,
                              Shown shown) {
     const gl::Stage stage{"warp"};
-    Projection::Draw draw{.framebuffer = framebuffer,
-                          .frame = frame_,
-                          .encoding = encoding,
-                          .blendMask = overlays.blendMask};
+    project::Projection::Draw draw{.framebuffer = framebuffer,
+                                   .frame = frame_,
+                                   .encoding = encoding,
+                                   .blendMask = overlays.blendMask};
     const auto sceneAndMap = [](const Viewing& eye) {
-        return PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
+        return project::PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
     };
     if (shown == Shown::Display && together_) {
         const Viewing& first = stereo_.swapEyes ? eyes_.back() : eyes_.front();
@@ -255,10 +260,10 @@ void ChannelPicture::project(unsigned framebuffer,
     text_.draw(helpLabels(dot), framebuffer, sizePixels(), dot);
 }
 
-View ChannelPicture::viewOf(const Viewing& viewing, const Eye& submarine) const {
-    return {.clipFromCamera = clipFromCamera(viewing.frustum, kNearMetres),
+scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& submarine) const {
+    return {.clipFromCamera = wall::clipFromCamera(viewing.frustum, kNearMetres),
             .cameraFromWorld = glm::mat4(viewing.frustum.cameraFromWall * wallFromWorld(submarine)),
             .sizePixels = sceneSize_};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

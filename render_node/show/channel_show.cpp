@@ -12,7 +12,7 @@
 #include "render_node/show/snapshot.h"
 #include "render_node/show/window_fit.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -21,11 +21,11 @@ std::chrono::nanoseconds now() {
 }
 
 // Whether what was built for one serves the other.
-bool sameShow(const Welcome& a, const Welcome& b) {
-    const auto parts = [](const Welcome& w) {
+bool sameShow(const wire::Welcome& a, const wire::Welcome& b) {
+    const auto parts = [](const wire::Welcome& w) {
         return std::tie(w.rigText, w.sceneText, w.seed, w.pattern, w.cast);
     };
-    const auto sameFish = [](const FishTraits& one, const FishTraits& other) {
+    const auto sameFish = [](const motion::FishTraits& one, const motion::FishTraits& other) {
         return one.id == other.id && one.lengthMillimetres == other.lengthMillimetres;
     };
     return parts(a) == parts(b) && std::ranges::equal(a.school, b.school, sameFish);
@@ -61,8 +61,8 @@ void show(const gl::Target& picture, glm::ivec2 window) {
 
 }  // namespace
 
-ChannelShow::ChannelShow(Session& session,
-                         Context& context,
+ChannelShow::ChannelShow(session::Session& session,
+                         context::Context& context,
                          Controls& controls,
                          const NodeOptions& options)
     : session_{session},
@@ -73,13 +73,13 @@ ChannelShow::ChannelShow(Session& session,
     if (!options.filmPipe.empty()) film_.emplace(options.filmPipe);
 }
 
-void ChannelShow::run(Admission first) {
-    std::optional<Admission> admission = std::move(first);
+void ChannelShow::run(session::Admission first) {
+    std::optional<session::Admission> admission = std::move(first);
     while (admission) {
         build(std::move(*admission));
         session_.prepared(bears_);
-        const Release end = play();
-        if (end == Release::Quit) break;
+        const session::Release end = play();
+        if (end == session::Release::Quit) break;
         logInfo("lost the master; joining again");
         admission = session_.join();
     }
@@ -92,7 +92,7 @@ void ChannelShow::run(Admission first) {
 }
 
 // A show that goes on after an interruption is not built a second time.
-void ChannelShow::build(Admission admission) {
+void ChannelShow::build(session::Admission admission) {
     if (built_ && sameShow(built_->welcome, admission.welcome)) return;
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
     const glm::ivec2 size = admission.rig.channels[channel].sizePixels;
@@ -108,28 +108,29 @@ void ChannelShow::build(Admission admission) {
     chooseQuality();
 }
 
-void ChannelShow::buildPicture(QualityTier quality) {
+void ChannelShow::buildPicture(config::QualityTier quality) {
     picture_.reset();
     picture_.emplace(*built_, channelIndex(built_->rig, options_.channel), quality);
     quality_ = quality;
 }
 
 void ChannelShow::chooseQuality() {
-    const Welcome& welcome = built_->welcome;
-    if (welcome.quality || welcome.pattern != Pattern::World) {
-        bears_ = welcome.quality.value_or(QualityTier::Low);
+    const wire::Welcome& welcome = built_->welcome;
+    if (welcome.quality || welcome.pattern != wire::Pattern::World) {
+        bears_ = welcome.quality.value_or(config::QualityTier::Low);
     } else {
-        bears_ = finestWithin(kBudgetShare / built_->rig.timing.refreshHertz,
-                              [this](QualityTier quality) { return secondsAFrame(quality); });
-        logInfo("keeps up with quality {}", nameOf(bears_));
+        bears_ =
+            finestWithin(kBudgetShare / built_->rig.timing.refreshHertz,
+                         [this](config::QualityTier quality) { return secondsAFrame(quality); });
+        logInfo("keeps up with quality {}", config::nameOf(bears_));
     }
     if (!picture_ || quality_ != bears_) buildPicture(bears_);
 }
 
-double ChannelShow::secondsAFrame(QualityTier quality) {
+double ChannelShow::secondsAFrame(config::QualityTier quality) {
     constexpr int kFrames = 5;
     buildPicture(quality);
-    StateFrame frame;
+    wire::StateFrame frame;
     frame.eye.positionMetres = built_->scene.eye;
     draw(frame);  // compiles what the driver compiles on first use
     waitForGpu();
@@ -139,8 +140,8 @@ double ChannelShow::secondsAFrame(QualityTier quality) {
     return std::chrono::duration<double>(now() - begin).count() / kFrames;
 }
 
-Release ChannelShow::play() {
-    while (const std::optional<StateFrame> state = session_.nextFrame()) {
+session::Release ChannelShow::play() {
+    while (const std::optional<wire::StateFrame> state = session_.nextFrame()) {
         FrameTimes times{.state = session_.stateArrival()};
         feed(state->eye);
         if (state->quality != quality_) buildPicture(state->quality);
@@ -151,9 +152,10 @@ Release ChannelShow::play() {
             refuseLoss();
         }
         times.ready = now();
-        const Release release = session_.readyThenWait(state->frame);
-        if (release == Release::Rejoin || release == Release::Quit) return release;
-        if (release == Release::Skip) continue;
+        const session::Release release = session_.readyThenWait(state->frame);
+        if (release == session::Release::Rejoin || release == session::Release::Quit)
+            return release;
+        if (release == session::Release::Skip) continue;
         if (seen) context_.swap();
         times.present = now();
         trace_.write(state->frame, times);
@@ -173,7 +175,7 @@ void ChannelShow::refuseLoss() const {
                     "); this node ends, and is to be started again");
 }
 
-void ChannelShow::draw(const StateFrame& frame) {
+void ChannelShow::draw(const wire::StateFrame& frame) {
     const Overlays overlays = controls_.overlays();
     picture_->drawScene(frame, overlays, overlays.mind ? watchMind(frame) : std::nullopt);
     if (!context_.quadBuffered()) return project(overlays, Shown::Display);
@@ -187,11 +189,12 @@ void ChannelShow::draw(const StateFrame& frame) {
 void ChannelShow::project(const Overlays& overlays, Shown shown) {
     const glm::ivec2 window = context_.framebufferPixels();
     const bool fits = context_.hasWindow() && window == picture_->sizePixels();
-    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays, shown);
+    picture_->project(
+        fits ? 0 : offscreen_->framebuffer(), project::Encoding::Dithered8, overlays, shown);
     if (context_.hasWindow() && !fits) show(*offscreen_, window);
 }
 
-void ChannelShow::feed(const Eye& eye) {
+void ChannelShow::feed(const wire::Eye& eye) {
     while (const auto pinch = controls_.nextPinch()) {
         const auto pixel = pixelAt(pinch->place);
         const auto place = pixel ? pointing_->pinchAt(*pixel, eye) : std::nullopt;
@@ -206,7 +209,7 @@ std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
 
 // Another fish may come nearest at any time: it is chosen as often as is asked, so that the answer
 // can be read.
-std::optional<WatchedMind> ChannelShow::watchMind(const StateFrame& frame) {
+std::optional<WatchedMind> ChannelShow::watchMind(const wire::StateFrame& frame) {
     constexpr std::chrono::milliseconds kBetweenQuestions{250};
     if (now() - askedAt_ >= kBetweenQuestions) {
         askedAt_ = now();
@@ -230,4 +233,4 @@ bool ChannelShow::isSeen(Frame frame) const {
     return context_.hasWindow() || !film_ || isFilmed(frame);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

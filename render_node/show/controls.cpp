@@ -5,7 +5,7 @@
 
 #include "render_node/context/context.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -32,13 +32,13 @@ bool* overlayOf(char key, Overlays& overlays) {
 
 void Controls::press(char key) {
     switch (key) {
-        case kEscapeKey:
+        case context::kEscapeKey:
         case 'q':
             if (std::exchange(quitAsked_, true)) session_.stop();
-            return session_.send(NodeInput::Quit);
+            return session_.send(session::NodeInput::Quit);
         case ' ':
         case 'p':
-            return session_.send(NodeInput::TogglePause);
+            return session_.send(session::NodeInput::TogglePause);
         case 'c':
             return drop({});
         default:
@@ -57,7 +57,7 @@ void Controls::point(WindowPlace place) {
     pointer_ = place;
 }
 
-void Controls::hold(const Hands& hands, std::chrono::nanoseconds now) {
+void Controls::hold(const context::Hands& hands, std::chrono::nanoseconds now) {
     if (const auto steering = pace_.due(steeringOf(hands), now)) session_.steer(*steering);
 }
 
@@ -84,4 +84,4 @@ std::optional<Pinch> Controls::nextPinch() {
     return first;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -15,7 +15,7 @@
 #include "render_node/session/session.h"
 #include "render_node/show/steering.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 struct Overlays {
     bool warpGrid = false;   // lines of equal azimuth and elevation, on the wall
@@ -53,12 +53,12 @@ struct Pinch {
 
 class Controls {
   public:
-    explicit Controls(Session& session) : session_{session} {}
+    explicit Controls(session::Session& session) : session_{session} {}
     // On the main thread. A second q ends this node alone, for when there is no master to listen.
     void press(char key);
     void click(glm::vec2 place);
     void point(WindowPlace place);
-    void hold(const Hands& hands, std::chrono::nanoseconds now);
+    void hold(const context::Hands& hands, std::chrono::nanoseconds now);
 
     // From any thread.
     [[nodiscard]] Overlays overlays() const;
@@ -69,7 +69,7 @@ class Controls {
   private:
     void drop(const Pinch& pinch);
 
-    Session& session_;
+    session::Session& session_;
     bool quitAsked_ = false;
     SteeringPace pace_;
     mutable std::mutex mutex_;  // over all below
@@ -78,4 +78,4 @@ class Controls {
     std::deque<Pinch> pinches_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::show

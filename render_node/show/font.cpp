@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -74,4 +74,4 @@ GlyphBits glyphOf(char character) {
     return 0;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

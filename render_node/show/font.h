@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace aquarama {
+namespace aquarama::show {
 
 inline constexpr std::size_t kGlyphColumns = 5;
 inline constexpr std::size_t kGlyphRows = 7;
@@ -14,4 +14,4 @@ inline constexpr std::size_t kGlyphRows = 7;
 using GlyphBits = std::uint64_t;
 [[nodiscard]] GlyphBits glyphOf(char character);  // nothing for what it does not know
 
-}  // namespace aquarama
+}  // namespace aquarama::show

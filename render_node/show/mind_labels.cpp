@@ -7,7 +7,7 @@
 
 #include <glm/common.hpp>
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::vector<Label> mindLabels(const FishPlace& fish,
     return labels;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -10,7 +10,7 @@
 
 #include "render_node/show/text_overlay.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 // The fish that is watched, by its place in the school, and what the master last said of it; no
 // lines yet where it has not.
@@ -32,4 +32,4 @@ struct FishPlace {
                                             glm::ivec2 pictureSize,
                                             float dotPixels);
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace aquarama {
+namespace aquarama::show {
 
 struct NodeOptions {
     std::string channel;
@@ -18,4 +18,4 @@ struct NodeOptions {
     std::string traceFolder;     // empty: none
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::show

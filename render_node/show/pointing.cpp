@@ -8,7 +8,7 @@
 #include "common/wall/wall.h"
 #include "render_node/project/projection.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -17,14 +17,14 @@ constexpr float kLeastDepthMetres = 0.25F;  // food is dropped into water, not i
 
 }  // namespace
 
-std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const Eye& eye) const {
-    const glm::vec2 own = pixelOfEye(mode_, channel_.sizePixels, pixel);
-    const auto point = screenPoint(screen_, channel_, glm::dvec2(own));
+std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const wire::Eye& eye) const {
+    const glm::vec2 own = project::pixelOfEye(mode_, channel_.sizePixels, pixel);
+    const auto point = wall::screenPoint(screen_, channel_, glm::dvec2(own));
     if (!point) return std::nullopt;
     return eye.worldFromWall * glm::vec3(glm::normalize(*point - sweetSpot_));
 }
 
-std::optional<glm::vec3> Pointing::pinchAt(glm::vec2 pixel, const Eye& eye) const {
+std::optional<glm::vec3> Pointing::pinchAt(glm::vec2 pixel, const wire::Eye& eye) const {
     const auto direction = directionOf(pixel, eye);
     if (!direction) return std::nullopt;
     const glm::vec3 viewer = eye.positionMetres + eye.worldFromWall * glm::vec3(sweetSpot_);
@@ -33,4 +33,4 @@ std::optional<glm::vec3> Pointing::pinchAt(glm::vec2 pixel, const Eye& eye) cons
     return place;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -15,7 +15,7 @@
 #include "render_node/show/channel_show.h"
 #include "render_node/show/controls.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -23,38 +23,41 @@ using namespace std::chrono_literals;
 
 constexpr auto kPatience = 20ms;  // how late the end of the drawing thread may be noticed
 
-std::unique_ptr<Context> openContext(const NodeOptions& options,
-                                     const Rig& rig,
-                                     std::size_t index) {
-    const Channel& channel = rig.channels[index];
+std::unique_ptr<context::Context> openContext(const NodeOptions& options,
+                                              const config::Rig& rig,
+                                              std::size_t index) {
+    const config::Channel& channel = rig.channels[index];
     if (!options.headless)
-        return makeWindowContext(channel.display,
-                                 "Aquarama " + channel.name,
-                                 channel.sizePixels,
-                                 stereoOf(rig, index).mode == StereoMode::QuadBuffer);
+        return context::makeWindowContext(
+            channel.display,
+            "Aquarama " + channel.name,
+            channel.sizePixels,
+            wall::stereoOf(rig, index).mode == config::StereoMode::QuadBuffer);
     const std::string& device = options.device.empty() ? channel.display.device : options.device;
-    auto context = makeOffscreenContext(device, channel.sizePixels);
+    auto context = context::makeOffscreenContext(device, channel.sizePixels);
     context->release();
     return context;
 }
 
 class CurrentContext {
   public:
-    explicit CurrentContext(Context& context) : context_{context} { context_.makeCurrent(); }
+    explicit CurrentContext(context::Context& context) : context_{context} {
+        context_.makeCurrent();
+    }
     ~CurrentContext() { context_.release(); }
     CurrentContext(const CurrentContext&) = delete;
     CurrentContext& operator=(const CurrentContext&) = delete;
 
   private:
-    Context& context_;
+    context::Context& context_;
 };
 
 // The drawing thread.
-void show(Session& session,
-          Context& context,
+void show(session::Session& session,
+          context::Context& context,
           Controls& controls,
           const NodeOptions& options,
-          Admission admission) {
+          session::Admission admission) {
     const CurrentContext current(context);
 #ifndef NDEBUG
     gl::logMessages();
@@ -65,13 +68,14 @@ void show(Session& session,
 }  // namespace
 
 void runNode(const NodeOptions& options) {
-    holdSignals();
-    const std::unique_ptr<Session> session = connectSession(options.channel, options.masterAddress);
-    const SignalWatch watch([&] { session->stop(); });
-    std::optional<Admission> admission = session->join();
+    cli::holdSignals();
+    const std::unique_ptr<session::Session> session =
+        session::connectSession(options.channel, options.masterAddress);
+    const cli::SignalWatch watch([&] { session->stop(); });
+    std::optional<session::Admission> admission = session->join();
     if (!admission) return;
     const std::size_t channel = channelIndex(admission->rig, options.channel);
-    const std::unique_ptr<Context> context = openContext(options, admission->rig, channel);
+    const std::unique_ptr<context::Context> context = openContext(options, admission->rig, channel);
     Controls controls(*session);
     std::future<void> drawing = std::async(std::launch::async, [&] {
         show(*session, *context, controls, options, std::move(*admission));
@@ -86,4 +90,4 @@ void runNode(const NodeOptions& options) {
     drawing.get();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

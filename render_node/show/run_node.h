@@ -4,10 +4,10 @@
 
 #include "render_node/show/node_options.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 // Returns when the show is over or a signal ended this process. Throws Error: what the command line
 // asks for cannot be.
 void runNode(const NodeOptions& options);
 
-}  // namespace aquarama
+}  // namespace aquarama::show

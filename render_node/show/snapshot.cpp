@@ -6,12 +6,15 @@
 #include "common/units/error.h"
 #include "common/wall/png_file.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
 template <class Sample>
-Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
+wall::Picture readBack(ChannelPicture& picture,
+                       GLenum format,
+                       project::Encoding encoding,
+                       Shown shown) {
     const gl::Target target(format, picture.sizePixels());
     picture.project(target.framebuffer(), encoding, Overlays{}, shown);
     const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
@@ -21,15 +24,15 @@ Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Show
 
 }  // namespace
 
-Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
+wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
     return bits == PictureBits::Deep16
-               ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain, shown)
-               : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8, shown);
+               ? readBack<std::uint16_t>(picture, GL_RGBA16, project::Encoding::Plain, shown)
+               : readBack<std::uint8_t>(picture, GL_RGBA8, project::Encoding::Dithered8, shown);
 }
 
 Shown flat(const ChannelPicture& picture) {
-    const StereoMode mode = picture.stereo().mode;
-    const bool whole = mode == StereoMode::Mono || mode == StereoMode::Anaglyph;
+    const config::StereoMode mode = picture.stereo().mode;
+    const bool whole = mode == config::StereoMode::Mono || mode == config::StereoMode::Anaglyph;
     return whole ? Shown::Display : Shown::LeftEye;
 }
 
@@ -43,10 +46,10 @@ void writeSnapshot(const std::string& folder,
         throw Error(folder + ": cannot be made (" + failure.message() +
                     "); choose another folder for --snapshot");
     const std::string name = folder + "/channel-" + channel;
-    writePng(name + ".png", takePicture(picture, bits, Shown::Display));
-    if (picture.stereo().mode == StereoMode::Mono) return;
-    writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
-    writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
+    wall::writePng(name + ".png", takePicture(picture, bits, Shown::Display));
+    if (picture.stereo().mode == config::StereoMode::Mono) return;
+    wall::writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
+    wall::writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -7,12 +7,12 @@
 #include "common/wall/picture.h"
 #include "render_node/show/channel_picture.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
 
 // The frame that was drawn last, without overlays.
-[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
+[[nodiscard]] wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
 
 // What somebody without glasses may look at: one eye's picture where a display takes the two apart
 // from one another.
@@ -25,4 +25,4 @@ void writeSnapshot(const std::string& folder,
                    ChannelPicture& picture,
                    PictureBits bits);
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -29,7 +29,7 @@ glm::vec2 stick(glm::vec2 place) {
     return {shareOf(place.x, kDeadZone, 1), shareOf(place.y, kDeadZone, 1)};
 }
 
-float between(const Hands& hands, HeldKey plus, HeldKey minus) {
+float between(const context::Hands& hands, context::HeldKey plus, context::HeldKey minus) {
     return (hands.holds(plus) ? 1.0F : 0.0F) - (hands.holds(minus) ? 1.0F : 0.0F);
 }
 
@@ -40,7 +40,7 @@ std::int8_t axisOf(float share) {
 
 }  // namespace
 
-Steering steeringOf(const Hands& hands) {
+Steering steeringOf(const context::Hands& hands) {
     const glm::vec2 left = stick(hands.pad.leftStick);
     const glm::vec2 right = stick(hands.pad.rightStick);
     const glm::vec2 dragged = hands.drag.value_or(glm::vec2(0));
@@ -48,12 +48,15 @@ Steering steeringOf(const Hands& hands) {
                          shareOf(dragged.y, kDragDeadZone, kFullDrag)};
     const float rise = shareOf(hands.pad.rightTrigger, kDeadZone, 1) -
                        shareOf(hands.pad.leftTrigger, kDeadZone, 1);
-    return {.ahead = axisOf(between(hands, HeldKey::W, HeldKey::S) +
-                            between(hands, HeldKey::Up, HeldKey::Down) + left.y),
-            .aside = axisOf(between(hands, HeldKey::D, HeldKey::A) + left.x),
-            .up = axisOf(between(hands, HeldKey::PageUp, HeldKey::PageDown) + rise),
-            .turn = axisOf(between(hands, HeldKey::Left, HeldKey::Right) - drag.x - right.x),
-            .tilt = axisOf(between(hands, HeldKey::Home, HeldKey::End) + drag.y + right.y)};
+    return {
+        .ahead = axisOf(between(hands, context::HeldKey::W, context::HeldKey::S) +
+                        between(hands, context::HeldKey::Up, context::HeldKey::Down) + left.y),
+        .aside = axisOf(between(hands, context::HeldKey::D, context::HeldKey::A) + left.x),
+        .up = axisOf(between(hands, context::HeldKey::PageUp, context::HeldKey::PageDown) + rise),
+        .turn = axisOf(between(hands, context::HeldKey::Left, context::HeldKey::Right) - drag.x -
+                       right.x),
+        .tilt = axisOf(between(hands, context::HeldKey::Home, context::HeldKey::End) + drag.y +
+                       right.y)};
 }
 
 std::optional<Steering> SteeringPace::due(const Steering& wanted, std::chrono::nanoseconds now) {
@@ -67,4 +70,4 @@ std::optional<Steering> SteeringPace::due(const Steering& wanted, std::chrono::n
     return wanted;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -6,7 +6,7 @@
 #include "render_node/gl/program.h"
 #include "render_node/show/font.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 namespace {
 
@@ -70,4 +70,4 @@ void TextOverlay::draw(std::span<const Label> labels,
     glDisable(GL_BLEND);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

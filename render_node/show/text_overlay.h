@@ -9,7 +9,7 @@
 
 #include "render_node/gl/handle.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 struct Label {
     glm::vec2 topLeft{};  // pixels from the picture's top left corner
@@ -34,4 +34,4 @@ class TextOverlay {
     gl::VertexArray noVertices_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::show

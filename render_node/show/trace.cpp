@@ -3,7 +3,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 Trace::Trace(const std::string& folder, const std::string& name) {
     if (folder.empty()) return;
@@ -21,4 +21,4 @@ void Trace::write(Frame frame, const FrameTimes& times) {
           << std::flush;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -8,7 +8,7 @@
 
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 // On CLOCK_MONOTONIC, which all processes of a machine share.
 struct FrameTimes {
@@ -28,4 +28,4 @@ class Trace {
     std::ofstream file_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-namespace aquarama {
+namespace aquarama::show {
 
 WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels) {
     const glm::vec2 size(picturePixels);
@@ -28,4 +28,4 @@ std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
     return share * glm::vec2(picturePixels);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

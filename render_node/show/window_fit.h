@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace aquarama {
+namespace aquarama::show {
 
 struct WindowFit {
     glm::ivec2 corner{};  // the lower left one, from the window's lower left
@@ -20,4 +20,4 @@ struct WindowFit {
                                                     glm::ivec2 picturePixels,
                                                     glm::vec2 windowPlace);
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -14,7 +14,7 @@
 
 #include "common/body/cage_topology.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 namespace {
 
@@ -25,13 +25,13 @@ using Triangle = std::array<Corner, 3>;
 constexpr std::array<int, 4> kColumns{0, 3, 6, 10};
 
 Corner tubeCorner(int ring, int column) {
-    return static_cast<Corner>(ring * kTubeColumns + column);
+    return static_cast<Corner>(ring * body::kTubeColumns + column);
 }
 
 // The fish at rest in the axes of its body frame; where its origin is does not matter here.
-std::vector<glm::vec3> atRest(const FishBody& body) {
+std::vector<glm::vec3> atRest(const body::FishBody& body) {
     std::vector<glm::vec3> points;
-    for (const CageVertex& vertex : body.cage.vertices)
+    for (const body::CageVertex& vertex : body.cage.vertices)
         points.emplace_back(-vertex.rest.x, vertex.rest.y, vertex.rest.z);
     return points;
 }
@@ -59,19 +59,19 @@ float profileError(std::span<const glm::vec3> points, const std::array<int, 4>& 
 }
 
 std::array<int, 4> bestRings(std::span<const glm::vec3> points) {
-    std::array<int, 4> best{0, 7, 14, kBodyEndRing};
-    for (int front = 1; front < kBodyEndRing - 1; ++front)
-        for (int rear = front + 1; rear < kBodyEndRing; ++rear) {
-            const std::array rings{0, front, rear, kBodyEndRing};
+    std::array<int, 4> best{0, 7, 14, body::kBodyEndRing};
+    for (int front = 1; front < body::kBodyEndRing - 1; ++front)
+        for (int rear = front + 1; rear < body::kBodyEndRing; ++rear) {
+            const std::array rings{0, front, rear, body::kBodyEndRing};
             if (profileError(points, rings) < profileError(points, best)) best = rings;
         }
     return best;
 }
 
 std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
-                                    const std::vector<CageSite>& sites) {
+                                    const std::vector<body::CageSite>& sites) {
     std::vector<Triangle> triangles;
-    const auto nose = std::ranges::find(sites, CageSiteKind::Nose, &CageSite::kind);
+    const auto nose = std::ranges::find(sites, body::CageSiteKind::Nose, &body::CageSite::kind);
     for (std::size_t j = 0; j < kColumns.size(); ++j) {
         const int here = kColumns.at(j), next = kColumns.at((j + 1) % kColumns.size());
         triangles.push_back({static_cast<Corner>(nose - sites.begin()),
@@ -91,7 +91,7 @@ std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
 // A fin without thickness. Where a vertex of the fin is on it goes by its place in the cage, not by
 // nearness: else the fin would not fill the sheet.
 struct Sheet {
-    CagePart part = CagePart::Body;
+    body::CagePart part = body::CagePart::Body;
     std::vector<Triangle> triangles;
     Corner foot = 0,
            heel = 0;           // its base, front and rear; of the tail its root, from the back down
@@ -110,30 +110,32 @@ glm::vec3 alongEdge(const Sheet& sheet, std::span<const glm::vec3> points, float
 
 // From the back (0) to the belly (1), down either side of the tube.
 float downTube(int column) {
-    const int steps = column == 0 ? 0 : column <= 6 ? column - 1 : kTubeColumns - column;
+    const int steps = column == 0 ? 0 : column <= 6 ? column - 1 : body::kTubeColumns - column;
     return static_cast<float>(steps) / 5.0F;
 }
 
 glm::vec3 placeOnSheet(const Sheet& sheet,
-                       const CageSite& site,
+                       const body::CageSite& site,
                        std::span<const glm::vec3> points) {
-    const bool isTail = sheet.part == CagePart::Caudal;
+    const bool isTail = sheet.part == body::CagePart::Caudal;
     const float rings = std::max(sheet.lastRing - sheet.firstRing, 1.0F);
     const float along =
         isTail ? downTube(site.column) : (static_cast<float>(site.ring) - sheet.firstRing) / rings;
-    const float outwards =
-        isTail ? static_cast<float>(site.ring - kBodyEndRing) / float{kTubeRings - 1 - kBodyEndRing}
-               : static_cast<float>(site.level) / static_cast<float>(site.levels);
+    const float outwards = isTail
+                               ? static_cast<float>(site.ring - body::kBodyEndRing) /
+                                     float{body::kTubeRings - 1 - body::kBodyEndRing}
+                               : static_cast<float>(site.level) / static_cast<float>(site.levels);
     const glm::vec3 base = glm::mix(points[sheet.foot], points[sheet.heel], along);
     return glm::mix(base, alongEdge(sheet, points, along), outwards);
 }
 
 Sheet tailSheet() {
-    constexpr int kEnd = kTubeRings - 1;
-    const Corner back = tubeCorner(kBodyEndRing, 0), belly = tubeCorner(kBodyEndRing, 6);
+    constexpr int kEnd = body::kTubeRings - 1;
+    const Corner back = tubeCorner(body::kBodyEndRing, 0),
+                 belly = tubeCorner(body::kBodyEndRing, 6);
     const Corner upper = tubeCorner(kEnd, 0), lower = tubeCorner(kEnd, 6),
                  fork = tubeCorner(kEnd, 3);
-    return {CagePart::Caudal,
+    return {body::CagePart::Caudal,
             {{back, fork, upper}, {back, belly, fork}, {belly, lower, fork}},
             back,
             belly,
@@ -141,11 +143,11 @@ Sheet tailSheet() {
 }
 
 // From the first to the last ring that carries the fin, from its base to its edge.
-std::optional<Sheet> midlineSheet(CagePart part, const std::vector<CageSite>& sites) {
+std::optional<Sheet> midlineSheet(body::CagePart part, const std::vector<body::CageSite>& sites) {
     std::optional<std::size_t> front, rear;
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        const CageSite& site = sites[i];
-        if (site.kind != CageSiteKind::Flap || site.part != part || site.level != site.levels)
+        const body::CageSite& site = sites[i];
+        if (site.kind != body::CageSiteKind::Flap || site.part != part || site.level != site.levels)
             continue;
         if (!front || site.ring < sites[*front].ring) front = i;
         if (!rear || site.ring > sites[*rear].ring) rear = i;
@@ -196,34 +198,36 @@ glm::vec3 nearestOn(const std::array<glm::vec3, 3>& t, glm::vec3 point) {
 // Puts the mesh together.
 class Maker {
   public:
-    Maker(const FishBody& body, const LimitTable& controlMesh)
+    Maker(const body::FishBody& body, const skin::LimitTable& controlMesh)
         : body_{body}, mesh_{controlMesh}, points_{atRest(body)} {
         for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
-            normals_.push_back(skinPoint(controlMesh, i, points_).normal);
+            normals_.push_back(skin::skinPoint(controlMesh, i, points_).normal);
     }
 
     FewTriangles make() {
-        const std::vector<CageSite> sites = makeCageTopology().sites;
+        const std::vector<body::CageSite> sites = body::makeCageTopology().sites;
         const std::vector<Triangle> body = bodyTriangles(bestRings(points_), sites);
-        for (const Triangle& triangle : body) add(outward(triangle), CagePart::Body);
+        for (const Triangle& triangle : body) add(outward(triangle), body::CagePart::Body);
         few_.bodyIndices = few_.indices.size();
-        std::map<CagePart, Sheet> sheets;
+        std::map<body::CagePart, Sheet> sheets;
         const auto addSheet = [&](const Sheet& sheet) {
             for (const Triangle& triangle : sheet.triangles) add(triangle, sheet.part);
             sheets[sheet.part] = sheet;
         };
         addSheet(tailSheet());
-        for (const CagePart part : {CagePart::FirstDorsal, CagePart::SecondDorsal, CagePart::Anal})
+        for (const body::CagePart part :
+             {body::CagePart::FirstDorsal, body::CagePart::SecondDorsal, body::CagePart::Anal})
             if (const auto sheet = midlineSheet(part, sites)) addSheet(*sheet);
         for (Corner i = 0; i < mesh_.vertices.size(); ++i) {
             if (i >= points_.size()) {  // an eye's or a whip's, which shrink into the body
                 const glm::vec4 rest = mesh_.vertices[i].rest;
-                few_.cage.push_back(placeOn(CagePart::Body, body, i, {-rest.x, rest.y, rest.z}));
+                few_.cage.push_back(
+                    placeOn(body::CagePart::Body, body, i, {-rest.x, rest.y, rest.z}));
                 continue;
             }
             const auto sheet = sheets.find(body_.cage.vertices[i].part);
             few_.cage.push_back(sheet == sheets.end()
-                                    ? placeOn(CagePart::Body, body, i, points_[i])
+                                    ? placeOn(body::CagePart::Body, body, i, points_[i])
                                     : placeOn(sheet->first,
                                               sheet->second.triangles,
                                               i,
@@ -242,14 +246,16 @@ class Maker {
 
     // Where a sheet grows out of the body, the corner is the body's and knows no place on the fin:
     // it is the root of the ray above it.
-    [[nodiscard]] SkinPlace placeOf(Corner corner, CagePart part, const Triangle& triangle) const {
-        SkinPlace place = mesh_.vertices[corner];
+    [[nodiscard]] skin::SkinPlace placeOf(Corner corner,
+                                          body::CagePart part,
+                                          const Triangle& triangle) const {
+        skin::SkinPlace place = mesh_.vertices[corner];
         place.part = static_cast<std::uint32_t>(part);
-        if (part == CagePart::Body) place.fin = {};
-        if (part == CagePart::Body || body_.cage.vertices[corner].fin.y > 0.0F) return place;
+        if (part == body::CagePart::Body) place.fin = {};
+        if (part == body::CagePart::Body || body_.cage.vertices[corner].fin.y > 0.0F) return place;
         float away = std::numeric_limits<float>::infinity();
         for (const Corner other : triangle) {
-            const CageVertex& vertex = body_.cage.vertices[other];
+            const body::CageVertex& vertex = body_.cage.vertices[other];
             const float distance = glm::distance(points_[other], points_[corner]);
             if (vertex.fin.y <= 0.0F || distance >= away) continue;
             away = distance;
@@ -258,7 +264,7 @@ class Maker {
         return place;
     }
 
-    void add(const Triangle& triangle, CagePart part) {
+    void add(const Triangle& triangle, body::CagePart part) {
         for (const Corner corner : triangle) {
             const auto [known, isNew] = numbers_.try_emplace(
                 {part, corner}, static_cast<std::uint32_t>(few_.vertices.size()));
@@ -270,7 +276,7 @@ class Maker {
     }
 
     // On the triangles of a part, as near as can be to a place.
-    [[nodiscard]] FewTriangles::Place placeOn(CagePart part,
+    [[nodiscard]] FewTriangles::Place placeOn(body::CagePart part,
                                               std::span<const Triangle> triangles,
                                               Corner corner,
                                               glm::vec3 wanted) const {
@@ -290,32 +296,34 @@ class Maker {
                                    weights.z * normals_[t[2]] + 1e-6F * normals_[corner]),
                     mixed(part, t, weights)};
             // On the body nobody looks where on a fin it is, but fins that grow out of it do.
-            if (part == CagePart::Body) best.place.fin = mesh_.vertices[corner].fin;
+            if (part == body::CagePart::Body) best.place.fin = mesh_.vertices[corner].fin;
         }
         return best;
     }
 
-    [[nodiscard]] SkinPlace mixed(CagePart part, const Triangle& t, glm::vec3 weights) const {
-        SkinPlace place;
+    [[nodiscard]] skin::SkinPlace mixed(body::CagePart part,
+                                        const Triangle& t,
+                                        glm::vec3 weights) const {
+        skin::SkinPlace place;
         for (int k = 0; k < 3; ++k) {
-            const SkinPlace corner = placeOf(t.at(static_cast<std::size_t>(k)), part, t);
+            const skin::SkinPlace corner = placeOf(t.at(static_cast<std::size_t>(k)), part, t);
             place.rest += weights[k] * corner.rest;
             place.fin += weights[k] * corner.fin;
         }
         return place;
     }
 
-    const FishBody& body_;
-    const LimitTable& mesh_;
+    const body::FishBody& body_;
+    const skin::LimitTable& mesh_;
     std::vector<glm::vec3> points_, normals_;
-    std::map<std::pair<CagePart, Corner>, std::uint32_t> numbers_;
+    std::map<std::pair<body::CagePart, Corner>, std::uint32_t> numbers_;
     FewTriangles few_;
 };
 
 }  // namespace
 
-FewTriangles makeFewTriangles(const FishBody& body, const LimitTable& controlMesh) {
+FewTriangles makeFewTriangles(const body::FishBody& body, const skin::LimitTable& controlMesh) {
     return Maker{body, controlMesh}.make();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -14,11 +14,11 @@
 #include "common/body/fish_body.h"
 #include "common/skin/limit_table.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 struct FewTriangles {
     struct Vertex {
-        SkinPlace place;
+        skin::SkinPlace place;
         std::uint32_t controlPoint = 0;
         glm::vec3 normal{};  // of the fish at rest, body frame
     };
@@ -27,7 +27,7 @@ struct FewTriangles {
         std::array<std::uint32_t, 3> controlPoints{};
         std::array<float, 3> weights{};
         glm::vec3 normal{};
-        SkinPlace place;  // what is painted there
+        skin::SkinPlace place;  // what is painted there
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;  // counter-clockwise: the body's, then the fins', seen from
@@ -36,6 +36,7 @@ struct FewTriangles {
 };
 
 // controlMesh: makeLimitTable(body, 0).
-[[nodiscard]] FewTriangles makeFewTriangles(const FishBody& body, const LimitTable& controlMesh);
+[[nodiscard]] FewTriangles makeFewTriangles(const body::FishBody& body,
+                                            const skin::LimitTable& controlMesh);
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

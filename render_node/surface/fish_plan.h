@@ -8,7 +8,7 @@
 
 #include "render_node/surface/visibility.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 inline constexpr std::size_t kMostSpecies = 64;
 // The surface buffer is filled so often at most for one view. With its 64 MiB that is room for
@@ -44,4 +44,4 @@ struct FishPlan {
 };
 static_assert(sizeof(FishPlan::Command) == 20 && sizeof(FishPlan::Turn) == 32);
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

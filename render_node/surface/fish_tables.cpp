@@ -19,14 +19,14 @@
 #include "common/skin/coarser_level.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 namespace {
 
 RecordedPoint quantised(glm::vec3 point) {
     RecordedPoint recorded{};
     for (int axis = 0; axis < 3; ++axis) {
-        const float value = std::round(point[axis] / kPoseUnit);
+        const float value = std::round(point[axis] / motion::kPoseUnit);
         if (!(std::abs(value) <= 32767))
             throw Error("a control point lies further than a body length from its fish");
         recorded.at(static_cast<std::size_t>(axis)) = static_cast<std::int16_t>(value);
@@ -34,25 +34,27 @@ RecordedPoint quantised(glm::vec3 point) {
     return recorded;
 }
 
-NodalPoints nodesOf(const NodalPose& pose) {
-    NodalPoints nodes{};
+body::NodalPoints nodesOf(const motion::NodalPose& pose) {
+    body::NodalPoints nodes{};
     for (std::size_t n = 0; n < nodes.size(); ++n)
-        nodes.at(n) = glm::vec3(pose.at(n)[0], pose.at(n)[1], pose.at(n)[2]) * kPoseUnit;
+        nodes.at(n) = glm::vec3(pose.at(n)[0], pose.at(n)[1], pose.at(n)[2]) * motion::kPoseUnit;
     return nodes;
 }
 
-void addPosed(const FishBody& body, const NodalPoints& nodes, std::vector<RecordedPoint>& points) {
-    std::vector<glm::vec3> cage(kControlPoints);
-    poseCage(body, nodes, cage);
+void addPosed(const body::FishBody& body,
+              const body::NodalPoints& nodes,
+              std::vector<RecordedPoint>& points) {
+    std::vector<glm::vec3> cage(body::kControlPoints);
+    body::poseCage(body, nodes, cage);
     std::ranges::transform(cage, std::back_inserter(points), quantised);
 }
 
 // To the last points, one pose's.
-void addHeadings(const FishBody& body,
-                 const NodalPoints& nodes,
+void addHeadings(const body::FishBody& body,
+                 const body::NodalPoints& nodes,
                  std::vector<RecordedPoint>& points) {
-    std::array<float, kControlPoints> headings{};
-    headingsOf(body, nodes, headings);
+    std::array<float, body::kControlPoints> headings{};
+    body::headingsOf(body, nodes, headings);
     const std::size_t first = points.size() - headings.size();
     for (std::size_t i = 0; i < headings.size(); ++i)
         points[first + i][3] = static_cast<std::int16_t>(
@@ -60,7 +62,7 @@ void addHeadings(const FishBody& body,
 }
 
 // As fish_pose.glsl reads them, behind the points of a species.
-void addFins(const FinTable& fins, std::vector<RecordedPoint>& points) {
+void addFins(const body::FinTable& fins, std::vector<RecordedPoint>& points) {
     const auto add = [&](std::span<const std::byte> bytes) {
         const std::size_t first = points.size();
         points.resize(first + bytes.size() / sizeof(RecordedPoint));
@@ -72,12 +74,13 @@ void addFins(const FinTable& fins, std::vector<RecordedPoint>& points) {
 
 }  // namespace
 
-std::vector<RecordedPoint> recordedPoints(const FishBody& body, const Repertoire& repertoire) {
+std::vector<RecordedPoint> recordedPoints(const body::FishBody& body,
+                                          const motion::Repertoire& repertoire) {
     std::vector<RecordedPoint> points;
-    points.reserve(std::size_t{kActions} * kPhases * kControlPoints);
-    for (const ActionSegment& segment : repertoire.segments) {
-        for (std::size_t phase = 0; phase < kPhases; ++phase) {
-            const NodalPoints nodes = nodesOf(segment.nodes.at(phase));
+    points.reserve(std::size_t{motion::kActions} * motion::kPhases * body::kControlPoints);
+    for (const motion::ActionSegment& segment : repertoire.segments) {
+        for (std::size_t phase = 0; phase < motion::kPhases; ++phase) {
+            const body::NodalPoints nodes = nodesOf(segment.nodes.at(phase));
             if (segment.controlPoints.empty()) {
                 addPosed(body, nodes, points);
             } else {
@@ -94,7 +97,7 @@ float reachOf(std::span<const RecordedPoint> points) {
     float reach = 0.0F;
     for (const auto& [x, y, z, unused] : points)
         reach = std::max(reach, glm::length(glm::vec3(x, y, z)));
-    return reach * kPoseUnit;
+    return reach * motion::kPoseUnit;
 }
 
 namespace {
@@ -118,14 +121,16 @@ std::uint32_t packedNormal(glm::vec3 normal) {
 
 // The areas that a pose covers from three sides, and its middle. Of a fin, through which one sees,
 // half is counted.
-void measure(const LimitTable& mesh, std::span<const RecordedPoint> pose, SpeciesTables& tables) {
+void measure(const skin::LimitTable& mesh,
+             std::span<const RecordedPoint> pose,
+             SpeciesTables& tables) {
     constexpr float kFinOpacity = 0.5F;
     std::vector<glm::vec3> points;
-    for (const auto& [x, y, z, unused] : pose.first(kControlPoints))
-        points.push_back(glm::vec3(x, y, z) * kPoseUnit);
+    for (const auto& [x, y, z, unused] : pose.first(body::kControlPoints))
+        points.push_back(glm::vec3(x, y, z) * motion::kPoseUnit);
     std::vector<glm::vec3> places;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-        places.push_back(skinPoint(mesh, i, points).position);
+        places.push_back(skin::skinPoint(mesh, i, points).position);
     glm::vec3 area{}, moment{};
     float side = 0.0F;
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
@@ -155,11 +160,12 @@ class Gatherer {
         append<RecordedPoint>(all_.recorded, points);
         addFins(species.body.fins, all_.recorded);
         tables.area.w = reachOf(points);
-        LimitTable coarser = makeLimitTable(species.body, 0);
+        skin::LimitTable coarser = skin::makeLimitTable(species.body, 0);
         const FewTriangles few = makeFewTriangles(species.body, coarser);
         tables.meshes[0] = add(few);
         for (std::size_t surface = 0; surface <= finest; ++surface) {
-            const LimitTable table = makeLimitTable(species.body, static_cast<int>(surface));
+            const skin::LimitTable table =
+                skin::makeLimitTable(species.body, static_cast<int>(surface));
             tables.meshes.at(1 + surface) = add(species.body, surface, table, coarser, few);
             if (surface == 0) addPlaces(few);
             if (surface == 1) measure(table, points, tables);
@@ -193,10 +199,10 @@ class Gatherer {
         }
     }
 
-    SpeciesTables::Mesh add(const FishBody& body,
+    SpeciesTables::Mesh add(const body::FishBody& body,
                             std::size_t surface,
-                            const LimitTable& table,
-                            const LimitTable& coarser,
+                            const skin::LimitTable& table,
+                            const skin::LimitTable& coarser,
                             const FewTriangles& few) {
         SpeciesTables::Mesh mesh{};
         mesh.vertices = static_cast<std::uint32_t>(table.vertices.size());
@@ -208,7 +214,7 @@ class Gatherer {
         else
             addVertices(table,
                         surface == 1 ? coarser : table,
-                        coarserParents(body, static_cast<int>(surface), coarser));
+                        skin::coarserParents(body, static_cast<int>(surface), coarser));
         mesh.firstBodyIndex = append<std::uint32_t>(all_.indices, table.indices);
         mesh.bodyIndices = static_cast<std::uint32_t>(table.bodyIndices);
         mesh.firstFinIndex = mesh.firstBodyIndex + mesh.bodyIndices;
@@ -216,14 +222,14 @@ class Gatherer {
         return mesh;
     }
 
-    void addVertices(const LimitTable& controlMesh, const FewTriangles& few) {
+    void addVertices(const skin::LimitTable& controlMesh, const FewTriangles& few) {
         for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
             all_.places.push_back(
                 {controlMesh.vertices[i], few.cage.at(i).place.rest, few.cage.at(i).place.fin});
     }
     // coarser: where the parents are painted as the coarser level has them.
-    void addVertices(const LimitTable& table,
-                     const LimitTable& coarser,
+    void addVertices(const skin::LimitTable& table,
+                     const skin::LimitTable& coarser,
                      std::span<const std::array<std::uint32_t, 2>> pairs) {
         for (std::uint32_t i = 0; i < table.vertices.size(); ++i) {
             if (i >= table.skinVertices) {  // an attachment, the same at every level
@@ -234,34 +240,34 @@ class Gatherer {
             }
             const auto& [a, b] = pairs[i];
             all_.parents.push_back(a | b << 16U);
-            const SkinPlace &one = coarser.vertices.at(a), &other = coarser.vertices.at(b);
+            const skin::SkinPlace &one = coarser.vertices.at(a), &other = coarser.vertices.at(b);
             all_.places.push_back(
                 {table.vertices[i], 0.5F * (one.rest + other.rest), 0.5F * (one.fin + other.fin)});
         }
     }
 
     // All cages hang together alike, so that one species' stencils serve the others.
-    std::uint32_t addStencils(std::size_t surface, const LimitTable& table) {
+    std::uint32_t addStencils(std::size_t surface, const skin::LimitTable& table) {
         Stencils& shared = shared_.at(surface);
         const bool serves = std::ranges::equal(table.entries, shared.entries, sameEntry) &&
                             table.firstEntry == shared.firstEntry;
         if (!isFirst_ && serves) return shared.at;
         const auto firstOfAll = static_cast<std::uint32_t>(all_.entries.size());
-        append<StencilEntry>(all_.entries, table.entries);
+        append<skin::StencilEntry>(all_.entries, table.entries);
         const auto at = static_cast<std::uint32_t>(all_.firstEntry.size());
         for (const std::uint32_t first : table.firstEntry)
             all_.firstEntry.push_back(firstOfAll + first);
         if (isFirst_) shared = {table.firstEntry, table.entries, at};
         return at;
     }
-    static bool sameEntry(const StencilEntry& a, const StencilEntry& b) {
+    static bool sameEntry(const skin::StencilEntry& a, const skin::StencilEntry& b) {
         return a.controlPoint == b.controlPoint && a.position == b.position &&
                a.tangentU == b.tangentU && a.tangentV == b.tangentV;
     }
 
     struct Stencils {
         std::vector<std::uint32_t> firstEntry;
-        std::vector<StencilEntry> entries;
+        std::vector<skin::StencilEntry> entries;
         std::uint32_t at = 0;
     };
     std::array<Stencils, kSurfaces> shared_;
@@ -304,12 +310,12 @@ FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
     if (cast.size() > kMostSpecies)
         throw Error("a scene has more than " + std::to_string(kMostSpecies) +
                     " species; leave some out");
-    DerivedKey key("fish");
+    files::DerivedKey key("fish");
     key.add(finest);
     for (const SchoolSpecies& member : cast)
         if (member.source) key.add(std::as_bytes(std::span{member.source->bytes}));
     const auto make = [&] { return makeFishArrays(cast, finest); };
-    FishArrays arrays = allHaveSources(cast) ? derivedTables<FishArrays>(key, make) : make();
+    FishArrays arrays = allHaveSources(cast) ? files::derivedTables<FishArrays>(key, make) : make();
     countFish(cast, arrays.species);
     return arrays;
 }
@@ -330,4 +336,4 @@ FishTables::FishTables(const FishArrays& arrays, std::size_t finest) {
     indices = makeBuffer(arrays.indices, "fish indices");
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -24,14 +24,14 @@
 #include "render_node/surface/few_triangles.h"
 #include "render_node/surface/fish_plan.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 // The fish of one species of a school, which follow those of the species before it.
 struct SchoolSpecies {
-    FishBody body;
-    FishSkin skin;
-    Repertoire repertoire;
-    std::vector<FishTraits> fish;
+    body::FishBody body;
+    body::FishSkin skin;
+    motion::Repertoire repertoire;
+    std::vector<motion::FishTraits> fish;
     std::optional<Digest> source = {};  // of the files that body and repertoire were read from
 };
 
@@ -41,8 +41,8 @@ using RecordedPoint = std::array<std::int16_t, 4>;
 // By segment, phase and control point. Of segments that were captured without control points they
 // are computed from the nodal points (paper, section 3.1), so that the GPU sees no difference.
 // Throws Error where one lies further than a body length from the body frame's origin.
-[[nodiscard]] std::vector<RecordedPoint> recordedPoints(const FishBody& body,
-                                                        const Repertoire& repertoire);
+[[nodiscard]] std::vector<RecordedPoint> recordedPoints(const body::FishBody& body,
+                                                        const motion::Repertoire& repertoire);
 
 // How far from the body frame's origin any control point of any pose gets, in body lengths. Poses
 // between recorded ones get no further.
@@ -77,7 +77,7 @@ gl::Buffer makeBuffer(const std::vector<T>& values, const char* label) {
 
 // A vertex of a surface, and what is painted where the next coarser level has it.
 struct SurfaceVertex {
-    SkinPlace place;
+    skin::SkinPlace place;
     glm::vec4 coarserRest{};
     glm::vec2 coarserFin{};
 };
@@ -88,7 +88,7 @@ struct FishArrays {
     std::vector<SpeciesTables> species;
     std::vector<RecordedPoint> recorded;
     std::vector<std::uint32_t> firstEntry, parents, indices;
-    std::vector<StencilEntry> entries;
+    std::vector<skin::StencilEntry> entries;
     std::vector<SurfaceVertex> places;
     std::vector<FewTriangles::Vertex> fewVertices;
     std::vector<std::uint32_t> fewIndices;
@@ -119,4 +119,4 @@ struct FishTables {
     gl::Buffer fewVertices, fewIndices;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

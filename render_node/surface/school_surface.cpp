@@ -13,7 +13,7 @@
 #include "render_node/surface/fish_plan.h"
 #include "render_node/surface/skin_programs.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 namespace {
 
@@ -48,7 +48,7 @@ struct Traits {
 std::vector<Traits> traitsOf(std::span<const SchoolSpecies> cast) {
     std::vector<Traits> traits;
     for (const SchoolSpecies& species : cast)
-        for (const FishTraits& fish : species.fish)
+        for (const motion::FishTraits& fish : species.fish)
             traits.push_back({fish.id, fish.lengthMillimetres});
     return traits;
 }
@@ -86,9 +86,9 @@ void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::si
         glVertexArrayAttribBinding(array.name(), attribute, 0);
     }
     const unsigned name = array.name();
-    glVertexArrayAttribFormat(name, 0, 4, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, rest));
-    glVertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, offsetof(SkinPlace, fin));
-    glVertexArrayAttribIFormat(name, 2, 1, GL_UNSIGNED_INT, offsetof(SkinPlace, part));
+    glVertexArrayAttribFormat(name, 0, 4, GL_FLOAT, GL_FALSE, offsetof(skin::SkinPlace, rest));
+    glVertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, offsetof(skin::SkinPlace, fin));
+    glVertexArrayAttribIFormat(name, 2, 1, GL_UNSIGNED_INT, offsetof(skin::SkinPlace, part));
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ struct SchoolSurface::Parts {
     void makeBuffers(std::span<const SchoolSpecies> members);
     void makeVertexArrays() const;
     void setConstants() const;
-    void upload(const gl::Buffer& buffer, std::span<const FishRecord> records) const;
+    void upload(const gl::Buffer& buffer, std::span<const motion::FishRecord> records) const;
     void bindRecords() const;
     void setView(unsigned program, const FrustumPlanes& frustum, const SharedView& shared) const;
     void sort() const;
@@ -162,8 +162,8 @@ void SchoolSurface::Parts::makeBuffers(std::span<const SchoolSpecies> members) {
     const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
     const std::size_t room = std::min(most, wanted);
     turns = std::min(kTurns, (wanted + most - 1) / most);
-    before = makeRoom(fish * sizeof(FishRecord), "fish before", GL_DYNAMIC_STORAGE_BIT);
-    after = makeRoom(fish * sizeof(FishRecord), "fish after", GL_DYNAMIC_STORAGE_BIT);
+    before = makeRoom(fish * sizeof(motion::FishRecord), "fish before", GL_DYNAMIC_STORAGE_BIT);
+    after = makeRoom(fish * sizeof(motion::FishRecord), "fish after", GL_DYNAMIC_STORAGE_BIT);
     traits = makeBuffer(traitsOf(members), "traits");
     choices = makeRoom(fish * sizeof(std::uint32_t), "fish choices");
     counts = makeRoom(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
@@ -210,10 +210,10 @@ void SchoolSurface::Parts::setConstants() const {
 }
 
 void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
-                                  std::span<const FishRecord> records) const {
+                                  std::span<const motion::FishRecord> records) const {
     const std::size_t count = std::min(records.size(), fish);
     if (count == 0) return;
-    const auto bytes = static_cast<GLsizeiptr>(count * sizeof(FishRecord));
+    const auto bytes = static_cast<GLsizeiptr>(count * sizeof(motion::FishRecord));
     glNamedBufferSubData(buffer.name(), 0, bytes, records.data());
 }
 
@@ -426,4 +426,4 @@ SurfaceCounts SchoolSurface::counts() const {
     return counts;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

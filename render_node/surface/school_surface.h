@@ -19,7 +19,7 @@
 #include "render_node/surface/fish_tables.h"
 #include "render_node/surface/visibility.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 struct SurfaceOptions {
     bool culling = true;         // off only to measure what it saves
@@ -34,7 +34,7 @@ struct SurfaceOptions {
 // The school between two ticks, as the wire brings it: at `fraction` of the way from `before` to
 // `after`. Without a tick before it is at `after`.
 struct SchoolMoment {
-    std::span<const FishRecord> before, after;
+    std::span<const motion::FishRecord> before, after;
     float fraction = 1.0F;
 };
 
@@ -101,4 +101,4 @@ class SchoolSurface {
     std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -8,13 +8,13 @@
 
 #include "render_node/gl/program.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 namespace {
 
 constexpr std::string_view kPlain = "skin_plain.glsl";
 
-std::string painterOf(const FishSkin& skin) {
+std::string painterOf(const body::FishSkin& skin) {
     std::string file = "skin_" + skin.species + ".glsl";
     const auto files = gl::shaderNames();
     return std::ranges::find(files, file) == files.end() ? std::string(kPlain) : file;
@@ -22,7 +22,7 @@ std::string painterOf(const FishSkin& skin) {
 
 gl::ProgramHandle painting(const std::string& vertices,
                            const std::string& fragments,
-                           const FishSkin& skin,
+                           const body::FishSkin& skin,
                            glm::vec3 eye) {
     const std::string painter = painterOf(skin);
     const std::array replaced{gl::Replacement{kPlain, painter}};
@@ -43,7 +43,7 @@ std::shared_ptr<const SkinPrograms> makeSkinPrograms() {
     return std::make_shared<const SkinPrograms>();
 }
 
-SkinPainter::SkinPainter(const FishSkin& skin, glm::vec3 eye)
+SkinPainter::SkinPainter(const body::FishSkin& skin, glm::vec3 eye)
     : nearBody{painting("fish.vert", "fish_body.frag", skin, eye)},
       farBody{painting("fish.vert", "fish_far.frag", skin, eye)},
       fins{painting("fish.vert", "fish_fin.frag", skin, eye)},
@@ -51,4 +51,4 @@ SkinPainter::SkinPainter(const FishSkin& skin, glm::vec3 eye)
       fewFins{painting("fish_few.vert", "fish_fin.frag", skin, eye)},
       point{painting("fish_point.vert", "fish_far.frag", skin, eye)} {}
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -10,7 +10,7 @@
 #include "common/body/fish_skin.h"
 #include "render_node/gl/handle.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 
 struct SkinPrograms {
     SkinPrograms();
@@ -23,7 +23,7 @@ struct SkinPrograms {
 // its painter, shaders/skin_SPECIES.glsl, or plainly where there is none.
 struct SkinPainter {
     // eye: s, y and radius, body lengths.
-    SkinPainter(const FishSkin& skin, glm::vec3 eye);
+    SkinPainter(const body::FishSkin& skin, glm::vec3 eye);
 
     gl::ProgramHandle nearBody, farBody, fins;
     gl::ProgramHandle fewBody, fewFins, point;  // with the vertex shaders of coarser levels
@@ -34,4 +34,4 @@ struct SkinPainter {
     }
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

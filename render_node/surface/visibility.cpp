@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
-namespace aquarama {
+namespace aquarama::surface {
 
 namespace {
 
@@ -68,4 +68,4 @@ float marginOf(const SharedView& view,
            kPixels * view.pixelRadians * glm::distance(view.eyeMetres, placeMetres);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

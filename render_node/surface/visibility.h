@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-namespace aquarama {
+namespace aquarama::surface {
 
 // Planes of a view's frustum, inward, with unit normals where they have one.
 struct FrustumPlanes {
@@ -64,4 +64,4 @@ struct SharedView {
                              float lengthMetres,
                              float reachBodyLengths);
 
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -8,7 +8,7 @@
 #include "common/place/noise.h"
 #include "master/surroundings/obstacles.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 constexpr float kReachMetres = 1.5F;  // of a scad at medium speed
@@ -18,27 +18,29 @@ struct Swimmer {
 };
 
 // Strewn through the water of the reef; outwards to its borders as often as anywhere else.
-std::vector<Swimmer> swimmers(const Region& water) {
+std::vector<Swimmer> swimmers(const place::Region& water) {
     std::vector<Swimmer> all;
     for (std::uint32_t i = 0; i < 4096; ++i) {
-        const auto draw = [&](std::uint32_t of) { return signedUnitOf(hashOf(hashOf(9, i), of)); };
+        const auto draw = [&](std::uint32_t of) {
+            return place::signedUnitOf(place::hashOf(place::hashOf(9, i), of));
+        };
         all.push_back({water.centre + water.halfExtent * glm::vec3{draw(0), draw(1), draw(2)},
-                       directionOf({draw(3), 0.3F * draw(4), draw(5)}, {1, 0, 0})});
+                       place::directionOf({draw(3), 0.3F * draw(4), draw(5)}, {1, 0, 0})});
     }
     return all;
 }
 
-template <glm::vec3 (*avoid)(const Obstacles&, glm::vec3, glm::vec3, float)>
+template <glm::vec3 (*avoid)(const surroundings::Obstacles&, glm::vec3, glm::vec3, float)>
 void avoidanceCost(benchmark::State& state) {
-    const Obstacles obstacles = obstaclesOf({1}, schoolRegion());
+    const surroundings::Obstacles obstacles = surroundings::obstaclesOf({1}, place::schoolRegion());
     const std::vector<Swimmer> fish = swimmers(obstacles.water);
     for (auto _ : state)
         for (const Swimmer& one : fish)
             benchmark::DoNotOptimize(avoid(obstacles, one.position, one.heading, kReachMetres));
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(fish.size()));
 }
-BENCHMARK(avoidanceCost<avoidance>)->Name("avoidance/charted");
-BENCHMARK(avoidanceCost<plainAvoidance>)->Name("avoidance/plain");
+BENCHMARK(avoidanceCost<surroundings::avoidance>)->Name("avoidance/charted");
+BENCHMARK(avoidanceCost<surroundings::plainAvoidance>)->Name("avoidance/plain");
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

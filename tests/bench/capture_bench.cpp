@@ -8,28 +8,29 @@
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
-std::vector<Species> allSpecies() {
-    std::vector<Species> all;
-    for (const auto& file : speciesFiles({}, AQUARAMA_SOURCE_DIR "/config"))
-        all.push_back(readSpecies(file.string()));
+std::vector<config::Species> allSpecies() {
+    std::vector<config::Species> all;
+    for (const auto& file : capture::speciesFiles({}, AQUARAMA_SOURCE_DIR "/config"))
+        all.push_back(config::readSpecies(file.string()));
     return all;
 }
 
 void captureAll(benchmark::State& run) {
-    const std::vector<Species> species = allSpecies();
+    const std::vector<config::Species> species = allSpecies();
     const auto threads = static_cast<unsigned>(run.range(0));
     std::size_t bytes = 0;
     for (auto _ : run) {
         bytes = 0;
-        for (const CaptureOutcome& outcome : captureRepertoires(species, {.threads = threads})) {
+        for (const capture::CaptureOutcome& outcome :
+             capture::captureRepertoires(species, {.threads = threads})) {
             if (!outcome.repertoire) {
                 run.SkipWithError(outcome.error.c_str());
                 return;
             }
-            bytes += encodeRepertoire(*outcome.repertoire).size();
+            bytes += motion::encodeRepertoire(*outcome.repertoire).size();
         }
     }
     run.counters["species"] = static_cast<double>(species.size());
@@ -47,4 +48,4 @@ BENCHMARK(captureAll)
     ->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

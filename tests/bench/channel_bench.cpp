@@ -14,7 +14,7 @@
 #include "tests/common/wall/rigs.h"
 #include "tests/render_node/surface/test_fish.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 constexpr std::size_t kMiddle = 1;
@@ -29,41 +29,42 @@ void finish(const gl::Target& target) {
 }
 
 // A school all round the eye, so that culling has something to leave out.
-std::vector<PresentedFish> schoolAround() {
+std::vector<motion::PresentedFish> schoolAround() {
     constexpr int kFish = 51;
-    std::vector<PresentedFish> fish;
+    std::vector<motion::PresentedFish> fish;
     for (int i = 0; i < kFish; ++i) {
         const float angle = 2.4F * static_cast<float>(i);  // about the golden angle
         const float range = 1.5F + 0.1F * static_cast<float>(i);
         const glm::vec3 place(
             range * std::sin(angle), 0.3F * std::sin(5 * angle), -range * std::cos(angle));
         fish.push_back(
-            test::fishAt(kEyePosition + place, glm::angleAxis(angle, glm::vec3(0, 1, 0))));
+            test::fishAt(place::kEyePosition + place, glm::angleAxis(angle, glm::vec3(0, 1, 0))));
     }
     return fish;
 }
 
 void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
-    const Rig rig = shippedRig("desk");
-    const auto context = makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
-    const ChannelFrustum frustum = channelFrustum(rig, kMiddle, kMarginRadians);
-    const ProjectionMap map = projectionMap(warpMap(rig, kMiddle), frustum);
-    const FishBody body = test::scad();
-    const Projection projection(map, 0);
+    const config::Rig rig = wall::shippedRig("desk");
+    const auto context = context::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
+    const wall::ChannelFrustum frustum = wall::channelFrustum(rig, kMiddle, kMarginRadians);
+    const project::ProjectionMap map = project::projectionMap(wall::warpMap(rig, kMiddle), frustum);
+    const body::FishBody body = test::scad();
+    const project::Projection projection(map, 0);
     const gl::Target target(GL_RGBA8, map.sizePixels);
     const test::RecordedSchool fish{schoolAround()};
-    const std::vector<SchoolSpecies> cast{
+    const std::vector<surface::SchoolSpecies> cast{
         {.body = body, .skin = {}, .repertoire = test::swaying(body, 0.05F), .fish = fish.traits}};
-    SceneRenderer scene({.culling = culling, .levelsOfDetail = levelsOfDetail}, cast);
-    const glm::dmat4 wallFromWorld = glm::translate(glm::dmat4(1), -glm::dvec3(kEyePosition));
-    const View view{.clipFromCamera = clipFromCamera(frustum, 0.05F),
-                    .cameraFromWorld = glm::mat4(frustum.cameraFromWall * wallFromWorld),
-                    .sizePixels = scenePictureSize(map)};
+    scene::SceneRenderer scene({.culling = culling, .levelsOfDetail = levelsOfDetail}, cast);
+    const glm::dmat4 wallFromWorld =
+        glm::translate(glm::dmat4(1), -glm::dvec3(place::kEyePosition));
+    const scene::View view{.clipFromCamera = wall::clipFromCamera(frustum, 0.05F),
+                           .cameraFromWorld = glm::mat4(frustum.cameraFromWall * wallFromWorld),
+                           .sizePixels = project::scenePictureSize(map)};
     double seconds = 0;
     const auto drawFrame = [&] {
-        const SceneFrame frame{.timeSeconds = seconds += 1.0 / 60,
-                               .eyePositionMetres = kEyePosition,
-                               .fish = fish.moment()};
+        const scene::SceneFrame frame{.timeSeconds = seconds += 1.0 / 60,
+                                      .eyePositionMetres = place::kEyePosition,
+                                      .fish = fish.moment()};
         scene.update(frame);
         projection.draw(
             {.sceneTexture = scene.draw(view), .framebuffer = target.framebuffer(), .frame = {}});
@@ -76,12 +77,12 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
 }
 
 void projectPass(benchmark::State& state, const char* rigName) {
-    const Rig rig = shippedRig(rigName);
-    const auto context = makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
-    const ProjectionMap map =
-        projectionMap(warpMap(rig, kMiddle), channelFrustum(rig, kMiddle, kMarginRadians));
-    const Projection projection(map, 0);
-    const gl::Target scene(GL_RGBA16F, scenePictureSize(map));
+    const config::Rig rig = wall::shippedRig(rigName);
+    const auto context = context::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
+    const project::ProjectionMap map = project::projectionMap(
+        wall::warpMap(rig, kMiddle), wall::channelFrustum(rig, kMiddle, kMarginRadians));
+    const project::Projection projection(map, 0);
+    const gl::Target scene(GL_RGBA16F, project::scenePictureSize(map));
     const gl::Target target(GL_RGBA8, map.sizePixels);
     glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer());
     glClearColor(0.1F, 0.2F, 0.3F, 1);
@@ -119,4 +120,4 @@ BENCHMARK_CAPTURE(projectPass, theatre, "theatre")
     ->Apply(inMilliseconds);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

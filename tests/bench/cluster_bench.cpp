@@ -11,11 +11,11 @@
 #include "common/wire/envelope.h"
 #include "tests/support/stage.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
-StateFrame stateOf(std::int64_t fish) {
-    StateFrame state;
+wire::StateFrame stateOf(std::int64_t fish) {
+    wire::StateFrame state;
     for (std::int64_t i = 0; i < fish; ++i) {
         const auto n = static_cast<std::uint32_t>(i) * 2654435761U;
         state.after.push_back({.x = static_cast<std::int32_t>(n),
@@ -25,7 +25,7 @@ StateFrame stateOf(std::int64_t fish) {
                                .orientationHigh = ~n,
                                .phase = static_cast<std::uint16_t>(n),
                                .fromPhase = 0,
-                               .segment = static_cast<std::uint8_t>(n % kActions),
+                               .segment = static_cast<std::uint8_t>(n % motion::kActions),
                                .fromSegment = 0,
                                .warpFrame = 0,
                                .warpLength = 0});
@@ -42,10 +42,10 @@ void report(benchmark::State& bench, std::int64_t fish, std::size_t packetBytes)
 }
 
 void encodeFish(benchmark::State& bench) {
-    const StateFrame state = stateOf(bench.range(0));
+    const wire::StateFrame state = stateOf(bench.range(0));
     std::size_t bytes = 0;
     for (auto _ : bench) {
-        const Packet packet = encodeState(1, state);
+        const wire::Packet packet = wire::encodeState(1, state);
         bytes = packet.size();
         benchmark::DoNotOptimize(packet.data());
     }
@@ -53,9 +53,9 @@ void encodeFish(benchmark::State& bench) {
 }
 
 void decodeFish(benchmark::State& bench) {
-    const Packet packet = encodeState(1, stateOf(bench.range(0)));
+    const wire::Packet packet = wire::encodeState(1, stateOf(bench.range(0)));
     for (auto _ : bench) {
-        auto envelope = decode(packet);
+        auto envelope = wire::decode(packet);
         benchmark::DoNotOptimize(envelope);
     }
     report(bench, bench.range(0), packet.size());
@@ -67,15 +67,15 @@ BENCHMARK(decodeFish)->Name("decode")->ArgName("fish")->Arg(51)->Arg(1000)->Arg(
 // Shows that nodes draw nothing for; when each let go of each frame.
 class Releases {
   public:
-    void attend(Session& session) {
+    void attend(session::Session& session) {
         while (session.join()) {
-            session.prepared(QualityTier::Low);
+            session.prepared(config::QualityTier::Low);
             while (const auto state = session.nextFrame()) {
-                if (session.readyThenWait(state->frame) != Release::Present) continue;
+                if (session.readyThenWait(state->frame) != session::Release::Present) continue;
                 const std::lock_guard lock(mutex_);
-                times_[state->frame.value].push_back(monotonicNow());
+                times_[state->frame.value].push_back(net::monotonicNow());
             }
-            if (session.interruption() == Release::Quit) return;
+            if (session.interruption() == session::Release::Quit) return;
         }
     }
     // Latest minus earliest of each frame that all of them presented, in ascending order.
@@ -92,7 +92,7 @@ class Releases {
 
   private:
     std::mutex mutex_;
-    std::map<std::uint64_t, std::vector<Instant>> times_;
+    std::map<std::uint64_t, std::vector<net::Instant>> times_;
 };
 
 // Three nodes and their master over the loopback, five seconds at 60 Hz.
@@ -102,14 +102,14 @@ void barrierSkew(benchmark::State& bench) {
     constexpr std::uint64_t kFrames = 300;
     Releases releases;
     for (auto _ : bench) {
-        ConductorOptions options;
+        conductor::ConductorOptions options;
         options.frames = kFrames;
-        StageMaster master(options);
-        const auto blobs = freshDirectory();
+        test::StageMaster master(options);
+        const auto blobs = test::freshDirectory();
         std::vector<std::thread> nodes;
         for (const std::string& name : names) {
             nodes.emplace_back([&] {
-                const auto session = makeSession(name, master.connect(), blobs);
+                const auto session = session::makeSession(name, master.connect(), blobs);
                 releases.attend(*session);
             });
         }
@@ -131,4 +131,4 @@ BENCHMARK(barrierSkew)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

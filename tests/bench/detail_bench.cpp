@@ -19,7 +19,7 @@
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 constexpr glm::ivec2 kPicture{480, 360};  // a channel of config/desk.txtpb
@@ -29,8 +29,8 @@ constexpr std::size_t kMany = 250'000;
 // All of them as heroes take minutes: more are extrapolated, as each costs the same.
 constexpr std::size_t kMostMeasured = 2'000;
 
-View lookingAhead() {
-    View view;
+scene::View lookingAhead() {
+    scene::View view;
     view.sizePixels = kPicture;
     // 44 x 52 degrees, reversed depth with the far plane at infinity.
     view.clipFromCamera = glm::mat4{0.0F};
@@ -38,13 +38,13 @@ View lookingAhead() {
     view.clipFromCamera[1][1] = 1.0F / glm::tan(glm::radians(26.0F));
     view.clipFromCamera[2][3] = -1.0F;
     view.clipFromCamera[3][2] = 0.05F;
-    view.cameraFromWorld = glm::translate(glm::mat4{1.0F}, -kEyePosition);
+    view.cameraFromWorld = glm::translate(glm::mat4{1.0F}, -place::kEyePosition);
     return view;
 }
 
 // The first forty are before the eye, at one metre to thirteen; all others behind it.
-std::vector<PresentedFish> fishOf(std::size_t count) {
-    std::vector<PresentedFish> school;
+std::vector<motion::PresentedFish> fishOf(std::size_t count) {
+    std::vector<motion::PresentedFish> school;
     for (std::size_t i = 0; i < count; ++i) {
         const auto k = static_cast<float>(i);
         const bool ahead = i < kInView;
@@ -52,8 +52,8 @@ std::vector<PresentedFish> fishOf(std::size_t count) {
         const glm::vec2 slope{(ahead ? 0.3F : 1.0F) * std::sin(12.9898F * k),
                               (ahead ? 0.3F : 0.5F) * std::sin(78.233F * k)};
         const glm::vec3 place = away * glm::normalize(glm::vec3{slope, ahead ? -1.0F : 1.0F});
-        school.push_back(
-            test::fishAt(kEyePosition + place, glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0})));
+        school.push_back(test::fishAt(place::kEyePosition + place,
+                                      glm::angleAxis(2.4F * k, glm::vec3{0, 1, 0})));
         school.back().id = static_cast<std::uint32_t>(i);
         school.back().phase = std::fmod(0.377F * k, 1.0F);
     }
@@ -64,28 +64,29 @@ std::vector<PresentedFish> fishOf(std::size_t count) {
 class FishStages {
   public:
     FishStages(std::size_t fish, bool savesWork)
-        : recorded_{fishOf(fish)}, sea_{{.place = PlaceKind::OpenSea}, {}} {
-        const Species scad = castMember("bigeye_scad");
-        const FishBody body = makeBody(scad);
-        const std::vector<SchoolSpecies> cast{
-            {body, skinOf(scad), test::swaying(body, 0.05F), recorded_.traits}};
-        school_ = std::make_unique<SchoolSurface>(
+        : recorded_{fishOf(fish)}, sea_{{.place = config::PlaceKind::OpenSea}, {}} {
+        const config::Species scad = test::castMember("bigeye_scad");
+        const body::FishBody body = body::makeBody(scad);
+        const std::vector<surface::SchoolSpecies> cast{
+            {body, body::skinOf(scad), test::swaying(body, 0.05F), recorded_.traits}};
+        school_ = std::make_unique<surface::SchoolSurface>(
             cast,
-            SurfaceOptions{.culling = savesWork, .levelsOfDetail = savesWork},
-            makeSkinPrograms());
+            surface::SurfaceOptions{.culling = savesWork, .levelsOfDetail = savesWork},
+            surface::makeSkinPrograms());
         glTextureStorage2D(colour_.name(), 1, GL_RGBA16F, kPicture.x, kPicture.y);
         glTextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, kPicture.x, kPicture.y);
         glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
         glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
         // Leaves the sea's light and the frame's uniform block bound.
-        sea_.update({.timeSeconds = 12.0, .eyePositionMetres = kEyePosition});
+        sea_.update({.timeSeconds = 12.0, .eyePositionMetres = place::kEyePosition});
         sea_.draw(view_);
         glFinish();
     }
 
     void cull() {
         school_->update({recorded_.records, recorded_.records, 0.5F});
-        school_->look(view_.clipFromCamera * view_.cameraFromWorld, {kEyePosition, kPixelRadians});
+        school_->look(view_.clipFromCamera * view_.cameraFromWorld,
+                      {place::kEyePosition, kPixelRadians});
     }
     void draw() {
         glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
@@ -109,19 +110,19 @@ class FishStages {
         draw();
         glFinish();
     }
-    [[nodiscard]] SurfaceCounts counts() const { return school_->counts(); }
+    [[nodiscard]] surface::SurfaceCounts counts() const { return school_->counts(); }
 
   private:
     test::RecordedSchool recorded_;
-    View view_ = lookingAhead();
-    SceneRenderer sea_;
-    std::unique_ptr<SchoolSurface> school_;
+    scene::View view_ = lookingAhead();
+    scene::SceneRenderer sea_;
+    std::unique_ptr<surface::SchoolSurface> school_;
     gl::Texture colour_{GL_TEXTURE_2D}, depth_{GL_TEXTURE_2D};
     gl::Framebuffer target_;
 };
 
-std::unique_ptr<Context> contextFor() {
-    return makeOffscreenContext("auto", {16, 16});
+std::unique_ptr<context::Context> contextFor() {
+    return context::makeOffscreenContext("auto", {16, 16});
 }
 
 // The driver draws on threads of its own: what all of them used is what counts.
@@ -208,4 +209,4 @@ BENCHMARK_CAPTURE(framePart, fish, [](FishStages& stages) { stages.draw(); })
     ->Apply(inMilliseconds);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -15,17 +15,18 @@
 #include "master/capture/control/swimmer.h"
 #include "master/capture/dynamics/envelope_system.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 // A scad in its stride, so that muscles pull and water pushes.
 struct SwimmingScad {
-    Swimmer swimmer{readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb")};
+    capture::Swimmer swimmer{
+        config::readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb")};
 
     SwimmingScad() {
-        const Species species =
-            readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb");
-        swimmer.give({.controller = Controller::ForwardSwim, .gait = species.swim.medium});
+        const config::Species species =
+            config::readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb");
+        swimmer.give({.controller = capture::Controller::ForwardSwim, .gait = species.swim.medium});
         swimmer.advance(static_cast<int>(std::lround(2 / swimmer.stepSeconds())));
     }
 };
@@ -54,7 +55,7 @@ struct Joint {
 
 std::vector<Joint> joints() {
     std::vector<Joint> joints;
-    for (const Unit& unit : anatomy().units) {
+    for (const capture::Unit& unit : capture::anatomy().units) {
         const glm::dvec3 u = glm::normalize(
             glm::dvec3(std::sin(unit.first), std::cos(unit.second), std::sin(unit.second)));
         joints.push_back({unit.first, unit.second, glm::outerProduct(u, u) + glm::dmat3(0.1)});
@@ -63,8 +64,8 @@ std::vector<Joint> joints() {
 }
 
 void solveByEnvelope(benchmark::State& run) {
-    EnvelopeSystem assembled;
-    for (int node = 0; node < kNodalPoints; ++node) {
+    capture::EnvelopeSystem assembled;
+    for (int node = 0; node < body::kNodalPoints; ++node) {
         assembled.addToDiagonal(node, 1);
         assembled.addToRightSide(node, {1, 2, 3});
     }
@@ -74,7 +75,7 @@ void solveByEnvelope(benchmark::State& run) {
         assembled.addOffDiagonalBlock(joint.first, joint.second, -joint.block);
     }
     for (auto _ : run) {
-        EnvelopeSystem system = assembled;
+        capture::EnvelopeSystem system = assembled;
         system.solve();
         benchmark::DoNotOptimize(system.solution(0));
     }
@@ -90,14 +91,14 @@ SparseMatrix assembledByEigen() {
             for (int q = 0; q < 3; ++q)
                 elements.emplace_back(3 * row + p, 3 * column + q, block[p][q]);
     };
-    for (int node = 0; node < kNodalPoints; ++node) add(node, node, glm::dmat3(1));
+    for (int node = 0; node < body::kNodalPoints; ++node) add(node, node, glm::dmat3(1));
     for (const Joint& joint : joints()) {
         add(joint.first, joint.first, joint.block);
         add(joint.second, joint.second, joint.block);
         add(joint.first, joint.second, -joint.block);
         add(joint.second, joint.first, -joint.block);
     }
-    SparseMatrix matrix(3 * kNodalPoints, 3 * kNodalPoints);
+    SparseMatrix matrix(3 * body::kNodalPoints, 3 * body::kNodalPoints);
     matrix.setFromTriplets(elements.begin(), elements.end());
     return matrix;
 }
@@ -106,8 +107,8 @@ SparseMatrix assembledByEigen() {
 template <class Ordering>
 void solveByEigen(benchmark::State& run) {
     const SparseMatrix matrix = assembledByEigen();
-    Eigen::VectorXd right(3 * kNodalPoints);
-    for (int node = 0; node < kNodalPoints; ++node)
+    Eigen::VectorXd right(3 * body::kNodalPoints);
+    for (int node = 0; node < body::kNodalPoints; ++node)
         right.segment<3>(3 * node) = Eigen::Vector3d(1, 2, 3);
     Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Ordering> solver;
     solver.analyzePattern(matrix);
@@ -122,8 +123,9 @@ BENCHMARK(solveByEigen<Eigen::AMDOrdering<int>>)->Name("solve/eigen_simplicial_a
 BENCHMARK(solveByEigen<Eigen::NaturalOrdering<int>>)->Name("solve/eigen_simplicial_natural");
 
 void solveByDenseEigen(benchmark::State& run) {
-    const Eigen::Matrix<double, 3 * kNodalPoints, 3 * kNodalPoints> matrix = assembledByEigen();
-    const Eigen::VectorXd right = Eigen::VectorXd::Ones(3 * kNodalPoints);
+    const Eigen::Matrix<double, 3 * body::kNodalPoints, 3 * body::kNodalPoints> matrix =
+        assembledByEigen();
+    const Eigen::VectorXd right = Eigen::VectorXd::Ones(3 * body::kNodalPoints);
     for (auto _ : run) {
         Eigen::VectorXd solution = matrix.llt().solve(right);
         benchmark::DoNotOptimize(solution.data());
@@ -132,4 +134,4 @@ void solveByDenseEigen(benchmark::State& run) {
 BENCHMARK(solveByDenseEigen)->Name("solve/eigen_dense");
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

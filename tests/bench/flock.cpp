@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 namespace {
 
@@ -93,7 +93,7 @@ FlockStep::FlockStep(std::size_t boids, float radius)
 }
 
 void FlockStep::sort(Flock& flock) {
-    const Points points = flock.points();
+    const behaviour::Points points = flock.points();
     for (std::size_t part = 0; part < grid_.parts(); ++part)
         grid_.count(part, points, [](std::size_t) { return true; });
     grid_.arrange();
@@ -115,7 +115,7 @@ double FlockStep::neighboursOf(const Flock& flock) {
     std::size_t pairs = 0;
     for (std::size_t boid = 0; boid < copy.size(); ++boid) {
         const glm::vec3 from = positionOf(copy, boid);
-        grid_.visitAround(from, kReachSquared, [&](const SpatialGrid::Candidates& row) {
+        grid_.visitAround(from, kReachSquared, [&](const behaviour::SpatialGrid::Candidates& row) {
             for (std::size_t i = 0; i < row.index.size(); ++i) {
                 const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - from;
                 pairs += row.index[i] != boid && glm::dot(offset, offset) <= kReachSquared ? 1 : 0;
@@ -139,4 +139,4 @@ std::array<float, Flock::kColumns> flockReference(const Flock& flock,
         position.x, position.y, position.z, heading.x, heading.y, heading.z, glm::length(velocity)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -11,7 +11,7 @@
 
 #include "master/behaviour/perceive/spatial_grid.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 
 inline constexpr float kSeparationReach = 5.0F, kSeparationCosine = -0.707F, kSeparation = 12.0F;
 inline constexpr float kAlignmentReach = 7.5F, kAlignmentCosine = 0.7F, kAlignment = 8.0F;
@@ -26,12 +26,14 @@ struct Flock {  // structure of arrays; OpenSteer's units
     std::array<std::vector<float>, kColumns> columns;
 
     explicit Flock(std::size_t boids) {
-        for (auto& column : columns) column.resize(boids + kMostLanes);
+        for (auto& column : columns) column.resize(boids + behaviour::kMostLanes);
     }
     [[nodiscard]] const float* operator[](Column column) const { return columns[column].data(); }
     [[nodiscard]] float* operator[](Column column) { return columns[column].data(); }
-    [[nodiscard]] std::size_t size() const { return columns[X].size() - kMostLanes; }
-    [[nodiscard]] Points points() const { return {(*this)[X], (*this)[Y], (*this)[Z], size()}; }
+    [[nodiscard]] std::size_t size() const { return columns[X].size() - behaviour::kMostLanes; }
+    [[nodiscard]] behaviour::Points points() const {
+        return {(*this)[X], (*this)[Y], (*this)[Z], size()};
+    }
 };
 
 // Of so many boids with so many neighbours each, on average, within kFlockReach.
@@ -56,7 +58,7 @@ class FlockStep {
 
   private:
     float radius_;
-    SpatialGrid grid_;
+    behaviour::SpatialGrid grid_;
     Flock sorted_;
 };
 
@@ -67,10 +69,10 @@ class FlockStep {
 
 // All that a step's vectors need to know.
 struct FlockThoughts {
-    const SpatialGrid* grid;
+    const behaviour::SpatialGrid* grid;
     const Flock* sorted;
     Flock* next;
     float radius;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

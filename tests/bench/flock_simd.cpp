@@ -13,8 +13,10 @@
 #include "master/behaviour/perceive/sweep-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::bench::HWY_NAMESPACE {
 namespace {
+
+using namespace behaviour::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): sweep-inl.h
 
 constexpr std::size_t kBlockBoids = 64;
 constexpr std::size_t kSums = 9;  // of separation, alignment and cohesion
@@ -207,21 +209,22 @@ void think(const FlockThoughts& thoughts) {
         first = last;
     };
     forCells(*thoughts.grid,
-             [&](const SpatialGrid::Cell& cell, const SpatialGrid::Slots& own) HWY_ATTR {
-                 gatherAround(*thoughts.grid, cell, own, kFlockReach, columns, near);
-                 for (std::size_t slot = own.first; slot < own.last; ++slot) {
-                     if (slot - first == kBlockBoids) finish(slot);
-                     see(flock, near, slot, sums, slot - first);
-                 }
-             });
+             [&](const behaviour::SpatialGrid::Cell& cell, const behaviour::SpatialGrid::Slots& own)
+                 HWY_ATTR {
+                     gatherAround(*thoughts.grid, cell, own, kFlockReach, columns, near);
+                     for (std::size_t slot = own.first; slot < own.last; ++slot) {
+                         if (slot - first == kBlockBoids) finish(slot);
+                         see(flock, near, slot, sums, slot - first);
+                     }
+                 });
     finish(flock.size());
 }
 
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::bench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace aquarama {
+namespace aquarama::bench {
 
 HWY_EXPORT(think);
 
@@ -230,5 +233,5 @@ void FlockStep::run(Flock& flock) {
     HWY_DYNAMIC_DISPATCH(think)({&grid_, &sorted_, &flock, radius_});
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench
 #endif

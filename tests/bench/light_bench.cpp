@@ -15,7 +15,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 // 44 x 52 degrees, reversed depth with the far plane at infinity.
@@ -25,29 +25,29 @@ glm::mat4 clipFromWorld() {
     clip[1][1] = 1.0F / glm::tan(glm::radians(26.0F));
     clip[2][3] = -1.0F;
     clip[3][2] = 0.05F;
-    return clip * glm::translate(glm::mat4{1.0F}, -kEyePosition);
+    return clip * glm::translate(glm::mat4{1.0F}, -place::kEyePosition);
 }
 
 void light(benchmark::State& state) {
-    const auto context = makeOffscreenContext("auto", {16, 16});
+    const auto context = context::makeOffscreenContext("auto", {16, 16});
     FrameUniforms uniforms{};
     uniforms.clipFromWorld = clipFromWorld();
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
-    uniforms.eyeAndTime = glm::vec4(kEyePosition, 0.0F);
-    uniforms.sharedEyeAndPixel = glm::vec4(kEyePosition, 0.0016F);
-    uniforms.sunAndFilterDepth = glm::vec4(sunInWater(), 4.9F);
+    uniforms.eyeAndTime = glm::vec4(place::kEyePosition, 0.0F);
+    uniforms.sharedEyeAndPixel = glm::vec4(place::kEyePosition, 0.0016F);
+    uniforms.sunAndFilterDepth = glm::vec4(scene::sunInWater(), 4.9F);
     uniforms.daylight = glm::vec4(1.0F);
     const gl::Buffer block;
     glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
-    const auto tier = static_cast<QualityTier>(state.range(0));
-    state.SetLabel(std::string(kTierNames.at(static_cast<std::size_t>(state.range(0)))));
-    SeaLight sea{{.quality = qualityOf(tier).light}};
+    const auto tier = static_cast<config::QualityTier>(state.range(0));
+    state.SetLabel(std::string(config::kTierNames.at(static_cast<std::size_t>(state.range(0)))));
+    scene::SeaLight sea{{.quality = scene::qualityOf(tier).light}};
     double time = 0;
     for (auto iteration : state) {
         time += 1.0 / 60.0;
-        sea.update(time, kEyePosition);
-        sea.drawShafts(kEyePosition, uniforms.worldFromClip);
+        sea.update(time, place::kEyePosition);
+        sea.drawShafts(place::kEyePosition, uniforms.worldFromClip);
         glFinish();
     }
 }
@@ -59,4 +59,4 @@ BENCHMARK(light)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -7,7 +7,7 @@
 
 #include <sys/utsname.h>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 std::string processorName() {
     std::ifstream info("/proc/cpuinfo");
@@ -42,4 +42,4 @@ void CsvWriter::counter(const std::string& benchmark, const std::string& name, d
     file_ << '"' << machine_ << "\"," << benchmark << ",," << name << ',' << value << '\n';
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 [[nodiscard]] std::string processorName();
 
@@ -24,4 +24,4 @@ class CsvWriter {
     std::string machine_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -49,11 +49,11 @@ class KeepingReporter : public benchmark::ConsoleReporter {
 };
 
 void writeCsv(const std::vector<benchmark::BenchmarkReporter::Run>& runs,
-              const std::vector<aquarama::Table1Row>& table,
+              const std::vector<aquarama::bench::Table1Row>& table,
               const std::string& path) {
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());
     std::ofstream csv(path);
-    aquarama::CsvWriter rows(csv, aquarama::processorName());
+    aquarama::bench::CsvWriter rows(csv, aquarama::bench::processorName());
     for (const auto& run : runs) {
         const double nanoseconds =
             run.GetAdjustedCPUTime() * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit);
@@ -73,10 +73,11 @@ int main(int count, char** arguments) {
     KeepingReporter reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);
     benchmark::Shutdown();
-    const std::vector<aquarama::Table1Row> table = aquarama::table1(reporter.kept());
-    writeCsv(reporter.kept(),
-             table,
-             "build/bench/" + aquarama::fileNameOf(aquarama::processorName()) + ".csv");
-    aquarama::print(table);
+    const std::vector<aquarama::bench::Table1Row> table = aquarama::bench::table1(reporter.kept());
+    writeCsv(
+        reporter.kept(),
+        table,
+        "build/bench/" + aquarama::bench::fileNameOf(aquarama::bench::processorName()) + ".csv");
+    aquarama::bench::print(table);
     return 0;
 }

@@ -18,7 +18,7 @@
 #include "tests/support/cast.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 constexpr double kLengthMetres = 0.24;
@@ -39,49 +39,51 @@ double wallMilliseconds() {
     return std::chrono::duration<double, std::milli>(now).count();
 }
 
-WorldSpecies member(const Species& species,
-                    const std::shared_ptr<const MotorTables>& tables,
-                    std::uint32_t fish,
-                    const Start& start) {
-    WorldSpecies member{.tables = tables, .fish = fish};
+world::WorldSpecies member(const config::Species& species,
+                           const std::shared_ptr<const motion::MotorTables>& tables,
+                           std::uint32_t fish,
+                           const config::Start& start) {
+    world::WorldSpecies member{.tables = tables, .fish = fish};
     member.name = species.name;
     member.habits = species.habits;
     member.start = start;
     return member;
 }
 
-std::shared_ptr<const MotorTables> sharkTables() {
-    static const std::shared_ptr<const MotorTables> kTables =
-        makeMotorTables(captureRepertoire(castMember("blacktip_reef_shark"), [](double) {}));
+std::shared_ptr<const motion::MotorTables> sharkTables() {
+    static const std::shared_ptr<const motion::MotorTables> kTables = motion::makeMotorTables(
+        capture::captureRepertoire(test::castMember("blacktip_reef_shark"), [](double) {}));
     return kTables;
 }
 
-std::shared_ptr<const MotorTables> scadTables() {
-    static const std::shared_ptr<const MotorTables> kTables = makeMotorTables(scadRepertoire());
+std::shared_ptr<const motion::MotorTables> scadTables() {
+    static const std::shared_ptr<const motion::MotorTables> kTables =
+        motion::makeMotorTables(test::scadRepertoire());
     return kTables;
 }
 
 constexpr std::uint32_t kFishOfTwoThreads = 4000;  // as in a show on two cores
 
-WorldOptions openSea(std::uint32_t fish, unsigned threads) {
+world::WorldOptions openSea(std::uint32_t fish, unsigned threads) {
     const double volume = fish * kLengthsCubedPerFish * std::pow(kLengthMetres, 3);
     const double half = 0.5 * std::cbrt(volume);
     const auto extent = static_cast<float>(half + kClearanceMetres);
-    WorldOptions options;
+    world::WorldOptions options;
     options.threads = threads;
-    options.scene.place = PlaceKind::OpenSea;
-    options.scene.gathering = Gathering::None;
+    options.scene.place = config::PlaceKind::OpenSea;
+    options.scene.gathering = config::Gathering::None;
     options.scene.water.centre = {0, -extent - 2, -extent};
     options.scene.water.halfExtent = glm::vec3{extent};
     options.scene.water.leastLengthsCubed = 0;
     options.scene.eye = {0, -extent - 2, 2};
     options.scene.plankton = fish / kFishPerParticle;
-    Start start;
+    config::Start start;
     start.centre = options.scene.water.centre;
     start.radiusMetres = half;
-    options.cast.push_back(member(scad(), scadTables(), fish, start));
+    options.cast.push_back(member(test::scad(), scadTables(), fish, start));
     const std::uint32_t sharks = fish < 1000 ? 0 : std::max(1U, fish / kFishPerShark);
-    options.cast.push_back(member(castMember("blacktip_reef_shark"), sharkTables(), sharks, start));
+    options.cast.push_back(
+        member(test::castMember("blacktip_reef_shark"), sharkTables(), sharks, start));
     options.cast.back().lengths = {1.2F, 0.05F, 1.1F, 1.3F};
     return options;
 }
@@ -93,7 +95,7 @@ double quantile(std::vector<double> values, double share) {
 
 void mindTick(benchmark::State& state) {
     const auto fish = static_cast<std::uint32_t>(state.range(0));
-    World world(openSea(fish, fish < kFishOfTwoThreads ? 1 : 2));
+    world::World world(openSea(fish, fish < kFishOfTwoThreads ? 1 : 2));
     for (int i = 0; i < kTicksBefore; ++i) world.advance();
     std::vector<double> wall;
     std::vector<double> processor;
@@ -135,4 +137,4 @@ BENCHMARK(mindTick)
     ->Iterations(60);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -13,29 +13,29 @@
 #include "common/motion/reconstruct.h"
 #include "tests/support/synthetic_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
-const Repertoire& repertoire() {
-    static const Repertoire kRepertoire = syntheticRepertoire(true);
+const motion::Repertoire& repertoire() {
+    static const motion::Repertoire kRepertoire = test::syntheticRepertoire(true);
     return kRepertoire;
 }
 
-const MotorTables& tables() {
-    static const auto kTables = makeMotorTables(repertoire());
+const motion::MotorTables& tables() {
+    static const auto kTables = motion::makeMotorTables(repertoire());
     return *kTables;
 }
 
-const ReconstructTables& posesOfRepertoire() {
-    static const ReconstructTables kPoses = makeReconstructTables(repertoire());
+const motion::ReconstructTables& posesOfRepertoire() {
+    static const motion::ReconstructTables kPoses = motion::makeReconstructTables(repertoire());
     return kPoses;
 }
 
 // A school at sea: every fish in some segment and phase, and some 1.5 changes of segment a second.
 struct School {
-    MotionStates states;
-    MotorCommands commands;
-    std::vector<FishTraits> traits;
+    motion::MotionStates states;
+    motion::MotorCommands commands;
+    std::vector<motion::FishTraits> traits;
     std::mt19937 random{1};
 
     explicit School(std::size_t fish) : traits(fish) {
@@ -44,7 +44,7 @@ struct School {
         for (std::size_t i = 0; i < fish; ++i) {
             traits[i] = {static_cast<std::uint32_t>(i),
                          static_cast<std::uint16_t>(100 + random() % 300)};
-            setBodyFrame(states, i, {});
+            motion::setBodyFrame(states, i, {});
             states.phase[i] = static_cast<std::uint16_t>(random());
             decide(i);
             states.segment[i] = commands.segment[i];
@@ -52,9 +52,9 @@ struct School {
     }
 
     void decide(std::size_t fish) {
-        const auto action = static_cast<Action>(random() % kActions);
+        const auto action = static_cast<motion::Action>(random() % motion::kActions);
         commands.segment[fish] = static_cast<std::uint8_t>(action);
-        commands.phaseRate[fish] = recordedPhaseRate(tables(), action);
+        commands.phaseRate[fish] = motion::recordedPhaseRate(tables(), action);
         commands.yawRate[fish] = static_cast<std::int16_t>(random() % 2000);
         commands.pitch[fish] = static_cast<std::int16_t>(random() % 8000);
     }
@@ -62,7 +62,7 @@ struct School {
         for (std::size_t i = 0; i < traits.size() / 40; ++i) decide(random() % traits.size());
     }
 
-    [[nodiscard]] MotorStep step() {
+    [[nodiscard]] motion::MotorStep step() {
         return {.tables = &tables(),
                 .traits = traits,
                 .commands = &commands,
@@ -96,14 +96,15 @@ void measure(benchmark::State& state, std::size_t fish, Prepare&& prepare, Work&
     state.SetItemsProcessed(static_cast<std::int64_t>(played));
 }
 
-constexpr double kStateBytes = sizeof(FishRecord) + 4;  // orientation lies in 13 bytes, not in 8
+constexpr double kStateBytes =
+    sizeof(motion::FishRecord) + 4;  // orientation lies in 13 bytes, not in 8
 constexpr double kCommandBytes = 7;
 
 void bodyFrame(benchmark::State& state) {
     School school(static_cast<std::size_t>(state.range(0)));
     measure(
         state, school.traits.size(), [&] { school.decideSome(); }, [&] { school.step().run(); });
-    state.counters["bytes_per_fish"] = 2 * kStateBytes + kCommandBytes + sizeof(FishTraits);
+    state.counters["bytes_per_fish"] = 2 * kStateBytes + kCommandBytes + sizeof(motion::FishTraits);
 }
 BENCHMARK(bodyFrame)
     ->Name("body_frame")
@@ -147,7 +148,7 @@ void hash(benchmark::State& state) {
         state,
         school.traits.size(),
         [] {},
-        [&] { benchmark::DoNotOptimize(hashOf(school.states)); });
+        [&] { benchmark::DoNotOptimize(motion::hashOf(school.states)); });
 }
 BENCHMARK(hash)->Name("state_hash")->ArgName("fish")->Arg(10000)->UseManualTime();
 
@@ -175,14 +176,14 @@ BENCHMARK(copyMemory)
     ->UseManualTime();
 
 // Every fish between two ticks; of them `warping` in a hundred between two segments.
-std::vector<PresentedFish> presented(std::size_t fish, unsigned warping) {
+std::vector<motion::PresentedFish> presented(std::size_t fish, unsigned warping) {
     School school(fish);
-    std::vector<PresentedFish> shown(fish);
+    std::vector<motion::PresentedFish> shown(fish);
     for (std::size_t i = 0; i < fish; ++i) {
-        const FishRecord record = recordOf(school.states, i);
-        shown[i] = present(record, record, 0.5F, school.traits[i]);
+        const motion::FishRecord record = motion::recordOf(school.states, i);
+        shown[i] = motion::present(record, record, 0.5F, school.traits[i]);
         if (school.random() % 100 >= warping) continue;
-        shown[i].fromSegment = static_cast<std::uint32_t>(school.random() % kActions);
+        shown[i].fromSegment = static_cast<std::uint32_t>(school.random() % motion::kActions);
         shown[i].fromPhase = static_cast<float>(school.random() % 65536) / 65536.0F;
         shown[i].warpWeight = 0.4F;
     }
@@ -192,10 +193,13 @@ std::vector<PresentedFish> presented(std::size_t fish, unsigned warping) {
 void nodalPointsOfMany(benchmark::State& state) {
     const auto shown =
         presented(static_cast<std::size_t>(state.range(0)), static_cast<unsigned>(state.range(1)));
-    std::vector<NodalPoints> nodes(shown.size());
+    std::vector<body::NodalPoints> nodes(shown.size());
     measure(
-        state, shown.size(), [] {}, [&] { nodalPoints(posesOfRepertoire(), shown, nodes); });
-    countBytes(state, sizeof(PresentedFish) + sizeof(NodalPoints));
+        state,
+        shown.size(),
+        [] {},
+        [&] { motion::nodalPoints(posesOfRepertoire(), shown, nodes); });
+    countBytes(state, sizeof(motion::PresentedFish) + sizeof(body::NodalPoints));
     state.counters["table_bytes"] = static_cast<double>(posesOfRepertoire().nodes.bytes());
 }
 BENCHMARK(nodalPointsOfMany)
@@ -209,14 +213,14 @@ BENCHMARK(nodalPointsOfMany)
 
 void nodalPointsReference(benchmark::State& state) {
     const auto shown = presented(static_cast<std::size_t>(state.range(0)), 100);
-    std::vector<NodalPoints> nodes(shown.size());
+    std::vector<body::NodalPoints> nodes(shown.size());
     measure(
         state,
         shown.size(),
         [] {},
         [&] {
             for (std::size_t i = 0; i < shown.size(); ++i) {
-                nodalPoints(repertoire(), shown[i], nodes[i]);
+                motion::nodalPoints(repertoire(), shown[i], nodes[i]);
             }
         });
 }
@@ -229,10 +233,13 @@ BENCHMARK(nodalPointsReference)
 void controlPointsOfMany(benchmark::State& state) {
     const auto shown =
         presented(static_cast<std::size_t>(state.range(0)), static_cast<unsigned>(state.range(1)));
-    std::vector<glm::vec3> points(shown.size() * kControlPoints);
+    std::vector<glm::vec3> points(shown.size() * body::kControlPoints);
     measure(
-        state, shown.size(), [] {}, [&] { controlPoints(posesOfRepertoire(), shown, points); });
-    countBytes(state, sizeof(PresentedFish) + kControlPoints * sizeof(glm::vec3));
+        state,
+        shown.size(),
+        [] {},
+        [&] { motion::controlPoints(posesOfRepertoire(), shown, points); });
+    countBytes(state, sizeof(motion::PresentedFish) + body::kControlPoints * sizeof(glm::vec3));
     state.counters["table_bytes"] = static_cast<double>(posesOfRepertoire().controlPoints.bytes());
 }
 BENCHMARK(controlPointsOfMany)
@@ -244,15 +251,15 @@ BENCHMARK(controlPointsOfMany)
     ->Args({20000, 100})
     ->UseManualTime();
 
-const FishBody& scadBody() {
-    static const FishBody kBody =
-        makeBody(readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"));
+const body::FishBody& scadBody() {
+    static const body::FishBody kBody = body::makeBody(
+        config::readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"));
     return kBody;
 }
 
-std::vector<float> lengthsOf(const std::vector<PresentedFish>& shown) {
+std::vector<float> lengthsOf(const std::vector<motion::PresentedFish>& shown) {
     std::vector<float> lengths;
-    for (const PresentedFish& fish : shown) lengths.push_back(fish.lengthMetres);
+    for (const motion::PresentedFish& fish : shown) lengths.push_back(fish.lengthMetres);
     return lengths;
 }
 
@@ -260,19 +267,19 @@ std::vector<float> lengthsOf(const std::vector<PresentedFish>& shown) {
 void controlPointsFromNodes(benchmark::State& state) {
     const auto shown =
         presented(static_cast<std::size_t>(state.range(0)), static_cast<unsigned>(state.range(1)));
-    const CageTables cage = makeCageTables(scadBody());
+    const body::CageTables cage = body::makeCageTables(scadBody());
     const std::vector<float> lengths = lengthsOf(shown);
-    std::vector<NodalPoints> nodes(shown.size());
-    std::vector<glm::vec3> points(shown.size() * kControlPoints);
+    std::vector<body::NodalPoints> nodes(shown.size());
+    std::vector<glm::vec3> points(shown.size() * body::kControlPoints);
     measure(
         state,
         shown.size(),
         [] {},
         [&] {
-            nodalPoints(posesOfRepertoire(), shown, nodes);
-            poseCages(cage, nodes, lengths, points);
+            motion::nodalPoints(posesOfRepertoire(), shown, nodes);
+            body::poseCages(cage, nodes, lengths, points);
         });
-    countBytes(state, sizeof(PresentedFish) + kControlPoints * sizeof(glm::vec3));
+    countBytes(state, sizeof(motion::PresentedFish) + body::kControlPoints * sizeof(glm::vec3));
     state.counters["table_bytes"] =
         static_cast<double>(posesOfRepertoire().nodes.bytes() + sizeof(cage));
 }
@@ -288,12 +295,12 @@ BENCHMARK(controlPointsFromNodes)
 // One fish as poseCage() poses it; a render node does so 512 times for a species without recorded
 // control points, when it loads.
 void poseCageReference(benchmark::State& state) {
-    std::vector<glm::vec3> points(kControlPoints);
+    std::vector<glm::vec3> points(body::kControlPoints);
     measure(
-        state, 1, [] {}, [&] { poseCage(scadBody(), scadBody().restNodes, points); });
+        state, 1, [] {}, [&] { body::poseCage(scadBody(), scadBody().restNodes, points); });
     benchmark::DoNotOptimize(points.data());
 }
 BENCHMARK(poseCageReference)->Name("pose_cage_reference")->UseManualTime();
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -10,13 +10,13 @@
 #include "render_node/context/context.h"
 #include "render_node/scene/scene.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 constexpr glm::ivec2 kDeskWindow{480, 360};
 
-View channelTowards(float azimuthDegrees) {
-    View view;
+scene::View channelTowards(float azimuthDegrees) {
+    scene::View view;
     view.sizePixels = kDeskWindow;
     // 44 x 52 degrees, reversed depth with the far plane at infinity.
     view.clipFromCamera = glm::mat4{0.0F};
@@ -26,17 +26,17 @@ View channelTowards(float azimuthDegrees) {
     view.clipFromCamera[3][2] = 0.05F;
     view.cameraFromWorld =
         glm::rotate(glm::mat4{1.0F}, glm::radians(azimuthDegrees), glm::vec3{0, 1, 0}) *
-        glm::translate(glm::mat4{1.0F}, -kEyePosition);
+        glm::translate(glm::mat4{1.0F}, -place::kEyePosition);
     return view;
 }
 
 void sceneFrame(benchmark::State& state) {
-    const auto context = makeOffscreenContext("auto", {16, 16});
-    SceneRenderer scene{{.culling = state.range(1) != 0, .levelsOfDetail = state.range(2) != 0},
-                        {}};
-    const View view = channelTowards(static_cast<float>(state.range(0)));
-    SceneFrame frame;
-    frame.eyePositionMetres = kEyePosition;
+    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    scene::SceneRenderer scene{
+        {.culling = state.range(1) != 0, .levelsOfDetail = state.range(2) != 0}, {}};
+    const scene::View view = channelTowards(static_cast<float>(state.range(0)));
+    scene::SceneFrame frame;
+    frame.eyePositionMetres = place::kEyePosition;
     for (auto iteration : state) {
         frame.timeSeconds += 1.0 / 60.0;
         scene.update(frame);
@@ -56,9 +56,9 @@ BENCHMARK(sceneFrame)
     ->Unit(benchmark::kMillisecond);
 
 void sceneGrow(benchmark::State& state) {
-    const auto context = makeOffscreenContext("auto", {16, 16});
+    const auto context = context::makeOffscreenContext("auto", {16, 16});
     for (auto iteration : state) {
-        const SceneRenderer scene{{}, {}};
+        const scene::SceneRenderer scene{{}, {}};
         glFinish();
     }
 }
@@ -69,4 +69,4 @@ BENCHMARK(sceneGrow)
     ->Iterations(2);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

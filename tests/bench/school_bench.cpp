@@ -9,7 +9,7 @@
 
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 double threadNanoseconds() {
@@ -20,7 +20,7 @@ double threadNanoseconds() {
 
 void schoolTick(benchmark::State& state) {
     const auto fish = static_cast<std::uint32_t>(state.range(0));
-    World world = syntheticWorld(1, fish);
+    world::World world = world::syntheticWorld(1, fish);
     for (int i = 0; i < 120; ++i) world.advance();
     std::vector<double> nanoseconds;
     for ([[maybe_unused]] auto _ : state) {
@@ -39,4 +39,4 @@ void schoolTick(benchmark::State& state) {
 BENCHMARK(schoolTick)->Name("school_tick")->ArgName("fish")->Arg(51)->Arg(1000)->Arg(10000);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -18,25 +18,26 @@ using namespace aquarama;
 constexpr int kFish = 51;
 
 // Inside of the level where nothing is left of the coarser one.
-float metresFor(DetailLevel level) {
-    const SharedView view;
-    const float pixels = 1.5F * detailLimits(1.0F).at(std::size_t(level));
+float metresFor(surface::DetailLevel level) {
+    const surface::SharedView view;
+    const float pixels = 1.5F * surface::detailLimits(1.0F).at(std::size_t(level));
     return 0.24F / (pixels * view.pixelRadians);
 }
 
 void surfaceUpdate(benchmark::State& state) {
-    const auto context = makeOffscreenContext("auto", {64, 64});
-    const auto level = static_cast<DetailLevel>(std::size_t(DetailLevel::ControlMesh) +
-                                                static_cast<std::size_t>(state.range(0)));
-    const FishBody body = test::scad();
-    std::vector<PresentedFish> fish;
+    const auto context = context::makeOffscreenContext("auto", {64, 64});
+    const auto level = static_cast<surface::DetailLevel>(
+        std::size_t(surface::DetailLevel::ControlMesh) + static_cast<std::size_t>(state.range(0)));
+    const body::FishBody body = test::scad();
+    std::vector<motion::PresentedFish> fish;
     for (int i = 0; i < kFish; ++i) {
         fish.push_back(test::fishAt({0, 0, -metresFor(level)}, {1, 0, 0, 0}));
         fish.back().phase = static_cast<float>(i) / kFish;
     }
     const test::RecordedSchool school{fish};
-    const std::vector<SchoolSpecies> cast{{body, {}, test::swaying(body, 0.1F), school.traits}};
-    SchoolSurface surface{cast, {.culling = false}, makeSkinPrograms()};
+    const std::vector<surface::SchoolSpecies> cast{
+        {body, {}, test::swaying(body, 0.1F), school.traits}};
+    surface::SchoolSurface surface{cast, {.culling = false}, surface::makeSkinPrograms()};
     const gl::Framebuffer nowhere;
     glNamedFramebufferParameteri(nowhere.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 8);
     glNamedFramebufferParameteri(nowhere.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 8);

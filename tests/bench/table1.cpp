@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 namespace {
 
@@ -68,4 +68,4 @@ void print(const std::vector<Table1Row>& table) {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 struct Table1Row {
     std::string name;  // "table1/..."
@@ -22,4 +22,4 @@ struct Table1Row {
 
 void print(const std::vector<Table1Row>& table);
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -14,7 +14,7 @@
 #include "tests/bench/flock.h"
 #include "tests/master/behaviour/scattered_school.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 double threadNanoseconds() {
@@ -62,19 +62,19 @@ BENCHMARK(think)
 
 // A school in which each has as many cubic body lengths as the second argument says, in tenths.
 struct School {
-    FishView view;
-    std::vector<Nature> natures = std::vector<Nature>(1);
-    Grids grids;
+    fish::FishView view;
+    std::vector<fish::Nature> natures = std::vector<fish::Nature>(1);
+    behaviour::Grids grids;
 
     School(std::size_t fish, double lengthsCubed) : School(fish, regionFor(fish, lengthsCubed)) {}
 
   private:
-    School(std::size_t fish, const Region& region)
-        : view(scatteredSchool(1, fish, region)), grids(region, fish, 0) {
+    School(std::size_t fish, const place::Region& region)
+        : view(behaviour::scatteredSchool(1, fish, region)), grids(region, fish, 0) {
         natures[0].last = static_cast<std::uint32_t>(fish);
         grids.rebuild(view, {}, natures);
     }
-    static Region regionFor(std::size_t fish, double lengthsCubed) {
+    static place::Region regionFor(std::size_t fish, double lengthsCubed) {
         constexpr double kLengthMetres = 0.24;
         const double volume = static_cast<double>(fish) * lengthsCubed * kLengthMetres *
                               kLengthMetres * kLengthMetres;
@@ -86,7 +86,7 @@ struct School {
 void nearest(benchmark::State& state) {
     const auto fish = static_cast<std::size_t>(state.range(0));
     const School school(fish, 0.1 * static_cast<double>(state.range(1)));
-    const SpatialGrid& grid = school.grids.fish;
+    const behaviour::SpatialGrid& grid = school.grids.fish;
     std::vector<double> ticks;
     std::size_t seen = 0;
     for ([[maybe_unused]] auto _ : state) {
@@ -94,8 +94,8 @@ void nearest(benchmark::State& state) {
             for (std::size_t slot = 0; slot < fish; ++slot) {
                 const std::uint32_t one = grid.index()[slot];
                 if (one % 8 != ticks.size() % 8) continue;
-                const NearestFish found =
-                    nearestVisible(school.view, school.grids, school.natures[0], one);
+                const behaviour::NearestFish found =
+                    behaviour::nearestVisible(school.view, school.grids, school.natures[0], one);
                 seen += found.schoolmates.count;
             }
         }));
@@ -105,7 +105,7 @@ void nearest(benchmark::State& state) {
     report(state, ticks, thoughts);
     state.counters["seen"] =
         static_cast<double>(seen) / static_cast<double>(ticks.size()) / thoughts;
-    state.counters["lanes"] = static_cast<double>(nearestVisibleLanes());
+    state.counters["lanes"] = static_cast<double>(behaviour::nearestVisibleLanes());
 }
 BENCHMARK(nearest)
     ->Name("think_nearest")
@@ -138,4 +138,4 @@ BENCHMARK(grids)
     ->UseManualTime();
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

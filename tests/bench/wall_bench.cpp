@@ -6,39 +6,39 @@
 #include "calibration/theatre/projected.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
-Rig theatre() {
-    return readRig(AQUARAMA_SOURCE_DIR "/config/theatre.txtpb");
+config::Rig theatre() {
+    return config::readRig(AQUARAMA_SOURCE_DIR "/config/theatre.txtpb");
 }
 
-std::vector<Light> greyChannels(const Rig& rig) {
-    std::vector<Light> channels;
+std::vector<wall::Light> greyChannels(const config::Rig& rig) {
+    std::vector<wall::Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        channels.push_back(projectedLight(rig, i, TestPattern::Grey));
+        channels.push_back(theatre::projectedLight(rig, i, wall::TestPattern::Grey));
     return channels;
 }
 
 void warpMapOfTheatre(benchmark::State& state) {
-    const Rig rig = theatre();
-    for (auto _ : state) benchmark::DoNotOptimize(warpMap(rig, 1));
+    const config::Rig rig = theatre();
+    for (auto _ : state) benchmark::DoNotOptimize(wall::warpMap(rig, 1));
 }
 BENCHMARK(warpMapOfTheatre)->Name("warp_map")->Unit(benchmark::kMillisecond);
 
 void panoramaOfTheatre(benchmark::State& state) {
-    const Rig rig = theatre();
-    const std::vector<Light> channels = greyChannels(rig);
-    for (auto _ : state) benchmark::DoNotOptimize(composePanorama(rig, channels));
+    const config::Rig rig = theatre();
+    const std::vector<wall::Light> channels = greyChannels(rig);
+    for (auto _ : state) benchmark::DoNotOptimize(theatre::composePanorama(rig, channels));
 }
 BENCHMARK(panoramaOfTheatre)->Name("compose_panorama")->Unit(benchmark::kMillisecond);
 
 void hallOfTheatre(benchmark::State& state) {
-    const Rig rig = theatre();
-    const Light panorama = directPanorama(rig, TestPattern::Grey);
-    for (auto _ : state) benchmark::DoNotOptimize(composeHall(rig, panorama, {1600, 900}));
+    const config::Rig rig = theatre();
+    const wall::Light panorama = theatre::directPanorama(rig, wall::TestPattern::Grey);
+    for (auto _ : state) benchmark::DoNotOptimize(theatre::composeHall(rig, panorama, {1600, 900}));
 }
 BENCHMARK(hallOfTheatre)->Name("compose_hall")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -11,7 +11,7 @@
 #include "render_node/scene/water_tables.h"
 #include "render_node/shaders/frame_uniforms.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 constexpr glm::ivec2 kDeskWindow{480, 360};
@@ -31,12 +31,12 @@ FrameUniforms farAway() {
 }
 
 void post(benchmark::State& state) {
-    const auto context = makeOffscreenContext("auto", {16, 16});
+    const auto context = context::makeOffscreenContext("auto", {16, 16});
     const FrameUniforms uniforms = farAway();
     const gl::Buffer block;
     glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());
-    ScenePicture picture{qualityOf(static_cast<QualityTier>(state.range(0)))};
+    scene::ScenePicture picture{scene::qualityOf(static_cast<config::QualityTier>(state.range(0)))};
     for (auto iteration : state) {
         picture.begin(kDeskWindow);
         benchmark::DoNotOptimize(picture.finish());
@@ -51,9 +51,9 @@ BENCHMARK(post)
     ->Unit(benchmark::kMillisecond);
 
 void dive(benchmark::State& state) {
-    const Inscatter inscatter{seaWater(WaterType::IA)};
+    const scene::Inscatter inscatter{scene::seaWater(config::WaterType::IA)};
     double depth = 1;
-    Table table = inscatter.atDepth(depth);
+    scene::Table table = inscatter.atDepth(depth);
     for (auto iteration : state) {
         depth = depth > 30 ? 1 : depth + 0.01;
         inscatter.mixAtDepth(depth, table);
@@ -64,13 +64,13 @@ BENCHMARK(dive)->Name("frame_part/water_dive")->Unit(benchmark::kMicrosecond);
 
 void bake(benchmark::State& state) {
     for (auto iteration : state) {
-        const WaterSpectra water = seaWater(WaterType::IA);
-        const Inscatter inscatter{water};
-        benchmark::DoNotOptimize(bakeDirect(water).texels.data());
-        benchmark::DoNotOptimize(bakeOpenWater(water).texels.data());
+        const scene::WaterSpectra water = scene::seaWater(config::WaterType::IA);
+        const scene::Inscatter inscatter{water};
+        benchmark::DoNotOptimize(scene::bakeDirect(water).texels.data());
+        benchmark::DoNotOptimize(scene::bakeOpenWater(water).texels.data());
     }
 }
 BENCHMARK(bake)->Name("water_bake")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -26,12 +26,12 @@ class ClipOfAShow : public testing::Test {
     void SetUp() override {
         fs::create_directories(folder_);
         const std::string config = std::string(AQUARAMA_SOURCE_DIR) + "/config/";
-        Rig rig = readRig(config + "desk.txtpb");
+        config::Rig rig = config::readRig(config + "desk.txtpb");
         rig.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig.scene = config + rig.scene;
         rig.panoramaPixels = {451, 201};
-        std::ofstream(folder_ / "rig.txtpb") << writeRig(rig);
+        std::ofstream(folder_ / "rig.txtpb") << config::writeRig(rig);
     }
     void TearDown() override { fs::remove_all(folder_); }
 
@@ -60,7 +60,7 @@ TEST_F(ClipOfAShow, showsThePanoramaOfEveryOtherFrameAndLeavesNothingElse) {
     EXPECT_EQ(seen.sizePixels, glm::ivec2(452, 202)) << "even, one more than the panorama";
     ASSERT_EQ(seen.pictures.size(), 4U);
     EXPECT_NEAR(seen.durationSeconds, 8 / 60.0, 1e-3);
-    const Picture last = readPng(path("show/panorama.png"));
+    const wall::Picture last = wall::readPng(path("show/panorama.png"));
     EXPECT_LT(test::meanCodesBetween(seen.pictures.back(), last), 3);
     EXPECT_FALSE(fs::exists(path("show/clip.mp4.part")));
     EXPECT_EQ(std::distance(fs::directory_iterator(path("show")), {}), 6) << "5 pictures, a clip";
@@ -73,7 +73,7 @@ TEST_F(ClipOfAShow, showsAChannelOfTheWorldAsItsSnapshotHasIt) {
         << log();
     const auto seen = test::readClip(path("middle.mp4"));
     ASSERT_EQ(seen.pictures.size(), 3U);
-    const Picture last = readPng(path("show/channel-middle.png"));
+    const wall::Picture last = wall::readPng(path("show/channel-middle.png"));
     const double off = test::meanCodesBetween(seen.pictures[2], last);
     EXPECT_LT(off, 5);
     EXPECT_LT(off, test::meanCodesBetween(seen.pictures[1], last)) << "another frame is as near";

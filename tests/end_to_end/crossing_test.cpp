@@ -20,52 +20,55 @@ namespace aquarama {
 namespace {
 
 constexpr std::size_t kLeft = 0, kMiddle = 1;
-constexpr QualityTier kQuality = QualityTier::High;
+constexpr config::QualityTier kQuality = config::QualityTier::High;
 
-Admission admissionToTheSea() {
-    Admission admission = admissionTo(Pattern::World);
-    admission.rig = shippedRig("touring");  // its overlaps are wide
+session::Admission admissionToTheSea() {
+    session::Admission admission = show::admissionTo(wire::Pattern::World);
+    admission.rig = wall::shippedRig("touring");  // its overlaps are wide
     constexpr int kSmaller = 4;
     admission.rig.panoramaPixels /= kSmaller;
-    for (Channel& channel : admission.rig.channels) {
+    for (config::Channel& channel : admission.rig.channels) {
         channel.sizePixels /= kSmaller;
         channel.projector.focalPixels /= kSmaller;
         channel.projector.principalPixels /= kSmaller;
     }
     admission.welcome.school = {{.id = 17, .lengthMillimetres = 400}};
-    admission.cast = {{.text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
-                       .repertoire = test::swaying(test::scad(), 0.05F),
-                       .fish = 1}};
+    admission.cast = {
+        {.text = show::fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
+         .repertoire = test::swaying(test::scad(), 0.05F),
+         .fish = 1}};
     return admission;
 }
 
 // The scene that a channel alone shows on the unrolled screen, freed of its blend.
 class Projected {
   public:
-    Projected(const Rig& rig, std::size_t channel, ChannelPicture& picture)
+    Projected(const config::Rig& rig, std::size_t channel, show::ChannelPicture& picture)
         : rig_{rig}, channel_{channel} {
         const gl::Target target(GL_RGBA16, picture.sizePixels());
-        picture.project(target.framebuffer(), Encoding::Plain, Overlays{});
+        picture.project(target.framebuffer(), project::Encoding::Plain, show::Overlays{});
         const auto pixels = gl::readRgb<std::uint16_t>(target);
-        for (const Channel& other : rig.channels) lights_.push_back(darkness(other.sizePixels));
-        lights_[channel] = lightOf({picture.sizePixels(), 16, {pixels.begin(), pixels.end()}});
-        panorama_ = composePanorama(rig, lights_);
+        for (const config::Channel& other : rig.channels)
+            lights_.push_back(wall::darkness(other.sizePixels));
+        lights_[channel] =
+            wall::lightOf({picture.sizePixels(), 16, {pixels.begin(), pixels.end()}});
+        panorama_ = theatre::composePanorama(rig, lights_);
     }
     [[nodiscard]] double weight(glm::ivec2 at) const {
         const glm::dvec2 place = (glm::dvec2(at) + 0.5) / glm::dvec2(rig_.panoramaPixels);
-        return blendWeight(rig_, channel_, screenPointAt(rig_.screen, place));
+        return wall::blendWeight(rig_, channel_, wall::screenPointAt(rig_.screen, place));
     }
     // sRGB codes: what the eye weighs alike.
     [[nodiscard]] double code(glm::ivec2 at) const {
         const double light = static_cast<double>(panorama_.at(at.x, at.y).g) / weight(at);
-        return 255 * srgbFromLinear(std::clamp(light, 0.0, 1.0));
+        return 255 * wall::srgbFromLinear(std::clamp(light, 0.0, 1.0));
     }
 
   private:
-    const Rig& rig_;
+    const config::Rig& rig_;
     std::size_t channel_;
-    std::vector<Light> lights_;
-    Light panorama_;
+    std::vector<wall::Light> lights_;
+    wall::Light panorama_;
 };
 
 // Of the means of a block of pixels, which both channels must light well.
@@ -86,44 +89,45 @@ std::optional<double> blockDifference(const Projected& one,
 
 class Crossing : public testing::Test {
   protected:
-    static StateFrame frameWithFish(glm::vec3 place, float azimuth) {
-        StateFrame frame = frameNumber(300);
-        frame.eye.positionMetres = kEyePosition;
-        MotionStates states;
+    static wire::StateFrame frameWithFish(glm::vec3 place, float azimuth) {
+        wire::StateFrame frame = show::frameNumber(300);
+        frame.eye.positionMetres = place::kEyePosition;
+        motion::MotionStates states;
         states.resize(1);
-        setBodyFrame(states,
-                     0,
-                     {.position = place, .rotation = glm::angleAxis(-azimuth, glm::vec3(0, 1, 0))});
-        frame.after = {recordOf(states, 0)};
+        motion::setBodyFrame(
+            states,
+            0,
+            {.position = place, .rotation = glm::angleAxis(-azimuth, glm::vec3(0, 1, 0))});
+        frame.after = {motion::recordOf(states, 0)};
         return frame;
     }
     // The azimuths at the eye's height that both channels light well.
     [[nodiscard]] std::vector<float> overlap() const {
         std::vector<float> azimuths;
         for (int i = 0; i < 4000; ++i) {
-            const glm::dvec3 point = screenPointAt(admission_.rig.screen, {i / 4000.0, 0.5});
-            if (std::min(blendWeight(admission_.rig, kLeft, point),
-                         blendWeight(admission_.rig, kMiddle, point)) > 0.2)
+            const glm::dvec3 point = wall::screenPointAt(admission_.rig.screen, {i / 4000.0, 0.5});
+            if (std::min(wall::blendWeight(admission_.rig, kLeft, point),
+                         wall::blendWeight(admission_.rig, kMiddle, point)) > 0.2)
                 azimuths.push_back(static_cast<float>(std::atan2(point.x, -point.z)));
         }
         return azimuths;
     }
-    static Projected shown(const Rig& rig,
+    static Projected shown(const config::Rig& rig,
                            std::size_t channel,
-                           ChannelPicture& picture,
-                           const StateFrame& frame) {
-        picture.drawScene(frame, Overlays{});
+                           show::ChannelPicture& picture,
+                           const wire::StateFrame& frame) {
+        picture.drawScene(frame, show::Overlays{});
         return {rig, channel, picture};
     }
 
-    std::unique_ptr<Context> context_ = makeOffscreenContext("auto", {480, 360});
-    Admission admission_ = admissionToTheSea();
-    ChannelPicture left_{admission_, kLeft, kQuality};
-    ChannelPicture middle_{admission_, kMiddle, kQuality};
+    std::unique_ptr<context::Context> context_ = context::makeOffscreenContext("auto", {480, 360});
+    session::Admission admission_ = admissionToTheSea();
+    show::ChannelPicture left_{admission_, kLeft, kQuality};
+    show::ChannelPicture middle_{admission_, kMiddle, kQuality};
 };
 
 TEST_F(Crossing, bothProjectorsShowTheSameFish) {
-    const Rig& rig = admission_.rig;
+    const config::Rig& rig = admission_.rig;
     const std::vector<float> azimuths = overlap();
     ASSERT_GT(azimuths.size(), 20U);
     // Nearer and nearer, through the levels of detail.
@@ -134,7 +138,8 @@ TEST_F(Crossing, bothProjectorsShowTheSameFish) {
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const float azimuth = azimuths[(i + 1) * azimuths.size() / (ranges.size() + 1)];
         const glm::vec3 direction(std::sin(azimuth), 0.0F, -std::cos(azimuth));
-        const StateFrame frame = frameWithFish(kEyePosition + ranges[i] * direction, azimuth);
+        const wire::StateFrame frame =
+            frameWithFish(place::kEyePosition + ranges[i] * direction, azimuth);
         const Projected one = shown(rig, kLeft, left_, frame);
         const Projected other = shown(rig, kMiddle, middle_, frame);
         for (int y = 0; y + kBlock <= rig.panoramaPixels.y; y += kBlock)
@@ -155,16 +160,16 @@ TEST_F(Crossing, aNodeThatHasJustStartedDrawsWhatAVeteranDraws) {
     const glm::vec3 direction(std::sin(azimuth), 0.0F, -std::cos(azimuth));
     for (int i = 0; i < 3; ++i)
         middle_.drawScene(
-            frameWithFish(kEyePosition + (4.0F - static_cast<float>(i)) * direction, 0.0F),
-            Overlays{});
-    const StateFrame frame = frameWithFish(kEyePosition + 2.0F * direction, azimuth);
-    const auto pixelsOf = [&](ChannelPicture& picture) {
-        picture.drawScene(frame, Overlays{});
+            frameWithFish(place::kEyePosition + (4.0F - static_cast<float>(i)) * direction, 0.0F),
+            show::Overlays{});
+    const wire::StateFrame frame = frameWithFish(place::kEyePosition + 2.0F * direction, azimuth);
+    const auto pixelsOf = [&](show::ChannelPicture& picture) {
+        picture.drawScene(frame, show::Overlays{});
         const gl::Target target(GL_RGBA16, picture.sizePixels());
-        picture.project(target.framebuffer(), Encoding::Plain, Overlays{});
+        picture.project(target.framebuffer(), project::Encoding::Plain, show::Overlays{});
         return gl::readRgb<std::uint16_t>(target);
     };
-    ChannelPicture started{admission_, kMiddle, kQuality};
+    show::ChannelPicture started{admission_, kMiddle, kQuality};
     EXPECT_EQ(pixelsOf(started), pixelsOf(middle_));
 }
 

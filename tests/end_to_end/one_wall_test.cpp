@@ -32,26 +32,26 @@ class Installation {
         fs::remove_all(folder_);
         fs::create_directories(folder_);
         const std::string config = std::string(AQUARAMA_SOURCE_DIR) + "/config/";
-        rig_ = readRig(config + name + ".txtpb");
+        rig_ = config::readRig(config + name + ".txtpb");
         rig_.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig_.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig_.scene = config + rig_.scene;
-        std::ofstream(folder_ / "rig.txtpb") << writeRig(rig_);
+        std::ofstream(folder_ / "rig.txtpb") << config::writeRig(rig_);
     }
     ~Installation() { fs::remove_all(folder_); }
     Installation(const Installation&) = delete;
     Installation& operator=(const Installation&) = delete;
 
     // The light of each channel after a run of the show.
-    std::vector<Light> show(const std::string& arguments) const {
+    std::vector<wall::Light> show(const std::string& arguments) const {
         const std::string command = std::string(getenv("AQUARAMA_BIN")) + "/aquarama run " +
                                     (folder_ / "rig.txtpb").string() + " --headless --snapshot " +
                                     folder_.string() + " " + arguments + " > " +
                                     (folder_ / "log").string() + " 2>&1";
         EXPECT_EQ(std::system(command.c_str()), 0) << log();
-        return readChannels(rig_, folder_.string());
+        return theatre::readChannels(rig_, folder_.string());
     }
-    [[nodiscard]] const Rig& rig() const { return rig_; }
+    [[nodiscard]] const config::Rig& rig() const { return rig_; }
 
   private:
     [[nodiscard]] std::string log() const {
@@ -59,20 +59,23 @@ class Installation {
         return {std::istreambuf_iterator<char>(file), {}};
     }
     fs::path folder_;
-    Rig rig_;
+    config::Rig rig_;
 };
 
 class OneWall : public testing::TestWithParam<const char*> {};
 
 TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
     const Installation installation(GetParam());
-    const Light composed =
-        composePanorama(installation.rig(), installation.show("--frames 2 --pattern grid --deep"));
-    const auto offsets = lineOffsets(
-        installation.rig(), composed, directPanorama(installation.rig(), TestPattern::Grid));
+    const wall::Light composed = theatre::composePanorama(
+        installation.rig(), installation.show("--frames 2 --pattern grid --deep"));
+    const auto offsets =
+        theatre::lineOffsets(installation.rig(),
+                             composed,
+                             theatre::directPanorama(installation.rig(), wall::TestPattern::Grid));
     ASSERT_GT(offsets.size(), 500U);
     double worst = 0;
-    for (const LineOffset& line : offsets) worst = std::max(worst, std::abs(line.offsetPixels));
+    for (const theatre::LineOffset& line : offsets)
+        worst = std::max(worst, std::abs(line.offsetPixels));
     RecordProperty("worst_px", std::to_string(worst));
     EXPECT_LT(worst, 0.5);
 }
@@ -80,9 +83,10 @@ TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
 TEST_P(OneWall, flatGreyStaysFlatAcrossTheOverlaps) {
     const Installation installation(GetParam());
     const auto deep = installation.show("--frames 2 --pattern grey --deep");
-    EXPECT_LT(unevenness(composePanorama(installation.rig(), deep), 1), 0.01);
+    EXPECT_LT(theatre::unevenness(theatre::composePanorama(installation.rig(), deep), 1), 0.01);
     const auto dithered = installation.show("--frames 2 --pattern grey");
-    EXPECT_LT(unevenness(composePanorama(installation.rig(), dithered), 16), 0.01);
+    EXPECT_LT(theatre::unevenness(theatre::composePanorama(installation.rig(), dithered), 16),
+              0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));
@@ -90,26 +94,26 @@ INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));
 // The scene as one channel alone shows it on the panorama: its light, freed of its blend.
 class Alone {
   public:
-    Alone(const Rig& rig, const std::vector<Light>& channels, std::size_t channel)
+    Alone(const config::Rig& rig, const std::vector<wall::Light>& channels, std::size_t channel)
         : rig_{rig}, channel_{channel} {
-        std::vector<Light> only = channels;
+        std::vector<wall::Light> only = channels;
         for (std::size_t other = 0; other < only.size(); ++other) {
-            if (other != channel) only[other] = darkness(only[other].sizePixels);
+            if (other != channel) only[other] = wall::darkness(only[other].sizePixels);
         }
-        panorama_ = composePanorama(rig, only);
+        panorama_ = theatre::composePanorama(rig, only);
     }
     [[nodiscard]] double weight(glm::ivec2 at) const {
         const glm::dvec2 unrolledAt = (glm::dvec2(at) + 0.5) / glm::dvec2(rig_.panoramaPixels);
-        return blendWeight(rig_, channel_, screenPointAt(rig_.screen, unrolledAt));
+        return wall::blendWeight(rig_, channel_, wall::screenPointAt(rig_.screen, unrolledAt));
     }
     [[nodiscard]] double green(glm::ivec2 at) const {
         return static_cast<double>(panorama_.at(at.x, at.y).g) / weight(at);
     }
 
   private:
-    const Rig& rig_;
+    const config::Rig& rig_;
     std::size_t channel_;
-    Light panorama_;
+    wall::Light panorama_;
 };
 
 // How far the one picture must be moved to lie on the other, by one least-squares step (Lucas and
@@ -131,7 +135,7 @@ glm::dvec2 displacement(const Alone& first,
 
 TEST(Neighbours, showTheSameFishAtTheSamePlaceOfTheScreen) {
     const Installation installation("touring");  // its overlaps are wide
-    const Rig& rig = installation.rig();
+    const config::Rig& rig = installation.rig();
     const auto channels = installation.show("--frames 6 --fish 2000 --deep");
     for (std::size_t left = 0; left + 1 < rig.channels.size(); ++left) {
         const Alone first(rig, channels, left);

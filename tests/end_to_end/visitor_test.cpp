@@ -32,11 +32,11 @@ class Master {
     explicit Master(const std::vector<std::string>& arguments) {
         fs::create_directories(folder_);
         const std::string config = std::string(AQUARAMA_SOURCE_DIR) + "/config/";
-        Rig rig = readRig(config + "desk.txtpb");
+        config::Rig rig = config::readRig(config + "desk.txtpb");
         control_ = rig.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig.scene = config + rig.scene;
-        std::ofstream(folder_ / "rig.txtpb") << writeRig(rig);
+        std::ofstream(folder_ / "rig.txtpb") << config::writeRig(rig);
         std::vector<std::string> words{std::string(getenv("AQUARAMA_BIN")) + "/aquarama-master",
                                        (folder_ / "rig.txtpb").string()};
         words.insert(words.end(), arguments.begin(), arguments.end());
@@ -54,8 +54,8 @@ class Master {
     Master(const Master&) = delete;
     Master& operator=(const Master&) = delete;
 
-    [[nodiscard]] std::unique_ptr<Session> connect() const {
-        return connectSession("middle", control_, folder_ / "blobs");
+    [[nodiscard]] std::unique_ptr<session::Session> connect() const {
+        return session::connectSession("middle", control_, folder_ / "blobs");
     }
 
   private:
@@ -65,10 +65,10 @@ class Master {
 };
 
 // World frame.
-std::vector<glm::vec3> pelletsIn(const StateFrame& state) {
+std::vector<glm::vec3> pelletsIn(const wire::StateFrame& state) {
     std::vector<glm::vec3> places;
-    for (const FoodRecord record : state.foodAfter)
-        if (record.kind() == FoodRecord::Kind::Pellet)
+    for (const wire::FoodRecord record : state.foodAfter)
+        if (record.kind() == wire::FoodRecord::Kind::Pellet)
             places.push_back(state.foodOriginMetres + record.offsetMetres());
     return places;
 }
@@ -81,7 +81,7 @@ float meanHeight(const std::vector<glm::vec3>& places) {
 
 // The next state in which `isIt` holds; empty after so many frames without.
 template <class Predicate>
-std::optional<StateFrame> await(Session& session, Predicate isIt) {
+std::optional<wire::StateFrame> await(session::Session& session, Predicate isIt) {
     constexpr int kMostFrames = 1200;
     for (int frame = 0; frame < kMostFrames; ++frame) {
         auto state = session.nextFrame();
@@ -96,8 +96,8 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     const Master master({"--seed", "3"});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared(QualityTier::Low);
-    const auto first = await(*session, [](const StateFrame&) { return true; });
+    session->prepared(config::QualityTier::Low);
+    const auto first = await(*session, [](const wire::StateFrame&) { return true; });
     ASSERT_TRUE(first);
     EXPECT_TRUE(pelletsIn(*first).empty());
     EXPECT_GT(first->foodAfter.size(), 100U) << "plankton and room for pellets";
@@ -108,19 +108,19 @@ TEST(Visitor, whatIsDroppedFallsWhereItWasDroppedAndSinks) {
     session->dropFood(drop);                         // too soon after the first
     session->dropFood(drop + glm::vec3(0, 0, 500));  // out of reach
     const auto fed =
-        await(*session, [](const StateFrame& state) { return !pelletsIn(state).empty(); });
+        await(*session, [](const wire::StateFrame& state) { return !pelletsIn(state).empty(); });
     ASSERT_TRUE(fed);
     const std::vector<glm::vec3> pinch = pelletsIn(*fed);
     EXPECT_LE(pinch.size(), 12U);
     for (const glm::vec3 place : pinch) EXPECT_LT(glm::distance(place, drop), 1.0F);
     // Pellets sink, some are eaten meanwhile: those that are left are deeper by and by.
-    const auto later = await(*session, [&](const StateFrame& state) {
+    const auto later = await(*session, [&](const wire::StateFrame& state) {
         const std::vector<glm::vec3> left = pelletsIn(state);
         return left.empty() || meanHeight(left) < meanHeight(pinch) - 0.02F;
     });
     ASSERT_TRUE(later);
     EXPECT_LE(pelletsIn(*later).size(), 12U);
-    session->send(NodeInput::Quit);
+    session->send(session::NodeInput::Quit);
 }
 
 // Ahead, and turned to the left: the eye goes on and looks elsewhere; who lets go glides to rest.
@@ -128,13 +128,13 @@ TEST(Visitor, steersTheSubmarine) {
     const Master master({});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared(QualityTier::Low);
-    const auto first = await(*session, [](const StateFrame&) { return true; });
+    session->prepared(config::QualityTier::Low);
+    const auto first = await(*session, [](const wire::StateFrame&) { return true; });
     ASSERT_TRUE(first);
     const glm::vec3 begin = first->eye.positionMetres;
-    const auto ahead = [](const Eye& eye) { return eye.worldFromWall * glm::vec3(0, 0, -1); };
+    const auto ahead = [](const wire::Eye& eye) { return eye.worldFromWall * glm::vec3(0, 0, -1); };
     EXPECT_GT(glm::dot(ahead(first->eye), glm::vec3(0, 0, -1)), 0.9999F);
-    const auto moved = await(*session, [&](const StateFrame& state) {
+    const auto moved = await(*session, [&](const wire::StateFrame& state) {
         session->steer({.ahead = 127, .turn = 127});
         return glm::distance(state.eye.positionMetres, begin) > 0.5F;
     });
@@ -144,10 +144,10 @@ TEST(Visitor, steersTheSubmarine) {
     // No jump between two frames, however far apart they are.
     auto last = *moved;
     float fastest = 0;
-    const auto seconds = [](const StateFrame& state) {
+    const auto seconds = [](const wire::StateFrame& state) {
         return (static_cast<float>(state.tick.value) - 1 + state.fraction) / 60;
     };
-    const auto rested = await(*session, [&](const StateFrame& state) {
+    const auto rested = await(*session, [&](const wire::StateFrame& state) {
         const float metres = glm::distance(state.eye.positionMetres, last.eye.positionMetres);
         const float time = seconds(state) - seconds(last);
         if (time < 0.1F) return false;
@@ -157,20 +157,21 @@ TEST(Visitor, steersTheSubmarine) {
     });
     ASSERT_TRUE(rested) << "its last word holds for half a second";
     EXPECT_LT(fastest, 1.3F);
-    session->send(NodeInput::Quit);
+    session->send(session::NodeInput::Quit);
 }
 
 TEST(Visitor, looksIntoTheMindOfAFish) {
     const Master master({});
     const auto session = master.connect();
     ASSERT_TRUE(session->join());
-    session->prepared(QualityTier::Low);
+    session->prepared(config::QualityTier::Low);
     session->askMind(0);
-    const auto told = await(*session, [&](const StateFrame&) { return session->latestMind(); });
+    const auto told =
+        await(*session, [&](const wire::StateFrame&) { return session->latestMind(); });
     ASSERT_TRUE(told);
     EXPECT_EQ(session->latestMind()->fish, 0U);
     EXPECT_FALSE(session->latestMind()->lines.empty());
-    session->send(NodeInput::Quit);
+    session->send(session::NodeInput::Quit);
 }
 
 }  // namespace

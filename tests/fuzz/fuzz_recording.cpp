@@ -10,10 +10,10 @@ namespace aquarama {
 namespace {
 
 // What happened, written once more.
-Packet inputsOf(const Recording& recording) {
-    Packet bytes;
-    for (const RecordedInput& input : recording.inputs) {
-        const Packet entry = entryOf(input);
+wire::Packet inputsOf(const wire::Recording& recording) {
+    wire::Packet bytes;
+    for (const wire::RecordedInput& input : recording.inputs) {
+        const wire::Packet entry = wire::entryOf(input);
         bytes.insert(bytes.end(), entry.begin(), entry.end());
     }
     return bytes;
@@ -24,17 +24,17 @@ Packet inputsOf(const Recording& recording) {
 // What is read is bounded and in order, and can be written and read again.
 int fuzzRecording(const std::uint8_t* bytes, std::size_t size) {
     try {
-        const Recording recording =
-            decodeRecording(std::as_bytes(std::span(bytes, size)), "fuzzed");
+        const wire::Recording recording =
+            wire::decodeRecording(std::as_bytes(std::span(bytes, size)), "fuzzed");
         std::size_t fish = 0;
-        for (const ProducedSpecies& species : recording.production.cast) fish += species.fish;
-        promise(fish <= kMaxFish, "the fish of a recording are bounded");
-        for (const RecordedInput& input : recording.inputs)
+        for (const wire::ProducedSpecies& species : recording.production.cast) fish += species.fish;
+        promise(fish <= wire::kMaxFish, "the fish of a recording are bounded");
+        for (const wire::RecordedInput& input : recording.inputs)
             promise(input.tick <= recording.lastTick(), "nothing comes after the last tick");
-        Packet again = beginningOf(recording.production);
-        const Packet events = inputsOf(recording);
+        wire::Packet again = wire::beginningOf(recording.production);
+        const wire::Packet events = inputsOf(recording);
         again.insert(again.end(), events.begin(), events.end());
-        promise(inputsOf(decodeRecording(again, "again")) == events,
+        promise(inputsOf(wire::decodeRecording(again, "again")) == events,
                 "what was read can be written and read");
     } catch (const Error& error) {
         promise(*error.what() != '\0', "an error says what is wrong");

@@ -18,8 +18,9 @@ using Bytes = std::vector<std::byte>;
 
 void readOne(const Bytes& file) {
     try {
-        const Repertoire repertoire = decodeRepertoire(file, "fuzzed");
-        promise(encodeRepertoire(repertoire) == file, "a repertoire is written as it was read");
+        const motion::Repertoire repertoire = motion::decodeRepertoire(file, "fuzzed");
+        promise(motion::encodeRepertoire(repertoire) == file,
+                "a repertoire is written as it was read");
     } catch (const Error& error) {
         promise(std::string(error.what()).starts_with("fuzzed: "), "an error names its source");
     }

@@ -10,10 +10,11 @@ namespace aquarama {
 
 namespace {
 
-void writeAndReadAgain(const Rig& rig) {
-    const std::string text = writeRig(rig);
+void writeAndReadAgain(const config::Rig& rig) {
+    const std::string text = config::writeRig(rig);
     try {
-        promise(writeRig(parseRig(text, "written")) == text, "a rig is read as it was written");
+        promise(config::writeRig(config::parseRig(text, "written")) == text,
+                "a rig is read as it was written");
     } catch (const Error& error) {
         promise(false, error.what());
     }
@@ -24,7 +25,7 @@ void writeAndReadAgain(const Rig& rig) {
 int fuzzRig(const std::uint8_t* bytes, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(bytes), size);
     try {
-        writeAndReadAgain(parseRig(text, "fuzzed"));
+        writeAndReadAgain(config::parseRig(text, "fuzzed"));
     } catch (const Error& error) {
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }

@@ -10,10 +10,10 @@ namespace aquarama {
 
 namespace {
 
-void writeAndReadAgain(const Scene& scene) {
-    const std::string text = writeScene(scene);
+void writeAndReadAgain(const config::Scene& scene) {
+    const std::string text = config::writeScene(scene);
     try {
-        promise(writeScene(parseScene(text, "written")) == text,
+        promise(config::writeScene(config::parseScene(text, "written")) == text,
                 "a scene is read as it was written");
     } catch (const Error& error) {
         promise(false, error.what());
@@ -25,7 +25,7 @@ void writeAndReadAgain(const Scene& scene) {
 int fuzzScene(const std::uint8_t* bytes, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(bytes), size);
     try {
-        writeAndReadAgain(parseScene(text, "fuzzed"));
+        writeAndReadAgain(config::parseScene(text, "fuzzed"));
     } catch (const Error& error) {
         promise(std::string(error.what()).starts_with("fuzzed"), "an error names its source");
     }

@@ -13,8 +13,8 @@ namespace aquarama {
 int fuzzSpecies(const std::uint8_t* bytes, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(bytes), size);
     try {
-        const FishBody body = makeBody(parseSpecies(text, "fuzzed"));
-        promise(body.cage.vertices.size() == std::size_t{kControlPoints}, "a cage is whole");
+        const body::FishBody body = body::makeBody(config::parseSpecies(text, "fuzzed"));
+        promise(body.cage.vertices.size() == std::size_t{body::kControlPoints}, "a cage is whole");
     } catch (const Error& error) {
         promise(*error.what() != '\0', "an error says what is wrong");
     }

@@ -54,10 +54,11 @@ void feed(Target target, const std::vector<FuzzInput>& seeds, int mutations) {
 }
 
 TEST(Fuzz, damagedRepertoiresAreRefusedOrReadWhole) {
-    Repertoire repertoire = syntheticRepertoire(false);
-    std::vector<FuzzInput> seeds{inputOf(encodeRepertoire(repertoire))};
-    repertoire.segments[2].controlPoints = syntheticRepertoire(true).segments[2].controlPoints;
-    seeds.push_back(inputOf(encodeRepertoire(repertoire)));
+    motion::Repertoire repertoire = test::syntheticRepertoire(false);
+    std::vector<FuzzInput> seeds{inputOf(motion::encodeRepertoire(repertoire))};
+    repertoire.segments[2].controlPoints =
+        test::syntheticRepertoire(true).segments[2].controlPoints;
+    seeds.push_back(inputOf(motion::encodeRepertoire(repertoire)));
     feed(fuzzRepertoire, seeds, 2000);
 }
 
@@ -75,14 +76,15 @@ TEST(Fuzz, damagedScenesAreRefusedOrReadWhole) {
 }
 
 TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
-    std::vector<FuzzInput> seeds{inputOf(joined(sampleEntries()))};
-    for (const Packet& entry : sampleEntries()) seeds.push_back(inputOf(entry));
+    std::vector<FuzzInput> seeds{inputOf(wire::joined(wire::sampleEntries()))};
+    for (const wire::Packet& entry : wire::sampleEntries()) seeds.push_back(inputOf(entry));
     feed(fuzzRecording, seeds, 20000);
 }
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {
     std::vector<FuzzInput> seeds;
-    for (const Envelope& envelope : sampleEnvelopes()) seeds.push_back(inputOf(encode(envelope)));
+    for (const wire::Envelope& envelope : wire::sampleEnvelopes())
+        seeds.push_back(inputOf(wire::encode(envelope)));
     feed(fuzzWire, seeds, 50000);
 }
 

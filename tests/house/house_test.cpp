@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each folder may include only what docs/architecture.md allows it.
+// Each folder may include only what docs/architecture.md allows it; no two types share a name.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -20,22 +20,62 @@ struct Inclusion {
     std::string included;  // as written between <> or ""
 };
 
-std::vector<Inclusion> inclusions() {
-    std::vector<Inclusion> all;
+struct SourceFile {
+    std::string path;  // from the root
+    std::vector<std::string> lines;
+};
+
+// All headers and sources of the product.
+std::vector<SourceFile> sourceFiles() {
+    std::vector<SourceFile> all;
     const fs::path root = AQUARAMA_SOURCE_DIR;
-    const std::regex include(R"re(^\s*#include\s+[<"]([^>"]+)[>"])re");
     for (const char* top : {"common", "master", "render_node", "calibration"}) {
         for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
             if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+            SourceFile file{fs::relative(entry.path(), root), {}};
             std::ifstream source(entry.path());
-            std::smatch match;
-            for (std::string line; std::getline(source, line);) {
-                if (std::regex_search(line, match, include))
-                    all.push_back({fs::relative(entry.path(), root), match[1]});
-            }
+            for (std::string line; std::getline(source, line);) file.lines.push_back(line);
+            all.push_back(std::move(file));
         }
     }
     return all;
+}
+
+std::vector<Inclusion> inclusions() {
+    std::vector<Inclusion> all;
+    const std::regex include(R"re(^\s*#include\s+[<"]([^>"]+)[>"])re");
+    std::smatch match;
+    for (const SourceFile& file : sourceFiles())
+        for (const std::string& line : file.lines)
+            if (std::regex_search(line, match, include)) all.push_back({file.path, match[1]});
+    return all;
+}
+
+// The types that a file defines for other files to see: at namespace scope, where the formatter
+// leaves no indentation, and in no unnamed namespace.
+std::vector<std::string> typesOf(const SourceFile& file) {
+    const std::regex definition(
+        R"re(^(?:struct|class|union|enum(?: class)?) (?:alignas\([^)]*\) )?(\w+)(?!\w|::)[^;]*$)re");
+    std::vector<std::string> types;
+    bool unnamed = false;
+    std::smatch match;
+    for (const std::string& line : file.lines) {
+        if (line == "namespace {") unnamed = true;
+        if (line == "}  // namespace") unnamed = false;
+        if (!unnamed && std::regex_search(line, match, definition)) types.push_back(match[1]);
+    }
+    return types;
+}
+
+// The namespace in which a file defines: the last that it opens, as others are forward declared
+// before. Empty where it opens none.
+std::string namespaceOf(const SourceFile& file) {
+    const std::regex opening(R"re(^namespace (aquarama(?:::[a-z_0-9]+)*))re");
+    std::string last;
+    std::smatch match;
+    for (const std::string& line : file.lines)
+        if (std::regex_search(line, match, opening)) last = match[1];
+    return last;
 }
 
 bool within(const std::string& file, const std::vector<std::string>& folders) {
@@ -57,6 +97,35 @@ std::vector<std::string> strangers(const std::regex& library,
 
 TEST(House, theTreeIsRead) {
     EXPECT_GT(inclusions().size(), 100U);
+    EXPECT_EQ(namespaceOf({"", {"namespace aquarama::config {", "namespace aquarama::body {"}}),
+              "aquarama::body");
+    EXPECT_EQ(typesOf({"", {"struct A {", "class B;", "namespace {", "struct C {"}}),
+              std::vector<std::string>{"A"});
+}
+
+// Two definitions of one qualified name in one program are undefined behaviour that no tool
+// reports; two of one simple name in different namespaces confuse a reader.
+TEST(House, noTwoTypesShareAName) {
+    std::map<std::string, std::string> home;
+    for (const SourceFile& file : sourceFiles())
+        for (const std::string& type : typesOf(file)) {
+            const auto [known, isNew] = home.emplace(type, file.path);
+            EXPECT_TRUE(isNew) << type << " is defined in " << known->second << " and in "
+                               << file.path << ": rename one of them";
+        }
+    EXPECT_GT(home.size(), 300U);
+}
+
+TEST(House, aFolderHasOneNamespace) {
+    std::map<std::string, std::pair<std::string, std::string>> ofFolder;  // name, first file
+    for (const SourceFile& file : sourceFiles()) {
+        const std::string name = namespaceOf(file);
+        if (name.empty() || file.path.ends_with("/main.cpp")) continue;  // a program's own
+        const std::string folder = file.path.substr(0, file.path.rfind('/'));
+        const auto& [expected, first] =
+            ofFolder.emplace(folder, std::pair{name, file.path}).first->second;
+        EXPECT_EQ(name, expected) << file.path << " differs from " << first;
+    }
 }
 
 TEST(House, zeroMqStaysInNet) {

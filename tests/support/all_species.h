@@ -8,18 +8,18 @@
 
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::test {
 
-inline const std::vector<Species>& allSpecies() {
-    static const std::vector<Species> all = [] {
-        std::vector<Species> read;
+inline const std::vector<config::Species>& allSpecies() {
+    static const std::vector<config::Species> all = [] {
+        std::vector<config::Species> read;
         for (const auto& file :
              std::filesystem::directory_iterator(AQUARAMA_SOURCE_DIR "/config/species"))
-            read.push_back(readSpecies(file.path().string()));
-        std::ranges::sort(read, {}, &Species::name);
+            read.push_back(config::readSpecies(file.path().string()));
+        std::ranges::sort(read, {}, &config::Species::name);
         return read;
     }();
     return all;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::test

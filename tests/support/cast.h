@@ -8,7 +8,7 @@
 #include "common/config/species.h"
 #include "tests/support/source_folder.h"
 
-namespace aquarama {
+namespace aquarama::test {
 
 inline const std::array<std::string, 7> kCast{"bigeye_scad",
                                               "clownfish",
@@ -18,8 +18,8 @@ inline const std::array<std::string, 7> kCast{"bigeye_scad",
                                               "trumpetfish",
                                               "blacktip_reef_shark"};
 
-inline Species castMember(const std::string& name) {
-    return readSpecies(sourceFolder() + "/config/species/" + name + ".txtpb");
+inline config::Species castMember(const std::string& name) {
+    return config::readSpecies(sourceFolder() + "/config/species/" + name + ".txtpb");
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::test

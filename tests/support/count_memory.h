@@ -8,14 +8,14 @@
 #include <cstdlib>
 #include <new>
 
-namespace aquarama {
+namespace aquarama::test {
 
 inline std::atomic<std::size_t> bytesTaken = 0;
 
-}  // namespace aquarama
+}  // namespace aquarama::test
 
 void* operator new(std::size_t size) {
-    aquarama::bytesTaken += size;
+    aquarama::test::bytesTaken += size;
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }

@@ -10,12 +10,12 @@
 #include "common/units/error.h"
 #include "common/wall/png_file.h"
 
-namespace aquarama {
+namespace aquarama::test {
 namespace {
 
 constexpr int kGap = 6;  // pixels between pictures, half of it at the sheet's rim
 
-void paste(Picture& sheet, const Picture& picture, glm::ivec2 corner) {
+void paste(wall::Picture& sheet, const wall::Picture& picture, glm::ivec2 corner) {
     for (int y = 0; y < picture.sizePixels.y; ++y) {
         const auto row = picture.rgb.begin() + std::ptrdiff_t{3} * y * picture.sizePixels.x;
         std::copy_n(row,
@@ -25,17 +25,17 @@ void paste(Picture& sheet, const Picture& picture, glm::ivec2 corner) {
     }
 }
 
-Picture sheetOf(const std::vector<std::string>& paths, int columns) {
-    const glm::ivec2 size = readPng(paths.front()).sizePixels;
+wall::Picture sheetOf(const std::vector<std::string>& paths, int columns) {
+    const glm::ivec2 size = wall::readPng(paths.front()).sizePixels;
     const int rows = (static_cast<int>(paths.size()) + columns - 1) / columns;
-    Picture sheet;
+    wall::Picture sheet;
     sheet.sizePixels = (size + kGap) * glm::ivec2{columns, rows};
     sheet.rgb.resize(std::size_t{3} * static_cast<std::size_t>(sheet.sizePixels.x) *
                          static_cast<std::size_t>(sheet.sizePixels.y),
                      255);
     for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
         const std::string& path = paths[static_cast<std::size_t>(i)];
-        const Picture picture = readPng(path);
+        const wall::Picture picture = wall::readPng(path);
         if (picture.sizePixels != size || picture.bits != 8)
             throw Error(path + " is not of the size and depth of " + paths.front() +
                         ": draw all alike");
@@ -45,7 +45,7 @@ Picture sheetOf(const std::vector<std::string>& paths, int columns) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::test
 
 int main(int count, char** arguments) {
     const std::vector<std::string> words(arguments + 1, arguments + count);
@@ -55,7 +55,8 @@ int main(int count, char** arguments) {
     }
     try {
         const int columns = std::max(std::stoi(words[1]), 1);
-        aquarama::writePng(words[0], aquarama::sheetOf({words.begin() + 2, words.end()}, columns));
+        aquarama::wall::writePng(words[0],
+                                 aquarama::sheetOf({words.begin() + 2, words.end()}, columns));
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "aquarama_draw_sheet: " << error.what() << '\n';

@@ -16,20 +16,20 @@
 #include "tests/common/body/bend.h"
 #include "tests/support/portrait.h"
 
-namespace aquarama {
+namespace aquarama::test {
 namespace {
 
 constexpr int kSamples = 3;  // a pixel each way
 constexpr glm::vec3 kWater{0.055F, 0.16F, 0.21F};
 
-Light sheet(glm::vec2 sizePixels) {
-    Light light = darkness(glm::ivec2(glm::ceil(sizePixels)) * kSamples);
+wall::Light sheet(glm::vec2 sizePixels) {
+    wall::Light light = wall::darkness(glm::ivec2(glm::ceil(sizePixels)) * kSamples);
     std::ranges::fill(light.rgb, kWater);
     return light;
 }
 
-Light shrunk(const Light& fine) {
-    Light light = darkness(fine.sizePixels / kSamples);
+wall::Light shrunk(const wall::Light& fine) {
+    wall::Light light = wall::darkness(fine.sizePixels / kSamples);
     for (int y = 0; y < light.sizePixels.y * kSamples; ++y)
         for (int x = 0; x < light.sizePixels.x * kSamples; ++x)
             light.at(x / kSamples, y / kSamples) +=
@@ -37,27 +37,28 @@ Light shrunk(const Light& fine) {
     return light;
 }
 
-void save(const Light& fine, const std::string& path) {
-    Picture picture = pictureOf(shrunk(fine), 16, 0);  // 8 bits would be dithered: twice the file
+void save(const wall::Light& fine, const std::string& path) {
+    wall::Picture picture =
+        wall::pictureOf(shrunk(fine), 16, 0);  // 8 bits would be dithered: twice the file
     picture.bits = 8;
     for (std::uint16_t& code : picture.rgb) code = static_cast<std::uint16_t>(code >> 8);
-    writePng(path, picture);
+    wall::writePng(path, picture);
     std::cout << path << '\n';
 }
 
-NodalPoints bent(const FishBody& body) {
-    NodalPoints nodes = body.restNodes;
-    for (glm::vec3& node : nodes) node = bentToTheRight(node, 0.9F);
+body::NodalPoints bent(const body::FishBody& body) {
+    body::NodalPoints nodes = body.restNodes;
+    for (glm::vec3& node : nodes) node = body::bentToTheRight(node, 0.9F);
     return nodes;
 }
 
 struct Fish {
-    Species species;
-    FishBody body;
+    config::Species species;
+    body::FishBody body;
     Portrait rest, bend;
-    explicit Fish(const Species& read)
+    explicit Fish(const config::Species& read)
         : species(read),
-          body(makeBody(read)),
+          body(body::makeBody(read)),
           rest(read, body, body.restNodes),
           bend(read, body, bent(body)) {}
 };
@@ -70,7 +71,7 @@ struct Panel {
     float scale;  // pixels a body length
 };
 
-void draw(Light& paper, const Panel& panel) {
+void draw(wall::Light& paper, const Panel& panel) {
     const glm::vec2 origin = panel.corner - panel.scale * panel.portrait->extent(panel.view).least;
     panel.portrait->draw(
         paper, panel.view, origin * float(kSamples), panel.scale * float(kSamples));
@@ -96,7 +97,7 @@ void drawViews(const std::vector<Fish>& fish, const std::string& path) {
         add(one.rest, kFromTheFront, kGap * 4 + kScale * 2.95F);
         corner.y += height + kGap;
     }
-    Light paper = sheet({width + kGap, corner.y});
+    wall::Light paper = sheet({width + kGap, corner.y});
     for (const Panel& panel : panels) draw(paper, panel);
     save(paper, path);
 }
@@ -120,13 +121,13 @@ void drawSizes(const std::vector<Fish>& fish, const std::string& path) {
         corner.x += size.x + kGap;
         height = std::max(height, size.y);
     }
-    Light paper = sheet({kWidth + kGap, corner.y + height + kGap});
+    wall::Light paper = sheet({kWidth + kGap, corner.y + height + kGap});
     for (const Panel& panel : panels) draw(paper, panel);
     save(paper, path);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::test
 
 int main(int count, char** arguments) {
     const std::vector<std::string> words(arguments + 1, arguments + count);
@@ -137,7 +138,7 @@ int main(int count, char** arguments) {
     try {
         std::vector<aquarama::Fish> fish;
         for (const std::string& path : std::span(words).subspan(1))
-            fish.emplace_back(aquarama::readSpecies(path));
+            fish.emplace_back(aquarama::config::readSpecies(path));
         aquarama::drawViews(fish, words[0] + "/species.png");
         aquarama::drawSizes(fish, words[0] + "/species_sizes.png");
         return 0;

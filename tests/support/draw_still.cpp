@@ -64,11 +64,11 @@ void addPlate(test::Still& still) {
 
 test::Still stillOf(const Wish& wish, test::Still still) {
     still.camera.eyeMetres = {wish.eye.at(0), wish.eye.at(1), wish.eye.at(2)};
-    if (wish.openSea) still.options.place = PlaceKind::OpenSea;
-    const auto tier = std::ranges::find(kTierNames, wish.tier);
-    still.options.quality = static_cast<QualityTier>(tier - kTierNames.begin());
-    const auto water = std::ranges::find(kWaterTypeNames, wish.water);
-    still.options.water = static_cast<WaterType>(water - kWaterTypeNames.begin());
+    if (wish.openSea) still.options.place = config::PlaceKind::OpenSea;
+    const auto tier = std::ranges::find(config::kTierNames, wish.tier);
+    still.options.quality = static_cast<config::QualityTier>(tier - config::kTierNames.begin());
+    const auto water = std::ranges::find(config::kWaterTypeNames, wish.water);
+    still.options.water = static_cast<config::WaterType>(water - config::kWaterTypeNames.begin());
     if (wish.plate) addPlate(still);
     // Side by side, the first in the middle.
     test::Camera camera = still.camera;
@@ -121,8 +121,8 @@ int main(int argc, char** argv) try {
     app.add_flag("--open-sea", wish.openSea, "no floor");
     app.add_option("--out", wish.out, "PNG file");
     CLI11_PARSE(app, argc, argv);
-    const auto context = makeOffscreenContext("auto", {16, 16});
-    writePng(wish.out, test::pictureOf(stillOf(wish, still)));
+    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    wall::writePng(wish.out, test::pictureOf(stillOf(wish, still)));
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "aquarama_draw_still: %s\n", error.what());

@@ -19,16 +19,16 @@ void addPlace(Stills& stills) {
         Still still;
         still.camera.azimuthDegrees = direction.azimuthDegrees;
         still.camera.sizePixels = {320, 180};
-        still.options.quality = QualityTier::Medium;
+        still.options.quality = config::QualityTier::Medium;
         stills.push_back({std::string("place/") + direction.name, still, {}});
     }
 }
 
 void addWater(Stills& stills) {
     constexpr GoldenLimits kLimits{.meanCodes = 0.6};
-    for (std::size_t i = 0; i < kWaterTypeNames.size(); ++i)
-        stills.push_back({"water/" + std::string(kWaterTypeNames.at(i)),
-                          reefIn(static_cast<WaterType>(i)),
+    for (std::size_t i = 0; i < config::kWaterTypeNames.size(); ++i)
+        stills.push_back({"water/" + std::string(config::kWaterTypeNames.at(i)),
+                          reefIn(static_cast<config::WaterType>(i)),
                           kLimits});
     for (const float depth : {1.2F, 25.0F})
         stills.push_back({"water/open_sea_" + std::to_string(std::lround(depth)) + "_m",
@@ -38,10 +38,10 @@ void addWater(Stills& stills) {
 
 Still openSeaTowards(float azimuthDegrees, float elevationDegrees, float heightDegrees) {
     Still still;
-    still.options.quality = QualityTier::Medium;
-    still.options.place = PlaceKind::OpenSea;
+    still.options.quality = config::QualityTier::Medium;
+    still.options.place = config::PlaceKind::OpenSea;
     still.camera = {
-        kEyePosition, azimuthDegrees, elevationDegrees, heightDegrees, glm::ivec2{320, 180}};
+        place::kEyePosition, azimuthDegrees, elevationDegrees, heightDegrees, glm::ivec2{320, 180}};
     return still;
 }
 
@@ -50,7 +50,8 @@ void addSurface(Stills& stills) {
     stills.push_back({"surface/window", openSeaTowards(-28.0F, 50.0F, 70.0F), {}});
     stills.push_back({"surface/wall", openSeaTowards(30.0F, 16.0F, 50.0F), {}});
     Still school = openSeaTowards(-10.0F, 6.0F, 45.0F);
-    school.fish = ballOf("bigeye_scad", 250, kEyePosition + glm::vec3{-0.8F, 0.4F, -4.5F}, 1.2F);
+    school.fish =
+        ballOf("bigeye_scad", 250, place::kEyePosition + glm::vec3{-0.8F, 0.4F, -4.5F}, 1.2F);
     stills.push_back({"surface/school", school, {}});
 }
 
@@ -72,8 +73,8 @@ Still portrait(const Sitter& sitter, float turnDegrees) {
     Still still;
     still.camera.sizePixels = {320, 180};
     still.camera.heightDegrees = 19.3F;
-    still.options.place = PlaceKind::OpenSea;
-    still.options.quality = QualityTier::High;
+    still.options.place = config::PlaceKind::OpenSea;
+    still.options.quality = config::QualityTier::High;
     const float away = sitter.lengthMetres * sitter.height / (2 * kTangent);
     still.fish = {portraitOf(sitter.species, still.camera, away, turnDegrees, sitter.lengthMetres)};
     return still;
@@ -90,15 +91,15 @@ void addSpecies(Stills& stills) {
 struct Level {
     const char* name;
     float pixels;  // of a fish's length
-    QualityTier tier;
+    config::QualityTier tier;
 };
-constexpr Level kLevels[]{{"point", 2.0F, QualityTier::Low},
-                          {"fading", 3.2F, QualityTier::Low},
-                          {"few_triangles", 9.0F, QualityTier::Low},
-                          {"control_mesh", 40.0F, QualityTier::Low},
-                          {"mesh", 120.0F, QualityTier::Low},
-                          {"hero", 170.0F, QualityTier::High},
-                          {"close_up", 640.0F, QualityTier::High}};
+constexpr Level kLevels[]{{"point", 2.0F, config::QualityTier::Low},
+                          {"fading", 3.2F, config::QualityTier::Low},
+                          {"few_triangles", 9.0F, config::QualityTier::Low},
+                          {"control_mesh", 40.0F, config::QualityTier::Low},
+                          {"mesh", 120.0F, config::QualityTier::Low},
+                          {"hero", 170.0F, config::QualityTier::High},
+                          {"close_up", 640.0F, config::QualityTier::High}};
 
 Still fishAtLevel(const Level& level) {
     Still still;
@@ -106,7 +107,7 @@ Still fishAtLevel(const Level& level) {
     const bool isSmall = level.pixels < 10.0F;
     still.camera.sizePixels = isSmall ? glm::ivec2{96, 54} : glm::ivec2{224, 126};
     still.camera.heightDegrees = isSmall ? 75.0F : 10.0F;
-    still.options.place = PlaceKind::OpenSea;
+    still.options.place = config::PlaceKind::OpenSea;
     still.options.quality = level.tier;
     const float metres = 0.24F / (level.pixels * pixelRadiansOf(still.camera));
     const int fish = isSmall ? 12 : 1;
@@ -130,19 +131,19 @@ void addLevels(Stills& stills) {
 
 }  // namespace
 
-Still reefIn(WaterType type) {
+Still reefIn(config::WaterType type) {
     Still still;
     still.camera.sizePixels = {320, 180};
     still.camera.heightDegrees = 60.0F;
-    still.options.quality = QualityTier::Medium;
+    still.options.quality = config::QualityTier::Medium;
     still.options.water = type;
     return still;
 }
 
 Still openSea(float depthMetres) {
-    Still still = reefIn(WaterType::IA);
+    Still still = reefIn(config::WaterType::IA);
     still.camera.eyeMetres = {0.0F, -depthMetres, 0.0F};
-    still.options.place = PlaceKind::OpenSea;
+    still.options.place = config::PlaceKind::OpenSea;
     return still;
 }
 

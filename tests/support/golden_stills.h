@@ -22,7 +22,7 @@ struct GoldenStill {
 [[nodiscard]] std::vector<GoldenStill> goldenStills(std::string_view beginning = "");
 
 // The reef in water of a type, and the open sea from a depth below its surface.
-[[nodiscard]] Still reefIn(WaterType type);
+[[nodiscard]] Still reefIn(config::WaterType type);
 [[nodiscard]] Still openSea(float depthMetres);
 
 }  // namespace aquarama::test

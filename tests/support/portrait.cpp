@@ -12,14 +12,14 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::test {
 
 namespace {
 
 constexpr int kLevel = 2;
 
-glm::vec3 paintOf(const Species& species, const std::string& part) {
-    const auto found = std::ranges::find(species.palette, part, &Paint::part);
+glm::vec3 paintOf(const config::Species& species, const std::string& part) {
+    const auto found = std::ranges::find(species.palette, part, &config::Paint::part);
     if (found == species.palette.end())
         throw Error(species.name + ": the palette lacks \"" + part + "\": add it");
     return found->linear;
@@ -60,7 +60,9 @@ void fill(const std::array<glm::vec2, 3>& corners, glm::ivec2 size, const Paint&
 
 }  // namespace
 
-Portrait::Portrait(const Species& species, const FishBody& body, const NodalPoints& nodes)
+Portrait::Portrait(const config::Species& species,
+                   const body::FishBody& body,
+                   const body::NodalPoints& nodes)
     : palette_{.back = paintOf(species, "back"),
                .flank = paintOf(species, "flank"),
                .belly = paintOf(species, "belly"),
@@ -68,13 +70,13 @@ Portrait::Portrait(const Species& species, const FishBody& body, const NodalPoin
                .tail = paintOf(species, "tail"),
                .iris = paintOf(species, "iris")},
       eye_(body.eye),
-      table_(makeLimitTable(body, kLevel)) {
-    std::vector<glm::vec3> controlPoints(kControlPoints);
-    poseCage(body, nodes, controlPoints);
+      table_(skin::makeLimitTable(body, kLevel)) {
+    std::vector<glm::vec3> controlPoints(body::kControlPoints);
+    body::poseCage(body, nodes, controlPoints);
     for (std::size_t i = 0; i < table_.vertices.size(); ++i) {
         glm::vec3 position{}, u{}, v{};
         for (std::uint32_t k = table_.firstEntry[i]; k < table_.firstEntry[i + 1]; ++k) {
-            const StencilEntry& entry = table_.entries[k];
+            const skin::StencilEntry& entry = table_.entries[k];
             position += entry.position * controlPoints[entry.controlPoint];
             u += entry.tangentU * controlPoints[entry.controlPoint];
             v += entry.tangentV * controlPoints[entry.controlPoint];
@@ -92,10 +94,10 @@ Portrait::Extent Portrait::extent(const View& view) const {
     return extent;
 }
 
-glm::vec3 Portrait::colourOf(std::uint32_t part, const SkinPlace& place) const {
-    if (part == static_cast<std::uint32_t>(CagePart::Caudal)) return palette_.tail;
-    if (part != static_cast<std::uint32_t>(CagePart::Body) &&
-        part != static_cast<std::uint32_t>(CagePart::Eye))
+glm::vec3 Portrait::colourOf(std::uint32_t part, const skin::SkinPlace& place) const {
+    if (part == static_cast<std::uint32_t>(body::CagePart::Caudal)) return palette_.tail;
+    if (part != static_cast<std::uint32_t>(body::CagePart::Body) &&
+        part != static_cast<std::uint32_t>(body::CagePart::Eye))
         return palette_.fin;
     const float fromEye = glm::distance(glm::vec2(place.rest), glm::vec2(eye_)) / eye_.z;
     if (fromEye < 0.5F) return glm::vec3(0.004F);
@@ -106,7 +108,7 @@ glm::vec3 Portrait::colourOf(std::uint32_t part, const SkinPlace& place) const {
     return glm::mix(side, palette_.back, glm::smoothstep(0.2F, 0.75F, v));
 }
 
-void Portrait::draw(Light& paper,
+void Portrait::draw(wall::Light& paper,
                     const View& view,
                     glm::vec2 originPixels,
                     float pixelsPerBodyLength) const {
@@ -131,7 +133,7 @@ void Portrait::draw(Light& paper,
             const float depth = glm::dot(positions * weights, view.towards);
             if (depth <= nearest[pixel]) return;
             nearest[pixel] = depth;
-            const SkinPlace place{.rest = rest * weights};
+            const skin::SkinPlace place{.rest = rest * weights};
             glm::vec3 normal = glm::normalize(normals * weights);
             if (glm::dot(normal, view.towards) < 0) normal = -normal;
             paper.at(x, y) = colourOf(part, place) * lightOn(normal);
@@ -139,4 +141,4 @@ void Portrait::draw(Light& paper,
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::test

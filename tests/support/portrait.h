@@ -14,7 +14,7 @@
 #include "common/skin/limit_table.h"
 #include "common/wall/picture.h"
 
-namespace aquarama {
+namespace aquarama::test {
 
 // Directions in the frame of the nodal points: the paper's right, its up, and towards the viewer.
 struct View {
@@ -28,7 +28,9 @@ class Portrait {
   public:
     // The surface that these nodal points give. Colours are the palette's back, flank, belly, fin,
     // tail and iris; throws Error when one is missing.
-    Portrait(const Species& species, const FishBody& body, const NodalPoints& nodes);
+    Portrait(const config::Species& species,
+             const body::FishBody& body,
+             const body::NodalPoints& nodes);
 
     // The least and the greatest place on the paper, y down, in body lengths.
     struct Extent {
@@ -37,7 +39,7 @@ class Portrait {
     [[nodiscard]] Extent extent(const View& view) const;
 
     // Over what the paper shows already, with the origin of the nodal points' frame at a pixel.
-    void draw(Light& paper,
+    void draw(wall::Light& paper,
               const View& view,
               glm::vec2 originPixels,
               float pixelsPerBodyLength) const;
@@ -49,12 +51,12 @@ class Portrait {
     struct Palette {
         glm::vec3 back, flank, belly, fin, tail, iris;
     };
-    [[nodiscard]] glm::vec3 colourOf(std::uint32_t part, const SkinPlace& place) const;
+    [[nodiscard]] glm::vec3 colourOf(std::uint32_t part, const skin::SkinPlace& place) const;
 
     Palette palette_;
     glm::vec3 eye_;
-    LimitTable table_;
+    skin::LimitTable table_;
     std::vector<Vertex> vertices_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::test

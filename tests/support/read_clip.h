@@ -12,14 +12,14 @@ namespace aquarama::test {
 struct SeenClip {
     std::string codec;  // "h264"
     glm::ivec2 sizePixels{};
-    std::vector<Picture> pictures;  // 8 bits
-    std::vector<double> seconds;    // when each is shown
+    std::vector<wall::Picture> pictures;  // 8 bits
+    std::vector<double> seconds;          // when each is shown
     double durationSeconds = 0;
 };
 // Throws Error where the file is no clip.
 [[nodiscard]] SeenClip readClip(const std::string& path);
 
 // Mean absolute difference of 8-bit codes over the smaller of two sizes.
-[[nodiscard]] double meanCodesBetween(const Picture& one, const Picture& other);
+[[nodiscard]] double meanCodesBetween(const wall::Picture& one, const wall::Picture& other);
 
 }  // namespace aquarama::test

@@ -6,22 +6,22 @@
 #include "common/motion/repertoire.h"
 #include "master/capture/compile/capture_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::test {
 
 inline const char* const kScadFile = AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb";
 
-inline const Species& scad() {
-    static const Species species = readSpecies(kScadFile);
+inline const config::Species& scad() {
+    static const config::Species species = config::readSpecies(kScadFile);
     return species;
 }
 
-inline const Repertoire& scadRepertoire() {
-    static const Repertoire repertoire = captureRepertoire(scad(), [](double) {});
+inline const motion::Repertoire& scadRepertoire() {
+    static const motion::Repertoire repertoire = capture::captureRepertoire(scad(), [](double) {});
     return repertoire;
 }
 
-inline const ActionSegment& segmentOf(Action action) {
+inline const motion::ActionSegment& segmentOf(motion::Action action) {
     return scadRepertoire().segments.at(static_cast<std::size_t>(action));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::test

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace aquarama {
+namespace aquarama::test {
 
 // The tree that this was built from, or the one that AQUARAMA_SOURCE names, for programs that run
 // on another machine than that which built them.
@@ -14,4 +14,4 @@ inline std::string sourceFolder() {
     return other != nullptr ? other : AQUARAMA_SOURCE_DIR;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::test

@@ -25,30 +25,33 @@
 #include "master/conductor/conductor.h"
 #include "render_node/session/link_session.h"
 
-namespace aquarama {
+namespace aquarama::test {
 
 // Fish whose position is the tick.
-class CountingWorld final : public Simulation {
+class CountingWorld final : public conductor::Simulation {
   public:
     void advance() override { ++tick_.value; }
     Tick tick() const override { return tick_; }
-    void records(std::vector<FishRecord>& fish) const override {
-        fish.assign(3, FishRecord{.x = static_cast<std::int32_t>(tick_.value)});
+    void records(std::vector<motion::FishRecord>& fish) const override {
+        fish.assign(3, motion::FishRecord{.x = static_cast<std::int32_t>(tick_.value)});
     }
     // One pellet where each was dropped, while there is room; a hand moves the eye.
-    void apply(const WorldInput& input) override {
+    void apply(const world::WorldInput& input) override {
         if (const auto* steering = std::get_if<Steering>(&input)) ahead_ = steering->ahead;
-        const auto* drop = std::get_if<DropFood>(&input);
-        const auto room = std::ranges::find(food_, FoodRecord{});
+        const auto* drop = std::get_if<world::DropFood>(&input);
+        const auto room = std::ranges::find(food_, wire::FoodRecord{});
         if (drop != nullptr && room != food_.end())
-            *room = foodRecord(FoodRecord::Kind::Pellet, drop->position - kFoodOrigin, 0);
+            *room =
+                wire::foodRecord(wire::FoodRecord::Kind::Pellet, drop->position - kFoodOrigin, 0);
     }
-    void food(FoodCloud& cloud) const override { cloud = {kFoodOrigin, food_}; }
+    void food(wire::FoodCloud& cloud) const override { cloud = {kFoodOrigin, food_}; }
     // As many metres ahead as the last hand asked for.
-    Eye eye() const override { return {.positionMetres = {0, 0, -static_cast<float>(ahead_)}}; }
+    wire::Eye eye() const override {
+        return {.positionMetres = {0, 0, -static_cast<float>(ahead_)}};
+    }
     float daylight() const override { return daylightAt(tick_); }
     std::uint64_t hash() const override { return hashAt(tick_); }
-    Explanation explain(std::uint32_t fish) const override {
+    wire::Explanation explain(std::uint32_t fish) const override {
         return {fish, 3, tick_, {"at tick " + std::to_string(tick_.value)}};
     }
     static float daylightAt(Tick tick) { return 1.0F / static_cast<float>(1 + tick.value); }
@@ -58,13 +61,13 @@ class CountingWorld final : public Simulation {
   private:
     Tick tick_;
     std::int8_t ahead_ = 0;
-    std::vector<FoodRecord> food_{8};
+    std::vector<wire::FoodRecord> food_{8};
 };
 
 struct Event {
     enum class Kind : std::uint8_t { Ready, Presented } kind;
     std::string node;
-    StateFrame state;
+    wire::StateFrame state;
 };
 
 // What all nodes did, in the order in which they did it: ready is noted before it is said,
@@ -105,39 +108,39 @@ class Journal {
 // A connection that can be cut without either end noticing: what a frozen or dead process is like.
 class Cable {
   public:
-    explicit Cable(Connect connect) : connect_(std::move(connect)) {}
-    std::unique_ptr<NodeChannels> plug() { return std::make_unique<Cut>(connect_(), cut_); }
+    explicit Cable(net::Connect connect) : connect_(std::move(connect)) {}
+    std::unique_ptr<net::NodeChannels> plug() { return std::make_unique<Cut>(connect_(), cut_); }
     void cut(bool isCut) { *cut_ = isCut; }
 
   private:
-    class Cut final : public NodeChannels {
+    class Cut final : public net::NodeChannels {
       public:
-        Cut(std::unique_ptr<NodeChannels> inner, std::shared_ptr<std::atomic<bool>> cut)
+        Cut(std::unique_ptr<net::NodeChannels> inner, std::shared_ptr<std::atomic<bool>> cut)
             : inner_(std::move(inner)), cut_(std::move(cut)) {}
-        void sendControl(ByteView bytes) override {
+        void sendControl(net::ByteView bytes) override {
             if (!*cut_) inner_->sendControl(bytes);
         }
-        std::optional<ByteVector> receiveControl() override {
+        std::optional<net::ByteVector> receiveControl() override {
             return *cut_ ? std::nullopt : inner_->receiveControl();
         }
         void subscribeState(const std::string& address) override {
             inner_->subscribeState(address);
         }
-        std::optional<ByteVector> receiveState() override {
+        std::optional<net::ByteVector> receiveState() override {
             return *cut_ ? std::nullopt : inner_->receiveState();
         }
-        void wait(Instant atMost) override {
-            if (*cut_) std::this_thread::sleep_for(std::min(atMost, Instant{5'000'000}));
+        void wait(net::Instant atMost) override {
+            if (*cut_) std::this_thread::sleep_for(std::min(atMost, net::Instant{5'000'000}));
             if (!*cut_) inner_->wait(atMost);
         }
         void wake() override { inner_->wake(); }
 
       private:
-        std::unique_ptr<NodeChannels> inner_;
+        std::unique_ptr<net::NodeChannels> inner_;
         std::shared_ptr<std::atomic<bool>> cut_;
     };
 
-    Connect connect_;
+    net::Connect connect_;
     std::shared_ptr<std::atomic<bool>> cut_ = std::make_shared<std::atomic<bool>>(false);
 };
 
@@ -153,20 +156,20 @@ inline std::filesystem::path freshDirectory() {
 class StageNode {
   public:
     struct Habits {
-        Instant drawing{};   // a frame
-        Instant starting{};  // before it says hello at all
-        Instant building{};  // between welcome and prepared
+        net::Instant drawing{};   // a frame
+        net::Instant starting{};  // before it says hello at all
+        net::Instant building{};  // between welcome and prepared
     };
 
-    StageNode(std::string name, Connect connect, Journal& journal)
+    StageNode(std::string name, net::Connect connect, Journal& journal)
         : StageNode(std::move(name), std::move(connect), journal, Habits{}) {}
-    StageNode(std::string name, Connect connect, Journal& journal, Habits habits)
+    StageNode(std::string name, net::Connect connect, Journal& journal, Habits habits)
         : name_(std::move(name)),
           journal_(journal),
           habits_(habits),
           cable_(std::move(connect)),
           blobs_(freshDirectory()),
-          session_(makeSession(
+          session_(session::makeSession(
               name_, [this] { return cable_.plug(); }, blobs_)),
           thread_([this] { live(); }) {}
     ~StageNode() {
@@ -180,7 +183,7 @@ class StageNode {
 
     void freeze() { cable_.cut(true); }
     void thaw() { cable_.cut(false); }
-    Session& session() { return *session_; }
+    session::Session& session() { return *session_; }
     int joins() const { return joins_; }
     // Why it was refused; empty while it was not.
     std::string refusal() const {
@@ -194,22 +197,23 @@ class StageNode {
         while (session_->join()) {
             ++joins_;
             std::this_thread::sleep_for(habits_.building);
-            session_->prepared(QualityTier::Low);
-            if (show() == Release::Quit) return;
+            session_->prepared(config::QualityTier::Low);
+            if (show() == session::Release::Quit) return;
         }
     } catch (const Error& error) {
         const std::lock_guard lock(mutex_);
         refusal_ = error.what();
     }
 
-    Release show() {
+    session::Release show() {
         while (auto state = session_->nextFrame()) {
             const Frame frame = state->frame;
             std::this_thread::sleep_for(habits_.drawing);
             journal_.note({Event::Kind::Ready, name_, *state});
-            const Release release = session_->readyThenWait(frame);
-            if (release == Release::Rejoin || release == Release::Quit) return release;
-            if (release == Release::Present) {
+            const session::Release release = session_->readyThenWait(frame);
+            if (release == session::Release::Rejoin || release == session::Release::Quit)
+                return release;
+            if (release == session::Release::Present) {
                 journal_.note({Event::Kind::Presented, name_, std::move(*state)});
             }
         }
@@ -224,20 +228,20 @@ class StageNode {
     std::atomic<int> joins_ = 0;
     mutable std::mutex mutex_;
     std::string refusal_;
-    std::unique_ptr<Session> session_;
+    std::unique_ptr<session::Session> session_;
     std::thread thread_;
 };
 
 // The master of a desk, with its conductor in a thread.
 class StageMaster {
   public:
-    explicit StageMaster(const ConductorOptions& options,
+    explicit StageMaster(const conductor::ConductorOptions& options,
                          const std::string& control = "tcp://127.0.0.1:*",
-                         const Rig& rig = deskRig())
-        : StageMaster(options, bindMaster(control, "tcp://127.0.0.1:*"), rig) {}
-    StageMaster(const ConductorOptions& options,
-                std::unique_ptr<MasterChannels> channels,
-                const Rig& rig = deskRig())
+                         const config::Rig& rig = deskRig())
+        : StageMaster(options, net::bindMaster(control, "tcp://127.0.0.1:*"), rig) {}
+    StageMaster(const conductor::ConductorOptions& options,
+                std::unique_ptr<net::MasterChannels> channels,
+                const config::Rig& rig = deskRig())
         : control_(channels->controlAddress()),
           conductor_(rig, options, world_, welcomeTo(rig), blobs(), std::move(channels)),
           thread_([this] { conduct(); }) {}
@@ -248,55 +252,56 @@ class StageMaster {
     StageMaster(const StageMaster&) = delete;
     StageMaster& operator=(const StageMaster&) = delete;
 
-    static Rig deskRig() {
-        Rig rig = readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
+    static config::Rig deskRig() {
+        config::Rig rig = config::readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
         rig.timing.presentDeadlineSeconds = 0.05;  // a busy machine's scheduler, three times over
         rig.timing.membershipSeconds = 0.5;
         return rig;
     }
 
     const std::string& control() const { return control_; }
-    Connect connect() const {
-        return [address = control_] { return connectNode(address); };
+    net::Connect connect() const {
+        return [address = control_] { return net::connectNode(address); };
     }
-    Conductor& conductor() { return conductor_; }
+    conductor::Conductor& conductor() { return conductor_; }
     // Waits for the end of the show.
-    ShowReport report() {
+    conductor::ShowReport report() {
         thread_.join();
         return report_;
     }
     const std::string& failure() const { return failure_; }  // after report()
 
-    static ByteVector species() {
+    static net::ByteVector species() {
         const auto bytes = std::as_bytes(std::span{std::string_view("name: \"scad\"")});
         return {bytes.begin(), bytes.end()};
     }
     // Several chunks long.
-    static const ByteVector& repertoire() {
-        static const ByteVector bytes = [] {
-            Repertoire still;
+    static const net::ByteVector& repertoire() {
+        static const net::ByteVector bytes = [] {
+            motion::Repertoire still;
             still.species = "scad";
             still.recordedLengthMetres = 0.2F;
-            for (ActionSegment& segment : still.segments) {
+            for (motion::ActionSegment& segment : still.segments) {
                 segment.periodSeconds = 1.0F;
-                segment.controlPoints.resize(kPhases);
+                segment.controlPoints.resize(motion::kPhases);
             }
-            return encodeRepertoire(still);
+            return motion::encodeRepertoire(still);
         }();
         return bytes;
     }
-    static Blobs blobs() {
-        Blobs blobs;
-        for (ByteVector blob : {species(), repertoire()}) {
+    static conductor::Blobs blobs() {
+        conductor::Blobs blobs;
+        for (net::ByteVector blob : {species(), repertoire()}) {
             const Digest digest = digestOf(blob);
             blobs.emplace(digest, std::move(blob));
         }
         return blobs;
     }
-    static Welcome welcomeTo(const Rig& rig) {
-        Welcome welcome;
-        welcome.rigText = writeRig(rig);
-        welcome.sceneText = writeScene(readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb"));
+    static wire::Welcome welcomeTo(const config::Rig& rig) {
+        wire::Welcome welcome;
+        welcome.rigText = config::writeRig(rig);
+        welcome.sceneText =
+            config::writeScene(config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb"));
         welcome.school = {{1, 200}, {2, 210}, {3, 220}};
         welcome.cast = {{digestOf(species()), digestOf(repertoire()), 3}};
         return welcome;
@@ -309,10 +314,10 @@ class StageMaster {
 
     std::string control_;
     CountingWorld world_;
-    ShowReport report_;
+    conductor::ShowReport report_;
     std::string failure_;
-    Conductor conductor_;
+    conductor::Conductor conductor_;
     std::thread thread_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::test

@@ -28,8 +28,8 @@ glm::mat3 worldFromCamera(const Camera& camera) {
 
 // Of one species after the other, as a scene takes them.
 struct Cast {
-    std::vector<SchoolSpecies> species;
-    std::vector<FishRecord> fish;
+    std::vector<surface::SchoolSpecies> species;
+    std::vector<motion::FishRecord> fish;
 };
 
 Cast castOf(const std::vector<StillFish>& fish) {
@@ -38,38 +38,39 @@ Cast castOf(const std::vector<StillFish>& fish) {
     for (const StillFish& one : fish)
         if (std::ranges::find(names, one.species) == names.end()) names.push_back(one.species);
     for (const std::string& name : names) {
-        const Species species = castMember(name);
-        const FishBody body = makeBody(species);
-        std::vector<FishTraits> traits;
+        const config::Species species = castMember(name);
+        const body::FishBody body = body::makeBody(species);
+        std::vector<motion::FishTraits> traits;
         for (const StillFish& one : fish) {
             if (one.species != name) continue;
-            PresentedFish shown = fishAt(one.placeMetres, one.worldFromBody, one.lengthMetres);
+            motion::PresentedFish shown =
+                fishAt(one.placeMetres, one.worldFromBody, one.lengthMetres);
             shown.phase = one.phase;
             shown.speed = one.speedBodyLengths;
             shown.id = static_cast<std::uint32_t>(cast.fish.size());
             cast.fish.push_back(recordOf(shown));
             traits.push_back(traitsOf(shown));
         }
-        cast.species.push_back({body, skinOf(species), swaying(body, kSway), traits});
+        cast.species.push_back({body, body::skinOf(species), swaying(body, kSway), traits});
     }
     return cast;
 }
 
-Picture encoded(unsigned texture, glm::ivec2 size) {
-    Light light = darkness(size);
+wall::Picture encoded(unsigned texture, glm::ivec2 size) {
+    wall::Light light = wall::darkness(size);
     glGetTextureImage(texture,
                       0,
                       GL_RGB,
                       GL_FLOAT,
                       static_cast<GLsizei>(light.rgb.size() * sizeof(glm::vec3)),
                       light.rgb.data());
-    Picture picture{.sizePixels = size, .bits = 8, .rgb = {}};
+    wall::Picture picture{.sizePixels = size, .bits = 8, .rgb = {}};
     for (int y = size.y - 1; y >= 0; --y)  // GL's rows begin at the bottom
         for (int x = 0; x < size.x; ++x)
             for (int c = 0; c < 3; ++c) {
                 const double shown = std::clamp(static_cast<double>(light.at(x, y)[c]), 0.0, 1.0);
                 picture.rgb.push_back(
-                    static_cast<std::uint16_t>(std::lround(255 * srgbFromLinear(shown))));
+                    static_cast<std::uint16_t>(std::lround(255 * wall::srgbFromLinear(shown))));
             }
     return picture;
 }
@@ -81,11 +82,11 @@ float pixelRadiansOf(const Camera& camera) {
     return 2.0F * tangent / static_cast<float>(camera.sizePixels.y);
 }
 
-View viewOf(const Camera& camera) {
+scene::View viewOf(const Camera& camera) {
     constexpr float kNear = 0.05F;
     const glm::vec2 size(camera.sizePixels);
     const float tangent = std::tan(glm::radians(camera.heightDegrees) / 2);
-    View view;
+    scene::View view;
     view.sizePixels = camera.sizePixels;
     view.clipFromCamera = glm::mat4{0.0F};
     view.clipFromCamera[0][0] = size.y / size.x / tangent;
@@ -137,19 +138,19 @@ std::vector<StillFish> ballOf(const std::string& species,
     return ball;
 }
 
-Picture Photographer::pictureOf(const Still& still) {
+wall::Picture Photographer::pictureOf(const Still& still) {
     const Cast cast = castOf(still.fish);
-    SceneOptions options = still.options;
+    scene::SceneOptions options = still.options;
     options.pixelRadians = pixelRadiansOf(still.camera);
     std::vector<std::pair<std::string, float>> fish;
     for (const StillFish& one : still.fish) fish.emplace_back(one.species, one.lengthMetres);
     if (!scene_ || options != options_ || fish != fish_) {
         scene_.reset();
-        scene_ = std::make_unique<SceneRenderer>(options, cast.species);
+        scene_ = std::make_unique<scene::SceneRenderer>(options, cast.species);
         options_ = options;
         fish_ = std::move(fish);
     }
-    SceneFrame frame;
+    scene::SceneFrame frame;
     frame.timeSeconds = still.timeSeconds;
     frame.eyePositionMetres = still.camera.eyeMetres;
     frame.fish.after = cast.fish;
@@ -158,7 +159,7 @@ Picture Photographer::pictureOf(const Still& still) {
     return encoded(scene_->draw(viewOf(still.camera)), still.camera.sizePixels);
 }
 
-Picture pictureOf(const Still& still) {
+wall::Picture pictureOf(const Still& still) {
     return Photographer{}.pictureOf(still);
 }
 

@@ -19,14 +19,14 @@
 namespace aquarama::test {
 
 struct Camera {
-    glm::vec3 eyeMetres = kEyePosition;
+    glm::vec3 eyeMetres = place::kEyePosition;
     float azimuthDegrees = 0.0F;  // from -z to the right
     float elevationDegrees = 0.0F;
     float heightDegrees = 50.0F;  // field of view
     glm::ivec2 sizePixels{480, 270};
 };
 // Reversed depth, zero to one, far plane at infinity.
-[[nodiscard]] View viewOf(const Camera& camera);
+[[nodiscard]] scene::View viewOf(const Camera& camera);
 // The angle of the pixel in the middle: a still is the whole wall.
 [[nodiscard]] float pixelRadiansOf(const Camera& camera);
 
@@ -55,7 +55,7 @@ struct Still {
     Camera camera;
     std::vector<StillFish> fish;
     double timeSeconds = 12.0;
-    SceneOptions options;  // quality, place, seed; not pixelRadians
+    scene::SceneOptions options;  // quality, place, seed; not pixelRadians
     float daylight = 1.0F;
 };
 // Takes stills, and grows a sea only where the one before was of other options or with other fish:
@@ -63,14 +63,14 @@ struct Still {
 class Photographer {
   public:
     // Bodies sway; they are not captured. sRGB, 8 bits, without dither.
-    [[nodiscard]] Picture pictureOf(const Still& still);
+    [[nodiscard]] wall::Picture pictureOf(const Still& still);
 
   private:
-    SceneOptions options_;
+    scene::SceneOptions options_;
     std::vector<std::pair<std::string, float>> fish_;  // species and length
-    std::unique_ptr<SceneRenderer> scene_;
+    std::unique_ptr<scene::SceneRenderer> scene_;
 };
 // One alone.
-[[nodiscard]] Picture pictureOf(const Still& still);
+[[nodiscard]] wall::Picture pictureOf(const Still& still);
 
 }  // namespace aquarama::test

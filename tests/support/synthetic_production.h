@@ -14,7 +14,7 @@
 #include "common/wire/recording.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::test {
 
 inline std::string textOf(const std::string& path) {
     std::ifstream file(path);
@@ -24,22 +24,22 @@ inline std::string textOf(const std::string& path) {
 }
 
 // A school of 40 about a reef that hungers soon, and a shark that hunts it.
-inline Production syntheticProduction(std::uint32_t seed = 1) {
+inline wire::Production syntheticProduction(std::uint32_t seed = 1) {
     const std::string species = AQUARAMA_SOURCE_DIR "/config/species/";
-    Repertoire scad = syntheticScad();
+    motion::Repertoire scad = world::syntheticScad();
     scad.species = "synthetic_scad";
-    const std::vector<std::byte> repertoire = encodeRepertoire(scad);
-    Scene scene;
+    const std::vector<std::byte> repertoire = motion::encodeRepertoire(scad);
+    config::Scene scene;
     scene.name = "tank";
     scene.plankton = 200;
-    Production production{.seed = seed, .sceneFile = "scene", .scene = {}, .cast = {}};
+    wire::Production production{.seed = seed, .sceneFile = "scene", .scene = {}, .cast = {}};
     for (const auto& [name, fish] :
          {std::pair{"bigeye_scad.txtpb", 40U}, std::pair{"blacktip_reef_shark.txtpb", 1U}}) {
         scene.cast.push_back({.species = name, .fish = fish});
         production.cast.push_back({name, textOf(species + name), repertoire, fish});
     }
-    production.scene = writeScene(scene);
+    production.scene = config::writeScene(scene);
     return production;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::test

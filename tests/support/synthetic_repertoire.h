@@ -26,7 +26,7 @@ struct Gait {
     bool bends = false;  // a C-bend: the turn begins and ends straight
 };
 
-inline std::array<Gait, kCapturedActions> gaits() {
+inline std::array<Gait, motion::kCapturedActions> gaits() {
     constexpr double kDegree = std::numbers::pi / 180.0;
     const Gait gradual{
         .periodSeconds = 0.6, .turnRadians = 30 * kDegree, .stride = 0.8, .bends = true};
@@ -89,11 +89,11 @@ inline glm::dvec3 placed(const Gait& gait, double phase, const glm::dvec3& rest)
                                               -sn * inCourse.x + c * inCourse.z);
 }
 
-inline std::array<glm::dvec3, kNodalPoints> restNodes() {
+inline std::array<glm::dvec3, body::kNodalPoints> restNodes() {
     constexpr std::array<double, 5> kStation{0.19, 0.385, 0.58, 0.77, 0.85};
     constexpr std::array<double, 5> kHalfHeight{0.051, 0.079, 0.062, 0.049, 0.042};
     constexpr std::array<double, 5> kHalfWidth{0.033, 0.043, 0.033, 0.022, 0.012};
-    std::array<glm::dvec3, kNodalPoints> nodes{};
+    std::array<glm::dvec3, body::kNodalPoints> nodes{};
     for (std::size_t ring = 0; ring < kStation.size(); ++ring) {
         const double h = kHalfHeight[ring];
         const double w = kHalfWidth[ring];
@@ -108,10 +108,10 @@ inline std::array<glm::dvec3, kNodalPoints> restNodes() {
 }
 
 // A tube of 35 rings of 12 points, and 6 points of the tail's edge.
-inline std::array<glm::dvec3, kControlPoints> restControlPoints() {
+inline std::array<glm::dvec3, body::kControlPoints> restControlPoints() {
     constexpr std::size_t kRings = 35;
     constexpr std::size_t kAround = 12;
-    std::array<glm::dvec3, kControlPoints> points{};
+    std::array<glm::dvec3, body::kControlPoints> points{};
     for (std::size_t ring = 0; ring < kRings; ++ring) {
         const double s = 0.9 * (static_cast<double>(ring) + 0.5) / kRings;
         const double girth = std::sqrt(s * (1 - s));
@@ -159,15 +159,15 @@ std::array<std::array<std::int16_t, 3>, kPoints> poseOf(
     return pose;
 }
 
-inline ActionSegment segmentOf(const Gait& gait, bool withControlPoints) {
-    ActionSegment segment;
+inline motion::ActionSegment segmentOf(const Gait& gait, bool withControlPoints) {
+    motion::ActionSegment segment;
     segment.periodSeconds = static_cast<float>(gait.periodSeconds);
     segment.playsToEnd = gait.bends;
     const auto points = restControlPoints();
-    for (std::size_t k = 0; k < kPhases; ++k) {
-        const double phase = static_cast<double>(k) / kPhases;
+    for (std::size_t k = 0; k < motion::kPhases; ++k) {
+        const double phase = static_cast<double>(k) / motion::kPhases;
         const Frame now = frameOf(gait, phase);
-        const Frame next = frameOf(gait, static_cast<double>(k + 1) / kPhases);
+        const Frame next = frameOf(gait, static_cast<double>(k + 1) / motion::kPhases);
         const glm::dmat3 bodyFromWorld = glm::transpose(now.axes);
         segment.increments[k] = {glm::quat(glm::quat_cast(bodyFromWorld * next.axes)),
                                  glm::vec3(bodyFromWorld * (next.origin - now.origin))};
@@ -179,20 +179,20 @@ inline ActionSegment segmentOf(const Gait& gait, bool withControlPoints) {
 
 }  // namespace aquarama::synthetic
 
-namespace aquarama {
+namespace aquarama::test {
 
-inline Repertoire syntheticRepertoire(bool withControlPoints = true,
-                                      const std::string& species = "synthetic") {
-    Repertoire repertoire;
+inline motion::Repertoire syntheticRepertoire(bool withControlPoints = true,
+                                              const std::string& species = "synthetic") {
+    motion::Repertoire repertoire;
     repertoire.species = species;
     repertoire.recordedLengthMetres = 0.2F;
     const auto gaits = synthetic::gaits();
-    for (std::size_t action = 0; action < kCapturedActions; ++action) {
+    for (std::size_t action = 0; action < motion::kCapturedActions; ++action) {
         repertoire.segments[action] = synthetic::segmentOf(gaits[action], withControlPoints);
     }
     repertoire.response = {.swimDrag = {0.3F, 0.4F, 0.5F}, .glideDrag = 0.5F, .brakeRate = 5.0F};
-    addGlide(repertoire);
+    motion::addGlide(repertoire);
     return repertoire;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::test

@@ -59,11 +59,11 @@ double guessedLoss(double albedo, double rise, double peakShare) {
 
 // ln L = ln source + ln((1 - e^(-loss r)) / loss) at three ranges: least squares, drawn a little
 // towards the guess where noise would decide.
-WaterLobe fitted(const std::vector<double>& ranges,
-                 const std::vector<double>& lights,
-                 double guess) {
+scene::WaterLobe fitted(const std::vector<double>& ranges,
+                        const std::vector<double>& lights,
+                        double guess) {
     constexpr double kTrust = 0.002;
-    WaterLobe best;
+    scene::WaterLobe best;
     double least = 1e30;
     for (double loss = 0.02; loss < 3.0; loss += 0.005) {
         double mean = 0;
@@ -92,8 +92,11 @@ struct Water {
     [[nodiscard]] double scaledAlbedo() const { return albedo * (1 - phase.peakShare()) / scale(); }
 };
 
-WaterLobe traced(const Water& water, double irradiance, glm::dvec3 direction, const Wish& wish) {
-    const glm::dvec3 sun{sunInWater()};
+scene::WaterLobe traced(const Water& water,
+                        double irradiance,
+                        glm::dvec3 direction,
+                        const Wish& wish) {
+    const glm::dvec3 sun{scene::sunInWater()};
     const double farthest =
         direction.y > 0 ? std::min(water.depth / direction.y, kFarthest) : kFarthest;
     std::vector<double> ranges;
@@ -105,7 +108,7 @@ WaterLobe traced(const Water& water, double irradiance, glm::dvec3 direction, co
                                    direction,
                                    ranges.back() * water.scale()};
         lights.push_back(test::scatteredIn(water.phase, seen, sun, wish.paths, wish.seed).mean /
-                         (water.albedo * irradiance * plainLobe(direction, sun)));
+                         (water.albedo * irradiance * scene::plainLobe(direction, sun)));
     }
     return fitted(ranges, lights, guessedLoss(water.albedo, direction.y, water.phase.peakShare()));
 }
@@ -117,28 +120,28 @@ void write(const Wish& wish) {
             "// Written by aquarama_trace_water --seed "
          << wish.seed << " --paths " << wish.paths
          << ": trace it anew, do not edit it.\n"
-            "#include \"render_node/scene/water_lobes.h\"\n\nnamespace aquarama {\n\n"
+            "#include \"render_node/scene/water_lobes.h\"\n\nnamespace aquarama::scene {\n\n"
             "// clang-format off\n"
             "const std::array<LobeEntry, kLobeEntries> kLobeTable{{\n";
-    for (const double albedo : kLobeAlbedos)
-        for (const double depth : kLobeDepths) {
+    for (const double albedo : scene::kLobeAlbedos)
+        for (const double depth : scene::kLobeDepths) {
             const Water water{phase, albedo, depth};
             const double light = test::irradiance(phase,
                                                   water.scaledAlbedo(),
                                                   depth * water.scale(),
-                                                  glm::dvec3{sunInWater()},
+                                                  glm::dvec3{scene::sunInWater()},
                                                   8 * wish.paths,
                                                   wish.seed)
                                      .mean;
             std::fprintf(stderr, "albedo %.2f depth %.2f irradiance %.4g\n", albedo, depth, light);
-            for (const double rise : kLobeRises) {
-                WaterLobe lobe;
-                for (const double azimuth : kLobeAzimuths) {
+            for (const double rise : scene::kLobeRises) {
+                scene::WaterLobe lobe;
+                for (const double azimuth : scene::kLobeAzimuths) {
                     // Straight up and down there is one direction.
                     if (std::abs(rise) < 1 || azimuth == 0)
                         lobe = traced(water,
                                       light,
-                                      directionOf(rise, azimuth, glm::dvec3{sunInWater()}),
+                                      directionOf(rise, azimuth, glm::dvec3{scene::sunInWater()}),
                                       wish);
                     file << '{' << std::lround(1000 * std::log(lobe.source)) << ','
                          << std::lround(1000 * lobe.loss) << "},";
@@ -147,7 +150,7 @@ void write(const Wish& wish) {
             }
             file.flush();
         }
-    file << "}};\n// clang-format on\n\n}  // namespace aquarama\n";
+    file << "}};\n// clang-format on\n\n}  // namespace aquarama::scene\n";
     if (!file) throw Error("cannot write " + wish.out + ": is the folder there?");
 }
 
@@ -157,16 +160,16 @@ bool compare(const Wish& wish) {
     const test::ForwardPhase phase{kPeakRadians};
     bool isWithin = true;
     std::printf("type   mean   95 %%    max of CIEDE2000, table to Monte Carlo\n");
-    for (std::size_t i = 0; i < kWaterTypeNames.size(); ++i) {
+    for (std::size_t i = 0; i < config::kWaterTypeNames.size(); ++i) {
         std::vector<double> off = test::differences(
             phase,
-            static_cast<WaterType>(i),
+            static_cast<config::WaterType>(i),
             {{2.0, 5.0, 10.0, 20.0}, {2.0, 6.0, 18.0}, wish.paths, wish.seed + 1000});
         std::ranges::sort(off);
         const double mean =
             std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size());
         std::printf("%-4s %6.2f %6.2f %6.2f\n",
-                    std::string(kWaterTypeNames.at(i)).c_str(),
+                    std::string(config::kWaterTypeNames.at(i)).c_str(),
                     mean,
                     off[off.size() * 95 / 100],
                     off.back());

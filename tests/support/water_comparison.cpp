@@ -24,39 +24,41 @@ struct Band {
     double albedo, scale;  // scaled b / c, and 1/m
 };
 
-Band bandOf(const ForwardPhase& phase, const WaterSpectra& water, std::size_t band) {
+Band bandOf(const ForwardPhase& phase, const scene::WaterSpectra& water, std::size_t band) {
     const double b = water.scattering[band] * (1 - phase.peakShare());
     const double c = water.absorption[band] + b;
     return {b / c, c};
 }
 
 glm::dvec3 traced(const ForwardPhase& phase,
-                  const WaterSpectra& water,
+                  const scene::WaterSpectra& water,
                   const Sight& sight,
                   double range,
                   const std::vector<double>& irradiances,
                   const Comparison& comparison) {
-    const double lit = sight.depth - filterDepthMetres(sight.depth);
+    const double lit = sight.depth - scene::filterDepthMetres(sight.depth);
     glm::dvec3 sum{0.0};
-    for (std::size_t band = 0; band < kBands; band += kEvery) {
+    for (std::size_t band = 0; band < scene::kBands; band += kEvery) {
         const Band at = bandOf(phase, water, band);
         const SeenWater seen{
             at.albedo, sight.depth * at.scale, sight.direction(), range * at.scale};
-        const double light =
-            scatteredIn(
-                phase, seen, glm::dvec3{sunInWater()}, comparison.paths, comparison.seed + band)
-                .mean /
-            irradiances[band / kEvery] * std::exp(-water.downwelling[band] * lit);
+        const double light = scatteredIn(phase,
+                                         seen,
+                                         glm::dvec3{scene::sunInWater()},
+                                         comparison.paths,
+                                         comparison.seed + band)
+                                 .mean /
+                             irradiances[band / kEvery] * std::exp(-water.downwelling[band] * lit);
         for (int c = 0; c < 3; ++c) sum[c] += kEvery * water.weights[c][band] * light;
     }
     return sum;
 }
 
 // The tables' own, at the same bands.
-glm::dvec3 tabled(const WaterSpectra& water, const Sight& sight, double range) {
-    WaterSpectra some = water;
-    for (Spectrum& weights : some.weights)
-        for (std::size_t band = 0; band < kBands; ++band)
+glm::dvec3 tabled(const scene::WaterSpectra& water, const Sight& sight, double range) {
+    scene::WaterSpectra some = water;
+    for (scene::Spectrum& weights : some.weights)
+        for (std::size_t band = 0; band < scene::kBands; ++band)
             weights[band] *= band % kEvery == 0 ? double{kEvery} : 0.0;
     return veil(some, sight, range);
 }
@@ -64,21 +66,21 @@ glm::dvec3 tabled(const WaterSpectra& water, const Sight& sight, double range) {
 }  // namespace
 
 std::vector<double> differences(const ForwardPhase& phase,
-                                WaterType type,
+                                config::WaterType type,
                                 const Comparison& comparison) {
-    const WaterSpectra water = seaWater(type);
-    const Inscatter inscatter{water};
-    const double clear = std::min(0.13 / beamAttenuation(water, 10), 1.0);
+    const scene::WaterSpectra water = scene::seaWater(type);
+    const scene::Inscatter inscatter{water};
+    const double clear = std::min(0.13 / scene::beamAttenuation(water, 10), 1.0);
     std::vector<double> all;
     for (const double inClear : comparison.depths) {
         const double depth = inClear * std::sqrt(clear);
         std::vector<double> irradiances;
-        for (std::size_t band = 0; band < kBands; band += kEvery) {
+        for (std::size_t band = 0; band < scene::kBands; band += kEvery) {
             const Band at = bandOf(phase, water, band);
             irradiances.push_back(irradiance(phase,
                                              at.albedo,
                                              depth * at.scale,
-                                             glm::dvec3{sunInWater()},
+                                             glm::dvec3{scene::sunInWater()},
                                              4 * comparison.paths,
                                              comparison.seed)
                                       .mean);

@@ -21,7 +21,7 @@ struct Comparison {
 // Of all depths, ranges and of five directions. The irradiance at the eye is Jerlov's, as it is
 // measured: the Monte Carlo says what becomes of a unit of it.
 [[nodiscard]] std::vector<double> differences(const ForwardPhase& phase,
-                                              WaterType type,
+                                              config::WaterType type,
                                               const Comparison& comparison);
 
 }  // namespace aquarama::test

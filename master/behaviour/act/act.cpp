@@ -11,29 +11,29 @@
 #include "master/behaviour/act/school.h"
 #include "master/behaviour/act/wander.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
-Course act(const Situation& situation, Mind& mind, Deeds& deeds) {
+fish::Course act(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
     switch (mind.intention) {
-        case Intention::AvoidObstacle:
+        case fish::Intention::AvoidObstacle:
             return avoidObstacle(situation, mind);
-        case Intention::AvoidFish:
+        case fish::Intention::AvoidFish:
             return avoidFish(situation, mind);
-        case Intention::Escape:
+        case fish::Intention::Escape:
             return escape(situation, mind);
-        case Intention::Eat:
-            return situation.nature.role == Role::Predator ? hunt(situation, mind, deeds)
-                                                           : eat(situation, mind, deeds);
-        case Intention::Mate:
+        case fish::Intention::Eat:
+            return situation.nature.role == config::Role::Predator ? hunt(situation, mind, deeds)
+                                                                   : eat(situation, mind, deeds);
+        case fish::Intention::Mate:
             return mate(situation, mind, deeds);
-        case Intention::School:
+        case fish::Intention::School:
             return school(situation);
-        case Intention::Leave:
+        case fish::Intention::Leave:
             return leave(situation);
-        case Intention::Wander:
+        case fish::Intention::Wander:
             break;
     }
     return wander(situation);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -4,8 +4,8 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
-[[nodiscard]] Course act(const Situation& situation, Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course act(const Situation& situation, fish::Mind& mind, Deeds& deeds);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

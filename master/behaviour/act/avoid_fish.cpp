@@ -8,7 +8,7 @@
 #include "master/behaviour/act/pursue.h"
 #include "master/behaviour/act/school.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -21,40 +21,42 @@ constexpr float kBrake = 0.25F;            // of slow, behind a tail
 constexpr float kSureMissLengths = 0.05F;  // a smaller miss says nothing of a side
 
 glm::vec3 rightOf(glm::vec3 heading) {
-    return directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
+    return place::directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
 }
 
 // From the fish to where the other will be when they are nearest.
 glm::vec3 missOf(glm::vec3 offset, glm::vec3 approach) {
-    const float squared = dot(approach, approach);
+    const float squared = place::dot(approach, approach);
     if (squared < 1.0e-6F) return offset;
-    const float soonest = -dot(offset, approach) / squared;
+    const float soonest = -place::dot(offset, approach) / squared;
     return offset + approach * std::clamp(soonest, 0.0F, kLookAheadSeconds);
 }
 
 // Away from where the other passes. Of two that would meet nose to nose each turns to its right.
 glm::vec3 asideFrom(glm::vec3 miss, glm::vec3 heading, float length) {
-    const glm::vec3 across = miss - heading * dot(miss, heading);
-    if (lengthOf(across) < kSureMissLengths * length) return rightOf(heading);
-    return -directionOf(across, rightOf(heading));
+    const glm::vec3 across = miss - heading * place::dot(miss, heading);
+    if (place::lengthOf(across) < kSureMissLengths * length) return rightOf(heading);
+    return -place::directionOf(across, rightOf(heading));
 }
 
 // In its school a fish is as near to others as to none else: it only leans away, and keeps its
 // place.
-Course leanAway(const Situation& situation, glm::vec3 aside) {
-    Course course = school(situation);
-    course.direction = levelled(directionOf(course.direction + aside * kLean, course.direction));
+fish::Course leanAway(const Situation& situation, glm::vec3 aside) {
+    fish::Course course = school(situation);
+    course.direction =
+        place::levelled(place::directionOf(course.direction + aside * kLean, course.direction));
     return course;
 }
 
 // Behind a tail it slows; one that comes from behind or beside it does not let slow it.
 float speedPast(const Situation& situation) {
-    const FishView& view = *situation.environment.view;
+    const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const Sighting& threat = senses.collision;
     const float slow = situation.nature.slow;
-    const bool ahead = dot(directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
-    const bool sameWay = dot(view.heading(threat.object), senses.heading) > kSameWay;
+    const bool ahead =
+        place::dot(place::directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
+    const bool sameWay = place::dot(view.heading(threat.object), senses.heading) > kSameWay;
     if (!ahead) return std::max(slow, senses.speed / senses.length);
     const float theirs = view.fish[threat.object].speed / senses.length;
     return sameWay ? std::min(slow, theirs * (1 - kBrake)) : slow;
@@ -62,8 +64,8 @@ float speedPast(const Situation& situation) {
 
 }  // namespace
 
-Course avoidFish(const Situation& situation, const Mind& mind) {
-    const FishView& view = *situation.environment.view;
+fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const Sighting& threat = senses.collision;
     if (!threat.seen()) return heading(situation, senses.heading, situation.nature.slow);
@@ -71,11 +73,11 @@ Course avoidFish(const Situation& situation, const Mind& mind) {
     const glm::vec3 miss = missOf(threat.offset, theirs - senses.heading * senses.speed);
     const glm::vec3 aside = asideFrom(miss, senses.heading, senses.length);
     const bool schooling =
-        situation.nature.role == Role::Prey && (mind.likes & kLikesSchooling) != 0;
+        situation.nature.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
     if (schooling && view.kind[threat.object] == situation.nature.kind)
         return leanAway(situation, aside);
     const glm::vec3 wish = senses.heading + aside * kTurnAway + roomFrom(situation);
     return heading(situation, wish, speedPast(situation));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,8 +5,8 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
-[[nodiscard]] Course avoidFish(const Situation& situation, const Mind& mind);
+[[nodiscard]] fish::Course avoidFish(const Situation& situation, const fish::Mind& mind);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

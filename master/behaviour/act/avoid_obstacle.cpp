@@ -9,7 +9,7 @@
 #include "master/behaviour/act/pursue.h"
 #include "master/behaviour/act/school.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -22,17 +22,17 @@ constexpr float kStopsAt = 3.0F;
 // Of a side that the push leaves open: towards the middle of the water.
 float openSide(const Situation& situation, glm::vec3 right) {
     const glm::vec3 middle = situation.environment.surroundings->obstacles.water.centre;
-    return dot(middle - situation.senses.position, right) < 0 ? -1.0F : 1.0F;
+    return place::dot(middle - situation.senses.position, right) < 0 ? -1.0F : 1.0F;
 }
 
 }  // namespace
 
 glm::vec3 wayRound(const Situation& situation) {
     const Senses& senses = situation.senses;
-    const float back = -dot(senses.push, senses.heading);
+    const float back = -place::dot(senses.push, senses.heading);
     if (back <= 0) return senses.push;
-    const glm::vec3 right = directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
-    const float aside = dot(senses.push, right);
+    const glm::vec3 right = place::directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
+    const float aside = place::dot(senses.push, right);
     const float up = senses.push.y + back * senses.heading.y;
     if (aside * aside + up * up > kHeadOn * kHeadOn * back * back) return senses.push;
     const bool even = std::abs(aside) < 0.05F * back;
@@ -40,16 +40,16 @@ glm::vec3 wayRound(const Situation& situation) {
     return senses.push + right * (side * back);
 }
 
-Course avoidObstacle(const Situation& situation, const Mind& mind) {
-    if ((mind.likes & kLikesSchooling) != 0 && situation.nature.role == Role::Prey)
+fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
+    if ((mind.likes & fish::kLikesSchooling) != 0 && situation.nature.role == config::Role::Prey)
         return school(situation);
     const Senses& senses = situation.senses;
-    const float back = std::max(0.0F, -dot(senses.push, senses.heading));
-    const Nature& nature = situation.nature;
+    const float back = std::max(0.0F, -place::dot(senses.push, senses.heading));
+    const fish::Nature& nature = situation.nature;
     // Who is run into must not stop.
     const float pace = senses.hurry > 0 ? nature.slow + (nature.fast - nature.slow) * senses.hurry
                                         : nature.slow * std::max(0.0F, 1 - back / kStopsAt);
     return heading(situation, senses.heading + roomFrom(situation), pace);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -6,13 +6,13 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Where the surroundings push, as a way round: what would only throw the fish back turns it to the
 // side on which it gets past sooner.
 [[nodiscard]] glm::vec3 wayRound(const Situation& situation);
 
 // A member of a school keeps company meanwhile; others look to their way alone.
-[[nodiscard]] Course avoidObstacle(const Situation& situation, const Mind& mind);
+[[nodiscard]] fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

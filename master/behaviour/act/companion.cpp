@@ -8,7 +8,7 @@
 #include "common/place/noise.h"
 #include "master/behaviour/act/pursue.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -27,23 +27,24 @@ constexpr float kSameCourse = 1.2F;   // against the way to the place: metres
 constexpr float kPairIsApart = 2.0F;  // times the distance that it keeps
 
 // At a place beside another that swims: there, and then along with it.
-Course alongside(const Situation& situation, std::uint32_t other, glm::vec3 place) {
-    const FishView& view = *situation.environment.view;
+fish::Course alongside(const Situation& situation, std::uint32_t other, glm::vec3 place) {
+    const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const glm::vec3 towards = place - senses.position;
     const glm::vec3 course = view.heading(other);
     // Far off it only has to come; near, it must not overtake.
-    const float distance = lengthOf(towards) / senses.length;
-    const float behind = distance > kNearLengths ? distance : dot(towards, course) / senses.length;
+    const float distance = place::lengthOf(towards) / senses.length;
+    const float behind =
+        distance > kNearLengths ? distance : place::dot(towards, course) / senses.length;
     const float theirs = view.fish[other].speed / senses.length;
     const float speed = std::clamp(theirs + kCatchUp * behind, 0.0F, situation.nature.fast);
     return heading(situation, towards + course * (kSameCourse * senses.length), speed);
 }
 
 bool isWithin(const Situation& situation, std::uint32_t other, float metres) {
-    const FishView& view = *situation.environment.view;
-    return other < view.size() && !view.shows(other, kAway) &&
-           lengthOf(view.position(other) - situation.senses.position) < metres;
+    const fish::FishView& view = *situation.environment.view;
+    return other < view.size() && !view.shows(other, fish::kAway) &&
+           place::lengthOf(view.position(other) - situation.senses.position) < metres;
 }
 
 float sightOf(const Situation& situation) {
@@ -57,37 +58,38 @@ std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
     auto skip = hash % static_cast<std::uint32_t>(std::popcount(kinds));
     std::uint64_t left = kinds;
     while (skip-- > 0) left &= left - 1;
-    const Nature& host = situation.environment.natures[std::size_t(std::countr_zero(left))];
-    if (host.last == host.first) return kNobody;
-    return host.first + hashOf(hash, 1) % (host.last - host.first);
+    const fish::Nature& host = situation.environment.natures[std::size_t(std::countr_zero(left))];
+    if (host.last == host.first) return fish::kNobody;
+    return host.first + place::hashOf(hash, 1) % (host.last - host.first);
 }
 
 }  // namespace
 
-std::uint32_t partnerOf(const Nature& nature, std::uint32_t fish) {
+std::uint32_t partnerOf(const fish::Nature& nature, std::uint32_t fish) {
     const std::uint32_t partner = nature.first + ((fish - nature.first) ^ 1U);
-    return partner < nature.last ? partner : kNobody;
+    return partner < nature.last ? partner : fish::kNobody;
 }
 
 std::uint32_t shadowedBy(const Situation& situation) {
-    if (situation.nature.shadows == 0) return kNobody;
+    if (situation.nature.shadows == 0) return fish::kNobody;
     const Environment& environment = situation.environment;
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Bouts), situation.fish);
+    const std::uint32_t own = place::hashOf(place::hashOf(environment.seed, Bouts), situation.fish);
     const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
-    const std::uint32_t bout = hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
-    if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return kNobody;
+    const std::uint32_t bout = place::hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
+    if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
     for (std::uint32_t i = 0; i < kHostsTried; ++i) {
-        const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Hosts), i));
+        const std::uint32_t host =
+            drawnHost(situation, place::hashOf(place::hashOf(bout, Hosts), i));
         if (isWithin(situation, host, sightOf(situation))) return host;
     }
-    return kNobody;
+    return fish::kNobody;
 }
 
-std::optional<Course> keptCompany(const Situation& situation) {
-    const FishView& view = *situation.environment.view;
+std::optional<fish::Course> keptCompany(const Situation& situation) {
+    const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const std::uint32_t host = shadowedBy(situation);
-    if (host != kNobody) {
+    if (host != fish::kNobody) {
         const float over = kOverBackMetres + kHalfHeight * view.fish[host].length;
         return alongside(situation, host, view.position(host) + glm::vec3{0, over, 0});
     }
@@ -99,9 +101,9 @@ std::optional<Course> keptCompany(const Situation& situation) {
     const glm::vec3 from = senses.position - view.position(partner);
     const bool leads = situation.fish < partner;
     // The one that leads goes where it likes, but waits.
-    if (leads && lengthOf(from) < kPairIsApart * apart) return {};
-    const glm::vec3 level = directionOf({from.x, 0.3F * from.y, from.z}, {0, 0, 1});
+    if (leads && place::lengthOf(from) < kPairIsApart * apart) return {};
+    const glm::vec3 level = place::directionOf({from.x, 0.3F * from.y, from.z}, {0, 0, 1});
     return alongside(situation, partner, view.position(partner) + level * apart);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -9,16 +9,16 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Fish of one species that live in pairs: every two of them, in order; the odd one out is alone.
-[[nodiscard]] std::uint32_t partnerOf(const Nature& nature, std::uint32_t fish);
+[[nodiscard]] std::uint32_t partnerOf(const fish::Nature& nature, std::uint32_t fish);
 
 // The fish over whose back this one hangs now: for 10 to 40 of every 50 s, one of those it likes to
 // shadow that is near enough to be seen.
 [[nodiscard]] std::uint32_t shadowedBy(const Situation& situation);
 
 // The course to keep with whom the fish keeps now; nothing for one that goes alone.
-[[nodiscard]] std::optional<Course> keptCompany(const Situation& situation);
+[[nodiscard]] std::optional<fish::Course> keptCompany(const Situation& situation);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

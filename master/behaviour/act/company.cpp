@@ -5,7 +5,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -35,28 +35,31 @@ struct Neighbour {
     float distance;
 };
 
-Neighbour neighbourOf(const FishView& view, const Senses& senses, std::uint32_t other, float per) {
+Neighbour neighbourOf(const fish::FishView& view,
+                      const Senses& senses,
+                      std::uint32_t other,
+                      float per) {
     const glm::vec3 offset = (view.position(other) - senses.position) * per;
-    const float distance = lengthOf(offset);
+    const float distance = place::lengthOf(offset);
     return {offset, distance > kNowhere ? offset / distance : glm::vec3{0, 1, 0}, distance};
 }
 
 // Fish are long: in file they need more room than abreast; there the one behind brakes and moves
 // aside.
 void giveWay(Company& company, const Neighbour& neighbour, glm::vec3 heading, float spacing) {
-    const float ahead = dot(neighbour.offset, heading);
+    const float ahead = place::dot(neighbour.offset, heading);
     const glm::vec3 aside = neighbour.offset - heading * ahead;
-    const float room = lengthOf(aside + heading * (ahead * kAbreastToFile));
+    const float room = place::lengthOf(aside + heading * (ahead * kAbreastToFile));
     if (room >= spacing) return;
     const float tooNear = 1 - room / spacing;
     const float repulsion = tooNear * (1 + 2 * tooNear * tooNear);
     company.separation -=
-        directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
-    company.brake += repulsion * std::max(0.0F, dot(neighbour.towards, heading));
+        place::directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
+    company.brake += repulsion * std::max(0.0F, place::dot(neighbour.towards, heading));
 }
 
 glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
-    const FishView& view = *situation.environment.view;
+    const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     glm::vec3 away{};
     for (std::size_t i = 0; i < those.count; ++i) {
@@ -64,15 +67,18 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
         if ((situation.nature.hunts >> view.kind[other] & 1U) != 0) continue;
         const float room = kRoomBodyLengths * std::max(senses.length, view.fish[other].length);
         const glm::vec3 offset = view.position(other) - senses.position;
-        const float tooNear = std::max(0.0F, 1 - lengthOf(offset) / room);
-        away -= directionOf(offset, {0, 1, 0}) * (kGiveWay * tooNear);
+        const float tooNear = std::max(0.0F, 1 - place::lengthOf(offset) / room);
+        away -= place::directionOf(offset, {0, 1, 0}) * (kGiveWay * tooNear);
     }
     return away;
 }
 
 }  // namespace
 
-Company companyOf(const FishView& view, const Senses& senses, std::uint32_t fish, float alarm) {
+Company companyOf(const fish::FishView& view,
+                  const Senses& senses,
+                  std::uint32_t fish,
+                  float alarm) {
     Company company;
     const float perLength = 1 / view.fish[fish].length;
     const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
@@ -96,13 +102,13 @@ Company companyOf(const FishView& view, const Senses& senses, std::uint32_t fish
         company.speed += view.fish[other].speed * perLength;
     }
     // Parting by more than a slant would bring the tails together.
-    const float parting = lengthOf(company.separation) * kSeparate;
+    const float parting = place::lengthOf(company.separation) * kSeparate;
     if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
     if (senses.schoolmates.count == 0) return company;
     const float share = 1 / static_cast<float>(senses.schoolmates.count);
     company.alignment *= share;
     company.cohesion *= share * (1 + kHuddle * alarm);
-    company.hurry = dot(company.cohesion, senses.heading);
+    company.hurry = place::dot(company.cohesion, senses.heading);
     company.speed *= share;
     return company;
 }
@@ -116,4 +122,4 @@ glm::vec3 roomFrom(const Situation& situation) {
            roomFromThose(situation, situation.senses.others);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

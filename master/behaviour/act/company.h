@@ -11,7 +11,7 @@
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Between the middles of neighbours, in body lengths: at ease, and when a predator is about.
 inline constexpr float kSpacing = 0.9F;
@@ -26,7 +26,7 @@ struct Company {
 
 // Of the same species one keeps with; to others one only gives way. alarm: 0 at ease, 1 where a
 // predator is about and all close up.
-[[nodiscard]] Company companyOf(const FishView& view,
+[[nodiscard]] Company companyOf(const fish::FishView& view,
                                 const Senses& senses,
                                 std::uint32_t fish,
                                 float alarm);
@@ -37,4 +37,4 @@ struct Company {
 // Away from all that are too near, whoever they are but for its prey, against the same.
 [[nodiscard]] glm::vec3 roomFrom(const Situation& situation);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -8,7 +8,7 @@
 #include "master/behaviour/act/pursue.h"
 #include "master/fish/mouth.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -47,7 +47,7 @@ float bob(std::uint32_t ticks) {
 }
 
 glm::vec3 level(glm::vec3 direction) {
-    return directionOf({direction.x, 0, direction.z}, {1, 0, 0});
+    return place::directionOf({direction.x, 0, direction.z}, {1, 0, 0});
 }
 
 // Along a level circle round a point.
@@ -61,41 +61,41 @@ glm::vec3 aroundOn(glm::vec3 toCentre, float radius, bool left) {
 }
 
 // What is done in the stage by him where he and she differ, and by her.
-Course follow(const Situation& situation, const Couple& couple) {
+fish::Course follow(const Situation& situation, const Couple& couple) {
     const glm::vec3 behind = couple.offset - couple.matesHeading * (kBehind * couple.length);
     return pursue(
         situation, behind, situation.nature.medium, couple.matesHeading * couple.matesSpeed);
 }
 
-Course loopBefore(const Situation& situation, const Mind& mind, const Couple& couple) {
+fish::Course loopBefore(const Situation& situation, const fish::Mind& mind, const Couple& couple) {
     const glm::vec3 centre =
         couple.offset + level(couple.matesHeading) * (kLoopAhead * couple.length);
     const glm::vec3 way = aroundOn(centre, kLoopRadius * couple.length, couple.turnsLeft);
     return heading(situation, way + kUp * bob(mind.sinceStage), situation.nature.slow);
 }
 
-Course hoverAndBob(const Situation& situation, const Mind& mind) {
+fish::Course hoverAndBob(const Situation& situation, const fish::Mind& mind) {
     return heading(situation, level(situation.senses.heading) + kUp * bob(mind.sinceStage), 0);
 }
 
-Course circle(const Situation& situation, const Couple& couple) {
+fish::Course circle(const Situation& situation, const Couple& couple) {
     const glm::vec3 way =
         aroundOn(couple.offset * 0.5F, kCircleRadius * couple.length, couple.turnsLeft);
     return heading(situation, way, situation.nature.slow);
 }
 
-Course rise(const Situation& situation) {
+fish::Course rise(const Situation& situation) {
     return heading(situation, level(situation.senses.heading) + kUp * kRise, situation.nature.slow);
 }
 
 // Under her and along with her: from afar he goes for the place, at it he swims as she does.
-Course keepBelow(const Situation& situation, const Couple& couple, float below) {
-    const Nature& nature = situation.nature;
+fish::Course keepBelow(const Situation& situation, const Couple& couple, float below) {
+    const fish::Nature& nature = situation.nature;
     const glm::vec3 place = couple.offset - kUp * (below * couple.length);
-    if (lengthOf(place) > kStationFrom * couple.length)
+    if (place::lengthOf(place) > kStationFrom * couple.length)
         return pursue(situation, place, nature.medium, couple.matesHeading * couple.matesSpeed);
     const glm::vec3 astray = place / couple.length;
-    const float behind = dot(astray, couple.matesHeading);
+    const float behind = place::dot(astray, couple.matesHeading);
     const float pace = couple.matesSpeed / situation.senses.length + kCatchUp * behind;
     return heading(situation,
                    couple.matesHeading + astray * kClose,
@@ -108,7 +108,7 @@ bool isComplete(CourtshipStage stage,
                 const Couple& couple,
                 glm::vec3 heading,
                 std::uint32_t ticks) {
-    const float distance = lengthOf(couple.offset);
+    const float distance = place::lengthOf(couple.offset);
     const bool together = distance < kTogether * couple.length;
     const glm::vec3 fromHerToHim = couple.isFemale ? couple.offset : -couple.offset;
     const glm::vec3 herHeading = couple.isFemale ? heading : couple.matesHeading;
@@ -117,7 +117,8 @@ bool isComplete(CourtshipStage stage,
         case CourtshipStage::Impress:
             return false;
         case CourtshipStage::Loop:
-            return together && ticks > kLoopSeconds * kSecond && dot(fromHerToHim, herHeading) > 0;
+            return together && ticks > kLoopSeconds * kSecond &&
+                   place::dot(fromHerToHim, herHeading) > 0;
         case CourtshipStage::Circle:
             return together && ticks > kCircleSeconds * kSecond;
         case CourtshipStage::Ascend:
@@ -133,10 +134,10 @@ std::uint32_t longestTicks(CourtshipStage stage) {
     return kLongestSeconds[static_cast<std::size_t>(stage)] * kSecond;
 }
 
-Course court(const Situation& situation,
-             const Mind& mind,
-             const Couple& couple,
-             CourtshipStage stage) {
+fish::Course court(const Situation& situation,
+                   const fish::Mind& mind,
+                   const Couple& couple,
+                   CourtshipStage stage) {
     switch (stage) {
         case CourtshipStage::Follow:
             break;
@@ -159,4 +160,4 @@ Course court(const Situation& situation,
     return follow(situation, couple);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

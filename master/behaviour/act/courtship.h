@@ -10,7 +10,7 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Of Mind::stage while a fish would mate.
 enum class CourtshipStage : std::uint8_t {
@@ -41,9 +41,9 @@ struct Couple {
 // How long it may take before the fish gives up.
 [[nodiscard]] std::uint32_t longestTicks(CourtshipStage stage);
 
-[[nodiscard]] Course court(const Situation& situation,
-                           const Mind& mind,
-                           const Couple& couple,
-                           CourtshipStage stage);
+[[nodiscard]] fish::Course court(const Situation& situation,
+                                 const fish::Mind& mind,
+                                 const Couple& couple,
+                                 CourtshipStage stage);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,7 +5,7 @@
 #include "master/behaviour/act/pursue.h"
 #include "master/fish/mouth.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -24,35 +24,36 @@ constexpr float kAbeamCosine = 0.35F;
 constexpr std::uint32_t kRunUpTicks = 240;  // at most
 constexpr float kSteepest = 0.42F;          // sine of the steepest way up or down
 
-void enter(Mind& mind, Stage stage) {
+void enter(fish::Mind& mind, Stage stage) {
     mind.stage = stage;
     mind.sinceStage = 0;
 }
 
 bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
-    const float distance = lengthOf(fromMouth);
+    const float distance = place::lengthOf(fromMouth);
     if (distance > kTooNear * senses.length) return false;
-    return dot(fromMouth, senses.heading) < kAbeamCosine * distance ||
+    return place::dot(fromMouth, senses.heading) < kAbeamCosine * distance ||
            std::abs(fromMouth.y) > 2 * kSteepest * distance;
 }
 
 }  // namespace
 
 bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
-    const glm::vec3 fromMouth = offset - senses.heading * (kMouthBodyLengths * senses.length);
-    const float distance = lengthOf(fromMouth) / senses.length;
+    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    const float distance = place::lengthOf(fromMouth) / senses.length;
     return distance <= kAtTheLips ||
            (distance <= kSuction &&
-            dot(fromMouth, senses.heading) >= kSuctionCosine * lengthOf(fromMouth));
+            place::dot(fromMouth, senses.heading) >= kSuctionCosine * place::lengthOf(fromMouth));
 }
 
-Course eat(const Situation& situation, Mind& mind, Deeds& deeds) {
+fish::Course eat(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
     const Senses& senses = situation.senses;
     const Sighting& food = senses.food;
     const float slow = situation.nature.slow;
     if (isBeforeTheMouth(senses, food.offset))
-        deeds.push_back({DeedKind::EatParticle, situation.fish, food.object});
-    const glm::vec3 fromMouth = food.offset - senses.heading * (kMouthBodyLengths * senses.length);
+        deeds.push_back({fish::DeedKind::EatParticle, situation.fish, food.object});
+    const glm::vec3 fromMouth =
+        food.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
     if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
     const bool farEnough = food.distance > kRunUpLengths * senses.length;
     if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
@@ -62,4 +63,4 @@ Course eat(const Situation& situation, Mind& mind, Deeds& deeds) {
     return pursue(situation, fromMouth, situation.nature.medium);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,12 +5,12 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Whether a thing is where the mouth's suction reaches; offset is from the body frame's origin,
 // metres.
 [[nodiscard]] bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset);
 
-[[nodiscard]] Course eat(const Situation& situation, Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course eat(const Situation& situation, fish::Mind& mind, Deeds& deeds);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -9,7 +9,7 @@
 #include "master/behaviour/act/pursue.h"
 #include "master/behaviour/act/school.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -17,25 +17,25 @@ constexpr float kFlee = 2.5F;        // against the unit vector of one's own cou
 constexpr float kSharpStart = 1.0F;  // urgency from which the motor turns sharply
 
 // 0 where it only just leaves its school, 1 where the predator is so near that nothing else counts.
-float dread(const Nature& nature, const Feelings& feelings) {
+float dread(const fish::Nature& nature, const Feelings& feelings) {
     const float more = feelings.greatestFear - nature.fearAlone;
     return std::clamp(more / std::max(1 - nature.fearAlone, 0.01F), 0.0F, 1.0F);
 }
 
 }  // namespace
 
-Course escape(const Situation& situation, const Mind& mind) {
+fish::Course escape(const Situation& situation, const fish::Mind& mind) {
     const Senses& senses = situation.senses;
     const glm::vec3 wish = senses.heading + flightFrom(situation) * kFlee + roomFrom(situation);
-    Course course = heading(situation, wish, situation.nature.fast);
-    if ((mind.likes & kLikesSchooling) != 0) {
+    fish::Course course = heading(situation, wish, situation.nature.fast);
+    if ((mind.likes & fish::kLikesSchooling) != 0) {
         const float alone = dread(situation.nature, situation.feelings);
         const glm::vec3 together = school(situation).direction;
-        course.direction = levelled(
-            directionOf(together + (course.direction - together) * alone, course.direction));
+        course.direction = place::levelled(
+            place::directionOf(together + (course.direction - together) * alone, course.direction));
     }
     course.urgency = std::max(course.urgency, kSharpStart);
     return course;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -6,8 +6,8 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
-[[nodiscard]] Course escape(const Situation& situation, const Mind& mind);
+[[nodiscard]] fish::Course escape(const Situation& situation, const fish::Mind& mind);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,7 +5,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -13,19 +13,19 @@ constexpr float kAsideOfItsWay = 1.2F;          // against straight away, for on
 constexpr float kNearestSquaredMetres = 0.01F;  // nearer than this does not count more
 
 glm::vec3 awayFrom(glm::vec3 offset, glm::vec3 course, glm::vec3 otherwise) {
-    const glm::vec3 away = directionOf(-offset, otherwise);
-    const float before = dot(away, course);
-    if (before <= 0) return directionOf(away, otherwise);
-    const glm::vec3 aside = directionOf(away - course * before, otherwise);
-    return directionOf(away + aside * (kAsideOfItsWay * before), otherwise);
+    const glm::vec3 away = place::directionOf(-offset, otherwise);
+    const float before = place::dot(away, course);
+    if (before <= 0) return place::directionOf(away, otherwise);
+    const glm::vec3 aside = place::directionOf(away - course * before, otherwise);
+    return place::directionOf(away + aside * (kAsideOfItsWay * before), otherwise);
 }
 
 }  // namespace
 
 glm::vec3 flightFrom(const Situation& situation) {
-    const FishView& view = *situation.environment.view;
+    const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
-    const glm::vec3 side = directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
+    const glm::vec3 side = place::directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
     glm::vec3 flight{};
     for (std::size_t i = 0; i < senses.predatorCount; ++i) {
         const Sighting& predator = senses.predators[i];
@@ -33,7 +33,7 @@ glm::vec3 flightFrom(const Situation& situation) {
             std::max(predator.distance * predator.distance, kNearestSquaredMetres);
         flight += awayFrom(predator.offset, view.heading(predator.object), side) / squared;
     }
-    return directionOf(flight, {});
+    return place::directionOf(flight, {});
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -6,7 +6,7 @@
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -24,27 +24,29 @@ constexpr float kBeatSine = 0.643F;
 constexpr std::uint64_t kTicksOfPass = 16 * 60;  // one of some predators goes through the bait ball
 
 glm::vec3 shareOf(std::uint32_t hash) {
-    return {signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+    return {place::signedUnitOf(hash),
+            place::signedUnitOf(place::hashOf(hash, 1)),
+            place::signedUnitOf(place::hashOf(hash, 2))};
 }
 
-float heightIn(const Region& water, float bestDepthMetres, float share) {
+float heightIn(const place::Region& water, float bestDepthMetres, float share) {
     const float half = kInside * water.halfExtent.y;
     const float height = -bestDepthMetres + share * kDepthSpread * water.halfExtent.y;
     return std::clamp(height, water.centre.y - half, water.centre.y + half);
 }
 
-bool standsIn(const Region& water, const Rock& rock) {
+bool standsIn(const place::Region& water, const place::Rock& rock) {
     return std::abs(rock.centre.x - water.centre.x) < kInside * water.halfExtent.x &&
            std::abs(rock.centre.z - water.centre.z) < kInside * water.halfExtent.z;
 }
 
 // The rock of a household among those that stand in the water; none where there are none.
-const Rock* rockFor(const Obstacles& obstacles, std::uint32_t hash) {
-    const auto isIn = [&](const Rock& rock) { return standsIn(obstacles.water, rock); };
+const place::Rock* rockFor(const surroundings::Obstacles& obstacles, std::uint32_t hash) {
+    const auto isIn = [&](const place::Rock& rock) { return standsIn(obstacles.water, rock); };
     const auto count = std::ranges::count_if(obstacles.rocks, isIn);
     if (count == 0) return nullptr;
     auto left = static_cast<std::ptrdiff_t>(hash % static_cast<std::uint32_t>(count));
-    for (const Rock& rock : obstacles.rocks)
+    for (const place::Rock& rock : obstacles.rocks)
         if (isIn(rock) && left-- == 0) return &rock;
     return nullptr;
 }
@@ -58,18 +60,22 @@ bool passes(const Environment& environment, std::uint32_t fish) {
 glm::vec3 passGoal(const Environment& environment, glm::vec3 position, glm::vec3 course) {
     const glm::vec3 ball = environment.goal.position;
     const glm::vec3 towards = ball - position;
-    const bool through =
-        lengthOf(towards) < 2 * environment.schoolRadiusMetres && dot(towards, course) < 0;
+    const bool through = place::lengthOf(towards) < 2 * environment.schoolRadiusMetres &&
+                         place::dot(towards, course) < 0;
     return through ? position + course * (2 * environment.schoolRadiusMetres) : ball;
 }
 
 }  // namespace
 
-glm::vec3 wanderingGoal(
-    std::uint32_t seed, const Region& water, float bestDepthMetres, std::size_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(seed, Places), static_cast<std::uint32_t>(fish));
+glm::vec3 wanderingGoal(std::uint32_t seed,
+                        const place::Region& water,
+                        float bestDepthMetres,
+                        std::size_t fish,
+                        Tick tick) {
+    const std::uint32_t own =
+        place::hashOf(place::hashOf(seed, Places), static_cast<std::uint32_t>(fish));
     const std::uint64_t place = (tick.value + own % kTicksToAPlace) / kTicksToAPlace;
-    const glm::vec3 share = shareOf(hashOf(own, static_cast<std::uint32_t>(place)));
+    const glm::vec3 share = shareOf(place::hashOf(own, static_cast<std::uint32_t>(place)));
     const glm::vec3 goal = water.centre + water.halfExtent * share * kInside;
     return {goal.x, heightIn(water, bestDepthMetres, share.y), goal.z};
 }
@@ -79,13 +85,13 @@ std::uint32_t householdOf(std::uint32_t firstOfKind, std::uint32_t fish) {
 }
 
 glm::vec3 homeOf(std::uint32_t seed,
-                 const Home& home,
-                 const Obstacles& obstacles,
+                 const config::Home& home,
+                 const surroundings::Obstacles& obstacles,
                  float bestDepthMetres,
                  std::uint32_t household) {
-    const Region& water = obstacles.water;
-    const std::uint32_t hash = hashOf(hashOf(seed, Homes), household);
-    const Rock* rock = home.onTheReef ? rockFor(obstacles, hash) : nullptr;
+    const place::Region& water = obstacles.water;
+    const std::uint32_t hash = place::hashOf(place::hashOf(seed, Homes), household);
+    const place::Rock* rock = home.onTheReef ? rockFor(obstacles, hash) : nullptr;
     if (rock == nullptr) return wanderingGoal(hash, water, bestDepthMetres, household, {});
     const float lowest = water.centre.y - kHomeInside * water.halfExtent.y;
     const float above = rock->centre.y + rock->radiusMetres + kAboveRockMetres;
@@ -94,16 +100,16 @@ glm::vec3 homeOf(std::uint32_t seed,
 }
 
 glm::vec3 beatGoal(const Environment& environment,
-                   const Nature& nature,
+                   const fish::Nature& nature,
                    std::uint32_t fish,
                    glm::vec3 position) {
-    if (environment.gathering == Gathering::Mill && passes(environment, fish))
+    if (environment.gathering == config::Gathering::Mill && passes(environment, fish))
         return passGoal(environment, position, environment.view->heading(fish));
-    const Region& water = environment.surroundings->obstacles.water;
-    const std::uint32_t own = hashOf(hashOf(environment.seed, Beats), fish);
+    const place::Region& water = environment.surroundings->obstacles.water;
+    const std::uint32_t own = place::hashOf(place::hashOf(environment.seed, Beats), fish);
     const float sine = (own & 1U) != 0 ? kBeatSine : -kBeatSine;
     const glm::vec3 from = (position - water.centre) / water.halfExtent;
-    const glm::vec3 at = directionOf({from.x, 0, from.z}, {1, 0, 0});
+    const glm::vec3 at = place::directionOf({from.x, 0, from.z}, {1, 0, 0});
     const glm::vec3 ahead{at.x * kBeatCosine - at.z * sine, 0, at.x * sine + at.z * kBeatCosine};
     const glm::vec3 wandered = wanderingGoal(environment.seed,
                                              water,
@@ -115,18 +121,18 @@ glm::vec3 beatGoal(const Environment& environment,
 }
 
 Bound boundFor(const Environment& environment,
-               const Nature& nature,
+               const fish::Nature& nature,
                std::uint32_t fish,
                glm::vec3 position) {
-    const Home& home = nature.habits.home;
-    const Obstacles& obstacles = environment.surroundings->obstacles;
+    const config::Home& home = nature.habits.home;
+    const surroundings::Obstacles& obstacles = environment.surroundings->obstacles;
     const auto depth = static_cast<float>(nature.habits.bestDepthMetres);
-    if (nature.role == Role::Predator && home.kind == HomeKind::None)
+    if (nature.role == config::Role::Predator && home.kind == config::HomeKind::None)
         return {beatGoal(environment, nature, fish, position) - position, 0};
     const glm::vec3 goal =
         wanderingGoal(environment.seed, obstacles.water, depth, fish, environment.tick);
-    if (home.kind == HomeKind::None) return {goal - position, 0};
-    const bool own = home.kind == HomeKind::Place;
+    if (home.kind == config::HomeKind::None) return {goal - position, 0};
+    const bool own = home.kind == config::HomeKind::Place;
     const glm::vec3 middle =
         own ? homeOf(environment.seed, home, obstacles, depth, householdOf(nature.first, fish))
             : environment.goal.position;
@@ -136,9 +142,9 @@ Bound boundFor(const Environment& environment,
     // The same walk about the home as another would take through all the water.
     const glm::vec3 share =
         (goal - obstacles.water.centre) / (obstacles.water.halfExtent * kInside);
-    const float away = lengthOf(position - middle);
+    const float away = place::lengthOf(position - middle);
     const float strayed = std::clamp((away - radius) / std::max(leash - radius, 0.01F), 0.0F, 1.0F);
     return {middle + share * (0.6F * radius) - position, strayed};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -14,18 +14,21 @@
 #include "master/fish/nature.h"
 #include "master/surroundings/obstacles.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Where a fish is bound for, in its water, about the depth that its species likes best. Another
 // place every quarter of a minute.
-[[nodiscard]] glm::vec3 wanderingGoal(
-    std::uint32_t seed, const Region& water, float bestDepthMetres, std::size_t fish, Tick tick);
+[[nodiscard]] glm::vec3 wanderingGoal(std::uint32_t seed,
+                                      const place::Region& water,
+                                      float bestDepthMetres,
+                                      std::size_t fish,
+                                      Tick tick);
 
 // The place of a household (a number that fish which live together share): drawn by the seed, over
 // a rock where the habit has it so and there is one.
 [[nodiscard]] glm::vec3 homeOf(std::uint32_t seed,
-                               const Home& home,
-                               const Obstacles& obstacles,
+                               const config::Home& home,
+                               const surroundings::Obstacles& obstacles,
                                float bestDepthMetres,
                                std::uint32_t household);
 // Of fish of one species, every two live together.
@@ -34,7 +37,7 @@ namespace aquarama {
 // The next point of a predator's beat: an oval near the borders of the water, and now and then
 // through the bait ball.
 [[nodiscard]] glm::vec3 beatGoal(const Environment& environment,
-                                 const Nature& nature,
+                                 const fish::Nature& nature,
                                  std::uint32_t fish,
                                  glm::vec3 position);
 
@@ -43,8 +46,8 @@ struct Bound {
     float strayed = 0;    // 0 within the range, 1 at the leash and beyond
 };
 [[nodiscard]] Bound boundFor(const Environment& environment,
-                             const Nature& nature,
+                             const fish::Nature& nature,
                              std::uint32_t fish,
                              glm::vec3 position);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

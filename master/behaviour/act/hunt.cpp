@@ -7,7 +7,7 @@
 #include "master/behaviour/act/pursue.h"
 #include "master/fish/mouth.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -20,18 +20,19 @@ constexpr float kBiteCosine = 0.85F;  // or, before it, further by as much again
 constexpr float kMostLeadSeconds = 0.3F;
 
 bool isInTheMouth(const Senses& senses, glm::vec3 fromMouth) {
-    const float distance = lengthOf(fromMouth) / senses.length;
-    return distance <= kBite || (distance <= 2 * kBite && dot(fromMouth, senses.heading) >=
-                                                              kBiteCosine * lengthOf(fromMouth));
+    const float distance = place::lengthOf(fromMouth) / senses.length;
+    return distance <= kBite ||
+           (distance <= 2 * kBite &&
+            place::dot(fromMouth, senses.heading) >= kBiteCosine * place::lengthOf(fromMouth));
 }
 
-glm::vec3 velocityOf(const FishView& view, std::uint32_t fish) {
+glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
     return view.heading(fish) * view.fish[fish].speed;
 }
 
-Course stalk(const Situation& situation, Mind& mind, const Sighting& prey) {
+fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting& prey) {
     const Senses& senses = situation.senses;
-    const bool isBefore = dot(prey.offset, senses.heading) > kAheadCosine * prey.distance;
+    const bool isBefore = place::dot(prey.offset, senses.heading) > kAheadCosine * prey.distance;
     if (isBefore && prey.distance < kRushFrom * senses.length) {
         mind.stage = static_cast<std::uint8_t>(HuntStage::Rush);
         mind.sinceStage = 0;
@@ -42,18 +43,20 @@ Course stalk(const Situation& situation, Mind& mind, const Sighting& prey) {
 
 }  // namespace
 
-Course hunt(const Situation& situation, Mind& mind, Deeds& deeds) {
+fish::Course hunt(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
     const Senses& senses = situation.senses;
-    const FishView& view = *situation.environment.view;
+    const fish::FishView& view = *situation.environment.view;
     const Sighting& prey = senses.prey;
-    const glm::vec3 fromMouth = prey.offset - senses.heading * (kMouthBodyLengths * senses.length);
+    const glm::vec3 fromMouth =
+        prey.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
     if (isInTheMouth(senses, fromMouth))
-        deeds.push_back({DeedKind::EatFish, situation.fish, prey.object});
+        deeds.push_back({fish::DeedKind::EatFish, situation.fish, prey.object});
     if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))
         return stalk(situation, mind, prey);
     const float speed = situation.nature.fast;
-    const float seconds = std::min(kMostLeadSeconds, lengthOf(fromMouth) / (speed * senses.length));
+    const float seconds =
+        std::min(kMostLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
     return heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,11 +5,11 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Of Mind::stage while a predator is about a prey.
 enum class HuntStage : std::uint8_t { Stalk, Rush };
 
-[[nodiscard]] Course hunt(const Situation& situation, Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course hunt(const Situation& situation, fish::Mind& mind, Deeds& deeds);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

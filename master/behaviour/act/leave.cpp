@@ -7,7 +7,7 @@
 #include "master/behaviour/act/home.h"
 #include "master/behaviour/act/pursue.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -17,23 +17,23 @@ constexpr float kPerCelsius = 0.1F;      // a degree too warm or cold is as bad 
 constexpr float kSlantMetres = 2.0F;     // the way up or down is not sought more steeply
 constexpr float kTiePerMetre = 1.0e-3F;  // of two heights that suit as well the nearer
 
-float beyond(const Span& span, float value) {
+float beyond(const config::Span& span, float value) {
     return std::max(
         {0.0F, static_cast<float>(span.least) - value, value - static_cast<float>(span.most)});
 }
 
 // How ill the water at a height suits; 0: well.
 float illAt(const Situation& situation, float y) {
-    const Surroundings& around = *situation.environment.surroundings;
-    const Habits& habits = situation.nature.habits;
-    return beyond(habits.light, lightAt(around.climate, around.daylight, y)) +
-           kPerCelsius * beyond(habits.waterCelsius, celsiusAt(around.climate, y));
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const config::Habits& habits = situation.nature.habits;
+    return beyond(habits.light, surroundings::lightAt(around.climate, around.daylight, y)) +
+           kPerCelsius * beyond(habits.waterCelsius, surroundings::celsiusAt(around.climate, y));
 }
 
 }  // namespace
 
 float suitableHeight(const Situation& situation) {
-    const Region& water = situation.environment.surroundings->obstacles.water;
+    const place::Region& water = situation.environment.surroundings->obstacles.water;
     const float own = situation.senses.position.y;
     float best = own;
     float least = illAt(situation, own);
@@ -48,15 +48,15 @@ float suitableHeight(const Situation& situation) {
     return best;
 }
 
-Course leave(const Situation& situation) {
+fish::Course leave(const Situation& situation) {
     const Senses& senses = situation.senses;
     const float climb = suitableHeight(situation) - senses.position.y;
     const glm::vec3 about =
         boundFor(situation.environment, situation.nature, situation.fish, senses.position).towards;
-    const glm::vec3 level = directionOf({about.x, 0, about.z}, senses.heading);
+    const glm::vec3 level = place::directionOf({about.x, 0, about.z}, senses.heading);
     const glm::vec3 wish = senses.heading * 0.5F + level * 0.5F +
                            glm::vec3{0, std::clamp(climb / kSlantMetres, -1.0F, 1.0F), 0};
     return heading(situation, wish, situation.nature.slow);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

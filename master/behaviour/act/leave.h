@@ -5,12 +5,12 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // The nearest height (y, negative) within the water at which light and warmth suit the species, or
 // where they do least ill.
 [[nodiscard]] float suitableHeight(const Situation& situation);
 
-[[nodiscard]] Course leave(const Situation& situation);
+[[nodiscard]] fish::Course leave(const Situation& situation);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

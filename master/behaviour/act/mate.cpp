@@ -7,27 +7,27 @@
 #include "master/behaviour/act/courtship.h"
 #include "master/behaviour/act/wander.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
-Couple coupleOf(const Situation& situation, const Mind& mind) {
-    const FishView& view = *situation.environment.view;
+Couple coupleOf(const Situation& situation, const fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
     const std::uint32_t mate = mind.target;
     const std::uint32_t first = std::min(situation.fish, mate);
     return {.offset = view.position(mate) - situation.senses.position,
             .matesHeading = view.heading(mate),
             .matesSpeed = view.fish[mate].speed,
             .length = 0.5F * (situation.senses.length + view.fish[mate].length),
-            .isFemale = (mind.likes & kIsFemale) != 0,
-            .turnsLeft = (hashOf(situation.environment.seed, first) & 1U) != 0};
+            .isFemale = (mind.likes & fish::kIsFemale) != 0,
+            .turnsLeft = (place::hashOf(situation.environment.seed, first) & 1U) != 0};
 }
 
 CourtshipStage stageOf(std::uint8_t stage) {
     return static_cast<CourtshipStage>(stage);
 }
 
-void enter(Mind& mind, CourtshipStage stage) {
+void enter(fish::Mind& mind, CourtshipStage stage) {
     if (stageOf(mind.stage) == stage) return;
     mind.stage = static_cast<std::uint8_t>(stage);
     mind.sinceStage = 0;
@@ -35,28 +35,29 @@ void enter(Mind& mind, CourtshipStage stage) {
 
 // Where the other stands now puts a fish into its stage: of two that court each other the one that
 // is behind catches up.
-void fallIn(const Situation& situation, Mind& mind) {
-    const FishView& view = *situation.environment.view;
+void fallIn(const Situation& situation, fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
     const std::uint32_t courted = view.partner[mind.target];
     if (courted != situation.fish)
-        return enter(mind, courted == kNobody ? CourtshipStage::Follow : CourtshipStage::Impress);
+        return enter(mind,
+                     courted == fish::kNobody ? CourtshipStage::Follow : CourtshipStage::Impress);
     const CourtshipStage theirs = stageOf(view.stage[mind.target]);
     enter(mind, std::max({stageOf(mind.stage), theirs, CourtshipStage::Loop}));
 }
 
-void goOn(Mind& mind, const Couple& couple, const Situation& situation, Deeds& deeds) {
+void goOn(fish::Mind& mind, const Couple& couple, const Situation& situation, Deeds& deeds) {
     const CourtshipStage stage = stageOf(mind.stage);
     if (!isComplete(stage, couple, situation.senses.heading, mind.sinceStage)) return;
     if (stage != CourtshipStage::Nuzzle) {
         enter(mind, static_cast<CourtshipStage>(mind.stage + 1));
     } else if (!couple.isFemale) {
-        deeds.push_back({DeedKind::Spawn, situation.fish, mind.target});
+        deeds.push_back({fish::DeedKind::Spawn, situation.fish, mind.target});
     }
 }
 
 }  // namespace
 
-Course mate(const Situation& situation, Mind& mind, Deeds& deeds) {
+fish::Course mate(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
     fallIn(situation, mind);
     const Couple couple = coupleOf(situation, mind);
     goOn(mind, couple, situation, deeds);
@@ -68,4 +69,4 @@ Course mate(const Situation& situation, Mind& mind, Deeds& deeds) {
     return court(situation, mind, couple, stage);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -6,8 +6,8 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
-[[nodiscard]] Course mate(const Situation& situation, Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course mate(const Situation& situation, fish::Mind& mind, Deeds& deeds);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

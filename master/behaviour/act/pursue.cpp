@@ -6,7 +6,7 @@
 #include "common/place/angle.h"
 #include "master/behaviour/act/avoid_obstacle.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -24,18 +24,22 @@ constexpr float kMostLeadSeconds = 1.5F;
 // Where the target will be when the fish can be there.
 glm::vec3 lead(const Situation& situation, glm::vec3 towards, float speed, glm::vec3 velocity) {
     const float metresPerSecond = std::max(0.05F, speed * situation.senses.length);
-    return towards + velocity * std::min(kMostLeadSeconds, lengthOf(towards) / metresPerSecond);
+    return towards +
+           velocity * std::min(kMostLeadSeconds, place::lengthOf(towards) / metresPerSecond);
 }
 
 }  // namespace
 
-Course pursue(const Situation& situation, glm::vec3 towards, float speed, glm::vec3 velocity) {
+fish::Course pursue(const Situation& situation,
+                    glm::vec3 towards,
+                    float speed,
+                    glm::vec3 velocity) {
     const Senses& senses = situation.senses;
     const float slow = situation.nature.slow;
     const glm::vec3 to = lead(situation, towards, speed, velocity);
-    const glm::vec3 direction = directionOf(to, senses.heading);
-    const float lengths = lengthOf(to) / senses.length;
-    const float along = dot(direction, senses.heading);
+    const glm::vec3 direction = place::directionOf(to, senses.heading);
+    const float lengths = place::lengthOf(to) / senses.length;
+    const float along = place::dot(direction, senses.heading);
     const float careful =
         situation.environment.adaptation.earlierPursuit ? kEarlierWithin : kCarefulWithin;
     if (lengths >= careful)
@@ -44,15 +48,16 @@ Course pursue(const Situation& situation, glm::vec3 towards, float speed, glm::v
         return heading(situation, direction, kTurningPace * slow);
     const float least = std::min(speed, kCarefulPace * slow);
     // A target that swims off must be swum after.
-    const float chase = std::max(0.0F, dot(velocity, direction)) / senses.length;
+    const float chase = std::max(0.0F, place::dot(velocity, direction)) / senses.length;
     const float pace = least + (speed - least) * lengths / careful;
     return heading(situation, direction, std::min(speed, pace + chase));
 }
 
-Course heading(const Situation& situation, glm::vec3 wish, float speed) {
+fish::Course heading(const Situation& situation, glm::vec3 wish, float speed) {
     const Senses& senses = situation.senses;
-    const glm::vec3 direction = levelled(directionOf(wish + wayRound(situation), senses.heading));
+    const glm::vec3 direction =
+        place::levelled(place::directionOf(wish + wayRound(situation), senses.heading));
     return {direction, speed, senses.urgency};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

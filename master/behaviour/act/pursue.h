@@ -7,16 +7,16 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // towards: from the body to the target, metres; speed in body lengths a second when far; velocity
 // of the target in metres a second: a moving one is met where it will be.
-[[nodiscard]] Course pursue(const Situation& situation,
-                            glm::vec3 towards,
-                            float speed,
-                            glm::vec3 velocity = {});
+[[nodiscard]] fish::Course pursue(const Situation& situation,
+                                  glm::vec3 towards,
+                                  float speed,
+                                  glm::vec3 velocity = {});
 
 // The course that goes along `wish` (any length) and heeds what pushes.
-[[nodiscard]] Course heading(const Situation& situation, glm::vec3 wish, float speed);
+[[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 wish, float speed);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -13,16 +13,16 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 struct Situation {
     const Environment& environment;
-    const Nature& nature;
+    const fish::Nature& nature;
     std::uint32_t fish;
     const Senses& senses;
     const Feelings& feelings;
 };
 
-using Deeds = std::vector<Deed>;  // with room for one of each fish of a chunk
+using Deeds = std::vector<fish::Deed>;  // with room for one of each fish of a chunk
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

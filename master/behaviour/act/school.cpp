@@ -10,7 +10,7 @@
 #include "master/behaviour/act/company.h"
 #include "master/behaviour/act/flight.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -34,22 +34,23 @@ constexpr float kRejoin = 1.5F;
 constexpr float kKeepLevel = 1.0F;  // against the way round the ball
 
 // How far from the goal, in the shape of the school: a ball, flatter where the water is shallow.
-glm::vec3 fromGoal(const Goal& goal, glm::vec3 position) {
+glm::vec3 fromGoal(const surroundings::Goal& goal, glm::vec3 position) {
     glm::vec3 towards = goal.position - position;
     towards.y /= goal.flatness;
     return towards;
 }
 
 // Where the school as a whole goes: along with the goal, and towards it from outside the school.
-glm::vec3 followed(const Goal& goal, glm::vec3 towards, float pull) {
-    return directionOf(towards, {}) * pull + goal.velocityMetresPerSecond * 2.0F;
+glm::vec3 followed(const surroundings::Goal& goal, glm::vec3 towards, float pull) {
+    return place::directionOf(towards, {}) * pull + goal.velocityMetresPerSecond * 2.0F;
 }
 
 // Round the goal.
-glm::vec3 circled(const Goal& goal, glm::vec3 towards, float pull) {
+glm::vec3 circled(const surroundings::Goal& goal, glm::vec3 towards, float pull) {
     const float turn = goal.mill > 0 ? 1.0F : -1.0F;
     const glm::vec3 around{-towards.z * turn, 0, towards.x * turn};
-    return directionOf(around, {1, 0, 0}) * 1.6F + directionOf(towards, {}) * (pull + 0.3F);
+    return place::directionOf(around, {1, 0, 0}) * 1.6F +
+           place::directionOf(towards, {}) * (pull + 0.3F);
 }
 
 glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 towards) {
@@ -59,12 +60,12 @@ glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 
 }
 
 glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec3 position) {
-    const Goal& goal = environment.goal;
+    const surroundings::Goal& goal = environment.goal;
     const glm::vec3 towards = fromGoal(goal, position);
-    const float outside = lengthOf(towards) - environment.schoolRadiusMetres;
+    const float outside = place::lengthOf(towards) - environment.schoolRadiusMetres;
     const float pull = std::clamp(outside / environment.schoolRadiusMetres, 0.0F, 1.5F);
     const glm::vec3 follow = followed(goal, towards, pull);
-    if (environment.gathering == Gathering::Mill)
+    if (environment.gathering == config::Gathering::Mill)
         return circled(goal, towards, pull) + toLevel(environment, fish, towards);
     if (goal.mill == 0) return follow;
     return follow + (circled(goal, towards, pull) - follow) * std::abs(goal.mill);
@@ -72,30 +73,32 @@ glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec
 
 // A slow whim of each fish, so that no two hold quite the same course.
 glm::vec3 whim(std::uint32_t seed, std::size_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(seed, static_cast<std::uint32_t>(fish));
+    const std::uint32_t own = place::hashOf(seed, static_cast<std::uint32_t>(fish));
     const float seconds = static_cast<float>(tick.value % (1U << 20U)) / 60.0F;
-    return {valueNoise(own, {seconds * 0.5F, 0.5F}),
-            0.6F * valueNoise(own, {seconds * 0.5F, 8.5F}),
-            valueNoise(own, {seconds * 0.5F, 16.5F})};
+    return {place::valueNoise(own, {seconds * 0.5F, 0.5F}),
+            0.6F * place::valueNoise(own, {seconds * 0.5F, 8.5F}),
+            place::valueNoise(own, {seconds * 0.5F, 16.5F})};
 }
 
 // The pace of the goal and of those about, quicker where the school is ahead and slower behind
 // others' tails.
 float wantedSpeed(const Situation& situation, const Company& company, float alarm) {
-    const Goal& goal = situation.environment.goal;
+    const surroundings::Goal& goal = situation.environment.goal;
     const Senses& senses = situation.senses;
     float own = situation.nature.medium;
-    if (situation.environment.gathering != Gathering::None) {
+    if (situation.environment.gathering != config::Gathering::None) {
         const float perLength = 1 / senses.length;
-        const float behind = dot(goal.position - senses.position, senses.heading) * perLength;
-        const float goalPace = lengthOf(goal.velocityMetresPerSecond) * perLength + 0.12F * behind;
-        const bool ball = situation.environment.gathering == Gathering::Mill;
+        const float behind =
+            place::dot(goal.position - senses.position, senses.heading) * perLength;
+        const float goalPace =
+            place::lengthOf(goal.velocityMetresPerSecond) * perLength + 0.12F * behind;
+        const bool ball = situation.environment.gathering == config::Gathering::Mill;
         const float round = ball ? kBaitBallPace : kMillPace;
         own = goalPace + (round - goalPace) * std::abs(goal.mill);
     }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
     // What it heads for slows it too.
-    const float stop = kBrakeBefore * std::max(0.0F, -dot(senses.push, senses.heading));
+    const float stop = kBrakeBefore * std::max(0.0F, -place::dot(senses.push, senses.heading));
     return std::clamp(
         pace + company.hurry - company.brake - stop + kAlarmedPace * alarm, kSlowest, kFastest);
 }
@@ -103,12 +106,14 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
 // Whom it catches sight of, of its own kind.
 using Glance = std::array<std::uint32_t, kGlimpses>;
 Glance glanceOf(const Situation& situation) {
-    const Nature& nature = situation.nature;
-    const std::uint32_t own = hashOf(hashOf(situation.environment.seed, kGlances), situation.fish);
+    const fish::Nature& nature = situation.nature;
+    const std::uint32_t own =
+        place::hashOf(place::hashOf(situation.environment.seed, kGlances), situation.fish);
     const auto when = static_cast<std::uint32_t>(situation.environment.tick.value / kTicksOfGlance);
     Glance glance{};
     for (std::uint32_t i = 0; i < kGlimpses; ++i) {
-        glance[i] = nature.first + hashOf(hashOf(own, when), i) % (nature.last - nature.first);
+        glance[i] = nature.first +
+                    place::hashOf(place::hashOf(own, when), i) % (nature.last - nature.first);
         situation.environment.view->fetch(glance[i]);
     }
     return glance;
@@ -117,15 +122,15 @@ Glance glanceOf(const Situation& situation) {
 // Beyond its neighbours a fish sees others of its kind, a few at a time: so parts of a school that
 // lost one another find together again; alarmed, all seek the middle.
 glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm) {
-    const FishView& view = *situation.environment.view;
+    const fish::FishView& view = *situation.environment.view;
     // A school is a large, flashing thing: it is seen as far as the water is clear.
     const float sight = situation.environment.surroundings->clarityMetres;
     glm::vec3 sum{};
     for (const std::uint32_t other : glance) {
         const glm::vec3 offset = view.position(other) - situation.senses.position;
-        const float distance = lengthOf(offset);
+        const float distance = place::lengthOf(offset);
         const bool seen = distance > kSightMetres * (1 - alarm) && distance < sight &&
-                          !view.shows(other, kAway) &&
+                          !view.shows(other, fish::kAway) &&
                           inFieldOfView(situation.senses.heading, offset);
         if (seen) sum += offset / (distance * static_cast<float>(kGlimpses));
     }
@@ -134,14 +139,14 @@ glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm
 
 // 0 up to the fear that is heeded, 1 from that on with which each flees for itself: a predator that
 // only goes about far off does not press a school together.
-float alarmOf(const Nature& nature, const Feelings& feelings) {
+float alarmOf(const fish::Nature& nature, const Feelings& feelings) {
     const float more = feelings.fear - nature.fearFrom;
     return std::clamp(more / std::max(nature.fearAlone - nature.fearFrom, 0.01F), 0.0F, 1.0F);
 }
 
 // Schoolmates give way to a predator before it comes so near that each flees for itself.
 glm::vec3 clearing(const Situation& situation) {
-    const Nature& nature = situation.nature;
+    const fish::Nature& nature = situation.nature;
     const float fear = situation.feelings.greatestFear - nature.fearFrom;
     if (fear <= 0) return {};
     const float share = std::min(1.0F, fear / std::max(nature.fearAlone - nature.fearFrom, 0.01F));
@@ -151,8 +156,8 @@ glm::vec3 clearing(const Situation& situation) {
 }  // namespace
 
 float levelInBall(std::uint32_t seed, std::uint32_t fish) {
-    const std::uint32_t own = hashOf(hashOf(seed, kLevels), fish);
-    return unitOf(own) + unitOf(hashOf(own)) - 1;
+    const std::uint32_t own = place::hashOf(place::hashOf(seed, kLevels), fish);
+    return place::unitOf(own) + place::unitOf(place::hashOf(own)) - 1;
 }
 
 float schoolRadiusMetres(std::size_t fish) {
@@ -162,11 +167,11 @@ float schoolRadiusMetres(std::size_t fish) {
     return radius;
 }
 
-Course school(const Situation& situation) {
+fish::Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
     const float alarm = alarmOf(situation.nature, situation.feelings);
-    const bool gathers = environment.gathering != Gathering::None;
+    const bool gathers = environment.gathering != config::Gathering::None;
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
     const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
     // What must be avoided comes before where one would like to go.
@@ -177,9 +182,9 @@ Course school(const Situation& situation) {
                            whim(environment.seed, situation.fish, environment.tick) *
                                (kWander * (1 - kAttentive * alarm)) +
                            clearing(situation) + wayRound(situation);
-    return {levelled(directionOf(wish, senses.heading)),
+    return {place::levelled(place::directionOf(wish, senses.heading)),
             wantedSpeed(situation, company, alarm),
             senses.urgency};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

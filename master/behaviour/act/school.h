@@ -8,7 +8,7 @@
 
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // How far from its goal a school of so many fish reaches at ease.
 [[nodiscard]] float schoolRadiusMetres(std::size_t fish);
@@ -17,6 +17,6 @@ namespace aquarama {
 // them near the middle; else all would mill in one flat ring.
 [[nodiscard]] float levelInBall(std::uint32_t seed, std::uint32_t fish);
 
-[[nodiscard]] Course school(const Situation& situation);
+[[nodiscard]] fish::Course school(const Situation& situation);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

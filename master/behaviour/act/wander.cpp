@@ -10,7 +10,7 @@
 #include "master/behaviour/act/home.h"
 #include "master/behaviour/act/pursue.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -32,17 +32,17 @@ struct Spell {
     std::uint64_t ticks;  // since it began
 };
 Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
-    const std::uint32_t own = hashOf(hashOf(seed, Pace), fish);
+    const std::uint32_t own = place::hashOf(place::hashOf(seed, Pace), fish);
     const std::uint64_t now = tick.value + own % kTicksOfPace;
-    return {hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
+    return {place::hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
 }
 
 // A turn for no reason: 40 degrees if gradual, 100 if sharp, to either side.
-glm::vec3 turnOf(const Nature& nature, const Spell& spell, glm::vec3 course) {
-    const std::uint32_t hash = hashOf(spell.hash, Turn);
-    if (spell.ticks >= kTicksOfTurn || unitOf(hash) >= kTurns) return {};
-    const bool gradual =
-        unitOf(hashOf(spell.hash, Sharpness)) < static_cast<float>(nature.habits.gradualShare);
+glm::vec3 turnOf(const fish::Nature& nature, const Spell& spell, glm::vec3 course) {
+    const std::uint32_t hash = place::hashOf(spell.hash, Turn);
+    if (spell.ticks >= kTicksOfTurn || place::unitOf(hash) >= kTurns) return {};
+    const bool gradual = place::unitOf(place::hashOf(spell.hash, Sharpness)) <
+                         static_cast<float>(nature.habits.gradualShare);
     const float cosine = gradual ? 0.766F : -0.174F;
     const float sine = (gradual ? 0.643F : 0.985F) * ((hash & 1U) != 0 ? 1.0F : -1.0F);
     return {course.x * cosine - course.z * sine, 0, course.x * sine + course.z * cosine};
@@ -50,9 +50,9 @@ glm::vec3 turnOf(const Nature& nature, const Spell& spell, glm::vec3 course) {
 
 }  // namespace
 
-float paceOf(const Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick tick) {
-    const Paces& paces = nature.habits.paces;
-    const float drawn = unitOf(hashOf(spellOf(seed, fish, tick).hash));
+float paceOf(const fish::Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick tick) {
+    const config::Paces& paces = nature.habits.paces;
+    const float drawn = place::unitOf(place::hashOf(spellOf(seed, fish, tick).hash));
     const auto hover = static_cast<float>(paces.hover);
     const float slow = hover + static_cast<float>(paces.slow);
     const float medium = slow + static_cast<float>(paces.medium);
@@ -61,9 +61,9 @@ float paceOf(const Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick 
     return drawn < medium ? nature.medium : nature.fast;
 }
 
-Course wander(const Situation& situation) {
+fish::Course wander(const Situation& situation) {
     const Environment& environment = situation.environment;
-    const Nature& nature = situation.nature;
+    const fish::Nature& nature = situation.nature;
     const Senses& senses = situation.senses;
     if (const auto course = keptCompany(situation)) return *course;
     const Bound bound = boundFor(environment, nature, situation.fish, senses.position);
@@ -71,7 +71,8 @@ Course wander(const Situation& situation) {
     const float calm = std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 wish =
         senses.heading * kKeepCourse +
-        directionOf(bound.towards, senses.heading) * ((kGo + kGoHome * bound.strayed) * calm) +
+        place::directionOf(bound.towards, senses.heading) *
+            ((kGo + kGoHome * bound.strayed) * calm) +
         turnOf(nature, spell, senses.heading) * (kTurn * calm * (1 - bound.strayed)) +
         roomFrom(situation);
     const float pace = paceOf(nature, environment.seed, situation.fish, environment.tick);
@@ -79,4 +80,4 @@ Course wander(const Situation& situation) {
     return heading(situation, wish, std::max(pace, nature.slow * bound.strayed));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -8,11 +8,14 @@
 #include "common/units/ids.h"
 #include "master/behaviour/act/routine.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Body lengths a second, by the shares of Habits::paces; another every five seconds.
-[[nodiscard]] float paceOf(const Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick tick);
+[[nodiscard]] float paceOf(const fish::Nature& nature,
+                           std::uint32_t seed,
+                           std::uint32_t fish,
+                           Tick tick);
 
-[[nodiscard]] Course wander(const Situation& situation);
+[[nodiscard]] fish::Course wander(const Situation& situation);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

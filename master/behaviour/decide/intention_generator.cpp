@@ -4,7 +4,7 @@
 #include "common/units/ids.h"
 #include "master/fish/drives.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -21,45 +21,47 @@ float seconds(std::uint32_t ticks) {
     return static_cast<float>(ticks) / static_cast<float>(kTicksPerSecond);
 }
 
-bool likesSchooling(const Nature& nature, const Mind& mind) {
-    return nature.role == Role::Prey && (mind.likes & kLikesSchooling) != 0;
+bool likesSchooling(const fish::Nature& nature, const fish::Mind& mind) {
+    return nature.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
 }
 
 // Prey alone heeds its fear. A school shelters from a lesser one, where there is a school.
-Alarm alarmOf(const Nature& nature,
-              const Mind& mind,
-              const Senses& senses,
-              const Feelings& feelings) {
-    if (nature.role != Role::Prey) return Alarm::Calm;
-    const float heeded = nature.fearFrom * (mind.alarm == Alarm::Calm ? 1 : kHysteresis);
-    if (feelings.fear <= heeded) return Alarm::Calm;
-    const float alone = nature.fearAlone * (mind.alarm == Alarm::Alone ? kHysteresis : 1);
+fish::Alarm alarmOf(const fish::Nature& nature,
+                    const fish::Mind& mind,
+                    const Senses& senses,
+                    const Feelings& feelings) {
+    if (nature.role != config::Role::Prey) return fish::Alarm::Calm;
+    const float heeded =
+        nature.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
+    if (feelings.fear <= heeded) return fish::Alarm::Calm;
+    const float alone =
+        nature.fearAlone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
     const bool together = feelings.greatestFear < alone && likesSchooling(nature, mind) &&
                           senses.schoolmates.count > 0;
-    return together ? Alarm::Together : Alarm::Alone;
+    return together ? fish::Alarm::Together : fish::Alarm::Alone;
 }
 
 // One rung of the ladder is one function; each knows nothing of the others.
 struct Case {
-    const Nature& nature;
-    const Mind& mind;
+    const fish::Nature& nature;
+    const fish::Mind& mind;
     const Senses& senses;
     const Feelings& feelings;
-    Aim aim = aimOf(mind);
-    Alarm alarm = alarmOf(nature, mind, senses, feelings);
+    fish::Aim aim = fish::aimOf(mind);
+    fish::Alarm alarm = alarmOf(nature, mind, senses, feelings);
 
     [[nodiscard]] Weighed obstacle() const {
-        const bool turning = mind.intention == Intention::AvoidObstacle;
+        const bool turning = mind.intention == fish::Intention::AvoidObstacle;
         const float threshold = turning ? kTurnedAway : kTurnAway;
-        return {Intention::AvoidObstacle,
-                kNobody,
+        return {fish::Intention::AvoidObstacle,
+                fish::kNobody,
                 senses.urgency >= threshold ? Verdict::Wins : Verdict::TooWeak,
                 senses.urgency,
                 threshold};
     }
 
     [[nodiscard]] Weighed otherFish() const {
-        return {Intention::AvoidFish,
+        return {fish::Intention::AvoidFish,
                 senses.collision.object,
                 senses.collision.seen() ? Verdict::Wins : Verdict::NoTarget,
                 senses.collisionShare,
@@ -67,14 +69,15 @@ struct Case {
     }
 
     [[nodiscard]] Weighed fear() const {
-        Weighed rung{alarm == Alarm::Together ? Intention::School : Intention::Escape,
-                     alarm == Alarm::Together ? kNobody : senses.predators[0].object,
-                     Verdict::Wins,
-                     feelings.fear,
-                     nature.fearFrom * (mind.alarm == Alarm::Calm ? 1 : kHysteresis)};
-        if (nature.role != Role::Prey)
+        Weighed rung{
+            alarm == fish::Alarm::Together ? fish::Intention::School : fish::Intention::Escape,
+            alarm == fish::Alarm::Together ? fish::kNobody : senses.predators[0].object,
+            Verdict::Wins,
+            feelings.fear,
+            nature.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
+        if (nature.role != config::Role::Prey)
             rung.verdict = Verdict::AgainstNature;
-        else if (alarm == Alarm::Calm)
+        else if (alarm == fish::Alarm::Calm)
             rung.verdict = Verdict::TooWeak;
         return rung;
     }
@@ -85,7 +88,7 @@ struct Case {
                      Verdict::Wins,
                      seconds(mind.sinceRemembered),
                      kMemorySeconds};
-        if (mind.remembered == Intention::Wander)
+        if (mind.remembered == fish::Intention::Wander)
             rung.verdict = Verdict::Nothing;
         else if (rung.value > kMemorySeconds)
             rung.verdict = Verdict::TooOld;
@@ -96,37 +99,37 @@ struct Case {
 
     // What was interrupted is resumed with the same target alone.
     [[nodiscard]] bool canGoOn() const {
-        if (mind.remembered == Intention::Eat) {
+        if (mind.remembered == fish::Intention::Eat) {
             const Weighed now = hunger();
             return now.verdict == Verdict::Wins && now.target == mind.rememberedTarget;
         }
-        if (mind.remembered == Intention::Mate)
+        if (mind.remembered == fish::Intention::Mate)
             return senses.mate.seen() && senses.mate.object == mind.rememberedTarget;
         return likesSchooling(nature, mind);
     }
 
-    [[nodiscard]] float desireFor(Intention aimed) const {
-        return aim.intention == aimed ? kDesire * kHysteresis : kDesire;
+    [[nodiscard]] float desireFor(fish::Intention aimed) const {
+        return aim.intention == aimed ? fish::kDesire * fish::kHysteresis : fish::kDesire;
     }
 
     [[nodiscard]] const Sighting& meal() const {
-        return nature.role == Role::Predator ? senses.prey : senses.food;
+        return nature.role == config::Role::Predator ? senses.prey : senses.food;
     }
 
     [[nodiscard]] bool isRestingFromAChase() const {
-        if (nature.role != Role::Predator) return false;
+        if (nature.role != config::Role::Predator) return false;
         const float since = seconds(mind.sinceChase);
-        return aim.intention == Intention::Eat
+        return aim.intention == fish::Intention::Eat
                    ? since > static_cast<float>(nature.habits.hunt.chaseSeconds)
                    : since < static_cast<float>(nature.habits.hunt.restSeconds);
     }
 
     [[nodiscard]] Weighed hunger() const {
-        Weighed rung{Intention::Eat,
+        Weighed rung{fish::Intention::Eat,
                      meal().object,
                      Verdict::Wins,
                      feelings.hunger,
-                     desireFor(Intention::Eat)};
+                     desireFor(fish::Intention::Eat)};
         if (rung.value <= rung.threshold)
             rung.verdict = Verdict::TooWeak;
         else if (isRestingFromAChase())
@@ -139,28 +142,29 @@ struct Case {
     }
 
     [[nodiscard]] bool wouldMate() const {
-        return mates(nature) && feelings.libido > desireFor(Intention::Mate) && senses.mate.seen();
+        return fish::mates(nature) && feelings.libido > desireFor(fish::Intention::Mate) &&
+               senses.mate.seen();
     }
     [[nodiscard]] bool wouldEat() const {
-        return feelings.hunger > desireFor(Intention::Eat) && meal().seen();
+        return feelings.hunger > desireFor(fish::Intention::Eat) && meal().seen();
     }
     // The published comparison H > L; what is being done already is preferred.
     [[nodiscard]] bool hungerIsStronger() const {
         const bool justBegun = seconds(mind.pursued) < kLeastPursuitSeconds;
-        if (aim.intention == Intention::Eat)
+        if (aim.intention == fish::Intention::Eat)
             return justBegun || feelings.hunger + kPreference >= feelings.libido;
-        if (aim.intention == Intention::Mate)
+        if (aim.intention == fish::Intention::Mate)
             return !justBegun && feelings.hunger > feelings.libido + kPreference;
         return feelings.hunger >= feelings.libido;
     }
 
     [[nodiscard]] Weighed libido() const {
-        Weighed rung{Intention::Mate,
+        Weighed rung{fish::Intention::Mate,
                      senses.mate.object,
                      Verdict::Wins,
                      feelings.libido,
-                     desireFor(Intention::Mate)};
-        if (!mates(nature))
+                     desireFor(fish::Intention::Mate)};
+        if (!fish::mates(nature))
             rung.verdict = Verdict::AgainstNature;
         else if (rung.value <= rung.threshold)
             rung.verdict = Verdict::TooWeak;
@@ -172,9 +176,10 @@ struct Case {
     }
 
     [[nodiscard]] Weighed climate() const {
-        const float threshold = aim.intention == Intention::Leave ? kAtEase : kUneasy;
-        Weighed rung{Intention::Leave, kNobody, Verdict::Wins, senses.discomfort, threshold};
-        if (nature.role == Role::Predator)
+        const float threshold = aim.intention == fish::Intention::Leave ? kAtEase : kUneasy;
+        Weighed rung{
+            fish::Intention::Leave, fish::kNobody, Verdict::Wins, senses.discomfort, threshold};
+        if (nature.role == config::Role::Predator)
             rung.verdict = Verdict::AgainstNature;
         else if (senses.discomfort <= threshold)
             rung.verdict = Verdict::TooWeak;
@@ -184,8 +189,8 @@ struct Case {
     }
 
     [[nodiscard]] Weighed company() const {
-        return {Intention::School,
-                kNobody,
+        return {fish::Intention::School,
+                fish::kNobody,
                 likesSchooling(nature, mind) ? Verdict::Wins : Verdict::AgainstNature,
                 0,
                 0};
@@ -208,8 +213,8 @@ void climbDown(const Case& of, const IsEnough& isEnough) {
 
 }  // namespace
 
-Decision decide(const Nature& nature,
-                const Mind& mind,
+Decision decide(const fish::Nature& nature,
+                const fish::Mind& mind,
                 const Senses& senses,
                 const Feelings& feelings) {
     const Case of{nature, mind, senses, feelings};
@@ -223,8 +228,8 @@ Decision decide(const Nature& nature,
     return decision;
 }
 
-Reasoning reason(const Nature& nature,
-                 const Mind& mind,
+Reasoning reason(const fish::Nature& nature,
+                 const fish::Mind& mind,
                  const Senses& senses,
                  const Feelings& feelings) {
     const Case of{nature, mind, senses, feelings};
@@ -248,12 +253,13 @@ Reasoning reason(const Nature& nature,
     return reasoning;
 }
 
-void remember(Mind& mind, const Decision& decision) {
-    const Aim before = aimOf(mind);
-    if (!interrupts(decision.intention, decision.alarm)) {
-        mind.remembered = Intention::Wander;
-        mind.rememberedTarget = kNobody;
-    } else if (!interrupts(mind.intention, mind.alarm) && mind.intention >= Intention::School) {
+void remember(fish::Mind& mind, const Decision& decision) {
+    const fish::Aim before = fish::aimOf(mind);
+    if (!fish::interrupts(decision.intention, decision.alarm)) {
+        mind.remembered = fish::Intention::Wander;
+        mind.rememberedTarget = fish::kNobody;
+    } else if (!fish::interrupts(mind.intention, mind.alarm) &&
+               mind.intention >= fish::Intention::School) {
         // Eat, mate and school are worth resuming.
         mind.remembered = mind.intention;
         mind.rememberedTarget = mind.target;
@@ -262,14 +268,14 @@ void remember(Mind& mind, const Decision& decision) {
     mind.intention = decision.intention;
     mind.target = decision.target;
     mind.alarm = decision.alarm;
-    const Aim after = aimOf(mind);
+    const fish::Aim after = fish::aimOf(mind);
     if (after == before) return;
     mind.pursued = 0;
     mind.stage = 0;
     mind.sinceStage = 0;
-    const bool chased = before.intention == Intention::Eat;
-    const bool chases = after.intention == Intention::Eat;
+    const bool chased = before.intention == fish::Intention::Eat;
+    const bool chases = after.intention == fish::Intention::Eat;
     if (chased != chases) mind.sinceChase = 0;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -12,21 +12,21 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 struct Decision {
-    Intention intention = Intention::Wander;
-    std::uint32_t target = kNobody;
-    Alarm alarm = Alarm::Calm;
+    fish::Intention intention = fish::Intention::Wander;
+    std::uint32_t target = fish::kNobody;
+    fish::Alarm alarm = fish::Alarm::Calm;
 };
 
-[[nodiscard]] Decision decide(const Nature& nature,
-                              const Mind& mind,
+[[nodiscard]] Decision decide(const fish::Nature& nature,
+                              const fish::Mind& mind,
                               const Senses& senses,
                               const Feelings& feelings);
 
 // The mind with the decision taken: what it interrupts is remembered, what it resumes forgotten.
-void remember(Mind& mind, const Decision& decision);
+void remember(fish::Mind& mind, const Decision& decision);
 
 // The ladder that decide() climbs down: the first rung that wins is the decision.
 enum class Rung : std::uint8_t {
@@ -56,8 +56,8 @@ enum class Verdict : std::uint8_t {
 };
 
 struct Weighed {
-    Intention intention = Intention::Wander;  // that the rung stands for
-    std::uint32_t target = kNobody;
+    fish::Intention intention = fish::Intention::Wander;  // that the rung stands for
+    std::uint32_t target = fish::kNobody;
     Verdict verdict = Verdict::Wins;
     // Obstacle: urgency. OtherFish: share of the other's body in the box. Fear, Hunger, Libido: the
     // feeling. Memory: seconds since. Climate: Senses::discomfort.
@@ -71,9 +71,9 @@ struct Reasoning {
     Decision decision;
     Rung winner = Rung::Ease;
 };
-[[nodiscard]] Reasoning reason(const Nature& nature,
-                               const Mind& mind,
+[[nodiscard]] Reasoning reason(const fish::Nature& nature,
+                               const fish::Mind& mind,
                                const Senses& senses,
                                const Feelings& feelings);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/decide/recommendation.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
 constexpr float kCalm = 0.15F;                 // urgency up to which there is room for a whim
 constexpr float kMealIsFarBodyLengths = 6.0F;  // beyond, it merely swims in its direction
 
-bool isFarFromMeal(const Nature& nature, const Senses& senses) {
-    const Sighting& meal = nature.role == Role::Predator ? senses.prey : senses.food;
+bool isFarFromMeal(const fish::Nature& nature, const Senses& senses) {
+    const Sighting& meal = nature.role == config::Role::Predator ? senses.prey : senses.food;
     return meal.distance > kMealIsFarBodyLengths * senses.length;
 }
 
 }  // namespace
 
-bool acceptsRecommendation(const Nature& nature,
-                           const Mind& mind,
+bool acceptsRecommendation(const fish::Nature& nature,
+                           const fish::Mind& mind,
                            const Senses& senses,
                            const Feelings& feelings) {
     if (senses.urgency > kCalm || feelings.fear > nature.fearFrom) return false;
     switch (mind.intention) {
-        case Intention::Wander:
-        case Intention::Leave:
-        case Intention::School:
+        case fish::Intention::Wander:
+        case fish::Intention::Leave:
+        case fish::Intention::School:
             return true;
-        case Intention::Eat:
+        case fish::Intention::Eat:
             return isFarFromMeal(nature, senses);
-        case Intention::Mate:
-        case Intention::Escape:
-        case Intention::AvoidFish:
-        case Intention::AvoidObstacle:
+        case fish::Intention::Mate:
+        case fish::Intention::Escape:
+        case fish::Intention::AvoidFish:
+        case fish::Intention::AvoidObstacle:
             break;
     }
     return false;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -7,14 +7,14 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Whether a fish with this intention may swim another pattern for a while, for no reason but
 // variety. Not while a stroke counts: in flight, in fear, in another's way, near what it eats, in
 // courtship.
-[[nodiscard]] bool acceptsRecommendation(const Nature& nature,
-                                         const Mind& mind,
+[[nodiscard]] bool acceptsRecommendation(const fish::Nature& nature,
+                                         const fish::Mind& mind,
                                          const Senses& senses,
                                          const Feelings& feelings);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -6,38 +6,41 @@
 #include "master/behaviour/perceive/stimulus.h"
 #include "master/fish/drives.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
 constexpr float kFearOfIdle = 0.5F;
 
 // No stimulus tempts those who never mate.
-float libidoOf(const Nature& nature, const Mind& mind, const Senses& senses, float hunger) {
-    if (!mates(nature)) return 0;
+float libidoOf(const fish::Nature& nature,
+               const fish::Mind& mind,
+               const Senses& senses,
+               float hunger) {
+    if (!fish::mates(nature)) return 0;
     const float stimulus = stimulusOf(kMateStimulus, senses.mate.distance / senses.length);
-    return std::min(1.0F, innerLibido(nature, mind, hunger) + kLibidoStimulus * stimulus);
+    return std::min(1.0F, fish::innerLibido(nature, mind, hunger) + kLibidoStimulus * stimulus);
 }
 
 // A predator is not tempted: it hunts when it is hungry.
-float hungerOf(const Nature& nature, const Mind& mind, const Senses& senses) {
-    if (isGorged(nature, mind)) return 0;
-    const float inner = innerHunger(nature, mind);
-    if (nature.role == Role::Predator) return inner;
+float hungerOf(const fish::Nature& nature, const fish::Mind& mind, const Senses& senses) {
+    if (fish::isGorged(nature, mind)) return 0;
+    const float inner = fish::innerHunger(nature, mind);
+    if (nature.role == config::Role::Predator) return inner;
     const float stimulus = stimulusOf(kFoodStimulus, senses.food.distance / senses.length);
     return std::min(1.0F, inner + kHungerStimulus * stimulus);
 }
 
 // Tu's F_i = min(D0 / d_i, 1). A predator that is after nobody frightens less: fish keep an eye on
 // it and go on eating (threat sensitivity: Helfman 1989, Behav. Ecol. Sociobiol. 24:47).
-float fearOf(const Nature& nature, const Sighting& predator) {
+float fearOf(const fish::Nature& nature, const Sighting& predator) {
     const float heeded = predator.hunting ? 1.0F : kFearOfIdle;
     return heeded * std::min(nature.fearMetres / predator.distance, 1.0F);
 }
 
 }  // namespace
 
-Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses) {
+Feelings feel(const fish::Nature& nature, const fish::Mind& mind, const Senses& senses) {
     Feelings feelings;
     feelings.hunger = hungerOf(nature, mind, senses);
     feelings.libido = libidoOf(nature, mind, senses, feelings.hunger);
@@ -49,4 +52,4 @@ Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses) {
     return feelings;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

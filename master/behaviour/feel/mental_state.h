@@ -6,7 +6,7 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 struct Feelings {
     float hunger = 0, libido = 0;
@@ -16,6 +16,8 @@ struct Feelings {
 
 // Hunger H = 1 - n_e R / alpha + a_h S_h, libido L = s (1 - H) + a_l S_l, fear F = sum of
 // min(D0 / d, 1) over the predators in sight.
-[[nodiscard]] Feelings feel(const Nature& nature, const Mind& mind, const Senses& senses);
+[[nodiscard]] Feelings feel(const fish::Nature& nature,
+                            const fish::Mind& mind,
+                            const Senses& senses);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

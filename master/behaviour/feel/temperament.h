@@ -7,13 +7,17 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Bits of Like. Of two that contradict each other a fish that would draw both has neither.
-[[nodiscard]] std::uint8_t likesOf(const Nature& nature, std::uint32_t seed, std::uint32_t fish);
+[[nodiscard]] std::uint8_t likesOf(const fish::Nature& nature,
+                                   std::uint32_t seed,
+                                   std::uint32_t fish);
 
 // A mind at tick 0, as if it had lived long before: fed and in love by a share of its own, so that
 // not all hunger at once.
-[[nodiscard]] Mind freshMind(const Nature& nature, std::uint32_t seed, std::uint32_t fish);
+[[nodiscard]] fish::Mind freshMind(const fish::Nature& nature,
+                                   std::uint32_t seed,
+                                   std::uint32_t fish);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,7 +5,7 @@
 
 #include "master/fish/minds.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -16,21 +16,22 @@ struct Ambient {
     float light, celsius;
 };
 
-Ambient ambientAt(const Surroundings& around, float y) {
-    return {lightAt(around.climate, around.daylight, y), celsiusAt(around.climate, y)};
+Ambient ambientAt(const surroundings::Surroundings& around, float y) {
+    return {surroundings::lightAt(around.climate, around.daylight, y),
+            surroundings::celsiusAt(around.climate, y)};
 }
 
 // How far the ambient is outside what a habit likes; each habit minds one side of one range.
-float lackOf(Like habit, const Habits& habits, const Ambient& ambient) {
+float lackOf(fish::Like habit, const config::Habits& habits, const Ambient& ambient) {
     switch (habit) {
-        case kLikesBrightness:
+        case fish::kLikesBrightness:
             return static_cast<float>(habits.light.least) - ambient.light;
-        case kLikesDarkness:
+        case fish::kLikesDarkness:
             return ambient.light - static_cast<float>(habits.light.most);
-        case kLikesWarmth:
+        case fish::kLikesWarmth:
             return (static_cast<float>(habits.waterCelsius.least) - ambient.celsius) /
                    kDegreesOfComfort;
-        case kLikesCold:
+        case fish::kLikesCold:
             return (ambient.celsius - static_cast<float>(habits.waterCelsius.most)) /
                    kDegreesOfComfort;
         default:
@@ -40,15 +41,16 @@ float lackOf(Like habit, const Habits& habits, const Ambient& ambient) {
 
 }  // namespace
 
-void feelClimate(const Surroundings& around,
-                 const Nature& nature,
+void feelClimate(const surroundings::Surroundings& around,
+                 const fish::Nature& nature,
                  std::uint8_t likes,
                  Senses& senses) {
     const Ambient here = ambientAt(around, senses.position.y);
     senses.light = here.light;
     senses.celsius = here.celsius;
-    Like worst = kIsFemale;
-    for (const Like habit : {kLikesBrightness, kLikesDarkness, kLikesWarmth, kLikesCold}) {
+    fish::Like worst = fish::kIsFemale;
+    for (const fish::Like habit :
+         {fish::kLikesBrightness, fish::kLikesDarkness, fish::kLikesWarmth, fish::kLikesCold}) {
         if ((likes & habit) == 0) continue;
         const float lack = lackOf(habit, nature.habits, here);
         if (lack <= senses.discomfort) continue;
@@ -57,7 +59,7 @@ void feelClimate(const Surroundings& around,
     }
     if (senses.discomfort <= -kNoticeable) return;  // at ease
     // Light and warmth change with depth alone: the best place is the top or the bottom.
-    const Region& water = around.obstacles.water;
+    const place::Region& water = around.obstacles.water;
     const float atTop =
         lackOf(worst, nature.habits, ambientAt(around, water.centre.y + water.halfExtent.y));
     const float atBottom =
@@ -66,4 +68,4 @@ void feelClimate(const Surroundings& around,
     if (senses.discomfort - best > kNoticeable) senses.betterUp = atTop < atBottom ? 1.0F : -1.0F;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -8,12 +8,12 @@
 #include "master/fish/nature.h"
 #include "master/surroundings/surroundings.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Writes light, celsius, discomfort and betterUp of a fish that has these habits (bits of Like).
-void feelClimate(const Surroundings& around,
-                 const Nature& nature,
+void feelClimate(const surroundings::Surroundings& around,
+                 const fish::Nature& nature,
                  std::uint8_t likes,
                  Senses& senses);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

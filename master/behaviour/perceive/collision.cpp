@@ -6,7 +6,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -27,12 +27,12 @@ constexpr float kSoon[] = {0.2F, 0.4F};
 struct Axes {
     glm::vec3 ahead, up, right;
     [[nodiscard]] glm::vec3 of(glm::vec3 v) const {
-        return {dot(v, ahead), dot(v, up), dot(v, right)};
+        return {place::dot(v, ahead), place::dot(v, up), place::dot(v, right)};
     }
 };
 
 Axes axesOf(glm::vec3 heading) {
-    const glm::vec3 right = directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
+    const glm::vec3 right = place::directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
     const glm::vec3 up{right.y * heading.z - right.z * heading.y,
                        right.z * heading.x - right.x * heading.z,
                        right.x * heading.y - right.y * heading.x};
@@ -52,11 +52,11 @@ bool reaches(float at, float extent, float least, float most) {
 
 struct Watch {
     const Environment& environment;
-    const Nature& nature;
-    const Mind& mind;
+    const fish::Nature& nature;
+    const fish::Mind& mind;
     Senses& senses;
-    const FishView& view = *environment.view;
-    Aim aim = aimOf(mind);
+    const fish::FishView& view = *environment.view;
+    fish::Aim aim = fish::aimOf(mind);
     Axes axes = axesOf(senses.heading);
     glm::vec3 velocity = senses.heading * senses.speed;
     Box box = boxOf();
@@ -72,25 +72,25 @@ struct Watch {
 
     // Whom it courts, hunts or follows it wants near; from its hunter prey flees instead.
     [[nodiscard]] bool isHeeded(std::uint32_t other) const {
-        if (other == aim.target && aim.intention == Intention::Mate) return false;
+        if (other == aim.target && aim.intention == fish::Intention::Mate) return false;
         std::uint64_t unheeded = nature.hunts | nature.shadows;
-        if (nature.role == Role::Prey) unheeded |= nature.huntedBy;
+        if (nature.role == config::Role::Prey) unheeded |= nature.huntedBy;
         return (unheeded >> view.kind[other] & 1U) == 0;
     }
 
     void heed(std::uint32_t other) {
         if (!isHeeded(other)) return;
         const glm::vec3 offset = view.position(other) - senses.position;
-        const float squared = dot(offset, offset);
+        const float squared = place::dot(offset, offset);
         const float length = view.fish[other].length;
         const float hold =
-            other == mind.target && mind.intention == Intention::AvoidFish ? kHoldOn : 1.0F;
+            other == mind.target && mind.intention == fish::Intention::AvoidFish ? kHoldOn : 1.0F;
         // From farther off no part of the other is in the box.
         const float reach =
             hold * (std::max(box.ahead, box.behind) + box.aside + box.up) + kTailBehind * length;
         if (squared > reach * reach) return;
         const glm::vec3 drift = view.heading(other) * view.fish[other].speed - velocity;
-        const float parting = dot(offset, drift);
+        const float parting = place::dot(offset, drift);
         if (parting > kPartingLengths * senses.length * std::sqrt(squared)) return;
         note(other, offset, shareOf(view.heading(other) * length, scaled(box, hold), offset));
     }
@@ -103,14 +103,14 @@ struct Watch {
         // Most part, or pass beside, above or behind: that is known before the rest is worked out,
         // and all of it asked at once, as it is not to be foretold which.
         const auto meets = [&](glm::vec3 axis, float least, float most) {
-            const float at = dot(offset, axis);
-            const float moves = dot(drift, axis);
-            const float extent = dot(along, axis);
+            const float at = place::dot(offset, axis);
+            const float moves = place::dot(drift, axis);
+            const float extent = place::dot(along, axis);
             return reaches(at + moves * kSoon[0], extent, least, most) |
                    reaches(at + moves * kSoon[1], extent, least, most);
         };
         const bool mayMeet =
-            (dot(offset, drift) <= 0) & meets(axes.right, -body.aside, body.aside) &
+            (place::dot(offset, drift) <= 0) & meets(axes.right, -body.aside, body.aside) &
             meets(axes.up, -body.up, body.up) & meets(axes.ahead, -body.behind, body.ahead);
         if (!mayMeet) return;
         float share = 0;
@@ -130,7 +130,7 @@ struct Watch {
         const bool worse = share > senses.collisionShare ||
                            (share == senses.collisionShare && other < senses.collision.object);
         if (share <= 0 || !worse) return;
-        senses.collision = {other, offset, lengthOf(offset)};
+        senses.collision = {other, offset, place::lengthOf(offset)};
         senses.collisionShare = share;
     }
 };
@@ -172,13 +172,14 @@ float shareInside(const Box& box, glm::vec3 nose, glm::vec3 tail) {
 }
 
 void feelCollision(const Environment& environment,
-                   const Nature& nature,
+                   const fish::Nature& nature,
                    std::uint32_t fish,
-                   const Mind& mind,
+                   const fish::Mind& mind,
                    Senses& senses) {
     Watch watch{environment, nature, mind, senses};
     // Those who like to school bear one another near: also while they feed among the others.
-    const bool bearsMates = nature.role == Role::Prey && (mind.likes & kLikesSchooling) != 0;
+    const bool bearsMates =
+        nature.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
         const std::uint32_t other = senses.schoolmates.fish[i];
         if (bearsMates)
@@ -190,4 +191,4 @@ void feelCollision(const Environment& environment,
     heedLargeBodies(watch, fish);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -10,7 +10,7 @@
 #include "master/fish/minds.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // About the origin of a body frame: ahead (x), above and below (y), aside (z); metres.
 struct Box {
@@ -23,9 +23,9 @@ struct Box {
 // Writes Senses::collision and collisionShare, from the neighbours already in `senses` and from
 // large bodies.
 void feelCollision(const Environment& environment,
-                   const Nature& nature,
+                   const fish::Nature& nature,
                    std::uint32_t fish,
-                   const Mind& mind,
+                   const fish::Mind& mind,
                    Senses& senses);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -14,19 +14,19 @@
 #include "master/surroundings/journey.h"
 #include "master/surroundings/surroundings.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 struct Environment {
-    const FishView* view = nullptr;
+    const fish::FishView* view = nullptr;
     const Grids* grids = nullptr;
-    const Surroundings* surroundings = nullptr;
-    std::span<const Nature> natures;  // by FishView::kind
-    Gathering gathering = Gathering::None;
-    Goal goal;  // of the school, where the scene has it gather
+    const surroundings::Surroundings* surroundings = nullptr;
+    std::span<const fish::Nature> natures;  // by FishView::kind
+    config::Gathering gathering = config::Gathering::None;
+    surroundings::Goal goal;  // of the school, where the scene has it gather
     float schoolRadiusMetres = 0;
     std::uint32_t seed = 0;
     Tick tick;
-    Adaptation adaptation;
+    fish::Adaptation adaptation;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -6,7 +6,7 @@
 
 #include "master/behaviour/perceive/neighbours.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -21,17 +21,19 @@ std::size_t mostCellsFor(std::size_t points) {
 }
 
 // Predators and large bodies are seen from so far that a search would pass many empty cells.
-SpatialGrid farSeen(const Region& water, std::size_t points) {
+SpatialGrid farSeen(const place::Region& water, std::size_t points) {
     return {water, kSparseCellMetres, points, points / 2};
 }
 
-bool isPredator(const FishView& view, std::span<const Nature> natures, std::size_t fish) {
-    return natures[view.kind[fish]].role == Role::Predator;
+bool isPredator(const fish::FishView& view,
+                std::span<const fish::Nature> natures,
+                std::size_t fish) {
+    return natures[view.kind[fish]].role == config::Role::Predator;
 }
 
 }  // namespace
 
-Grids::Grids(const Region& water, std::size_t fishCount, std::size_t foodCount)
+Grids::Grids(const place::Region& water, std::size_t fishCount, std::size_t foodCount)
     : fish(water, kCellMetres, fishCount, mostCellsFor(fishCount)),
       kinds(fish),
       predators(farSeen(water, 0)),
@@ -51,7 +53,7 @@ void Grids::expect(SpatialGrid& grid, Sparse which, std::size_t count) {
     grid = farSeen(water_, chosen_[which].capacity());
 }
 
-void Grids::expect(const FishView& view, std::span<const Nature> natures) {
+void Grids::expect(const fish::FishView& view, std::span<const fish::Nature> natures) {
     std::size_t hunting = 0;
     std::size_t big = 0;
     for (std::size_t i = 0; i < view.size(); ++i) {
@@ -62,8 +64,8 @@ void Grids::expect(const FishView& view, std::span<const Nature> natures) {
     expect(large, kLarges, big);
 }
 
-void Grids::mark(const FishView& view,
-                 std::span<const Nature> natures,
+void Grids::mark(const fish::FishView& view,
+                 std::span<const fish::Nature> natures,
                  std::size_t first,
                  std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -71,8 +73,8 @@ void Grids::mark(const FishView& view,
         int marks = kPresent;
         if (isPredator(view, natures, i)) marks |= kPredator;
         if (view.fish[i].length >= kLargeBodyMetres) marks |= kLarge;
-        if ((signs & kWilling) != 0) marks |= kMate;
-        marks_[i] = static_cast<std::uint8_t>((signs & kAway) != 0 ? 0 : marks);
+        if ((signs & fish::kWilling) != 0) marks |= kMate;
+        marks_[i] = static_cast<std::uint8_t>((signs & fish::kAway) != 0 ? 0 : marks);
     }
 }
 
@@ -93,7 +95,9 @@ std::span<const std::uint32_t> Grids::marked(Sparse which, Mark mark) {
     return chosen;
 }
 
-void Grids::rebuildSparse(std::size_t which, const Points& fishPoints, const Food& particles) {
+void Grids::rebuildSparse(std::size_t which,
+                          const Points& fishPoints,
+                          const surroundings::Food& particles) {
     const auto of = [&](SpatialGrid& grid, Sparse sparse, Mark mark) {
         const std::size_t room = chosen_[sparse].capacity();
         const std::span<const std::uint32_t> chosen = marked(sparse, mark);
@@ -119,4 +123,4 @@ std::size_t Grids::bytes() const {
            mates.bytes() + food.bytes();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -14,20 +14,22 @@
 #include "master/fish/nature.h"
 #include "master/surroundings/food.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 inline constexpr float kLargeBodyMetres = 0.6F;  // from this length a fish is a large body
 
 class Grids {
   public:
-    Grids(const Region& water, std::size_t fish, std::size_t food);
+    Grids(const place::Region& water, std::size_t fish, std::size_t food);
 
     // Makes the grids of predators and of large bodies as large as they need be for these fish,
     // of whom some may be away. rebuild() does so too where they are too small.
-    void expect(const FishView& view, std::span<const Nature> natures);
+    void expect(const fish::FishView& view, std::span<const fish::Nature> natures);
 
     // Of those that are there. Allocates nothing once expect() was told of these fish.
-    void rebuild(const FishView& view, const Food& particles, std::span<const Nature> natures) {
+    void rebuild(const fish::FishView& view,
+                 const surroundings::Food& particles,
+                 std::span<const fish::Nature> natures) {
         rebuild(
             view,
             particles,
@@ -40,9 +42,9 @@ class Grids {
     // The same by share(jobs, job), which calls job(i) once for each of [0, jobs) in any order and
     // on any thread. Before fish [first, last) are looked at, it calls look(first, last).
     template <class Share, class Look>
-    void rebuild(const FishView& view,
-                 const Food& particles,
-                 std::span<const Nature> natures,
+    void rebuild(const fish::FishView& view,
+                 const surroundings::Food& particles,
+                 std::span<const fish::Nature> natures,
                  const Share& share,
                  const Look& look) {
         const Points points = placesOf(view);
@@ -77,23 +79,25 @@ class Grids {
     enum Mark : std::uint8_t { kPresent = 1, kPredator = 2, kLarge = 4, kMate = 8 };
     enum Sparse : std::size_t { kMates, kFood, kPredators, kLarges, kSparseGrids };
 
-    void mark(const FishView& view,
-              std::span<const Nature> natures,
+    void mark(const fish::FishView& view,
+              std::span<const fish::Nature> natures,
               std::size_t first,
               std::size_t last);
-    [[nodiscard]] static Points placesOf(const FishView& view) {
-        constexpr std::size_t kStride = sizeof(VisibleFish) / sizeof(float);
+    [[nodiscard]] static Points placesOf(const fish::FishView& view) {
+        constexpr std::size_t kStride = sizeof(fish::VisibleFish) / sizeof(float);
         if (view.size() == 0) return {};
         const glm::vec3& first = view.fish.front().position;
         return {&first.x, &first.y, &first.z, view.size(), kStride};
     }
-    void rebuildSparse(std::size_t which, const Points& fishPoints, const Food& particles);
+    void rebuildSparse(std::size_t which,
+                       const Points& fishPoints,
+                       const surroundings::Food& particles);
     [[nodiscard]] std::span<const std::uint32_t> marked(Sparse which, Mark mark);
     void expect(SpatialGrid& grid, Sparse which, std::size_t count);
 
-    Region water_;
+    place::Region water_;
     std::vector<std::uint8_t> marks_;  // of each fish
     std::vector<std::uint32_t> chosen_[kSparseGrids];
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::size_t KindsAbout::bytes() const {
     return kindOfCell_.size() + sizeof(std::uint64_t) * kindsOfBlock_.size();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

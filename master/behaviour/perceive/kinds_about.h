@@ -10,7 +10,7 @@
 
 #include "master/behaviour/perceive/spatial_grid.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 class KindsAbout {
   public:
@@ -38,4 +38,4 @@ class KindsAbout {
     std::vector<std::uint64_t> kindsOfBlock_;  // a bit for each kind
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -8,7 +8,7 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // The shorter of a pair is at least this share of the longer.
 inline constexpr float kLeastSizeRatio = 0.7F;
@@ -16,16 +16,16 @@ inline constexpr float kLeastSizeRatio = 0.7F;
 inline constexpr float kTemptedFrom = 0.1F;
 
 // `likes` are those of the fish that looks.
-[[nodiscard]] bool suitsAsMate(const FishView& view,
+[[nodiscard]] bool suitsAsMate(const fish::FishView& view,
                                std::uint8_t likes,
                                std::uint32_t fish,
                                std::uint32_t other);
 
 // So many times its distance it counts as far, 1 or more: one that courts another as farther, and
 // so does everybody to one whose courtship is answered; to a female a smaller one as farther.
-[[nodiscard]] float dearnessOfMate(const FishView& view,
+[[nodiscard]] float dearnessOfMate(const fish::FishView& view,
                                    std::uint8_t likes,
                                    std::uint32_t fish,
                                    std::uint32_t other);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -3,7 +3,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 void Neighbours::insert(std::uint32_t other, float squared) {
     const auto isNearer = [&](std::size_t place) {
@@ -22,13 +22,13 @@ void Neighbours::insert(std::uint32_t other, float squared) {
 }
 
 bool inFieldOfView(glm::vec3 heading, glm::vec3 offset) {
-    const float ahead = dot(heading, offset);
-    return ahead >= 0 || ahead * ahead <= kBlindCosineSquared * dot(offset, offset);
+    const float ahead = place::dot(heading, offset);
+    return ahead >= 0 || ahead * ahead <= kBlindCosineSquared * place::dot(offset, offset);
 }
 
-NearestFish nearestVisibleReference(const FishView& view,
+NearestFish nearestVisibleReference(const fish::FishView& view,
                                     const SpatialGrid& grid,
-                                    const Nature& nature,
+                                    const fish::Nature& nature,
                                     std::uint32_t fish) {
     NearestFish nearest;
     const glm::vec3 position = view.position(fish);
@@ -38,7 +38,7 @@ NearestFish nearestVisibleReference(const FishView& view,
         for (std::size_t i = 0; i < row.index.size(); ++i) {
             const std::uint32_t other = row.index[i];
             const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;
-            const float squared = dot(offset, offset);
+            const float squared = place::dot(offset, offset);
             if (squared > kReachSquared || other == fish || !inFieldOfView(heading, offset))
                 continue;
             const bool mate = other >= nature.first && other < nature.last;
@@ -48,4 +48,4 @@ NearestFish nearestVisibleReference(const FishView& view,
     return nearest;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -10,7 +10,7 @@
 #include "master/fish/fish_view.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 class Grids;
 
@@ -42,17 +42,17 @@ inline constexpr float kBlindCosineSquared = 0.75F;  // cos^2 of 30 degrees
 
 // Of each, the nearest visible within kSightMetres, nearest first; of equally near ones the lower
 // index. `nature` is that of the fish.
-[[nodiscard]] NearestFish nearestVisible(const FishView& view,
+[[nodiscard]] NearestFish nearestVisible(const fish::FishView& view,
                                          const Grids& grids,
-                                         const Nature& nature,
+                                         const fish::Nature& nature,
                                          std::uint32_t fish);
 // The same bits by plain code.
-[[nodiscard]] NearestFish nearestVisibleReference(const FishView& view,
+[[nodiscard]] NearestFish nearestVisibleReference(const fish::FishView& view,
                                                   const SpatialGrid& grid,
-                                                  const Nature& nature,
+                                                  const fish::Nature& nature,
                                                   std::uint32_t fish);
 
 // How many fish nearestVisible() looks at together on this processor.
 [[nodiscard]] std::size_t nearestVisibleLanes();
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -15,7 +15,7 @@
 #include "master/behaviour/perceive/sweep-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::behaviour::HWY_NAMESPACE {
 namespace {
 
 // More than are worth ranking among one another: then the farther half is left out first.
@@ -326,9 +326,9 @@ HWY_INLINE Neighbours nearestOthers(const Search& search,
 
 }  // namespace
 
-void nearestVisibleVectors(const FishView& view,
+void nearestVisibleVectors(const fish::FishView& view,
                            const Grids& grids,
-                           const Nature& nature,
+                           const fish::Nature& nature,
                            std::uint32_t fish,
                            NearestFish* nearest) {
     const glm::vec3 position = view.position(fish);
@@ -348,18 +348,18 @@ std::size_t lanes() {
     return hn::Lanes(kFloats);
 }
 
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::behaviour::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace aquarama {
+namespace aquarama::behaviour {
 
 HWY_EXPORT(nearestVisibleVectors);
 HWY_EXPORT(lanes);
 
-NearestFish nearestVisible(const FishView& view,
+NearestFish nearestVisible(const fish::FishView& view,
                            const Grids& grids,
-                           const Nature& nature,
+                           const fish::Nature& nature,
                            std::uint32_t fish) {
     NearestFish nearest;
     HWY_DYNAMIC_DISPATCH(nearestVisibleVectors)(view, grids, nature, fish, &nearest);
@@ -370,5 +370,5 @@ std::size_t nearestVisibleLanes() {
     return HWY_DYNAMIC_DISPATCH(lanes)();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour
 #endif

@@ -16,7 +16,7 @@
 #include "master/fish/mouth.h"
 #include "master/surroundings/obstacles.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -32,25 +32,25 @@ constexpr float kTurningCost = 0.2F;
 // Who looks, and what it is about.
 struct Onlooker {
     const Environment& environment;
-    const Nature& nature;
+    const fish::Nature& nature;
     std::uint32_t fish;
-    const Mind& mind;
+    const fish::Mind& mind;
     Senses& senses;
-    Aim aim = aimOf(mind);
+    fish::Aim aim = fish::aimOf(mind);
 
-    [[nodiscard]] const FishView& view() const { return *environment.view; }
+    [[nodiscard]] const fish::FishView& view() const { return *environment.view; }
     [[nodiscard]] float clarity() const { return environment.surroundings->clarityMetres; }
     [[nodiscard]] float sight(float conspicuous) const {
         return sightMetres(nature, senses.length, conspicuous, clarity());
     }
     [[nodiscard]] bool isHidden(const Sighting& sighting) const {
-        return aquarama::isHidden(
+        return behaviour::isHidden(
             environment, fish, sighting.object, {senses.position, sighting.offset});
     }
     // Of a fish that is there; not whether anything is in between.
     [[nodiscard]] Sighting sightingOf(std::uint32_t other) const {
         const glm::vec3 offset = view().position(other) - senses.position;
-        return {other, offset, lengthOf(offset)};
+        return {other, offset, place::lengthOf(offset)};
     }
 };
 
@@ -83,7 +83,7 @@ Sighting cheapestIn(
     grid.visitAround(position, reachSquared, [&](const SpatialGrid::Candidates& row) {
         for (std::size_t i = 0; i < row.index.size(); ++i) {
             const glm::vec3 offset = glm::vec3{row.x[i], row.y[i], row.z[i]} - position;
-            weigh(row.index[i], offset, dot(offset, offset));
+            weigh(row.index[i], offset, place::dot(offset, offset));
         }
     });
     return cheapest;
@@ -91,7 +91,7 @@ Sighting cheapestIn(
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
-void feelItself(const FishView& view, std::uint32_t fish, Senses& senses) {
+void feelItself(const fish::FishView& view, std::uint32_t fish, Senses& senses) {
     senses.position = view.position(fish);
     senses.heading = view.heading(fish);
     senses.speed = view.fish[fish].speed;
@@ -128,11 +128,11 @@ void forgetHiddenPredators(const Onlooker& onlooker) {
     Senses& senses = onlooker.senses;
     const std::array<Sighting, kMostPredators> looked = senses.predators;
     const std::size_t count = senses.predatorCount;
-    const Obstacles& obstacles = onlooker.environment.surroundings->obstacles;
+    const surroundings::Obstacles& obstacles = onlooker.environment.surroundings->obstacles;
     senses.predatorCount = 0;
     senses.predators = {};
     for (std::size_t i = 0; i < count; ++i) {
-        const Ray ray{senses.position, looked[i].offset};
+        const SightLine ray{senses.position, looked[i].offset};
         bool hidden = terrainHides(obstacles, ray);
         for (std::size_t nearer = 0; nearer < i; ++nearer)
             hidden = hidden || bodyHides(onlooker.view(), looked[nearer].object, ray);
@@ -142,11 +142,11 @@ void forgetHiddenPredators(const Onlooker& onlooker) {
 
 // An alarmed fish looks about: it does not lose what it flees from in its blind angle.
 void seePredators(const Onlooker& onlooker) {
-    const Nature& nature = onlooker.nature;
+    const fish::Nature& nature = onlooker.nature;
     if (nature.huntedBy == 0) return;
     Senses& senses = onlooker.senses;
-    const FishView& view = onlooker.view();
-    const bool alarmed = onlooker.mind.alarm != Alarm::Calm;
+    const fish::FishView& view = onlooker.view();
+    const bool alarmed = onlooker.mind.alarm != fish::Alarm::Calm;
     const float reach = onlooker.sight(kMostConspicuous);
     float reachSquared = reach * reach;
     const auto notice = [&](std::uint32_t other, glm::vec3 offset, float squared) {
@@ -154,7 +154,7 @@ void seePredators(const Onlooker& onlooker) {
         if (!alarmed && !inFieldOfView(senses.heading, offset)) return;
         const float seen = onlooker.sight(conspicuousness(view.fish[other].length));
         if (squared > seen * seen) return;
-        insert(senses, {other, offset, std::sqrt(squared), view.shows(other, kHunting)});
+        insert(senses, {other, offset, std::sqrt(squared), view.shows(other, fish::kHunting)});
         const float farthest = senses.predators[kMostPredators - 1].distance;
         if (senses.predatorCount == kMostPredators)
             reachSquared = std::min(reachSquared, farthest * farthest);
@@ -164,21 +164,21 @@ void seePredators(const Onlooker& onlooker) {
 }
 
 bool mayHunt(const Onlooker& onlooker) {
-    if (onlooker.nature.role != Role::Predator || onlooker.nature.hunts == 0) return false;
-    return innerHunger(onlooker.nature, onlooker.mind) > kDesire * kHysteresis;
+    if (onlooker.nature.role != config::Role::Predator || onlooker.nature.hunts == 0) return false;
+    return fish::innerHunger(onlooker.nature, onlooker.mind) > fish::kDesire * fish::kHysteresis;
 }
 
 // C_k = d_k (1 + b1 S_k + b2 E_k / pi).
 float costOfPrey(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
-    const FishView& view = onlooker.view();
-    if ((onlooker.nature.hunts >> view.kind[other] & 1U) == 0 || view.shows(other, kAway))
+    const fish::FishView& view = onlooker.view();
+    if ((onlooker.nature.hunts >> view.kind[other] & 1U) == 0 || view.shows(other, fish::kAway))
         return kNever;
     const glm::vec3 heading = onlooker.senses.heading;
     if (!inFieldOfView(heading, offset)) return kNever;
-    const float ahead = dot(heading, offset);
+    const float ahead = place::dot(heading, offset);
     const float aside = std::sqrt(std::max(0.0F, distance * distance - ahead * ahead));
-    const float schooling = view.shows(other, kSchooling) ? kSchoolingCost : 0.0F;
-    return distance * (1 + schooling + kTurningCost * angleOf(aside, ahead) / kPi);
+    const float schooling = view.shows(other, fish::kSchooling) ? kSchoolingCost : 0.0F;
+    return distance * (1 + schooling + kTurningCost * place::angleOf(aside, ahead) / place::kPi);
 }
 
 // The target that a fish pursues is kept while it is in sight and no other is better by the fish's
@@ -186,7 +186,7 @@ float costOfPrey(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset
 template <class CostOf>
 Sighting attend(const Onlooker& onlooker,
                 const SpatialGrid& grid,
-                Intention intention,
+                fish::Intention intention,
                 float sight,
                 const CostOf& costOf) {
     Sighting kept;
@@ -210,7 +210,7 @@ void seePrey(const Onlooker& onlooker) {
     const float giveUp = static_cast<float>(onlooker.nature.habits.hunt.giveUpMetres);
     onlooker.senses.prey = attend(onlooker,
                                   onlooker.environment.grids->fish,
-                                  Intention::Eat,
+                                  fish::Intention::Eat,
                                   std::min(onlooker.sight(1), giveUp),
                                   [&](std::uint32_t other, glm::vec3 offset, float distance) {
                                       return costOfPrey(onlooker, other, offset, distance);
@@ -220,13 +220,14 @@ void seePrey(const Onlooker& onlooker) {
 // How far it is worth looking for what would raise a drive above its threshold.
 float worthLooking(
     const Onlooker& onlooker, float inner, float weight, const StimulusRange& range, float sense) {
-    const float lacking = (kDesire * kHysteresis - inner) / weight;
+    const float lacking = (fish::kDesire * fish::kHysteresis - inner) / weight;
     if (lacking <= 0) return sense;
     return std::min(sense, onlooker.senses.length * bodyLengthsOf(range, lacking));
 }
 
 bool isInASchool(const Onlooker& onlooker) {
-    return onlooker.nature.role == Role::Prey && (onlooker.mind.likes & kLikesSchooling) != 0 &&
+    return onlooker.nature.role == config::Role::Prey &&
+           (onlooker.mind.likes & fish::kLikesSchooling) != 0 &&
            onlooker.senses.schoolmates.count > 0;
 }
 
@@ -235,8 +236,8 @@ bool isInASchool(const Onlooker& onlooker) {
 constexpr float kDartBodyLengths = 2.5F;
 
 bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float distance) {
-    const Food& food = onlooker.environment.surroundings->food;
-    return food.kind[particle] == FoodKind::Pellet || !isInASchool(onlooker) ||
+    const surroundings::Food& food = onlooker.environment.surroundings->food;
+    return food.kind[particle] == surroundings::FoodKind::Pellet || !isInASchool(onlooker) ||
            distance < kDartBodyLengths * onlooker.senses.length;
 }
 
@@ -244,29 +245,30 @@ bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float dist
 constexpr float kComeAboutBodyLengths = 2;
 
 float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
-    const glm::vec3 fromMouth = offset - senses.heading * (kMouthBodyLengths * senses.length);
-    const float cosine = dot(directionOf(fromMouth, senses.heading), senses.heading);
+    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    const float cosine = place::dot(place::directionOf(fromMouth, senses.heading), senses.heading);
     return distance + 0.5F * kComeAboutBodyLengths * senses.length * (1 - cosine);
 }
 
 // Food is sensed in all directions, and never hidden: it smells.
 void senseFood(const Onlooker& onlooker) {
-    const Nature& nature = onlooker.nature;
-    if (!nature.habits.eatsPlankton || nature.role == Role::Predator ||
-        isGorged(nature, onlooker.mind))
+    const fish::Nature& nature = onlooker.nature;
+    if (!nature.habits.eatsPlankton || nature.role == config::Role::Predator ||
+        fish::isGorged(nature, onlooker.mind))
         return;
     Senses& senses = onlooker.senses;
-    const Food& food = onlooker.environment.surroundings->food;
+    const surroundings::Food& food = onlooker.environment.surroundings->food;
     float smell = std::min(nature.smellBodyLengths * senses.length, onlooker.clarity());
     if (isInASchool(onlooker) && food.pellets == 0)
         smell = std::min(smell, kDartBodyLengths * senses.length);
     const float reach = worthLooking(
-        onlooker, innerHunger(nature, onlooker.mind), kHungerStimulus, kFoodStimulus, smell);
+        onlooker, fish::innerHunger(nature, onlooker.mind), kHungerStimulus, kFoodStimulus, smell);
     float best = reach + kComeAboutBodyLengths * senses.length;
     const std::uint32_t pursued = onlooker.aim.target;
-    if (onlooker.aim.intention == Intention::Eat && pursued < food.size() && food.isFree(pursued)) {
+    if (onlooker.aim.intention == fish::Intention::Eat && pursued < food.size() &&
+        food.isFree(pursued)) {
         const glm::vec3 offset = food.position(pursued) - senses.position;
-        const float distance = lengthOf(offset);
+        const float distance = place::lengthOf(offset);
         if (distance <= reach) {
             senses.food = {pursued, offset, distance};
             best = costOfFood(senses, offset, distance) * (1 - nature.persistence);
@@ -287,7 +289,7 @@ void senseFood(const Onlooker& onlooker) {
 
 // A male courts the nearest; a female prefers the larger among the near, and him who courts her.
 float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
-    const FishView& view = onlooker.view();
+    const fish::FishView& view = onlooker.view();
     if (!suitsAsMate(view, onlooker.mind.likes, onlooker.fish, other)) return kNever;
     // Whom it courts already it feels behind it too.
     if (other != onlooker.aim.target && !inFieldOfView(onlooker.senses.heading, offset))
@@ -296,15 +298,15 @@ float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset
 }
 
 void seeMate(const Onlooker& onlooker) {
-    if (!mates(onlooker.nature)) return;
-    const float hunger = innerHunger(onlooker.nature, onlooker.mind);
-    const float libido = innerLibido(onlooker.nature, onlooker.mind, hunger);
+    if (!fish::mates(onlooker.nature)) return;
+    const float hunger = fish::innerHunger(onlooker.nature, onlooker.mind);
+    const float libido = fish::innerLibido(onlooker.nature, onlooker.mind, hunger);
     if (libido < kTemptedFrom) return;
     const float sight =
         worthLooking(onlooker, libido, kLibidoStimulus, kMateStimulus, onlooker.sight(1));
     onlooker.senses.mate = attend(onlooker,
                                   onlooker.environment.grids->mates,
-                                  Intention::Mate,
+                                  fish::Intention::Mate,
                                   sight,
                                   [&](std::uint32_t other, glm::vec3 offset, float distance) {
                                       return costOfMate(onlooker, other, offset, distance);
@@ -313,40 +315,43 @@ void seeMate(const Onlooker& onlooker) {
 
 // The way that is felt ahead is the one past the submarine, which comes to meet the fish or
 // overtakes it; one that comes on is felt from farther.
-glm::vec3 submarinePush(const Submarine& submarine, const Senses& senses, float reach) {
+glm::vec3 submarinePush(const surroundings::Submarine& submarine,
+                        const Senses& senses,
+                        float reach) {
     const glm::vec3 velocity = submarine.velocityMetresPerSecond;
     if (velocity == glm::vec3{})
-        return ballPush(
+        return surroundings::ballPush(
             submarine.position, submarine.radiusMetres, senses.position, senses.heading, reach);
     const glm::vec3 past = senses.heading * reach - velocity * kReachSeconds;
-    const glm::vec3 towards = directionOf(senses.position - submarine.position, {});
-    const float comingOn = std::max(0.0F, dot(velocity, towards));
-    return ballPush(submarine.position,
-                    submarine.radiusMetres + comingOn * kBowWaveSeconds,
-                    senses.position,
-                    directionOf(past, senses.heading),
-                    lengthOf(past));
+    const glm::vec3 towards = place::directionOf(senses.position - submarine.position, {});
+    const float comingOn = std::max(0.0F, place::dot(velocity, towards));
+    return surroundings::ballPush(submarine.position,
+                                  submarine.radiusMetres + comingOn * kBowWaveSeconds,
+                                  senses.position,
+                                  place::directionOf(past, senses.heading),
+                                  place::lengthOf(past));
 }
 
 void feelSurroundings(const Environment& environment, Senses& senses) {
-    const Surroundings& around = *environment.surroundings;
+    const surroundings::Surroundings& around = *environment.surroundings;
     const float reach = kReachMetres + senses.speed * kReachSeconds;
-    const Submarine& submarine = around.submarine;
+    const surroundings::Submarine& submarine = around.submarine;
     const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
     senses.push =
-        avoidance(around.obstacles, senses.position, senses.heading, reach) + fromSubmarine;
+        surroundings::avoidance(around.obstacles, senses.position, senses.heading, reach) +
+        fromSubmarine;
     if (submarine.velocityMetresPerSecond != glm::vec3{})
-        senses.hurry = std::min(1.0F, lengthOf(fromSubmarine));
-    senses.urgency = lengthOf(senses.push);
-    senses.submarineMetres = lengthOf(submarine.position - senses.position);
+        senses.hurry = std::min(1.0F, place::lengthOf(fromSubmarine));
+    senses.urgency = place::lengthOf(senses.push);
+    senses.submarineMetres = place::lengthOf(submarine.position - senses.position);
 }
 
 }  // namespace
 
 Senses perceive(const Environment& environment,
-                const Nature& nature,
+                const fish::Nature& nature,
                 std::uint32_t fish,
-                const Mind& mind) {
+                const fish::Mind& mind) {
     Senses senses;
     feelItself(*environment.view, fish, senses);
     const Onlooker onlooker{environment, nature, fish, mind, senses};
@@ -361,4 +366,4 @@ Senses perceive(const Environment& environment,
     return senses;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

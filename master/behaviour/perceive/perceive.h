@@ -8,13 +8,13 @@
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // `mind` says whom it is attending to, so that a target is kept unless another is better by its
 // persistence.
 [[nodiscard]] Senses perceive(const Environment& environment,
-                              const Nature& nature,
+                              const fish::Nature& nature,
                               std::uint32_t fish,
-                              const Mind& mind);
+                              const fish::Mind& mind);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

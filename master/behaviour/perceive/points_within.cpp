@@ -9,7 +9,7 @@
 #include "master/behaviour/perceive/sweep-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::behaviour::HWY_NAMESPACE {
 
 void takeVectorsWithin(
     const SpatialGrid& grid, glm::vec3 place, float reachSquared, TakePoints take, void* job) {
@@ -37,11 +37,11 @@ void takeVectorsWithin(
     take(job, found);
 }
 
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::behaviour::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace aquarama {
+namespace aquarama::behaviour {
 
 HWY_EXPORT(takeVectorsWithin);
 
@@ -50,5 +50,5 @@ void takePointsWithin(
     HWY_DYNAMIC_DISPATCH(takeVectorsWithin)(grid, place, reachSquared, take, job);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour
 #endif

@@ -9,7 +9,7 @@
 
 #include "master/behaviour/perceive/spatial_grid.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // Slots of the grid, and how far off they are.
 struct PointsWithin {
@@ -43,4 +43,4 @@ void visitPointsWithin(const SpatialGrid& grid, glm::vec3 place, float reachSqua
     takePointsWithin(grid, place, reachSquared, take, &job);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

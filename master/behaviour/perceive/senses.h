@@ -12,14 +12,14 @@
 #include "master/behaviour/perceive/neighbours.h"
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 struct Sighting {
-    std::uint32_t object = kNobody;  // fish, or particle of food
-    glm::vec3 offset{};              // from the body's middle
+    std::uint32_t object = fish::kNobody;  // fish, or particle of food
+    glm::vec3 offset{};                    // from the body's middle
     float distance = std::numeric_limits<float>::infinity();
     bool hunting = false;  // of a predator: it is after somebody
-    [[nodiscard]] bool seen() const { return object != kNobody; }
+    [[nodiscard]] bool seen() const { return object != fish::kNobody; }
 };
 
 inline constexpr std::size_t kMostPredators = 4;
@@ -54,4 +54,4 @@ struct Senses {
     float betterUp = 0;  // where its habits are better met: 1 up, -1 down, 0 nowhere in its water
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -29,7 +29,7 @@ std::size_t SpatialGrid::Columns::bytes() const {
     return sizeof(float) * (x.size() + y.size() + z.size()) + sizeof(std::uint32_t) * index.size();
 }
 
-SpatialGrid::SpatialGrid(const Region& water,
+SpatialGrid::SpatialGrid(const place::Region& water,
                          float cellMetres,
                          std::size_t most,
                          std::size_t mostCells)
@@ -132,4 +132,4 @@ std::size_t SpatialGrid::bytes() const {
            sorted_.bytes() + spread_.bytes();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

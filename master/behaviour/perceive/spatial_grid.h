@@ -11,7 +11,7 @@
 
 #include "common/place/place.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // The most points that a search reads at a time.
 inline constexpr std::size_t kMostLanes = 16;
@@ -31,7 +31,10 @@ class SpatialGrid {
   public:
     // Room for `most` points. Those outside `water` are kept in the border cells; they are found
     // all the same. Where there would be more than `mostCells` cells they are made larger.
-    SpatialGrid(const Region& water, float cellMetres, std::size_t most, std::size_t mostCells);
+    SpatialGrid(const place::Region& water,
+                float cellMetres,
+                std::size_t most,
+                std::size_t mostCells);
 
     // Of all points, those at these ascending indices. In each cell they stand in the order of
     // their index. Allocates nothing.
@@ -191,4 +194,4 @@ class SpatialGrid {
     std::vector<std::uint32_t> spreadCells_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

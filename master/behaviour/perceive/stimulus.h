@@ -3,7 +3,7 @@
 // too: what is too far off to change a mind is not searched for.
 #pragma once
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // The stimulus is s = 1 / d: nothing at `far` and beyond, all of it at `near`, steeper when nearer.
 // Distances of the closest one, in body lengths of the fish that senses it.
@@ -33,4 +33,4 @@ inline constexpr float kLibidoStimulus = 0.5F;  // a_l
     return (1 + stimulus) / (q1 + stimulus * (2 * q2 - q1));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

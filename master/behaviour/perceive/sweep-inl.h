@@ -19,7 +19,7 @@
 #include "master/behaviour/perceive/spatial_grid.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace aquarama::HWY_NAMESPACE {
+namespace aquarama::behaviour::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -174,6 +174,6 @@ HWY_INLINE void forCells(const SpatialGrid& grid, const Rule& rule) {
 }
 
 }  // namespace
-}  // namespace aquarama::HWY_NAMESPACE
+}  // namespace aquarama::behaviour::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -7,7 +7,7 @@
 #include "common/place/angle.h"
 #include "common/place/place.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 namespace {
 
@@ -20,20 +20,20 @@ constexpr float kBetweenCornersMetres = 0.05F;  // more than sand rises between 
 constexpr std::array kTrunk{0.2F, -0.05F, -0.3F};
 constexpr float kTrunkRadius = 0.1F;
 
-bool rocksHide(const Obstacles& obstacles, const Ray& ray) {
-    for (const Rock& rock : obstacles.rocks)
+bool rocksHide(const surroundings::Obstacles& obstacles, const SightLine& ray) {
+    for (const place::Rock& rock : obstacles.rocks)
         if (ray.passes(rock.centre, rock.radiusMetres * kSolidRock)) return true;
     return false;
 }
 
-bool sandHides(const Obstacles& obstacles, const Ray& ray) {
+bool sandHides(const surroundings::Obstacles& obstacles, const SightLine& ray) {
     const float highest =
         std::min(kHighestSandMetres, obstacles.chart.highestSand() + kBetweenCornersMetres);
     if (std::min(ray.from.y, ray.from.y + ray.offset.y) > highest) return false;
     for (int i = 1; i <= kSandSamples; ++i) {
         const float along = static_cast<float>(i) / static_cast<float>(kSandSamples + 1);
         const glm::vec3 at = ray.from + ray.offset * along;
-        if (at.y < kHighestSandMetres && at.y < floorHeight(obstacles.place, {at.x, at.z}))
+        if (at.y < kHighestSandMetres && at.y < place::floorHeight(obstacles.place, {at.x, at.z}))
             return true;
     }
     return false;
@@ -42,10 +42,10 @@ bool sandHides(const Obstacles& obstacles, const Ray& ray) {
 bool bodiesHide(const Environment& environment,
                 std::uint32_t fish,
                 std::uint32_t object,
-                const Ray& ray) {
-    const FishView& view = *environment.view;
+                const SightLine& ray) {
+    const fish::FishView& view = *environment.view;
     // Every body that the ray meets has its middle near the ray's.
-    const float reach = 0.5F * lengthOf(ray.offset) + kLargeBodyMetres;
+    const float reach = 0.5F * place::lengthOf(ray.offset) + kLargeBodyMetres;
     const float reachSquared = reach * reach;
     bool hidden = false;
     environment.grids->large.visitAround(
@@ -62,26 +62,26 @@ float conspicuousness(float lengthMetres) {
     return std::clamp(lengthMetres / kLargeBodyMetres, 1.0F, kMostConspicuous);
 }
 
-float sightMetres(const Nature& nature,
+float sightMetres(const fish::Nature& nature,
                   float lengthMetres,
                   float conspicuous,
                   float clarityMetres) {
     return std::min(nature.visionBodyLengths * lengthMetres * conspicuous, clarityMetres);
 }
 
-bool Ray::passes(glm::vec3 centre, float radius) const {
+bool SightLine::passes(glm::vec3 centre, float radius) const {
     const glm::vec3 to = centre - from;
-    const float squared = std::max(dot(offset, offset), 1.0e-6F);
-    const float along = std::clamp(dot(to, offset) / squared, 0.0F, 1.0F);
+    const float squared = std::max(place::dot(offset, offset), 1.0e-6F);
+    const float along = std::clamp(place::dot(to, offset) / squared, 0.0F, 1.0F);
     const glm::vec3 miss = to - offset * along;
-    return dot(miss, miss) < radius * radius;
+    return place::dot(miss, miss) < radius * radius;
 }
 
-bool terrainHides(const Obstacles& obstacles, const Ray& ray) {
+bool terrainHides(const surroundings::Obstacles& obstacles, const SightLine& ray) {
     return rocksHide(obstacles, ray) || sandHides(obstacles, ray);
 }
 
-bool bodyHides(const FishView& view, std::uint32_t body, const Ray& ray) {
+bool bodyHides(const fish::FishView& view, std::uint32_t body, const SightLine& ray) {
     const glm::vec3 middle = view.position(body);
     const float length = view.fish[body].length;
     if (!ray.passes(middle, length)) return false;
@@ -94,9 +94,9 @@ bool bodyHides(const FishView& view, std::uint32_t body, const Ray& ray) {
 bool isHidden(const Environment& environment,
               std::uint32_t fish,
               std::uint32_t object,
-              const Ray& ray) {
+              const SightLine& ray) {
     return terrainHides(environment.surroundings->obstacles, ray) ||
            bodiesHide(environment, fish, object, ray);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

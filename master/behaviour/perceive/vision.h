@@ -10,7 +10,7 @@
 #include "master/behaviour/perceive/environment.h"
 #include "master/fish/nature.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 // What is large is seen from farther off: 1 for the small, its length per kLargeBodyMetres for
 // others, at most kMostConspicuous.
@@ -18,25 +18,25 @@ inline constexpr float kMostConspicuous = 2.5F;
 [[nodiscard]] float conspicuousness(float lengthMetres);
 
 // From how far a fish of this length sees what is so conspicuous, metres.
-[[nodiscard]] float sightMetres(const Nature& nature,
+[[nodiscard]] float sightMetres(const fish::Nature& nature,
                                 float lengthMetres,
                                 float conspicuous,
                                 float clarityMetres);
 
 // From an eye to what it looks at. Rays are costly: they are cast only to predators and to the
 // focus of attention.
-struct Ray {
+struct SightLine {
     glm::vec3 from, offset;
     // Whether it comes so near to a point.
     [[nodiscard]] bool passes(glm::vec3 centre, float radius) const;
 };
-[[nodiscard]] bool terrainHides(const Obstacles& obstacles, const Ray& ray);
-[[nodiscard]] bool bodyHides(const FishView& view, std::uint32_t body, const Ray& ray);
+[[nodiscard]] bool terrainHides(const surroundings::Obstacles& obstacles, const SightLine& ray);
+[[nodiscard]] bool bodyHides(const fish::FishView& view, std::uint32_t body, const SightLine& ray);
 
 // Whether rock, sand or a large body stands between a fish and what it looks at.
 [[nodiscard]] bool isHidden(const Environment& environment,
                             std::uint32_t fish,
                             std::uint32_t object,
-                            const Ray& ray);
+                            const SightLine& ray);
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -14,7 +14,7 @@
 #include "master/capture/compile/turn.h"
 #include "master/capture/compile/work_queue.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -25,14 +25,14 @@ constexpr std::size_t kJobs = 2 * kGaits;
 // nor do the last three, but they set out from those gaits.
 struct Swum {
     std::array<std::optional<SteadySwimming>, kGaits> forward;
-    std::array<Recording, 2> leftTurn;  // gradual, sharp
-    SpeedResponse response;
+    std::array<RecordedCycle, 2> leftTurn;  // gradual, sharp
+    motion::SpeedResponse response;
     std::array<std::string, kJobs> errors;  // of each job
 };
 
-void runJob(const Species& species, std::size_t job, Swum& swum) {
+void runJob(const config::Species& species, std::size_t job, Swum& swum) {
     const auto& [slow, medium, fast] = swum.forward;
-    const Swim& swim = species.swim;
+    const config::Swim& swim = species.swim;
     const std::array gaits{&swim.slow, &swim.medium, &swim.fast};
     if (job < kGaits)
         swum.forward.at(job) = swimUntilSteady(species, *gaits.at(job));
@@ -46,30 +46,30 @@ void runJob(const Species& species, std::size_t job, Swum& swum) {
         swum.response = fitResponse(swimTransitions(species, {&*slow, &*medium, &*fast}));
 }
 
-Repertoire compile(const Species& species, const Swum& swum) {
-    const FishBody body = makeBody(species);
-    Repertoire repertoire;
+motion::Repertoire compile(const config::Species& species, const Swum& swum) {
+    const body::FishBody body = body::makeBody(species);
+    motion::Repertoire repertoire;
     repertoire.species = species.name;
     repertoire.recordedLengthMetres = body.typicalLengthMetres;
     repertoire.response = swum.response;
-    const auto segment = [&](Action action) -> ActionSegment& {
+    const auto segment = [&](motion::Action action) -> motion::ActionSegment& {
         return repertoire.segments.at(static_cast<std::size_t>(action));
     };
-    segment(Action::ForwardSlow) = compileForward(swum.forward[0]->beat);
-    segment(Action::ForwardMedium) = compileForward(swum.forward[1]->beat);
-    segment(Action::ForwardFast) = compileForward(swum.forward[2]->beat);
-    segment(Action::TurnLeftGradual) = compileLeftTurn(swum.leftTurn[0]);
-    segment(Action::TurnLeftSharp) = compileLeftTurn(swum.leftTurn[1]);
-    segment(Action::TurnRightGradual) = compileRightTurn(swum.leftTurn[0]);
-    segment(Action::TurnRightSharp) = compileRightTurn(swum.leftTurn[1]);
+    segment(motion::Action::ForwardSlow) = compileForward(swum.forward[0]->beat);
+    segment(motion::Action::ForwardMedium) = compileForward(swum.forward[1]->beat);
+    segment(motion::Action::ForwardFast) = compileForward(swum.forward[2]->beat);
+    segment(motion::Action::TurnLeftGradual) = compileLeftTurn(swum.leftTurn[0]);
+    segment(motion::Action::TurnLeftSharp) = compileLeftTurn(swum.leftTurn[1]);
+    segment(motion::Action::TurnRightGradual) = compileRightTurn(swum.leftTurn[0]);
+    segment(motion::Action::TurnRightSharp) = compileRightTurn(swum.leftTurn[1]);
     if (species.recordsControlPoints)
-        for (int action = 0; action < kCapturedActions; ++action)
-            addControlPoints(body, segment(static_cast<Action>(action)));
-    addGlide(repertoire);
+        for (int action = 0; action < motion::kCapturedActions; ++action)
+            addControlPoints(body, segment(static_cast<motion::Action>(action)));
+    motion::addGlide(repertoire);
     return repertoire;
 }
 
-CaptureOutcome outcomeOf(const Species& species, const Swum& swum) {
+CaptureOutcome outcomeOf(const config::Species& species, const Swum& swum) {
     const auto error = std::ranges::find_if_not(swum.errors, &std::string::empty);
     if (error != swum.errors.end()) return {.repertoire = {}, .error = *error};
     try {
@@ -81,7 +81,7 @@ CaptureOutcome outcomeOf(const Species& species, const Swum& swum) {
 
 }  // namespace
 
-std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& species,
+std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species>& species,
                                                const CaptureRun& run) {
     std::vector<Swum> swum(species.size());
     std::mutex telling;
@@ -112,11 +112,11 @@ std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& speci
     return outcomes;
 }
 
-Repertoire captureRepertoire(const Species& species, const Progress& progress) {
+motion::Repertoire captureRepertoire(const config::Species& species, const Progress& progress) {
     CaptureOutcome outcome =
         std::move(captureRepertoires({species}, {.progress = progress}).front());
     if (!outcome.repertoire) throw Error(outcome.error);
     return *std::move(outcome.repertoire);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

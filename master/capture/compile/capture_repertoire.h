@@ -11,7 +11,7 @@
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // Told the share that is done, from 0 to 1; from several threads, but from one at a time.
 using Progress = std::function<void(double share)>;
@@ -24,17 +24,18 @@ struct CaptureRun {
 
 // A repertoire, or why there is none.
 struct CaptureOutcome {
-    std::optional<Repertoire> repertoire;
+    std::optional<motion::Repertoire> repertoire;
     std::string error;
 };
 
 // Of each species, in their order. A species that fails leaves the others alone. The same bytes
 // each time on one machine, on any number of threads; another machine's sine may differ in the last
 // bit, which is why only the master captures.
-[[nodiscard]] std::vector<CaptureOutcome> captureRepertoires(const std::vector<Species>& species,
-                                                             const CaptureRun& run);
+[[nodiscard]] std::vector<CaptureOutcome> captureRepertoires(
+    const std::vector<config::Species>& species, const CaptureRun& run);
 
 // Of one; throws Error.
-[[nodiscard]] Repertoire captureRepertoire(const Species& species, const Progress& progress);
+[[nodiscard]] motion::Repertoire captureRepertoire(const config::Species& species,
+                                                   const Progress& progress);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

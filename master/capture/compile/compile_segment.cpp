@@ -10,11 +10,11 @@
 #include "common/units/error.h"
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
-constexpr std::size_t kCount = kPhases;
+constexpr std::size_t kCount = motion::kPhases;
 // Share of a turn in which its first pose, a swimming one, is faded out.
 constexpr double kEntryShare = 0.2;
 
@@ -33,7 +33,7 @@ struct PlanarMotion {
 // In a mirror: nodes change places and one coordinate its sign.
 NodeVectors mirrored(const NodeVectors& pose, int (*partner)(int), const glm::dvec3& signs) {
     NodeVectors image{};
-    for (int i = 0; i < kNodalPoints; ++i)
+    for (int i = 0; i < body::kNodalPoints; ++i)
         image.at(static_cast<std::size_t>(i)) =
             signs * pose.at(static_cast<std::size_t>(partner(i)));
     return image;
@@ -53,7 +53,7 @@ NodeVectors blended(const NodeVectors& a, const NodeVectors& b, double shareOfB)
 
 // Eq. 6-8, with the rotation in the body frame: R' = R * dR (the paper's eq. 6 is in world axes,
 // which is right only for a fish that swims level).
-PlanarMotion planarMotionOf(const Recording& recording) {
+PlanarMotion planarMotionOf(const RecordedCycle& recording) {
     PlanarMotion motion{.periodSeconds = recording.periodSeconds,
                         .playsToEnd = recording.playsToEnd,
                         .yawOffCourse = yawRadians(
@@ -101,7 +101,7 @@ double fadeAt(std::size_t k) {
 PlanarMotion fadedIn(const PlanarMotion& motion) {
     PlanarMotion result = motion;
     for (std::size_t k = 0; k <= kCount; ++k) {
-        for (std::size_t i = 0; i < std::size_t{kNodalPoints}; ++i)
+        for (std::size_t i = 0; i < std::size_t{body::kNodalPoints}; ++i)
             result.poses.at(k).at(i) +=
                 fadeAt(k) * (motion.poses.back().at(i) - motion.poses.front().at(i));
         if (k == kCount) break;
@@ -124,7 +124,7 @@ PlanarMotion mirrored(const PlanarMotion& motion) {
 std::array<std::int16_t, 3> quantised(const glm::vec3& point) {
     std::array<std::int16_t, 3> integers{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const float value = std::round(point[static_cast<int>(c)] / kPoseUnit);
+        const float value = std::round(point[static_cast<int>(c)] / motion::kPoseUnit);
         if (!(std::abs(value) <= 32767))
             throw Error(
                 "a captured fish reaches further than its own length; change its species file");
@@ -133,15 +133,15 @@ std::array<std::int16_t, 3> quantised(const glm::vec3& point) {
     return integers;
 }
 
-NodalPoints nodesOf(const NodalPose& pose) {
-    NodalPoints nodes{};
+body::NodalPoints nodesOf(const motion::NodalPose& pose) {
+    body::NodalPoints nodes{};
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        nodes.at(i) = kPoseUnit * glm::vec3(pose.at(i)[0], pose.at(i)[1], pose.at(i)[2]);
+        nodes.at(i) = motion::kPoseUnit * glm::vec3(pose.at(i)[0], pose.at(i)[1], pose.at(i)[2]);
     return nodes;
 }
 
-ActionSegment segmentOf(const PlanarMotion& motion) {
-    ActionSegment segment;
+motion::ActionSegment segmentOf(const PlanarMotion& motion) {
+    motion::ActionSegment segment;
     segment.periodSeconds = static_cast<float>(motion.periodSeconds);
     segment.playsToEnd = motion.playsToEnd;
     for (std::size_t k = 0; k < kCount; ++k) {
@@ -155,25 +155,25 @@ ActionSegment segmentOf(const PlanarMotion& motion) {
 
 }  // namespace
 
-ActionSegment compileForward(const Recording& recording) {
+motion::ActionSegment compileForward(const RecordedCycle& recording) {
     return segmentOf(straightened(planarMotionOf(recording)));
 }
 
-ActionSegment compileLeftTurn(const Recording& recording) {
+motion::ActionSegment compileLeftTurn(const RecordedCycle& recording) {
     return segmentOf(fadedIn(planarMotionOf(recording)));
 }
 
-ActionSegment compileRightTurn(const Recording& leftTurn) {
+motion::ActionSegment compileRightTurn(const RecordedCycle& leftTurn) {
     return segmentOf(mirrored(fadedIn(planarMotionOf(leftTurn))));
 }
 
-void addControlPoints(const FishBody& body, ActionSegment& segment) {
+void addControlPoints(const body::FishBody& body, motion::ActionSegment& segment) {
     std::vector<glm::vec3> cage(body.cage.vertices.size());
-    segment.controlPoints.resize(kPhases);
+    segment.controlPoints.resize(motion::kPhases);
     for (std::size_t k = 0; k < kCount; ++k) {
-        poseCage(body, nodesOf(segment.nodes.at(k)), cage);
+        body::poseCage(body, nodesOf(segment.nodes.at(k)), cage);
         std::ranges::transform(cage, segment.controlPoints.at(k).begin(), quantised);
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -5,16 +5,16 @@
 
 #include "common/body/fish_body.h"
 #include "common/motion/repertoire.h"
-#include "master/capture/compile/recording.h"
+#include "master/capture/compile/recorded_cycle.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // Without control points. All throw Error where a fish reaches further than its own length.
-[[nodiscard]] ActionSegment compileForward(const Recording& recording);
-[[nodiscard]] ActionSegment compileLeftTurn(const Recording& recording);
-[[nodiscard]] ActionSegment compileRightTurn(const Recording& leftTurn);
+[[nodiscard]] motion::ActionSegment compileForward(const RecordedCycle& recording);
+[[nodiscard]] motion::ActionSegment compileLeftTurn(const RecordedCycle& recording);
+[[nodiscard]] motion::ActionSegment compileRightTurn(const RecordedCycle& leftTurn);
 
 // Eq. 9: those of each phase's nodal points.
-void addControlPoints(const FishBody& body, ActionSegment& segment);
+void addControlPoints(const body::FishBody& body, motion::ActionSegment& segment);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

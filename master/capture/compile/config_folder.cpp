@@ -5,7 +5,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace fs = std::filesystem;
 
@@ -50,4 +50,4 @@ std::vector<fs::path> speciesFiles(const std::vector<std::string>& namesOrFiles,
     return files;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

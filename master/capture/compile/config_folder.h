@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // The folder `config` of the source tree, or share/aquarama/config of an installation, that is
 // nearest above the running program. Throws Error where there is none.
@@ -16,4 +16,4 @@ namespace aquarama {
 [[nodiscard]] std::vector<std::filesystem::path> speciesFiles(
     const std::vector<std::string>& namesOrFiles, const std::filesystem::path& configFolder);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

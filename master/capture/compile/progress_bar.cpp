@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -36,4 +36,4 @@ void ProgressBar::show(double share, const std::string& note) {
     std::cerr.flush();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

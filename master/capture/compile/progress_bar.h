@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 class ProgressBar {
   public:
@@ -24,4 +24,4 @@ class ProgressBar {
     std::string note_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -11,7 +11,7 @@
 #include "common/units/error.h"
 #include "master/capture/compile/capture_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -21,8 +21,11 @@ namespace fs = std::filesystem;
 constexpr const char* kCaptureVersion = "aquarama capture 4\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
 
-fs::path cachedPath(const Species& species, const std::string& text, const fs::path& folder) {
-    const std::string key = toHex(digestOf(kCaptureVersion + motionText(text, species.name)));
+fs::path cachedPath(const config::Species& species,
+                    const std::string& text,
+                    const fs::path& folder) {
+    const std::string key =
+        toHex(digestOf(kCaptureVersion + config::motionText(text, species.name)));
     return folder / (species.name + "-" + key + ".aqrep");
 }
 
@@ -30,7 +33,7 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     if (!fs::exists(path)) return std::nullopt;
     try {
         std::vector<std::byte> bytes = readRepertoireFile(path);
-        static_cast<void>(decodeRepertoire(bytes, path.string()));
+        static_cast<void>(motion::decodeRepertoire(bytes, path.string()));
         return bytes;
     } catch (const Error&) {
         return std::nullopt;  // damaged, or of another version of the format
@@ -38,11 +41,11 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
 }
 
 // The species, where it must be captured.
-std::optional<Species> lookUp(const SpeciesText& text,
-                              const fs::path& cacheFolder,
-                              RepertoireFile& file) {
+std::optional<config::Species> lookUp(const SpeciesText& text,
+                                      const fs::path& cacheFolder,
+                                      RepertoireFile& file) {
     try {
-        Species species = parseSpecies(text.text, text.source);
+        config::Species species = config::parseSpecies(text.text, text.source);
         file.species = species.name;
         auto cached = findIntact(cachedPath(species, text.text, cacheFolder));
         if (!cached) return species;
@@ -57,8 +60,8 @@ void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& f
     file.error = outcome.error;
     if (!outcome.repertoire) return;
     try {
-        std::vector<std::byte> bytes = encodeRepertoire(*outcome.repertoire);
-        writeWhole(path, bytes);
+        std::vector<std::byte> bytes = motion::encodeRepertoire(*outcome.repertoire);
+        files::writeWhole(path, bytes);
         file.bytes = std::move(bytes);
     } catch (const Error& error) {
         file.error = error.what();
@@ -68,7 +71,7 @@ void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& f
 }  // namespace
 
 std::vector<std::byte> readRepertoireFile(const fs::path& path) {
-    return readWhole(path, kMostBytes);
+    return files::readWhole(path, kMostBytes);
 }
 
 SpeciesText readSpeciesText(const fs::path& path) {
@@ -83,7 +86,7 @@ std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts
                                            const fs::path& cacheFolder,
                                            const CaptureRun& run) {
     std::vector<RepertoireFile> files(texts.size());
-    std::vector<Species> missing;
+    std::vector<config::Species> missing;
     std::vector<std::size_t> missingAt;
     for (std::size_t i = 0; i < texts.size(); ++i)
         if (auto species = lookUp(texts[i], cacheFolder, files[i])) {
@@ -98,4 +101,4 @@ std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts
     return files;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -10,7 +10,7 @@
 
 #include "master/capture/compile/capture_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // The bytes of a file that may be a repertoire. Throws Error.
 [[nodiscard]] std::vector<std::byte> readRepertoireFile(const std::filesystem::path& path);
@@ -35,4 +35,4 @@ struct RepertoireFile {
                                                          const std::filesystem::path& cacheFolder,
                                                          const CaptureRun& run);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -9,7 +9,7 @@
 
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr int kSwumBeats = 12;
 constexpr int kGlidedBeats = 8;
 constexpr int kBrakedBeats = 2;
 
-using Masses = std::array<double, kNodalPoints>;  // sum 1
+using Masses = std::array<double, body::kNodalPoints>;  // sum 1
 
 glm::dvec3 meanOf(const NodeVectors& vectors, const Masses& masses) {
     glm::dvec3 mean{};
@@ -27,7 +27,7 @@ glm::dvec3 meanOf(const NodeVectors& vectors, const Masses& masses) {
     return mean;
 }
 
-glm::dvec3 meanVelocityOf(const Recording& beat) {
+glm::dvec3 meanVelocityOf(const RecordedCycle& beat) {
     return (frameOf(beat.poses.back()).origin - frameOf(beat.poses.front()).origin) /
            beat.periodSeconds;
 }
@@ -38,8 +38,8 @@ Transition coast(const SteadySwimming& from,
                  const Masses& masses) {
     Swimmer swimmer = from.swimmer;
     swimmer.give({.controller = controller});
-    Transition transition{.sampleSeconds = from.beat.periodSeconds / kPhases, .speeds = {}};
-    for (int sample = 0; sample <= beats * kPhases; ++sample) {
+    Transition transition{.sampleSeconds = from.beat.periodSeconds / motion::kPhases, .speeds = {}};
+    for (int sample = 0; sample <= beats * motion::kPhases; ++sample) {
         transition.speeds.push_back(glm::length(meanOf(swimmer.state().velocities, masses)));
         swimmer.advance(from.stepsPerPhase);
     }
@@ -49,7 +49,7 @@ Transition coast(const SteadySwimming& from,
 // A sample is the mean over the beat of `to` around it; before the change the fish went steadily.
 Transition changeGait(const SteadySwimming& from,
                       const SteadySwimming& to,
-                      const Gait& gait,
+                      const config::Gait& gait,
                       const Masses& masses) {
     Swimmer swimmer = from.swimmer;
     swimmer.give({.controller = Controller::ForwardSwim, .gait = gait});
@@ -75,10 +75,10 @@ Transition changeGait(const SteadySwimming& from,
 
 }  // namespace
 
-Transitions swimTransitions(const Species& species, const SteadyGaits& gaits) {
+Transitions swimTransitions(const config::Species& species, const SteadyGaits& gaits) {
     const Masses masses = makeBiomechanicalFish(species).masses;
     const std::array orders{&species.swim.slow, &species.swim.medium, &species.swim.fast};
-    const SteadySwimming& medium = *gaits[static_cast<std::size_t>(Action::ForwardMedium)];
+    const SteadySwimming& medium = *gaits[static_cast<std::size_t>(motion::Action::ForwardMedium)];
     Transitions transitions{.swim = {},
                             .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
                             .brake = coast(medium, Controller::Brake, kBrakedBeats, masses)};
@@ -132,9 +132,9 @@ std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law)
     return speeds;
 }
 
-SpeedResponse fitResponse(const Transitions& transitions) {
+motion::SpeedResponse fitResponse(const Transitions& transitions) {
     const SpeedLaw gliding{.glideDrag = fitTerm({transitions.glide}, &SpeedLaw::glideDrag, {})};
-    SpeedResponse response{.glideDrag = static_cast<float>(gliding.glideDrag)};
+    motion::SpeedResponse response{.glideDrag = static_cast<float>(gliding.glideDrag)};
     for (std::size_t gait = 0; gait < transitions.swim.size(); ++gait)
         response.swimDrag.at(gait) =
             static_cast<float>(fitTerm(transitions.swim.at(gait), &SpeedLaw::swimDrag, {}));
@@ -143,4 +143,4 @@ SpeedResponse fitResponse(const Transitions& transitions) {
     return response;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

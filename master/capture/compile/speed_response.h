@@ -9,7 +9,7 @@
 #include "common/motion/repertoire.h"
 #include "master/capture/compile/steady_swimming.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // A change of speed as the dynamics swam it, from the tick at which it was told to. Speeds in body
 // lengths a second: of the centre of mass along its course; while the tail beats, the mean over the
@@ -21,11 +21,12 @@ struct Transition {
 };
 
 struct Transitions {
-    std::array<std::vector<Transition>, kForwardGaits> swim;  // to each gait from the other two
-    Transition glide, brake;                                  // out of medium swimming
+    std::array<std::vector<Transition>, motion::kForwardGaits>
+        swim;                 // to each gait from the other two
+    Transition glide, brake;  // out of medium swimming
 };
-using SteadyGaits = std::array<const SteadySwimming*, kForwardGaits>;
-[[nodiscard]] Transitions swimTransitions(const Species& species, const SteadyGaits& gaits);
+using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
+[[nodiscard]] Transitions swimTransitions(const config::Species& species, const SteadyGaits& gaits);
 
 // The law of SpeedResponse while one segment plays, p being its speed:
 //     dv/dt = swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
@@ -50,6 +51,6 @@ struct SpeedLaw {
 
 // swimDrag of a gait from the changes to it, whether they gather speed or lose it; glideDrag from
 // the glide, and with it brakeRate from the brake.
-[[nodiscard]] SpeedResponse fitResponse(const Transitions& transitions);
+[[nodiscard]] motion::SpeedResponse fitResponse(const Transitions& transitions);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

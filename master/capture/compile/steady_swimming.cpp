@@ -10,18 +10,18 @@
 #include "common/units/error.h"
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
-int stepsPerPhaseOf(const Species& species, double periodSeconds) {
+int stepsPerPhaseOf(const config::Species& species, double periodSeconds) {
     const double longest = longestStepSeconds(makeBiomechanicalFish(species));
-    return static_cast<int>(std::ceil(periodSeconds / kPhases / longest - 1e-9));
+    return static_cast<int>(std::ceil(periodSeconds / motion::kPhases / longest - 1e-9));
 }
 
-Recording recordBeat(Swimmer& swimmer, double periodSeconds, int stepsPerPhase) {
-    Recording beat{.periodSeconds = periodSeconds, .poses = {swimmer.state().positions}};
-    for (int phase = 0; phase < kPhases; ++phase) {
+RecordedCycle recordBeat(Swimmer& swimmer, double periodSeconds, int stepsPerPhase) {
+    RecordedCycle beat{.periodSeconds = periodSeconds, .poses = {swimmer.state().positions}};
+    for (int phase = 0; phase < motion::kPhases; ++phase) {
         swimmer.advance(stepsPerPhase);
         beat.poses.push_back(swimmer.state().positions);
     }
@@ -31,13 +31,13 @@ Recording recordBeat(Swimmer& swimmer, double periodSeconds, int stepsPerPhase) 
 }
 
 // Where the body frame has gone since the first pose, in the body frame then.
-glm::dvec3 wayOf(const Recording& beat, std::size_t phase) {
+glm::dvec3 wayOf(const RecordedCycle& beat, std::size_t phase) {
     const PoseFrame first = frameOf(beat.poses.front());
     return glm::transpose(first.worldFromBody) *
            (frameOf(beat.poses.at(phase)).origin - first.origin);
 }
 
-[[noreturn]] void refuse(const Species& species, const Gait& gait) {
+[[noreturn]] void refuse(const config::Species& species, const config::Gait& gait) {
     std::ostringstream message;
     message << species.name << ": swimming at " << gait.beatHertz
             << " beats a second and a gain of " << gait.gain
@@ -48,7 +48,7 @@ glm::dvec3 wayOf(const Recording& beat, std::size_t phase) {
 
 }  // namespace
 
-double differenceOf(const Recording& beat, const Recording& next) {
+double differenceOf(const RecordedCycle& beat, const RecordedCycle& next) {
     double most = 0;
     const auto note = [&](const glm::dvec3& a, const glm::dvec3& b) {
         const double difference = glm::distance(a, b);
@@ -63,16 +63,16 @@ double differenceOf(const Recording& beat, const Recording& next) {
     return most;
 }
 
-SteadySwimming swimUntilSteady(const Species& species, const Gait& gait) {
+SteadySwimming swimUntilSteady(const config::Species& species, const config::Gait& gait) {
     const double periodSeconds = 1 / gait.beatHertz;
     const int steps = stepsPerPhaseOf(species, periodSeconds);
-    SteadySwimming steady{.swimmer = Swimmer(species, periodSeconds / (kPhases * steps)),
+    SteadySwimming steady{.swimmer = Swimmer(species, periodSeconds / (motion::kPhases * steps)),
                           .beat = {},
                           .stepsPerPhase = steps};
     steady.swimmer.give({.controller = Controller::ForwardSwim, .gait = gait});
     steady.beat = recordBeat(steady.swimmer, periodSeconds, steps);
     for (steady.beats = 2; steady.beats <= kMostBeats; ++steady.beats) {
-        Recording next = recordBeat(steady.swimmer, periodSeconds, steps);
+        RecordedCycle next = recordBeat(steady.swimmer, periodSeconds, steps);
         const double difference = differenceOf(steady.beat, next);
         steady.beat = std::move(next);
         if (difference <= kRepeatsBodyLengths) return steady;
@@ -81,4 +81,4 @@ SteadySwimming swimUntilSteady(const Species& species, const Gait& gait) {
     refuse(species, gait);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -11,7 +11,7 @@
 #include "master/capture/control/muscle_programs.h"
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -25,17 +25,19 @@ double bendOf(const NodeVectors& pose, const NodeVectors& straight) {
     return most;
 }
 
-std::array<Recording, kOnsets> recordLeftTurns(const Species& species,
-                                               const SteadySwimming& entry,
-                                               const Bend& bend) {
-    std::array<Recording, kOnsets> turns;
+std::array<RecordedCycle, kOnsets> recordLeftTurns(const config::Species& species,
+                                                   const SteadySwimming& entry,
+                                                   const config::Bend& bend) {
+    std::array<RecordedCycle, kOnsets> turns;
     for (int i = 0; i < kOnsets; ++i)
         turns.at(static_cast<std::size_t>(i)) =
-            recordTurn(species, entry, Controller::LeftTurn, bend, i * kPhases / kOnsets);
+            recordTurn(species, entry, Controller::LeftTurn, bend, i * motion::kPhases / kOnsets);
     return turns;
 }
 
-TurnSpread spreadOf(const std::array<Recording, kOnsets>& turns, Action turn, Action entry) {
+TurnSpread spreadOf(const std::array<RecordedCycle, kOnsets>& turns,
+                    motion::Action turn,
+                    motion::Action entry) {
     TurnSpread spread{.turn = turn, .entry = entry};
     std::ranges::transform(turns, spread.radians.begin(), turnRadians);
     return spread;
@@ -53,11 +55,11 @@ double TurnSpread::most() const {
     return std::ranges::max(radians);
 }
 
-Recording recordTurn(const Species& species,
-                     const SteadySwimming& entry,
-                     Controller leftOrRight,
-                     const Bend& bend,
-                     int onsetPhase) {
+RecordedCycle recordTurn(const config::Species& species,
+                         const SteadySwimming& entry,
+                         Controller leftOrRight,
+                         const config::Bend& bend,
+                         int onsetPhase) {
     Swimmer swimmer = entry.swimmer;
     swimmer.advance(onsetPhase * entry.stepsPerPhase);
     swimmer.give({.controller = leftOrRight, .bend = bend});
@@ -67,7 +69,8 @@ Recording recordTurn(const Species& species,
     const double muscleSteps = secondsOf(bend, species) / swimmer.stepSeconds();
     const double mostSteps = kLongestTurn / fish.timeScale / swimmer.stepSeconds();
     std::vector<NodeVectors> poses{swimmer.state().positions};
-    while (static_cast<double>(poses.size()) < muscleSteps || (poses.size() - 1) % kPhases != 0 ||
+    while (static_cast<double>(poses.size()) < muscleSteps ||
+           (poses.size() - 1) % motion::kPhases != 0 ||
            bendOf(poses.back(), straight) > kStraightBodyLengths) {
         if (static_cast<double>(poses.size()) > mostSteps)
             throw Error(species.name +
@@ -77,40 +80,42 @@ Recording recordTurn(const Species& species,
         poses.push_back(swimmer.state().positions);
     }
 
-    const std::size_t stride = (poses.size() - 1) / kPhases;
-    Recording turn{.periodSeconds = swimmer.stepSeconds() * static_cast<double>(poses.size() - 1),
-                   .playsToEnd = true,
-                   .course = entry.beat.course,
-                   .poses = {}};
+    const std::size_t stride = (poses.size() - 1) / motion::kPhases;
+    RecordedCycle turn{
+        .periodSeconds = swimmer.stepSeconds() * static_cast<double>(poses.size() - 1),
+        .playsToEnd = true,
+        .course = entry.beat.course,
+        .poses = {}};
     for (std::size_t i = 0; i < poses.size(); i += stride) turn.poses.push_back(poses[i]);
     return turn;
 }
 
-double turnRadians(const Recording& turn) {
+double turnRadians(const RecordedCycle& turn) {
     return yawRadians(turn.course, frameOf(turn.poses.back()).worldFromBody[0]);
 }
 
-std::vector<TurnSpread> surveyTurns(const Species& species) {
-    const Swim& swim = species.swim;
+std::vector<TurnSpread> surveyTurns(const config::Species& species) {
+    const config::Swim& swim = species.swim;
     std::vector<TurnSpread> table;
-    for (const auto& [action, gait] : {std::pair{Action::ForwardSlow, swim.slow},
-                                       std::pair{Action::ForwardMedium, swim.medium},
-                                       std::pair{Action::ForwardFast, swim.fast}}) {
+    for (const auto& [action, gait] : {std::pair{motion::Action::ForwardSlow, swim.slow},
+                                       std::pair{motion::Action::ForwardMedium, swim.medium},
+                                       std::pair{motion::Action::ForwardFast, swim.fast}}) {
         const SteadySwimming entry = swimUntilSteady(species, gait);
-        for (const auto& [turn, bend] : {std::pair{Action::TurnLeftGradual, species.turn.gradual},
-                                         std::pair{Action::TurnLeftSharp, species.turn.sharp}})
+        for (const auto& [turn, bend] :
+             {std::pair{motion::Action::TurnLeftGradual, species.turn.gradual},
+              std::pair{motion::Action::TurnLeftSharp, species.turn.sharp}})
             table.push_back(spreadOf(recordLeftTurns(species, entry, bend), turn, action));
     }
     return table;
 }
 
-Recording recordTypicalLeftTurn(const Species& species,
-                                const SteadySwimming& medium,
-                                const Bend& bend) {
+RecordedCycle recordTypicalLeftTurn(const config::Species& species,
+                                    const SteadySwimming& medium,
+                                    const config::Bend& bend) {
     const auto turns = recordLeftTurns(species, medium, bend);
-    const double mean = spreadOf(turns, {}, Action::ForwardMedium).mean();
+    const double mean = spreadOf(turns, {}, motion::Action::ForwardMedium).mean();
     return *std::ranges::min_element(
-        turns, {}, [&](const Recording& turn) { return std::abs(turnRadians(turn) - mean); });
+        turns, {}, [&](const RecordedCycle& turn) { return std::abs(turnRadians(turn) - mean); });
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

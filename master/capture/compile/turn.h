@@ -8,7 +8,7 @@
 
 #include "master/capture/compile/steady_swimming.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // A turn is over when its muscles are relaxed and no nodal point is further than this from where
 // it is in a straight fish, in the body frame.
@@ -16,21 +16,21 @@ inline constexpr double kStraightBodyLengths = 0.03;
 
 // Left or right, begun at a phase (0 to kPhases - 1) of the beat. Throws Error, naming the species,
 // when the fish does not become straight within four of its own seconds.
-[[nodiscard]] Recording recordTurn(const Species& species,
-                                   const SteadySwimming& entry,
-                                   Controller leftOrRight,
-                                   const Bend& bend,
-                                   int onsetPhase);
+[[nodiscard]] RecordedCycle recordTurn(const config::Species& species,
+                                       const SteadySwimming& entry,
+                                       Controller leftOrRight,
+                                       const config::Bend& bend,
+                                       int onsetPhase);
 
 // From the course before to the heading after; left positive.
-[[nodiscard]] double turnRadians(const Recording& turn);
+[[nodiscard]] double turnRadians(const RecordedCycle& turn);
 
 inline constexpr int kOnsets = 8;  // evenly over the beat
 
 // Left turns of one bend out of one gait.
 struct TurnSpread {
-    Action turn = Action::TurnLeftGradual;
-    Action entry = Action::ForwardMedium;
+    motion::Action turn = motion::Action::TurnLeftGradual;
+    motion::Action entry = motion::Action::ForwardMedium;
     std::array<double, kOnsets> radians{};  // begun at phase i / kOnsets of the beat
     [[nodiscard]] double least() const;
     [[nodiscard]] double mean() const;
@@ -38,12 +38,12 @@ struct TurnSpread {
 };
 
 // Gradual and sharp, each entered from slow, medium and fast swimming.
-[[nodiscard]] std::vector<TurnSpread> surveyTurns(const Species& species);
+[[nodiscard]] std::vector<TurnSpread> surveyTurns(const config::Species& species);
 
 // The one to capture, entered from medium swimming: of the turns begun at kOnsets phases, that
 // which goes nearest to their mean.
-[[nodiscard]] Recording recordTypicalLeftTurn(const Species& species,
-                                              const SteadySwimming& medium,
-                                              const Bend& bend);
+[[nodiscard]] RecordedCycle recordTypicalLeftTurn(const config::Species& species,
+                                                  const SteadySwimming& medium,
+                                                  const config::Bend& bend);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // Calls work(job) once for each of [0, jobs), in that order but from several threads, and returns
 // when all are done. Work may not throw.
@@ -24,4 +24,4 @@ void shareOut(std::size_t jobs, unsigned threads, const Work& work) {
     serve();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -32,7 +32,7 @@ PectoralFin at(double angleRadians) {
 
 }  // namespace
 
-PectoralFins hold(const Attitude& attitude, double pitchRadians) {
+PectoralFins hold(const BodyAngles& attitude, double pitchRadians) {
     const double lift = bounded(kPitchGain * (pitchRadians - attitude.pitchRadians));
     const double level = bounded(kRollGain * attitude.rollRadians);
     return {.left = at(kFlat + lift + level), .right = at(kFlat + lift - level)};
@@ -42,7 +42,10 @@ PectoralFins brake() {
     return {.left = at(kAcross), .right = at(kAcross)};
 }
 
-PectoralFins row(const Gait& gait, double stroke, const Attitude& attitude, double headingRadians) {
+PectoralFins row(const config::Gait& gait,
+                 double stroke,
+                 const BodyAngles& attitude,
+                 double headingRadians) {
     const double speed = std::numbers::pi * kStrokeBodyLengths * gait.gain * gait.beatHertz *
                          std::sin(2 * std::numbers::pi * stroke);
     const bool isPower = speed > 0;
@@ -61,4 +64,4 @@ PectoralFins row(const Gait& gait, double stroke, const Attitude& attitude, doub
     return fins;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

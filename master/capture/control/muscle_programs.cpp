@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -52,7 +52,7 @@ MuscleActivation mirrored(const MuscleActivation& muscles) {
             .backRight = muscles.backLeft};
 }
 
-MuscleActivation beatAt(const Swim& swim, double gain, double beat) {
+MuscleActivation beatAt(const config::Swim& swim, double gain, double beat) {
     const double phase = 2 * std::numbers::pi * beat;
     const double middle = (1 + std::sin(phase)) / 2;
     const double back = (1 + std::sin(phase - swim.backLagRadians)) / 2;
@@ -64,19 +64,19 @@ MuscleActivation beatAt(const Swim& swim, double gain, double beat) {
             .backRight = backDrive * (1 - back)};
 }
 
-MuscleActivation bendLeft(const Bend& bend, double ownSeconds) {
+MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds) {
     const double own = ownSeconds * bend.tempo;
     return {.frontLeft = pullAt(kFront, bend.strength, own),
             .middleLeft = pullAt(kMiddle, bend.strength, own),
             .backLeft = pullAt(kBack, bend.strength, own)};
 }
 
-MuscleActivation swim(const Species& species, const Gait& gait, double seconds) {
+MuscleActivation swim(const config::Species& species, const config::Gait& gait, double seconds) {
     const double ramp = std::min(1.0, seconds * species.tissue.timeScale / kRampOwnSeconds);
     return beatAt(species.swim, gait.gain * ramp, gait.beatHertz * seconds);
 }
 
-double secondsOf(const Bend& bend, const Species& species) {
+double secondsOf(const config::Bend& bend, const config::Species& species) {
     constexpr double kOwnSeconds =
         std::max({kFront.delay + kFront.rise + kFront.hold + kFront.fall,
                   kMiddle.delay + kMiddle.rise + kMiddle.hold + kMiddle.fall,
@@ -84,4 +84,4 @@ double secondsOf(const Bend& bend, const Species& species) {
     return kOwnSeconds / (species.tissue.timeScale * bend.tempo);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -5,7 +5,7 @@
 #include "common/config/species.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // Between the two, muscle by muscle.
 [[nodiscard]] MuscleActivation mix(const MuscleActivation& from,
@@ -16,17 +16,19 @@ namespace aquarama {
 
 // Swimming, at a point of the beat from 0 to 1: middle and back muscles beat left against right,
 // the back ones later, so that a wave runs down the body (Tu 1996, swim-MC).
-[[nodiscard]] MuscleActivation beatAt(const Swim& swim, double gain, double beat);
+[[nodiscard]] MuscleActivation beatAt(const config::Swim& swim, double gain, double beat);
 
 // A bend of the whole body to the left, quick to come and slow to go, so that the shape recovers
 // without undoing the turn (Tu & Terzopoulos 1994, turn-MC).
-[[nodiscard]] MuscleActivation bendLeft(const Bend& bend, double ownSeconds);
+[[nodiscard]] MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds);
 
 // Swimming from rest: over so many of the fish's own seconds the beat grows.
 inline constexpr double kRampOwnSeconds = 1;
-[[nodiscard]] MuscleActivation swim(const Species& species, const Gait& gait, double seconds);
+[[nodiscard]] MuscleActivation swim(const config::Species& species,
+                                    const config::Gait& gait,
+                                    double seconds);
 
 // From the order to turn until all muscles are relaxed.
-[[nodiscard]] double secondsOf(const Bend& bend, const Species& species);
+[[nodiscard]] double secondsOf(const config::Bend& bend, const config::Species& species);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -7,7 +7,7 @@
 #include "master/capture/control/fin_programs.h"
 #include "master/capture/control/muscle_programs.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -19,13 +19,13 @@ constexpr double kHandover = 0.04;  // from one order's muscles to the next one'
 
 }  // namespace
 
-Swimmer::Swimmer(const BiomechanicalFish& fish, const Swim& swim, double stepSeconds)
+Swimmer::Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds)
     : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
 
-Swimmer::Swimmer(const Species& species, double stepSeconds)
+Swimmer::Swimmer(const config::Species& species, double stepSeconds)
     : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
 
-Swimmer::Swimmer(const Species& species)
+Swimmer::Swimmer(const config::Species& species)
     : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
 
 void Swimmer::give(const Order& order) {
@@ -108,4 +108,4 @@ PectoralFins Swimmer::finProgram() const {
     return {};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

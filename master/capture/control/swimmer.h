@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "common/config/species.h"
-#include "master/capture/control/attitude.h"
+#include "master/capture/control/body_angles.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 enum class Controller : std::uint8_t {
     ForwardSwim,
@@ -27,17 +27,17 @@ enum class Controller : std::uint8_t {
 // then the muscles stay relaxed.
 struct Order {
     Controller controller = Controller::Glide;
-    Gait gait{};              // ForwardSwim, Ascend, Descend, Balance, Retreat
-    Bend bend{};              // LeftTurn, RightTurn
+    config::Gait gait{};      // ForwardSwim, Ascend, Descend, Balance, Retreat
+    config::Bend bend{};      // LeftTurn, RightTurn
     double pitchRadians = 0;  // Ascend, Descend: how steep, positive in both
 };
 
 // From rest at the origin, nose towards +x. Lengths are body lengths.
 class Swimmer {
   public:
-    explicit Swimmer(const Species& species);  // at the longest step that swims well
-    Swimmer(const Species& species, double stepSeconds);
-    Swimmer(const BiomechanicalFish& fish, const Swim& swim, double stepSeconds);
+    explicit Swimmer(const config::Species& species);  // at the longest step that swims well
+    Swimmer(const config::Species& species, double stepSeconds);
+    Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds);
 
     // From now on. The beat keeps time through all orders; muscles change over within a few
     // hundredths of the fish's second, and a fish that stops swimming lets half a beat die away.
@@ -57,7 +57,7 @@ class Swimmer {
     [[nodiscard]] PectoralFins finProgram() const;
 
     BiomechanicalFish fish_;
-    Swim swim_;
+    config::Swim swim_;
     double stepSeconds_;
     std::int64_t steps_ = 0;
     FishState state_;
@@ -65,12 +65,12 @@ class Swimmer {
     Order order_;
     double ownSecondsOfOrder_ = 0;
     double ownSecondsSwum_ = 0;
-    Gait beating_{};   // of tail or fins
-    double beat_ = 0;  // 0 to 1
+    config::Gait beating_{};  // of tail or fins
+    double beat_ = 0;         // 0 to 1
     double headingOfOrder_ = 0;
-    Attitude attitude_;  // as sensed
+    BodyAngles attitude_;  // as sensed
     MotorControl control_;
     MuscleActivation musclesBefore_;  // when the order came
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

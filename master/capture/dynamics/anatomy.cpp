@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -128,4 +128,4 @@ int mirroredTopBottom(int node) {
     return exchanged(node, {3, 2, 1, 0});
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -8,7 +8,7 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 inline constexpr int kUnits = 91;
 inline constexpr int kMuscles = 12;
@@ -44,4 +44,4 @@ struct Anatomy {
 [[nodiscard]] int mirroredLeftRight(int node);
 [[nodiscard]] int mirroredTopBottom(int node);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

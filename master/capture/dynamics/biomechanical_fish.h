@@ -12,9 +12,9 @@
 #include "common/config/species.h"
 #include "master/capture/dynamics/anatomy.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
-using NodeVectors = std::array<glm::dvec3, kNodalPoints>;
+using NodeVectors = std::array<glm::dvec3, body::kNodalPoints>;
 
 // How far each group of muscles is contracted, 0 to 1: each group is one pair, above and below.
 struct MuscleActivation {
@@ -59,12 +59,12 @@ struct WettedFace {
 
 struct BiomechanicalFish {
     NodeVectors restPositions{};
-    std::array<double, kNodalPoints> masses{};  // sum 1
-    std::array<Spring, kUnits> springs{};       // as anatomy().units
+    std::array<double, body::kNodalPoints> masses{};  // sum 1
+    std::array<Spring, kUnits> springs{};             // as anatomy().units
     std::array<WettedFace, kDragFaces> faces{};
     // What the water carries of each node beyond its weight. None: like Tu's, a fish of ours floats
     // where it is and rights itself with its fins alone.
-    std::array<double, kNodalPoints> lifts{};
+    std::array<double, body::kNodalPoints> lifts{};
     double finDrag = 0;            // of each pectoral fin: force per normal speed
     double damping = 0;            // of every unit
     double muscleContraction = 0;  // share of its length lost at activation 1
@@ -77,7 +77,7 @@ struct FishState {
 };
 
 // Throws Error when the springs do not hold the skeleton's shape.
-[[nodiscard]] BiomechanicalFish makeBiomechanicalFish(const Species& species);
+[[nodiscard]] BiomechanicalFish makeBiomechanicalFish(const config::Species& species);
 [[nodiscard]] FishState stateAtRest(const BiomechanicalFish& fish);
 
 // One step of linearised backward Euler over the 69 coupled equations of motion (the paper's
@@ -92,4 +92,4 @@ void step(const BiomechanicalFish& fish,
     return 1 / (480 * fish.timeScale);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // The paper takes origin and lateral axis from one diagonal and one edge of ring 2, which show the
 // ring's own shear as a bob and a roll of some degrees; the means of both diagonals and both edges
@@ -26,4 +26,4 @@ NodeVectors inBodyFrame(const NodeVectors& pose) {
     return body;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -7,7 +7,7 @@
 
 #include "master/capture/dynamics/biomechanical_fish.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 struct PoseFrame {
     glm::dvec3 origin{};
@@ -17,4 +17,4 @@ struct PoseFrame {
 [[nodiscard]] PoseFrame frameOf(const NodeVectors& pose);
 [[nodiscard]] NodeVectors inBodyFrame(const NodeVectors& pose);  // eq. 8
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/capture/dynamics/envelope_system.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -11,7 +11,7 @@ constexpr auto kUnknowns = static_cast<std::size_t>(EnvelopeSystem::kUnknowns);
 // the next ring.
 constexpr std::size_t lastNeighbour(std::size_t node) {
     const std::size_t nextRingsEnd = node == 0 ? 4 : 4 * ((node - 1) / 4 + 2);
-    return nextRingsEnd < kNodalPoints ? nextRingsEnd : kNodalPoints - 1;
+    return nextRingsEnd < body::kNodalPoints ? nextRingsEnd : body::kNodalPoints - 1;
 }
 
 // Number of elements of each row right of the diagonal.
@@ -111,4 +111,4 @@ glm::dvec3 EnvelopeSystem::solution(int node) const {
     return {right_[row], right_[row + 1], right_[row + 2]};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -9,14 +9,14 @@
 
 #include "common/body/fish_body.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // Only the upper triangle, and of each row only what the fish's connections can fill: a node meets
 // none behind the next ring, so a row is at most 24 long (half-bandwidth 23) and on the average 18.
 // Rows are contiguous, so that eliminating one is a run of vector operations.
 class EnvelopeSystem {
   public:
-    static constexpr int kUnknowns = 3 * kNodalPoints;
+    static constexpr int kUnknowns = 3 * body::kNodalPoints;
     static constexpr int kLongestRow = 24;
 
     EnvelopeSystem() { clear(); }
@@ -44,4 +44,4 @@ class EnvelopeSystem {
     std::array<double, kUnknowns> right_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

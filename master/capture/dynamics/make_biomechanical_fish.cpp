@@ -8,7 +8,7 @@
 #include "master/capture/dynamics/biomechanical_fish.h"
 #include "master/capture/dynamics/rigidity.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -16,10 +16,10 @@ constexpr int kLastHeadNode = 8;    // of ring 2
 constexpr int kFirstTailNode = 13;  // of ring 4
 constexpr std::size_t kFirstTip = 21;
 
-NodeVectors restPositionsOf(const Skeleton& skeleton) {
+NodeVectors restPositionsOf(const config::Skeleton& skeleton) {
     NodeVectors nodes{};
     std::size_t next = 1;
-    for (const SkeletonRing& ring : skeleton.rings) {
+    for (const config::SkeletonRing& ring : skeleton.rings) {
         nodes.at(next++) = {-ring.s, ring.halfHeight, -ring.halfWidth};
         nodes.at(next++) = {-ring.s, ring.halfHeight, ring.halfWidth};
         nodes.at(next++) = {-ring.s, -ring.halfHeight, ring.halfWidth};
@@ -30,8 +30,8 @@ NodeVectors restPositionsOf(const Skeleton& skeleton) {
     return nodes;
 }
 
-std::array<double, kNodalPoints> massesOf(const Skeleton& skeleton) {
-    std::array<double, kNodalPoints> masses{};
+std::array<double, body::kNodalPoints> massesOf(const config::Skeleton& skeleton) {
+    std::array<double, body::kNodalPoints> masses{};
     masses[0] = skeleton.noseMass;
     for (std::size_t node = 1; node < kFirstTip; ++node)
         masses.at(node) = skeleton.rings.at((node - 1) / 4).nodeMass;
@@ -44,7 +44,7 @@ std::array<double, kNodalPoints> massesOf(const Skeleton& skeleton) {
 
 // A fish that lives a times faster is the same fish with stiffness a^2 and damping a; drag that
 // goes with the square of speed needs no change.
-double stiffnessOf(const Unit& unit, const Tissue& tissue) {
+double stiffnessOf(const Unit& unit, const config::Tissue& tissue) {
     double stiffness = tissue.muscleStiffness;
     if (unit.kind == UnitKind::Normal) stiffness = tissue.stiffness;
     if (unit.kind == UnitKind::Cross) stiffness = tissue.crossStiffness;
@@ -54,7 +54,7 @@ double stiffnessOf(const Unit& unit, const Tissue& tissue) {
 
 }  // namespace
 
-BiomechanicalFish makeBiomechanicalFish(const Species& species) {
+BiomechanicalFish makeBiomechanicalFish(const config::Species& species) {
     BiomechanicalFish fish;
     fish.restPositions = restPositionsOf(species.skeleton);
     const int free = freeShapeChanges(fish.restPositions, anatomy().units);
@@ -92,4 +92,4 @@ FishState stateAtRest(const BiomechanicalFish& fish) {
     return {.positions = fish.restPositions, .velocities = {}};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

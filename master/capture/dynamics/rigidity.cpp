@@ -3,11 +3,11 @@
 
 #include <Eigen/QR>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // A row a unit: how fast its length grows, times that length, as each coordinate does.
 int freeShapeChanges(const NodeVectors& positions, std::span<const Unit> units) {
-    constexpr Eigen::Index kCoordinates = 3 * Eigen::Index{kNodalPoints};
+    constexpr Eigen::Index kCoordinates = 3 * Eigen::Index{body::kNodalPoints};
     Eigen::MatrixXd rigidity =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(units.size()), kCoordinates);
     for (std::size_t i = 0; i < units.size(); ++i) {
@@ -25,4 +25,4 @@ int freeShapeChanges(const NodeVectors& positions, std::span<const Unit> units) 
     return kShapeChanges - static_cast<int>(reduced.rank());
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

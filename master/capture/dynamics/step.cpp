@@ -10,7 +10,7 @@
 #include "master/capture/dynamics/body_frame.h"
 #include "master/capture/dynamics/envelope_system.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -103,7 +103,7 @@ void step(const BiomechanicalFish& fish,
           double stepSeconds,
           FishState& state) {
     EnvelopeSystem system;
-    for (int i = 0; i < kNodalPoints; ++i) {
+    for (int i = 0; i < body::kNodalPoints; ++i) {
         const auto node = static_cast<std::size_t>(i);
         const double inertia = fish.masses[node] / stepSeconds;
         system.addToDiagonal(i, inertia);
@@ -124,11 +124,11 @@ void step(const BiomechanicalFish& fish,
     addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, system);
     addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, system);
     system.solve();
-    for (int i = 0; i < kNodalPoints; ++i) {
+    for (int i = 0; i < body::kNodalPoints; ++i) {
         const auto node = static_cast<std::size_t>(i);
         state.velocities[node] = system.solution(i);
         state.positions[node] += stepSeconds * state.velocities[node];
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -9,7 +9,7 @@
 #include "common/units/ids.h"
 #include "master/capture/exchange/markers.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr std::uint8_t kIntel = 84;
 // Negative: coordinates are floats and need no factor.
 constexpr float kScale = -1.0F;
 
-void pad(ByteWriter& out, std::size_t bytes) {
+void pad(motion::ByteWriter& out, std::size_t bytes) {
     while (out.written().size() < bytes) out.unsignedNumber(std::uint8_t{0});
 }
 
@@ -46,8 +46,8 @@ constexpr int kInteger = 2;
 constexpr int kReal = 4;
 
 // The type of the elements and the array's dimensions, before the elements.
-ByteWriter dataOf(int type, const std::vector<std::size_t>& dimensions) {
-    ByteWriter data;
+motion::ByteWriter dataOf(int type, const std::vector<std::size_t>& dimensions) {
+    motion::ByteWriter data;
     data.unsignedNumber(static_cast<std::uint8_t>(type));
     data.unsignedNumber(static_cast<std::uint8_t>(dimensions.size()));
     for (const std::size_t size : dimensions) data.unsignedNumber(static_cast<std::uint8_t>(size));
@@ -55,19 +55,19 @@ ByteWriter dataOf(int type, const std::vector<std::size_t>& dimensions) {
 }
 
 Record integer(int groupNumber, const std::string& name, std::size_t value) {
-    ByteWriter data = dataOf(kInteger, {});
+    motion::ByteWriter data = dataOf(kInteger, {});
     data.unsignedNumber(static_cast<std::uint16_t>(value));
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
 
 Record real(int groupNumber, const std::string& name, float value) {
-    ByteWriter data = dataOf(kReal, {});
+    motion::ByteWriter data = dataOf(kReal, {});
     data.float32(value);
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
 
 Record text(int groupNumber, const std::string& name, const std::string& value) {
-    ByteWriter data = dataOf(kCharacter, {value.size()});
+    motion::ByteWriter data = dataOf(kCharacter, {value.size()});
     data.characters(value);
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
@@ -76,7 +76,7 @@ Record text(int groupNumber, const std::string& name, const std::string& value) 
 Record texts(int groupNumber, const std::string& name, std::vector<std::string> values) {
     std::size_t length = 0;
     for (const std::string& value : values) length = std::max(length, value.size());
-    ByteWriter data = dataOf(kCharacter, {length, values.size()});
+    motion::ByteWriter data = dataOf(kCharacter, {length, values.size()});
     for (std::string& value : values) {
         value.resize(length, ' ');
         data.characters(value);
@@ -87,7 +87,7 @@ Record texts(int groupNumber, const std::string& name, std::vector<std::string> 
 std::vector<Record> recordsOf(const Take& take, std::size_t dataBlock) {
     std::vector<std::string> labels;
     std::vector<std::string> descriptions;
-    for (std::size_t node = 0; node < kNodalPoints; ++node) {
+    for (std::size_t node = 0; node < body::kNodalPoints; ++node) {
         labels.push_back(markerLabel(node));
         descriptions.push_back(markerDescription(node));
     }
@@ -95,7 +95,7 @@ std::vector<Record> recordsOf(const Take& take, std::size_t dataBlock) {
     constexpr int kAnalog = 2;
     constexpr int kOwn = 3;
     return {group(kPoint, "POINT", "nodal points"),
-            integer(kPoint, "USED", kNodalPoints),
+            integer(kPoint, "USED", body::kNodalPoints),
             integer(kPoint, "FRAMES", take.frames.size()),
             integer(kPoint, "DATA_START", dataBlock),
             real(kPoint, "SCALE", kScale),
@@ -113,7 +113,7 @@ std::vector<Record> recordsOf(const Take& take, std::size_t dataBlock) {
             real(kOwn, "BODY_LENGTH", static_cast<float>(take.lengthMetres))};
 }
 
-void write(ByteWriter& out, const Record& record, bool isLast) {
+void write(motion::ByteWriter& out, const Record& record, bool isLast) {
     out.unsignedNumber(static_cast<std::uint8_t>(record.name.size()));
     out.unsignedNumber(static_cast<std::uint8_t>(record.group));
     out.characters(record.name);
@@ -128,7 +128,7 @@ void write(ByteWriter& out, const Record& record, bool isLast) {
 
 // Filled up to whole blocks.
 std::vector<std::byte> parameterSection(const Take& take, std::size_t blocks) {
-    ByteWriter out;
+    motion::ByteWriter out;
     out.unsignedNumber(std::uint8_t{1});  // where the first record is, by custom
     out.unsignedNumber(kSignature);
     out.unsignedNumber(static_cast<std::uint8_t>(blocks));
@@ -139,10 +139,10 @@ std::vector<std::byte> parameterSection(const Take& take, std::size_t blocks) {
     return std::move(out).take();
 }
 
-void writeHeader(ByteWriter& out, const Take& take, std::size_t dataBlock) {
+void writeHeader(motion::ByteWriter& out, const Take& take, std::size_t dataBlock) {
     out.unsignedNumber(kParameterBlock);
     out.unsignedNumber(kSignature);
-    out.unsignedNumber(static_cast<std::uint16_t>(kNodalPoints));
+    out.unsignedNumber(static_cast<std::uint16_t>(body::kNodalPoints));
     out.unsignedNumber(std::uint16_t{0});  // analogue values a frame
     out.unsignedNumber(std::uint16_t{1});  // the first frame
     out.unsignedNumber(static_cast<std::uint16_t>(take.frames.size()));
@@ -154,7 +154,7 @@ void writeHeader(ByteWriter& out, const Take& take, std::size_t dataBlock) {
     pad(out, kBlockBytes);
 }
 
-void writeFrame(ByteWriter& out, const TakeFrame& frame) {
+void writeFrame(motion::ByteWriter& out, const TakeFrame& frame) {
     constexpr float kSeenByNoCamera = 0.0F;  // and no residual: a modelled point
     for (const glm::dvec3& node : frame.nodes) {
         for (const double metres : {node.x, node.y, node.z})
@@ -169,7 +169,7 @@ std::vector<std::byte> c3dOf(const Take& take) {
     assert(take.frames.size() <= kMostFrames);
     const std::size_t blocks = blocksFor(parameterSection(take, 0).size());
     const std::size_t dataBlock = kParameterBlock + blocks;
-    ByteWriter out;
+    motion::ByteWriter out;
     writeHeader(out, take, dataBlock);
     for (const std::byte byte : parameterSection(take, blocks))
         out.unsignedNumber(std::to_integer<std::uint8_t>(byte));
@@ -178,4 +178,4 @@ std::vector<std::byte> c3dOf(const Take& take) {
     return std::move(out).take();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

@@ -8,10 +8,10 @@
 
 #include "master/capture/exchange/take.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 // One marker a nodal point, in metres, Y up: Intel byte order, floating-point data, no analogue
 // channels. POINT:X_SCREEN is +X and POINT:Y_SCREEN +Y. At most kMostFrames frames.
 [[nodiscard]] std::vector<std::byte> c3dOf(const Take& take);
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 namespace {
 
@@ -18,7 +18,7 @@ void append(std::string& text, double value) {
 
 std::string csvOf(const Take& take) {
     std::string text = "time_s";
-    for (std::size_t node = 0; node < kNodalPoints; ++node)
+    for (std::size_t node = 0; node < body::kNodalPoints; ++node)
         for (const char* axis : {"_x_m", "_y_m", "_z_m"})
             text += ",n" + std::to_string(node) + axis;
     text += '\n';
@@ -31,4 +31,4 @@ std::string csvOf(const Take& take) {
     return text;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

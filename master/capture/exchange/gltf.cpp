@@ -9,7 +9,7 @@
 #include "master/capture/exchange/swimming_skin.h"
 #include "master/capture/exchange/take.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 namespace {
 
@@ -122,16 +122,16 @@ std::vector<std::byte> written(const tinygltf::Model& model, GltfContainer conta
 
 }  // namespace
 
-int gltfShapes(const ActionSegment& segment) {
-    return segment.playsToEnd ? kPhases : kPhases / 2;
+int gltfShapes(const motion::ActionSegment& segment) {
+    return segment.playsToEnd ? motion::kPhases : motion::kPhases / 2;
 }
 
-std::vector<std::byte> gltfOf(const Repertoire& repertoire,
-                              const FishBody& body,
-                              Action action,
+std::vector<std::byte> gltfOf(const motion::Repertoire& repertoire,
+                              const body::FishBody& body,
+                              motion::Action action,
                               int cycles,
                               GltfContainer container) {
-    const ActionSegment& segment = repertoire.segments.at(static_cast<std::size_t>(action));
+    const motion::ActionSegment& segment = repertoire.segments.at(static_cast<std::size_t>(action));
     const int shapes = gltfShapes(segment);
     const Take take = takeAtPhases(repertoire, action, cycles, shapes);
     tinygltf::Model model;
@@ -143,4 +143,4 @@ std::vector<std::byte> gltfOf(const Repertoire& repertoire,
     return written(model, container);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

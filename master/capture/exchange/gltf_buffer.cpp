@@ -5,7 +5,7 @@
 
 #include <glm/common.hpp>
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 namespace {
 
@@ -86,4 +86,4 @@ int addKeys(tinygltf::Model& model, std::span<const glm::vec4> quaternions) {
     return addFloats(model, quaternions, kNoTarget, TINYGLTF_TYPE_VEC4);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

@@ -9,7 +9,7 @@
 #include <glm/vec4.hpp>
 #include <tiny_gltf.h>
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 // Each returns the number of the accessor. Bounds are given where glTF demands them.
 [[nodiscard]] int addTriangles(tinygltf::Model& model, std::span<const std::uint32_t> corners);
@@ -20,4 +20,4 @@ namespace aquarama {
 [[nodiscard]] int addKeys(tinygltf::Model& model, std::span<const glm::vec3> vectors);
 [[nodiscard]] int addKeys(tinygltf::Model& model, std::span<const glm::vec4> quaternions);
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::string markerDescription(std::size_t node) {
     return number + "ring " + ringOf(node) + " of 5, " + cornerOf(node).description;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

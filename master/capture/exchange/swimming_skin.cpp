@@ -7,29 +7,29 @@
 #include "common/skin/limit_table.h"
 #include "master/capture/measure/measure.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 namespace {
 
 constexpr int kSurfaceLevel = 1;  // 1698 vertices; its normals are the limit surface's
 
-NodalPoints nodesAt(const ActionSegment& segment, std::size_t phase) {
-    NodalPoints nodes{};
-    std::ranges::transform(poseAt(segment, phase), nodes.begin(), [](const glm::dvec3& node) {
-        return glm::vec3(node);
-    });
+body::NodalPoints nodesAt(const motion::ActionSegment& segment, std::size_t phase) {
+    body::NodalPoints nodes{};
+    std::ranges::transform(capture::poseAt(segment, phase),
+                           nodes.begin(),
+                           [](const glm::dvec3& node) { return glm::vec3(node); });
     return nodes;
 }
 
-SkinShape shapeOf(const FishBody& body,
-                  const LimitTable& table,
-                  const NodalPoints& nodes,
+SkinShape shapeOf(const body::FishBody& body,
+                  const skin::LimitTable& table,
+                  const body::NodalPoints& nodes,
                   float lengthMetres) {
     std::vector<glm::vec3> cage(body.cage.vertices.size());
-    poseCage(body, nodes, cage);
+    body::poseCage(body, nodes, cage);
     SkinShape shape;
     for (std::size_t i = 0; i < table.vertices.size(); ++i) {
-        const SkinPoint point = skinPoint(table, i, cage);
+        const skin::SkinPoint point = skin::skinPoint(table, i, cage);
         shape.positions.push_back(point.position * lengthMetres);
         shape.normals.push_back(point.normal);
     }
@@ -38,14 +38,14 @@ SkinShape shapeOf(const FishBody& body,
 
 }  // namespace
 
-SwimmingSkin skinOf(const FishBody& body,
-                    const ActionSegment& segment,
+SwimmingSkin skinOf(const body::FishBody& body,
+                    const motion::ActionSegment& segment,
                     double lengthMetres,
                     int shapes) {
-    assert(kPhases % shapes == 0);
-    const LimitTable table = makeLimitTable(body, kSurfaceLevel);
+    assert(motion::kPhases % shapes == 0);
+    const skin::LimitTable table = skin::makeLimitTable(body, kSurfaceLevel);
     SwimmingSkin skin{.triangles = table.indices, .shapes = {}};
-    for (int phase = 0; phase < kPhases; phase += kPhases / shapes)
+    for (int phase = 0; phase < motion::kPhases; phase += motion::kPhases / shapes)
         skin.shapes.push_back(shapeOf(body,
                                       table,
                                       nodesAt(segment, static_cast<std::size_t>(phase)),
@@ -53,4 +53,4 @@ SwimmingSkin skinOf(const FishBody& body,
     return skin;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

@@ -11,7 +11,7 @@
 #include "common/body/fish_body.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 // One number a vertex; in the body frame, metres.
 struct SkinShape {
@@ -25,9 +25,9 @@ struct SwimmingSkin {
 };
 
 // `shapes` divides kPhases.
-[[nodiscard]] SwimmingSkin skinOf(const FishBody& body,
-                                  const ActionSegment& segment,
+[[nodiscard]] SwimmingSkin skinOf(const body::FishBody& body,
+                                  const motion::ActionSegment& segment,
                                   double lengthMetres,
                                   int shapes);
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

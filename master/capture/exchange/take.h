@@ -11,14 +11,14 @@
 #include "common/motion/repertoire.h"
 #include "master/capture/measure/measure.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 
 // Metres, right-handed, Y up. The fish starts at the origin, level, and heads along +x.
 struct TakeFrame {
     double seconds = 0;
     glm::dvec3 origin{};  // of the body frame
     glm::dquat worldFromBody{1, 0, 0, 0};
-    NodeVectors nodes{};
+    capture::NodeVectors nodes{};
 };
 
 struct Take {
@@ -34,11 +34,13 @@ inline constexpr int kMostCycles = 1000;
 // Some cycles from phase 0, as replayAlongX() plays them; between the 64 phases of a cycle
 // everything goes straight.
 // At the ticks of 1/60 s within the cycles. Throws Error for more than kMostFrames.
-[[nodiscard]] Take takeAtTicks(const Repertoire& repertoire, Action action, int cycles);
+[[nodiscard]] Take takeAtTicks(const motion::Repertoire& repertoire,
+                               motion::Action action,
+                               int cycles);
 // At so many phases of each cycle, and at the end of the last.
-[[nodiscard]] Take takeAtPhases(const Repertoire& repertoire,
-                                Action action,
+[[nodiscard]] Take takeAtPhases(const motion::Repertoire& repertoire,
+                                motion::Action action,
                                 int cycles,
                                 int framesPerCycle);
 
-}  // namespace aquarama
+}  // namespace aquarama::exchange

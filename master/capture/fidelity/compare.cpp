@@ -9,7 +9,7 @@
 #include "common/units/ids.h"
 #include "master/capture/fidelity/overlay.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -17,7 +17,7 @@ constexpr double kShapeGoal = 0.01;  // body lengths
 constexpr double kLagStep = 0.25;    // ticks
 
 // In its first beat a command is on its way from the one before; of a short one in its first half.
-int transitionTicksOf(const Command& command) {
+int transitionTicksOf(const ScriptCommand& command) {
     return std::min(static_cast<int>(std::lround(command.beatTicks)), command.ticks / 2);
 }
 
@@ -31,7 +31,9 @@ struct Passage {
     double beatTicks = 1;
 };
 
-const NodeVectors& mixedPose(const Trace& trace, double tick, NodeVectors& mixed) {
+const capture::NodeVectors& mixedPose(const Trace& trace,
+                                      double tick,
+                                      capture::NodeVectors& mixed) {
     const auto before = static_cast<std::size_t>(tick);
     const double share = tick - static_cast<double>(before);
     if (share == 0) return trace[before].pose;
@@ -42,15 +44,16 @@ const NodeVectors& mixedPose(const Trace& trace, double tick, NodeVectors& mixed
 
 // Mean over the nodal points, body lengths squared.
 double squaredShapeError(const Passage& passage, std::size_t tick, double lag) {
-    const NodeVectors& pose = passage.fish[tick].pose;
-    NodeVectors mixed;
-    const NodeVectors& other = mixedPose(passage.replica, static_cast<double>(tick) + lag, mixed);
+    const capture::NodeVectors& pose = passage.fish[tick].pose;
+    capture::NodeVectors mixed;
+    const capture::NodeVectors& other =
+        mixedPose(passage.replica, static_cast<double>(tick) + lag, mixed);
     double sum = 0;
     for (std::size_t i = 0; i < pose.size(); ++i) {
         const glm::dvec3 off = pose[i] - other[i];
         sum += glm::dot(off, off);
     }
-    return sum / kNodalPoints;
+    return sum / body::kNodalPoints;
 }
 
 bool has(const Passage& passage, double tick) {
@@ -93,7 +96,7 @@ std::optional<int> agreementOf(const Passage& passage, double lag) {
     return std::nullopt;
 }
 
-CommandErrors errorsOf(const Command& command, const Passage& passage, double beatBefore) {
+CommandErrors errorsOf(const ScriptCommand& command, const Passage& passage, double beatBefore) {
     const auto& [fish, replica, first, last, transitionEnd, beat] = passage;
     CommandErrors errors{.command = command, .firstTick = static_cast<int>(first)};
     errors.lagTicks = bestLag(passage);
@@ -209,4 +212,4 @@ Summary summarise(std::span<const CommandErrors> commands) {
     return summary;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -9,7 +9,7 @@
 #include "master/capture/fidelity/script.h"
 #include "master/capture/fidelity/trace.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 // Shape is what the 23 nodal points do in the body frame; its error is their root mean square
 // distance, in body lengths. Both begin a command at the same phase of the beat; what a transition
@@ -19,7 +19,7 @@ namespace aquarama {
 // the heading, which is that of the nose averaged over the last beat, so that the beat's sway is
 // not taken for it.
 struct CommandErrors {
-    Command command;
+    ScriptCommand command;
     int firstTick = 0;
     double lagTicks = 0;                    // positive: the replica's shapes come too late
     double shapeWithin = 0;                 // after the transition, at that lag
@@ -72,4 +72,4 @@ struct Summary {
 };
 [[nodiscard]] Summary summarise(std::span<const CommandErrors> commands);
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

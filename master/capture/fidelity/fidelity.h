@@ -6,7 +6,7 @@
 
 #include "master/capture/fidelity/compare.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 struct Fidelity {
     std::string species;
@@ -15,8 +15,8 @@ struct Fidelity {
     Comparison comparison;
 };
 
-[[nodiscard]] inline Fidelity measureFidelity(const Species& species,
-                                              const Repertoire& repertoire,
+[[nodiscard]] inline Fidelity measureFidelity(const config::Species& species,
+                                              const motion::Repertoire& repertoire,
                                               std::uint64_t seed,
                                               double seconds) {
     Script script = makeScript(repertoire, seed, seconds);
@@ -34,4 +34,4 @@ struct Fidelity {
     return errors;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -6,7 +6,7 @@
 #include "master/capture/fidelity/fidelity_report.h"
 #include "master/capture/report/svg.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -28,40 +28,40 @@ std::string rowOf(const Fidelity& fidelity, const CommandErrors& errors) {
     return row(std::array{
         fidelity.species,
         std::string(nameOf(errors.command.manoeuvre)),
-        fixed(start, 3),
-        fixed(errors.command.ticks / kTicksPerSecond, 3),
-        fixed(errors.lagTicks / kTicksPerSecond, 4),
-        fixed(errors.shapeWithin, 5),
-        fixed(errors.shapeTransition, 5),
-        fixed(errors.shapeAsPlayed, 5),
-        errors.agreesAfterTicks ? fixed(*errors.agreesAfterTicks / kTicksPerSecond, 3) : "",
-        fixed(errors.path, 3),
-        fixed(errors.pathErrorAtEnd, 4),
-        fixed(errors.pathErrorMost, 4),
-        fixed(errors.pathErrorAlong, 4),
-        fixed(errors.pathErrorAcross, 4),
-        fixed(errors.turn / kRadiansPerDegree, 2),
-        fixed(errors.headingError / kRadiansPerDegree, 2)});
+        report::fixed(start, 3),
+        report::fixed(errors.command.ticks / kTicksPerSecond, 3),
+        report::fixed(errors.lagTicks / kTicksPerSecond, 4),
+        report::fixed(errors.shapeWithin, 5),
+        report::fixed(errors.shapeTransition, 5),
+        report::fixed(errors.shapeAsPlayed, 5),
+        errors.agreesAfterTicks ? report::fixed(*errors.agreesAfterTicks / kTicksPerSecond, 3) : "",
+        report::fixed(errors.path, 3),
+        report::fixed(errors.pathErrorAtEnd, 4),
+        report::fixed(errors.pathErrorMost, 4),
+        report::fixed(errors.pathErrorAlong, 4),
+        report::fixed(errors.pathErrorAcross, 4),
+        report::fixed(errors.turn / config::kRadiansPerDegree, 2),
+        report::fixed(errors.headingError / config::kRadiansPerDegree, 2)});
 }
 
 std::string openLoopRow(const Fidelity& fidelity) {
     const OpenLoopErrors& errors = fidelity.comparison.openLoop;
     return row(std::array{fidelity.species,
                           std::string("open_loop"),
-                          fixed(0, 3),
-                          fixed(ticksOf(fidelity.script) / kTicksPerSecond, 3),
+                          report::fixed(0, 3),
+                          report::fixed(ticksOf(fidelity.script) / kTicksPerSecond, 3),
                           std::string(),
                           std::string(),
                           std::string(),
                           std::string(),
                           std::string(),
-                          fixed(errors.path, 3),
-                          fixed(errors.distanceAtEnd / errors.path, 4),
-                          fixed(errors.distanceMost / errors.path, 4),
+                          report::fixed(errors.path, 3),
+                          report::fixed(errors.distanceAtEnd / errors.path, 4),
+                          report::fixed(errors.distanceMost / errors.path, 4),
                           std::string(),
                           std::string(),
                           std::string(),
-                          fixed(errors.headingAtEnd / kRadiansPerDegree, 2)});
+                          report::fixed(errors.headingAtEnd / config::kRadiansPerDegree, 2)});
 }
 
 }  // namespace
@@ -76,4 +76,4 @@ std::string fidelityCsv(std::span<const Fidelity> species) {
     return csv;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

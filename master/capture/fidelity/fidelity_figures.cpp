@@ -13,7 +13,7 @@
 #include "master/capture/report/fish_view.h"
 #include "master/capture/report/svg.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -59,7 +59,7 @@ const Kind& kindOf(Manoeuvre manoeuvre) {
     return kKinds[7];
 }
 
-void drawKey(Svg& svg, glm::dvec2 at) {
+void drawKey(report::Svg& svg, glm::dvec2 at) {
     for (const Kind& kind : kKinds) {
         svg.line(at, at + glm::dvec2(22, 0), stroke(kind.colour, 6));
         svg.text(at + glm::dvec2(28, 4), kind.name, letters(12));
@@ -74,8 +74,8 @@ class Map {
         glm::dvec2 least(1e9);
         glm::dvec2 most(-1e9);
         const auto add = [&](const glm::dvec3& place) {
-            least = glm::min(least, fromAbove(place));
-            most = glm::max(most, fromAbove(place));
+            least = glm::min(least, report::fromAbove(place));
+            most = glm::max(most, report::fromAbove(place));
         };
         for (const TracePoint& point : fidelity.traces.fish) add(point.frame.origin);
         for (const glm::dvec3& place : fidelity.comparison.openLoop.replicaWay) add(place);
@@ -88,7 +88,7 @@ class Map {
     }
     void lowerBy(double paper) { corner_.y += paper; }
     [[nodiscard]] glm::dvec2 operator()(const glm::dvec3& place) const {
-        const glm::dvec2 seen = fromAbove(place);
+        const glm::dvec2 seen = report::fromAbove(place);
         return corner_ + ((isTurned_ ? glm::dvec2(seen.y, -seen.x) : seen) - least_) * scale_;
     }
     [[nodiscard]] std::vector<glm::dvec2> operator()(std::span<const glm::dvec3> places) const {
@@ -121,7 +121,8 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& way, std::size_t 
     return few;
 }
 
-void drawWays(Svg& svg, const Map& map, const Fidelity& fidelity, double width, std::size_t every) {
+void drawWays(
+    report::Svg& svg, const Map& map, const Fidelity& fidelity, double width, std::size_t every) {
     for (const CommandErrors& errors : fidelity.comparison.commands) {
         const auto first = static_cast<std::size_t>(errors.firstTick);
         const auto last = first + static_cast<std::size_t>(errors.command.ticks);
@@ -137,7 +138,7 @@ void drawWays(Svg& svg, const Map& map, const Fidelity& fidelity, double width, 
     }
 }
 
-void drawScale(Svg& svg, glm::dvec2 at, double scale) {
+void drawScale(report::Svg& svg, glm::dvec2 at, double scale) {
     constexpr int kLengths = 10;
     svg.line(at, at + glm::dvec2(kLengths * scale, 0), stroke(kInk, 2));
     svg.text(
@@ -152,7 +153,7 @@ std::string drawWays(const Fidelity& fidelity) {
     constexpr double kMostHeight = 560;
     const Map map(fidelity, {kMargin, kTop}, {kWidth - 2 * kMargin, kMostHeight});
     const double height = kTop + map.height() + 56;
-    Svg svg(kWidth, height);
+    report::Svg svg(kWidth, height);
     drawKey(svg, {kMargin, 18});
     drawWays(svg, map, fidelity, 7, 2);
     const double foot = height - 18;
@@ -170,7 +171,7 @@ std::string drawWaysOfAll(std::span<const Fidelity> species) {
     constexpr double kTop = 40;
     constexpr glm::dvec2 kPanel{(kWidth - 5 * kMargin) / kColumns, 200};
     const std::size_t rows = (species.size() + kColumns - 1) / kColumns;
-    Svg svg(kWidth, kTop + static_cast<double>(rows) * (kPanel.y + kMargin));
+    report::Svg svg(kWidth, kTop + static_cast<double>(rows) * (kPanel.y + kMargin));
     drawKey(svg, {kMargin, 18});
     for (std::size_t i = 0; i < species.size(); ++i) {
         const glm::dvec2 corner =
@@ -193,19 +194,19 @@ namespace {
 // Of one quantity over the script's seconds.
 class Strip {
   public:
-    Strip(Svg& svg, double top, double height, double seconds)
+    Strip(report::Svg& svg, double top, double height, double seconds)
         : svg_(svg), top_(top), height_(height), perSecond_((kRight - kLeft) / seconds) {}
 
     [[nodiscard]] glm::dvec2 at(double seconds, double share) const {
         return {kLeft + seconds * perSecond_, top_ + (1 - share) * height_};
     }
-    void grid(double share, const std::string& says, const SvgStyle& style = kGrid) {
+    void grid(double share, const std::string& says, const report::SvgStyle& style = kGrid) {
         svg_.line({kLeft, at(0, share).y}, {kRight, at(0, share).y}, style);
         svg_.text(at(0, share) + glm::dvec2(-8, 4), says, letters(12, "end"));
     }
     // share(i) of the height at tick i + 1.
     template <class Share>
-    void plot(std::size_t ticks, Share share, const SvgStyle& style) {
+    void plot(std::size_t ticks, Share share, const report::SvgStyle& style) {
         std::vector<glm::dvec2> points;
         for (std::size_t i = 0; i < ticks; ++i)
             points.push_back(
@@ -218,12 +219,12 @@ class Strip {
     static constexpr double kRight = kWidth - 12;
 
   private:
-    Svg& svg_;
+    report::Svg& svg_;
     double top_, height_, perSecond_;
 };
 
 void drawCommands(
-    Svg& svg, const Fidelity& fidelity, const Strip& strip, double top, double height) {
+    report::Svg& svg, const Fidelity& fidelity, const Strip& strip, double top, double height) {
     const int start = fidelity.script.front().ticks;
     for (const CommandErrors& errors : fidelity.comparison.commands) {
         const double from = (errors.firstTick - start) / kTicksPerSecond;
@@ -248,7 +249,7 @@ std::string drawTimes(const Fidelity& fidelity) {
     const Comparison& comparison = fidelity.comparison;
     const std::size_t ticks = comparison.shapeAsPlayed.size();
     const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
-    Svg svg(kWidth, 470);
+    report::Svg svg(kWidth, 470);
 
     Strip shape(svg, 26, 190, seconds);
     shape.title("error of the shape, root mean square over 23 nodal points, % of a body length");
@@ -281,7 +282,7 @@ std::string drawTimes(const Fidelity& fidelity) {
     const double top = std::ceil(fastest * 2) / 2;
     Strip speed(svg, 272, 150, seconds);
     speed.title("speed over the last beat of medium swimming, BL/s: fish (wide) and replica");
-    for (const double share : {0.0, 0.5, 1.0}) speed.grid(share, fixed(share * top, 2));
+    for (const double share : {0.0, 0.5, 1.0}) speed.grid(share, report::fixed(share * top, 2));
     speed.plot(
         ticks,
         [&](std::size_t i) { return speeds(fidelity.traces.fish, i) / top; },
@@ -303,4 +304,4 @@ std::string drawTimes(const Fidelity& fidelity) {
     return std::move(svg).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -8,7 +8,7 @@
 #include "master/capture/fidelity/fidelity.h"
 #include "master/capture/fidelity/segment_count.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 // The way of the fish from above, each command in its colour; over it, thin, the replica's, laid
 // over it anew at each command (solid) and only at the beginning (dashed).
@@ -23,4 +23,4 @@ namespace aquarama {
 // Errors against the number of segments, a line for each species and their median.
 [[nodiscard]] std::string drawVocabularies(std::span<const SpeciesVocabularies> species);
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -5,17 +5,17 @@
 #include "master/capture/fidelity/fidelity_report.h"
 #include "master/capture/report/svg.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
 constexpr double kPathGoal = 0.05;
 
 std::string hundredths(double share) {
-    return fixed(share * 100, 2);
+    return report::fixed(share * 100, 2);
 }
 std::string tenthsOfDegrees(double radians) {
-    return fixed(radians / kRadiansPerDegree, 1);
+    return report::fixed(radians / config::kRadiansPerDegree, 1);
 }
 
 std::string manoeuvreRow(Manoeuvre manoeuvre, std::span<const CommandErrors> commands) {
@@ -24,8 +24,8 @@ std::string manoeuvreRow(Manoeuvre manoeuvre, std::span<const CommandErrors> com
     const Summary s = summarise(commands);
     const double share = static_cast<double>(good) / static_cast<double>(s.commands);
     return std::string("| ") + nameOf(manoeuvre) + " | " + std::to_string(s.commands) + " | " +
-           fixed(s.pathErrorMedian * 100, 1) + " | " + fixed(share * 100, 0) + " | " +
-           hundredths(s.shapeWithin) + " | " + tenthsOfDegrees(s.headingErrorRms) + " |\n";
+           report::fixed(s.pathErrorMedian * 100, 1) + " | " + report::fixed(share * 100, 0) +
+           " | " + hundredths(s.shapeWithin) + " | " + tenthsOfDegrees(s.headingErrorRms) + " |\n";
 }
 
 std::string manoeuvreTable(std::span<const Fidelity> species) {
@@ -54,22 +54,22 @@ std::string fidelityMarkdown(std::span<const Fidelity> species) {
     for (const Fidelity& fidelity : species) {
         const Summary s = summarise(fidelity.comparison.commands);
         const OpenLoopErrors& e = fidelity.comparison.openLoop;
-        for (const std::string& cell :
-             {fidelity.species,
-              std::to_string(s.commands),
-              hundredths(s.shapeWithin),
-              hundredths(s.shapeTransition),
-              fixed(s.pathErrorMedian * 100, 1),
-              fixed(s.pathErrorAlong * 100, 1) + ", " + fixed(s.pathErrorAcross * 100, 1),
-              fixed(s.pathErrorNinth * 100, 1),
-              tenthsOfDegrees(s.headingErrorRms),
-              fixed(e.path, 0),
-              fixed(e.distanceAtEnd, 1),
-              tenthsOfDegrees(e.headingAtEnd)})
+        for (const std::string& cell : {fidelity.species,
+                                        std::to_string(s.commands),
+                                        hundredths(s.shapeWithin),
+                                        hundredths(s.shapeTransition),
+                                        report::fixed(s.pathErrorMedian * 100, 1),
+                                        report::fixed(s.pathErrorAlong * 100, 1) + ", " +
+                                            report::fixed(s.pathErrorAcross * 100, 1),
+                                        report::fixed(s.pathErrorNinth * 100, 1),
+                                        tenthsOfDegrees(s.headingErrorRms),
+                                        report::fixed(e.path, 0),
+                                        report::fixed(e.distanceAtEnd, 1),
+                                        tenthsOfDegrees(e.headingAtEnd)})
             table += "| " + cell + " ";
         table += "|\n";
     }
     return table + "\n" + manoeuvreTable(species);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

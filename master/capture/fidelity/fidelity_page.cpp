@@ -8,7 +8,7 @@
 #include "master/capture/fidelity/fidelity_report.h"
 #include "master/capture/report/svg.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -40,13 +40,13 @@ std::string row(std::initializer_list<std::string> cells, const std::string& att
 }
 
 std::string percent(double share) {
-    return fixed(share * 100, 2);
+    return report::fixed(share * 100, 2);
 }
 std::string percent(double share, double goal) {
     return share > goal ? "<span class=\"over\">" + percent(share) + "</span>" : percent(share);
 }
 std::string degrees(double radians) {
-    return fixed(radians / kRadiansPerDegree, 1);
+    return report::fixed(radians / config::kRadiansPerDegree, 1);
 }
 
 constexpr const char* kSummaryHead =
@@ -63,7 +63,7 @@ std::string summaryRow(const std::string& name,
                 std::to_string(s.commands),
                 percent(s.shapeWithin, kShapeGoal),
                 percent(s.shapeTransition),
-                s.neverAgree == s.commands ? "never" : fixed(s.agreesAfterSeconds, 2),
+                s.neverAgree == s.commands ? "never" : report::fixed(s.agreesAfterSeconds, 2),
                 percent(s.pathErrorMedian, kPathGoal),
                 percent(s.pathErrorNinth, kPathGoal),
                 percent(s.pathErrorWorst, kPathGoal),
@@ -90,26 +90,28 @@ std::string commandTable(const Fidelity& fidelity) {
         "<th>in transition, %</th><th>path, BL</th><th>error at the end, %</th><th>most, %</th>"
         "<th>turn, deg</th><th>heading error, deg</th></tr>\n";
     for (const CommandErrors& e : fidelity.comparison.commands)
-        html += row({nameOf(e.command.manoeuvre),
-                     fixed((e.firstTick - fidelity.script.front().ticks) / kTicksPerSecond, 2),
-                     fixed(e.command.ticks / kTicksPerSecond, 2),
-                     fixed(e.lagTicks / kTicksPerSecond, 3),
-                     percent(e.shapeWithin, kShapeGoal),
-                     percent(e.shapeTransition),
-                     fixed(e.path, 2),
-                     percent(e.pathErrorAtEnd, kPathGoal),
-                     percent(e.pathErrorMost),
-                     degrees(e.turn),
-                     degrees(e.headingError)});
+        html +=
+            row({nameOf(e.command.manoeuvre),
+                 report::fixed((e.firstTick - fidelity.script.front().ticks) / kTicksPerSecond, 2),
+                 report::fixed(e.command.ticks / kTicksPerSecond, 2),
+                 report::fixed(e.lagTicks / kTicksPerSecond, 3),
+                 percent(e.shapeWithin, kShapeGoal),
+                 percent(e.shapeTransition),
+                 report::fixed(e.path, 2),
+                 percent(e.pathErrorAtEnd, kPathGoal),
+                 percent(e.pathErrorMost),
+                 degrees(e.turn),
+                 degrees(e.headingError)});
     return html + "</table></details>\n";
 }
 
 std::string openLoopText(const Fidelity& fidelity) {
     const OpenLoopErrors& e = fidelity.comparison.openLoop;
-    return "<p>Left alone for the whole script, the replica ends " + fixed(e.distanceAtEnd, 1) +
-           " BL from the fish after a way of " + fixed(e.path, 1) + " BL (" +
-           percent(e.distanceAtEnd / e.path) + " %; at most " + fixed(e.distanceMost, 1) +
-           " BL) and heads " + degrees(e.headingAtEnd) + " degrees from it.</p>\n";
+    return "<p>Left alone for the whole script, the replica ends " +
+           report::fixed(e.distanceAtEnd, 1) + " BL from the fish after a way of " +
+           report::fixed(e.path, 1) + " BL (" + percent(e.distanceAtEnd / e.path) + " %; at most " +
+           report::fixed(e.distanceMost, 1) + " BL) and heads " + degrees(e.headingAtEnd) +
+           " degrees from it.</p>\n";
 }
 
 }  // namespace
@@ -129,4 +131,4 @@ std::string fidelityPage(std::span<const Fidelity> species,
     return html + "</body></html>\n";
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -9,7 +9,7 @@
 #include "master/capture/fidelity/fidelity.h"
 #include "master/capture/fidelity/segment_count.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 // One page with a section for each species: ways, errors over time, tables.
 [[nodiscard]] std::string fidelityPage(std::span<const Fidelity> species,
@@ -22,4 +22,4 @@ namespace aquarama {
 // The tables of docs/fidelity.md: species by species, and command by command over all of them.
 [[nodiscard]] std::string fidelityMarkdown(std::span<const Fidelity> species);
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

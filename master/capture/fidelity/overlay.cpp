@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 double headingAt(const Trace& trace, std::size_t tick, double beatTicks) {
     glm::dvec3 sum{};
@@ -63,4 +63,4 @@ double Overlay::headingErrorAt(std::size_t tick, double beatTicks) const {
                    headingAt(fish_, tick, beatTicks));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

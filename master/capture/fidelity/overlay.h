@@ -8,7 +8,7 @@
 
 #include "master/capture/fidelity/trace.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 // Of the nose, averaged over the beat that ends at the tick; radians, left positive.
 [[nodiscard]] double headingAt(const Trace& trace, std::size_t tick, double beatTicks);
@@ -37,4 +37,4 @@ class Overlay {
     double turn_;  // radians, from the replica's heading to the fish's
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

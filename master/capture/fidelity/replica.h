@@ -9,34 +9,36 @@
 #include "master/capture/fidelity/script.h"
 #include "master/capture/fidelity/trace.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 // Swims forward_medium from phase 0, at its speed, until it is told otherwise. It is one metre
 // long: what it does is in body lengths.
 class Replica {
   public:
-    explicit Replica(const Repertoire& repertoire);
+    explicit Replica(const motion::Repertoire& repertoire);
 
     void command(Manoeuvre manoeuvre);
     // A segment at so many times its recorded tempo; backwards when that is negative.
-    void play(Action action, double tempo);
+    void play(motion::Action action, double tempo);
     void tick();
 
     // Exchanges a segment that is not playing.
-    void learn(Action action, const ActionSegment& segment);
-    [[nodiscard]] Action playing() const { return static_cast<Action>(states_.segment[0]); }
+    void learn(motion::Action action, const motion::ActionSegment& segment);
+    [[nodiscard]] motion::Action playing() const {
+        return static_cast<motion::Action>(states_.segment[0]);
+    }
 
     // Where a cyclic segment plays, changes its phase to that whose pose is nearest; the mean frame
     // stays where it is.
-    void bringToPhaseOf(const NodeVectors& pose);
+    void bringToPhaseOf(const capture::NodeVectors& pose);
 
     [[nodiscard]] TracePoint point() const;
 
   private:
-    Repertoire repertoire_;
-    std::shared_ptr<const MotorTables> tables_;
-    MotionStates states_;
-    MotorCommands commands_;
+    motion::Repertoire repertoire_;
+    std::shared_ptr<const motion::MotorTables> tables_;
+    motion::MotionStates states_;
+    motion::MotorCommands commands_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

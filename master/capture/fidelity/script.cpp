@@ -8,7 +8,7 @@
 
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -70,11 +70,11 @@ Manoeuvre choose(std::span<const Choice> choices, Random& random) {
     return choices.back().manoeuvre;
 }
 
-const ActionSegment& segmentOf(const Repertoire& repertoire, Manoeuvre manoeuvre) {
+const motion::ActionSegment& segmentOf(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
     return repertoire.segments.at(static_cast<std::size_t>(manoeuvre));
 }
 
-double ticksOf(const ActionSegment& segment) {
+double ticksOf(const motion::ActionSegment& segment) {
     return static_cast<double>(segment.periodSeconds) * kTicksPerSecond;
 }
 
@@ -95,13 +95,15 @@ Beats beatsOf(Manoeuvre manoeuvre) {
     }
 }
 
-double beatTicks(const Repertoire& repertoire, Manoeuvre manoeuvre) {
+double beatTicks(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
     const bool hasItsOwn = manoeuvre <= Manoeuvre::ForwardFast;
     return ticksOf(segmentOf(repertoire, hasItsOwn ? manoeuvre : Manoeuvre::ForwardMedium));
 }
 
-Command commandFor(const Repertoire& repertoire, Manoeuvre manoeuvre, Random& random) {
-    Command command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
+ScriptCommand commandFor(const motion::Repertoire& repertoire,
+                         Manoeuvre manoeuvre,
+                         Random& random) {
+    ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
     if (isTurn(manoeuvre)) {
         command.ticks = static_cast<int>(std::lround(ticksOf(segmentOf(repertoire, manoeuvre))));
         return command;
@@ -129,11 +131,11 @@ const char* nameOf(Manoeuvre manoeuvre) {
         case Manoeuvre::Retreat:
             return "retreat";
         default:
-            return nameOf(static_cast<Action>(manoeuvre));
+            return motion::nameOf(static_cast<motion::Action>(manoeuvre));
     }
 }
 
-Script makeScript(const Repertoire& repertoire, std::uint64_t seed, double seconds) {
+Script makeScript(const motion::Repertoire& repertoire, std::uint64_t seed, double seconds) {
     Random random(seed);
     const double beat = beatTicks(repertoire, Manoeuvre::ForwardMedium);
     Script script{
@@ -150,4 +152,4 @@ int ticksOf(const Script& script) {
     return ticks;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

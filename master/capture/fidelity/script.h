@@ -7,7 +7,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 // The first eight are the actions of a repertoire, in their order; the others are made of them.
 enum class Manoeuvre : std::uint8_t {
@@ -34,20 +34,22 @@ inline constexpr int kManoeuvres = 13;
 // How steeply Ascend and Descend swim.
 inline constexpr double kScriptPitchRadians = 0.35;
 
-struct Command {
+struct ScriptCommand {
     Manoeuvre manoeuvre = Manoeuvre::ForwardMedium;
     int ticks = 0;
     double beatTicks = 0;  // of the gait, or else of medium swimming
 };
-using Script = std::vector<Command>;
+using Script = std::vector<ScriptCommand>;
 
 // A run-in of steady swimming at medium speed, then commands until `seconds` of them are full; the
 // last one ends as late as it must. Gaits last some of their beats, turns come out of medium
 // swimming and last their segment, who has risen or sunk levels out, and the rest is rare. A pure
 // function of its arguments.
-[[nodiscard]] Script makeScript(const Repertoire& repertoire, std::uint64_t seed, double seconds);
+[[nodiscard]] Script makeScript(const motion::Repertoire& repertoire,
+                                std::uint64_t seed,
+                                double seconds);
 
 // Of the script without its run-in.
 [[nodiscard]] int ticksOf(const Script& script);
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

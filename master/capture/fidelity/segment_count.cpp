@@ -13,7 +13,7 @@
 #include "master/capture/fidelity/compare.h"
 #include "master/capture/fidelity/replica.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -41,14 +41,14 @@ double between(double a, double b, double share) {
     return a + share * (b - a);
 }
 
-Gait gaitAt(const Swim& swim, double grade) {
-    const Gait& from = grade < 0.5 ? swim.slow : swim.medium;
-    const Gait& to = grade < 0.5 ? swim.medium : swim.fast;
+config::Gait gaitAt(const config::Swim& swim, double grade) {
+    const config::Gait& from = grade < 0.5 ? swim.slow : swim.medium;
+    const config::Gait& to = grade < 0.5 ? swim.medium : swim.fast;
     const double share = grade < 0.5 ? 2 * grade : 2 * grade - 1;
     return {between(from.beatHertz, to.beatHertz, share), between(from.gain, to.gain, share)};
 }
 
-Bend bendAt(const Turn& turn, double grade) {
+config::Bend bendAt(const config::Turn& turn, double grade) {
     if (grade < 0.5) return {2 * grade * turn.gradual.strength, turn.gradual.tempo};
     const double share = 2 * grade - 1;
     return {between(turn.gradual.strength, turn.sharp.strength, share),
@@ -57,15 +57,15 @@ Bend bendAt(const Turn& turn, double grade) {
 
 struct GradedCommand {
     Grade grade;
-    Command command;
-    Order order;
+    ScriptCommand command;
+    capture::Order order;
 };
 
 // Speed and turn from anywhere in their ranges; each turn comes out of medium swimming.
 class GradedScript {
   public:
-    GradedScript(const Species& species,
-                 const Repertoire& repertoire,
+    GradedScript(const config::Species& species,
+                 const motion::Repertoire& repertoire,
                  std::uint64_t seed,
                  double seconds)
         : species_(species), repertoire_(repertoire), random_(seed) {
@@ -86,16 +86,16 @@ class GradedScript {
         GradedCommand graded;
         graded.grade = grade;
         const bool turns = grade.way != Way::Ahead;
-        const Gait gait = gaitAt(species_.swim, turns ? 0.5 : grade.value);
+        const config::Gait gait = gaitAt(species_.swim, turns ? 0.5 : grade.value);
         graded.command.manoeuvre = turns ? Manoeuvre::TurnLeftSharp : Manoeuvre::ForwardMedium;
         graded.command.beatTicks = kTicksPerSecond / gait.beatHertz;
         if (turns) {
-            graded.order.controller =
-                grade.way == Way::Left ? Controller::LeftTurn : Controller::RightTurn;
+            graded.order.controller = grade.way == Way::Left ? capture::Controller::LeftTurn
+                                                             : capture::Controller::RightTurn;
             graded.order.bend = bendAt(species_.turn, grade.value);
             graded.command.ticks = turnTicks(grade.value);
         } else {
-            graded.order.controller = Controller::ForwardSwim;
+            graded.order.controller = capture::Controller::ForwardSwim;
             graded.order.gait = gait;
             graded.command.ticks = static_cast<int>(std::ceil(beats * graded.command.beatTicks));
         }
@@ -103,18 +103,19 @@ class GradedScript {
         commands_.push_back(graded);
     }
     [[nodiscard]] int turnTicks(double grade) const {
-        const auto seconds = [&](Action action) {
+        const auto seconds = [&](motion::Action action) {
             const auto index = static_cast<std::size_t>(action);
             return static_cast<double>(repertoire_.segments.at(index).periodSeconds);
         };
         const double share = std::max(0.0, 2 * grade - 1);
-        return static_cast<int>(std::ceil(
-            kTicksPerSecond *
-            between(seconds(Action::TurnLeftGradual), seconds(Action::TurnLeftSharp), share)));
+        return static_cast<int>(
+            std::ceil(kTicksPerSecond * between(seconds(motion::Action::TurnLeftGradual),
+                                                seconds(motion::Action::TurnLeftSharp),
+                                                share)));
     }
 
-    const Species& species_;
-    const Repertoire& repertoire_;
+    const config::Species& species_;
+    const motion::Repertoire& repertoire_;
     std::mt19937_64 random_;
     std::vector<GradedCommand> commands_;
     int ticks_ = 0;
@@ -123,44 +124,46 @@ class GradedScript {
 // Segments of all grades, captured when they are first asked for.
 class Library {
   public:
-    explicit Library(const Species& species) : species_(species) {}
+    explicit Library(const config::Species& species) : species_(species) {}
 
-    const ActionSegment& segment(const Grade& grade) {
+    const motion::ActionSegment& segment(const Grade& grade) {
         const auto known = segments_.find(grade);
         return known != segments_.end() ? known->second
                                         : segments_.emplace(grade, capture(grade)).first->second;
     }
 
   private:
-    [[nodiscard]] ActionSegment capture(const Grade& grade) const {
+    [[nodiscard]] motion::ActionSegment capture(const Grade& grade) const {
         if (grade.way == Way::Ahead) {
-            const Gait gait = gaitAt(species_.swim, grade.value);
-            return compileForward(swimUntilSteady(species_, gait).beat);
+            const config::Gait gait = gaitAt(species_.swim, grade.value);
+            return capture::compileForward(capture::swimUntilSteady(species_, gait).beat);
         }
-        const Recording turn =
-            recordTypicalLeftTurn(species_,
-                                  swimUntilSteady(species_, species_.swim.medium),
-                                  bendAt(species_.turn, grade.value));
-        return grade.way == Way::Left ? compileLeftTurn(turn) : compileRightTurn(turn);
+        const capture::RecordedCycle turn =
+            capture::recordTypicalLeftTurn(species_,
+                                           capture::swimUntilSteady(species_, species_.swim.medium),
+                                           bendAt(species_.turn, grade.value));
+        return grade.way == Way::Left ? capture::compileLeftTurn(turn)
+                                      : capture::compileRightTurn(turn);
     }
 
-    const Species& species_;
-    std::map<Grade, ActionSegment> segments_;
+    const config::Species& species_;
+    std::map<Grade, motion::ActionSegment> segments_;
 };
 
 // A replica that knows what it needs next: the motor holds seven segments, and two of its places
 // serve for all of a vocabulary, by turns.
 class Polyglot {
   public:
-    Polyglot(const Species& species, const Repertoire& repertoire, Library& library)
+    Polyglot(const config::Species& species, const motion::Repertoire& repertoire, Library& library)
         : swim_(species.swim), library_(library), replica_(repertoire) {
-        replica_.play(Action::ForwardMedium, 1);
+        replica_.play(motion::Action::ForwardMedium, 1);
     }
 
     void command(const GradedCommand& graded, const Vocabulary& vocabulary) {
         const Grade nearest = nearestTo(graded.grade, vocabulary);
         if (!playing_ || *playing_ != nearest) {
-            place_ = place_ == Action::ForwardSlow ? Action::TurnLeftGradual : Action::ForwardSlow;
+            place_ = place_ == motion::Action::ForwardSlow ? motion::Action::TurnLeftGradual
+                                                           : motion::Action::ForwardSlow;
             replica_.learn(place_, library_.segment(nearest));
             playing_ = nearest;
         }
@@ -183,10 +186,10 @@ class Polyglot {
                     known, {}, [&](double value) { return std::abs(value - wanted); })};
     }
 
-    const Swim& swim_;
+    const config::Swim& swim_;
     Library& library_;
     Replica replica_;
-    Action place_ = Action::TurnLeftGradual;
+    motion::Action place_ = motion::Action::TurnLeftGradual;
     std::optional<Grade> playing_;
 };
 
@@ -208,12 +211,13 @@ Trace traceWith(const Vocabulary& vocabulary,
 }
 
 constexpr std::size_t kBytesOfSegment =
-    kPhases * (sizeof(FrameIncrement) + sizeof(NodalPose) + sizeof(ControlPointPose));
+    motion::kPhases *
+    (sizeof(motion::FrameIncrement) + sizeof(motion::NodalPose) + sizeof(motion::ControlPointPose));
 
 }  // namespace
 
-std::vector<VocabularyErrors> compareVocabularies(const Species& species,
-                                                  const Repertoire& repertoire,
+std::vector<VocabularyErrors> compareVocabularies(const config::Species& species,
+                                                  const motion::Repertoire& repertoire,
                                                   std::uint64_t seed,
                                                   double seconds) {
     const GradedScript graded(species, repertoire, seed, seconds);
@@ -244,4 +248,4 @@ std::vector<VocabularyErrors> compareVocabularies(const Species& species,
     return all;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -11,7 +11,7 @@
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 // Grades of speed go from slow, 0, over medium to fast, 1; those of turns from none, 0, over
 // gradual to sharp, 1. A turn to the right is made of the one to the left.
@@ -31,14 +31,15 @@ struct VocabularyErrors {
 
 // With 1, 3, 5, 7 (as every repertoire here has), 11 and 15 segments. The replica plays the segment
 // of the nearest grade, at the beat that was asked for.
-[[nodiscard]] std::vector<VocabularyErrors> compareVocabularies(const Species& species,
-                                                                const Repertoire& repertoire,
-                                                                std::uint64_t seed,
-                                                                double seconds);
+[[nodiscard]] std::vector<VocabularyErrors> compareVocabularies(
+    const config::Species& species,
+    const motion::Repertoire& repertoire,
+    std::uint64_t seed,
+    double seconds);
 
 struct SpeciesVocabularies {
     std::string species;
     std::vector<VocabularyErrors> errors;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

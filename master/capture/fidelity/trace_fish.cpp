@@ -4,7 +4,7 @@
 #include "common/units/ids.h"
 #include "master/capture/fidelity/trace.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -12,52 +12,52 @@ constexpr double kSecondsToSteady = 24;  // the fish's own
 
 // Who swims also keeps level and upright, as the replica always does (the paper's section 4.2); a
 // fish that is both needs no fins for it.
-Order orderFor(const Species& species, Manoeuvre manoeuvre) {
-    const Swim& swim = species.swim;
+capture::Order orderFor(const config::Species& species, Manoeuvre manoeuvre) {
+    const config::Swim& swim = species.swim;
     switch (manoeuvre) {
         case Manoeuvre::ForwardSlow:
-            return {.controller = Controller::Balance, .gait = swim.slow};
+            return {.controller = capture::Controller::Balance, .gait = swim.slow};
         case Manoeuvre::ForwardMedium:
         case Manoeuvre::Balance:
-            return {.controller = Controller::Balance, .gait = swim.medium};
+            return {.controller = capture::Controller::Balance, .gait = swim.medium};
         case Manoeuvre::ForwardFast:
-            return {.controller = Controller::Balance, .gait = swim.fast};
+            return {.controller = capture::Controller::Balance, .gait = swim.fast};
         case Manoeuvre::TurnLeftGradual:
-            return {.controller = Controller::LeftTurn, .bend = species.turn.gradual};
+            return {.controller = capture::Controller::LeftTurn, .bend = species.turn.gradual};
         case Manoeuvre::TurnLeftSharp:
-            return {.controller = Controller::LeftTurn, .bend = species.turn.sharp};
+            return {.controller = capture::Controller::LeftTurn, .bend = species.turn.sharp};
         case Manoeuvre::TurnRightGradual:
-            return {.controller = Controller::RightTurn, .bend = species.turn.gradual};
+            return {.controller = capture::Controller::RightTurn, .bend = species.turn.gradual};
         case Manoeuvre::TurnRightSharp:
-            return {.controller = Controller::RightTurn, .bend = species.turn.sharp};
+            return {.controller = capture::Controller::RightTurn, .bend = species.turn.sharp};
         case Manoeuvre::Glide:
-            return {.controller = Controller::Glide};
+            return {.controller = capture::Controller::Glide};
         case Manoeuvre::Ascend:
-            return {.controller = Controller::Ascend,
+            return {.controller = capture::Controller::Ascend,
                     .gait = swim.medium,
                     .pitchRadians = kScriptPitchRadians};
         case Manoeuvre::Descend:
-            return {.controller = Controller::Descend,
+            return {.controller = capture::Controller::Descend,
                     .gait = swim.medium,
                     .pitchRadians = kScriptPitchRadians};
         case Manoeuvre::Brake:
-            return {.controller = Controller::Brake};
+            return {.controller = capture::Controller::Brake};
         case Manoeuvre::Retreat:
-            return {.controller = Controller::Retreat, .gait = swim.slow};
+            return {.controller = capture::Controller::Retreat, .gait = swim.slow};
     }
     return {};
 }
 
-TracePoint pointOf(const NodeVectors& pose) {
-    return {frameOf(pose), inBodyFrame(pose)};
+TracePoint pointOf(const capture::NodeVectors& pose) {
+    return {capture::frameOf(pose), capture::inBodyFrame(pose)};
 }
 
 }  // namespace
 
-Trace traceFish(const Species& species, std::span<const TimedOrder> orders) {
-    const double longest = longestStepSeconds(makeBiomechanicalFish(species));
+Trace traceFish(const config::Species& species, std::span<const TimedOrder> orders) {
+    const double longest = capture::longestStepSeconds(capture::makeBiomechanicalFish(species));
     const int stepsPerTick = static_cast<int>(std::ceil(1 / (kTicksPerSecond * longest) - 1e-9));
-    Swimmer swimmer(species, 1 / (kTicksPerSecond * stepsPerTick));
+    capture::Swimmer swimmer(species, 1 / (kTicksPerSecond * stepsPerTick));
 
     swimmer.give(orderFor(species, Manoeuvre::ForwardMedium));
     const double beatSeconds = 1 / species.swim.medium.beatHertz;
@@ -75,11 +75,11 @@ Trace traceFish(const Species& species, std::span<const TimedOrder> orders) {
     return trace;
 }
 
-Trace traceFish(const Species& species, const Script& script) {
+Trace traceFish(const config::Species& species, const Script& script) {
     std::vector<TimedOrder> orders;
-    for (const Command& command : script)
+    for (const ScriptCommand& command : script)
         orders.push_back({orderFor(species, command.manoeuvre), command.ticks});
     return traceFish(species, orders);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

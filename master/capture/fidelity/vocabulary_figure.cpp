@@ -6,7 +6,7 @@
 #include "master/capture/fidelity/fidelity_figures.h"
 #include "master/capture/fidelity/paint.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 
 namespace {
 
@@ -27,9 +27,10 @@ constexpr std::array kQuantities{
     Quantity{"path of a command, median, %",
              [](const VocabularyErrors& e) { return e.pathError * 100; },
              0},
-    Quantity{"heading after a turn, rms, deg",
-             [](const VocabularyErrors& e) { return e.turnHeadingError / kRadiansPerDegree; },
-             0}};
+    Quantity{
+        "heading after a turn, rms, deg",
+        [](const VocabularyErrors& e) { return e.turnHeadingError / config::kRadiansPerDegree; },
+        0}};
 
 std::vector<double> valuesAt(std::span<const SpeciesVocabularies> species,
                              const Quantity& quantity,
@@ -43,7 +44,10 @@ std::vector<double> valuesAt(std::span<const SpeciesVocabularies> species,
 
 class Panel {
   public:
-    Panel(Svg& svg, double left, std::span<const SpeciesVocabularies> species, const Quantity& of)
+    Panel(report::Svg& svg,
+          double left,
+          std::span<const SpeciesVocabularies> species,
+          const Quantity& of)
         : svg_(svg), left_(left), species_(species), quantity_(of) {
         for (std::size_t i = 0; i < vocabularies(); ++i)
             most_ = std::max(most_, valuesAt(species, of, i).back());
@@ -53,8 +57,9 @@ class Panel {
         for (const double share : {0.0, 0.5, 1.0}) {
             const glm::dvec2 at(left_, kTop + (1 - share) * kPanelHeight);
             svg_.line(at, at + glm::dvec2(kPanelWidth, 0), kGrid);
-            svg_.text(
-                at + glm::dvec2(-6, 4), fixed(share * most_, quantity_.digits), letters(12, "end"));
+            svg_.text(at + glm::dvec2(-6, 4),
+                      report::fixed(share * most_, quantity_.digits),
+                      letters(12, "end"));
         }
         for (const SpeciesVocabularies& one : species_) plot(one);
         plotMedian();
@@ -95,11 +100,11 @@ class Panel {
         const glm::dvec2 foot = at(vocabulary, 0);
         svg_.text(foot + glm::dvec2(0, 18), std::to_string(errors.segments), letters(13, "middle"));
         svg_.text(foot + glm::dvec2(0, 34),
-                  fixed(static_cast<double>(errors.bytes) / 1e6, 1),
+                  report::fixed(static_cast<double>(errors.bytes) / 1e6, 1),
                   letters(11, "middle"));
     }
 
-    Svg& svg_;
+    report::Svg& svg_;
     double left_;
     std::span<const SpeciesVocabularies> species_;
     const Quantity& quantity_;
@@ -110,7 +115,7 @@ class Panel {
 
 std::string drawVocabularies(std::span<const SpeciesVocabularies> species) {
     constexpr double kStep = kPanelWidth + 80;
-    Svg svg(1080, 306);
+    report::Svg svg(1080, 306);
     for (std::size_t i = 0; i < kQuantities.size(); ++i)
         Panel(svg, 44 + kStep * static_cast<double>(i), species, kQuantities.at(i)).draw();
     constexpr double kFoot = 290;
@@ -124,4 +129,4 @@ std::string drawVocabularies(std::span<const SpeciesVocabularies> species) {
     return std::move(svg).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

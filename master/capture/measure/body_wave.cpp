@@ -11,7 +11,7 @@
 
 #include "master/capture/measure/measure.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -50,7 +50,7 @@ double BodyWave::leastPhaseFall() const {
     return least;
 }
 
-BodyWave bodyWave(const ActionSegment& segment) {
+BodyWave bodyWave(const motion::ActionSegment& segment) {
     constexpr double kTurn = 2 * std::numbers::pi;
     const std::vector<ReplayedPhase> cycle = replay(segment, 1);
     const glm::dvec3 course = glm::normalize(cycle.back().origin);
@@ -58,11 +58,12 @@ BodyWave bodyWave(const ActionSegment& segment) {
     BodyWave wave;
     for (std::size_t i = 0; i < kWaveStations; ++i) {
         std::complex<double> harmonic;
-        for (std::size_t k = 0; k < kPhases; ++k) {
+        for (std::size_t k = 0; k < motion::kPhases; ++k) {
             const glm::dvec3 at = stationOf(cycle[k].nodes, i);
             harmonic += glm::dot(at, across) *
-                        std::polar(2.0 / kPhases, -kTurn * static_cast<double>(k) / kPhases);
-            wave.stations.at(i) += glm::dot(cycle[k].nodes[0] - at, course) / kPhases;
+                        std::polar(2.0 / motion::kPhases,
+                                   -kTurn * static_cast<double>(k) / motion::kPhases);
+            wave.stations.at(i) += glm::dot(cycle[k].nodes[0] - at, course) / motion::kPhases;
         }
         wave.amplitudes.at(i) = 2 * std::abs(harmonic);
         wave.phases.at(i) = std::arg(harmonic);
@@ -74,4 +75,4 @@ BodyWave bodyWave(const ActionSegment& segment) {
     return wave;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

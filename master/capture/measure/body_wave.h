@@ -7,7 +7,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // The nose, the five rings, the tips of the tail.
 inline constexpr std::size_t kWaveStations = 7;
@@ -25,6 +25,6 @@ struct BodyWave {
 };
 
 // Of a cycle of straight swimming.
-[[nodiscard]] BodyWave bodyWave(const ActionSegment& segment);
+[[nodiscard]] BodyWave bodyWave(const motion::ActionSegment& segment);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

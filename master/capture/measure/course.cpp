@@ -3,10 +3,10 @@
 
 #include "common/motion/gait_path.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
-std::vector<ReplayedPhase> replayAlongX(const ActionSegment& segment, int cycles) {
-    const glm::dquat meanFromBody = glm::conjugate(pathOf(segment).bodyFromMean[0]);
+std::vector<ReplayedPhase> replayAlongX(const motion::ActionSegment& segment, int cycles) {
+    const glm::dquat meanFromBody = glm::conjugate(motion::pathOf(segment).bodyFromMean[0]);
     std::vector<ReplayedPhase> phases = replay(segment, cycles);
     for (ReplayedPhase& phase : phases) {
         phase.origin = meanFromBody * phase.origin;
@@ -16,4 +16,4 @@ std::vector<ReplayedPhase> replayAlongX(const ActionSegment& segment, int cycles
     return phases;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -9,15 +9,15 @@
 
 #include "common/units/ids.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
-double largestStepOf(const ActionSegment& segment) {
+double largestStepOf(const motion::ActionSegment& segment) {
     const double phasesInTick =
-        kPhases / (static_cast<double>(segment.periodSeconds) * kTicksPerSecond);
+        motion::kPhases / (static_cast<double>(segment.periodSeconds) * kTicksPerSecond);
     double largest = 0;
-    for (std::size_t k = 0; k < kPhases; ++k) {
+    for (std::size_t k = 0; k < motion::kPhases; ++k) {
         const NodeVectors now = poseAt(segment, k);
         const NodeVectors next = poseAt(segment, k + 1);
         for (std::size_t i = 0; i < now.size(); ++i)
@@ -38,7 +38,7 @@ double strideOf(const std::vector<ReplayedPhase>& phases, double turn, bool isSh
     double way = 0;
     for (std::size_t k = 0; k + 1 < phases.size(); ++k)
         way += isSharp ? glm::distance(phases[k].origin, phases[k + 1].origin)
-                       : glm::distance(phases[k].origin, centre) * std::abs(turn) / kPhases;
+                       : glm::distance(phases[k].origin, centre) * std::abs(turn) / motion::kPhases;
     return way;
 }
 
@@ -57,33 +57,33 @@ double peakToPeak(const std::vector<ReplayedPhase>& phases,
 
 }  // namespace
 
-NodeVectors poseAt(const ActionSegment& segment, std::size_t phase) {
+NodeVectors poseAt(const motion::ActionSegment& segment, std::size_t phase) {
     NodeVectors pose{};
     for (std::size_t i = 0; i < pose.size(); ++i) {
-        const auto& integers = segment.nodes.at(phase % kPhases).at(i);
-        pose.at(i) =
-            static_cast<double>(kPoseUnit) * glm::dvec3(integers[0], integers[1], integers[2]);
+        const auto& integers = segment.nodes.at(phase % motion::kPhases).at(i);
+        pose.at(i) = static_cast<double>(motion::kPoseUnit) *
+                     glm::dvec3(integers[0], integers[1], integers[2]);
     }
     return pose;
 }
 
-std::vector<ReplayedPhase> replay(const ActionSegment& segment, int cycles) {
+std::vector<ReplayedPhase> replay(const motion::ActionSegment& segment, int cycles) {
     std::vector<ReplayedPhase> phases;
     glm::dvec3 origin{};
     glm::dquat rotation{1, 0, 0, 0};
-    const auto count = static_cast<std::size_t>(cycles) * kPhases;
+    const auto count = static_cast<std::size_t>(cycles) * motion::kPhases;
     for (std::size_t k = 0; k <= count; ++k) {
         ReplayedPhase phase{origin, rotation, poseAt(segment, k)};
         for (glm::dvec3& node : phase.nodes) node = origin + rotation * node;
         phases.push_back(phase);
-        const FrameIncrement& increment = segment.increments.at(k % kPhases);
+        const motion::FrameIncrement& increment = segment.increments.at(k % motion::kPhases);
         origin += rotation * glm::dvec3(increment.translation);
         rotation = glm::normalize(rotation * glm::dquat(increment.rotation));
     }
     return phases;
 }
 
-SegmentMeasures measure(const ActionSegment& segment) {
+SegmentMeasures measure(const motion::ActionSegment& segment) {
     const std::vector<ReplayedPhase> phases = replay(segment, 1);
     const ReplayedPhase& end = phases.back();
     const glm::dvec3 up{0, 1, 0};
@@ -106,4 +106,4 @@ SegmentMeasures measure(const ActionSegment& segment) {
     return m;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -9,7 +9,7 @@
 #include "common/motion/repertoire.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 // A phase in the frame of the fish's body at the start of the first cycle; body lengths.
 struct ReplayedPhase {
@@ -19,10 +19,10 @@ struct ReplayedPhase {
 };
 
 // Nodal points in the body frame at a phase of any cycle; body lengths.
-[[nodiscard]] NodeVectors poseAt(const ActionSegment& segment, std::size_t phase);
+[[nodiscard]] NodeVectors poseAt(const motion::ActionSegment& segment, std::size_t phase);
 
 // kPhases phases a cycle and the end of the last one.
-[[nodiscard]] std::vector<ReplayedPhase> replay(const ActionSegment& segment, int cycles);
+[[nodiscard]] std::vector<ReplayedPhase> replay(const motion::ActionSegment& segment, int cycles);
 
 struct SegmentMeasures {
     double periodSeconds = 0;
@@ -38,6 +38,6 @@ struct SegmentMeasures {
     double largestStep =
         0;  // of any nodal point in the body frame, body lengths in a tick of 1/60 s
 };
-[[nodiscard]] SegmentMeasures measure(const ActionSegment& segment);
+[[nodiscard]] SegmentMeasures measure(const motion::ActionSegment& segment);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -11,7 +11,7 @@
 #include "master/capture/report/path_figures.h"
 #include "master/capture/report/plot.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -22,11 +22,11 @@ constexpr double kScale = 430;  // paper units a body length
 constexpr double kMargin = 16;
 
 // The head to the right; from the side y is up, from above the right of the fish is down.
-using View = glm::dvec2 (*)(const glm::dvec3&);
+using ViewSide = glm::dvec2 (*)(const glm::dvec3&);
 
 struct Picture {
     Svg& svg;
-    View view;
+    ViewSide view;
     glm::dvec2 shift{};
     [[nodiscard]] glm::dvec2 operator()(const glm::dvec3& point) const {
         return shift + view(point) * kScale;
@@ -34,7 +34,7 @@ struct Picture {
 };
 
 void drawSkin(const Picture& picture, const std::vector<glm::dvec3>& cage) {
-    static const CageTopology kTopology = makeCageTopology();
+    static const body::CageTopology kTopology = body::makeCageTopology();
     for (const auto& face : kTopology.faces) {
         std::vector<glm::dvec2> corners;
         corners.reserve(face.size());
@@ -44,8 +44,8 @@ void drawSkin(const Picture& picture, const std::vector<glm::dvec3>& cage) {
 }
 
 void drawUnits(const Picture& picture, const std::vector<glm::dvec3>& nodes, bool muscles) {
-    for (const auto& unit : anatomy().units)
-        if ((unit.kind >= UnitKind::FrontMuscle) == muscles)
+    for (const auto& unit : capture::anatomy().units)
+        if ((unit.kind >= capture::UnitKind::FrontMuscle) == muscles)
             picture.svg.line(picture(nodes.at(unit.first)),
                              picture(nodes.at(unit.second)),
                              muscles ? kMuscle : kSpring);
@@ -55,7 +55,7 @@ struct Bounds {
     glm::dvec2 least{1e9}, most{-1e9};
 };
 
-Bounds boundsOf(View view, const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+Bounds boundsOf(ViewSide view, const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
     Bounds bounds;
     for (const auto* points : {&a, &b})
         for (const glm::dvec3& point : *points) {
@@ -67,14 +67,15 @@ Bounds boundsOf(View view, const std::vector<glm::dvec3>& a, const std::vector<g
 
 }  // namespace
 
-std::string drawBody(const Repertoire& repertoire) {
-    const ActionSegment& straight = repertoire.segments.at(static_cast<std::size_t>(Action::Glide));
-    const NodeVectors pose = poseAt(straight, 0);
+std::string drawBody(const motion::Repertoire& repertoire) {
+    const motion::ActionSegment& straight =
+        repertoire.segments.at(static_cast<std::size_t>(motion::Action::Glide));
+    const capture::NodeVectors pose = capture::poseAt(straight, 0);
     const std::vector<glm::dvec3> nodes(pose.begin(), pose.end());
     std::vector<glm::dvec3> cage;
     if (!straight.controlPoints.empty()) cage = controlPointsAt(straight, 0);
-    const View fromTheSide = [](const glm::dvec3& p) { return glm::dvec2(p.x, -p.y); };
-    const View fromTheTop = [](const glm::dvec3& p) { return glm::dvec2(p.x, p.z); };
+    const ViewSide fromTheSide = [](const glm::dvec3& p) { return glm::dvec2(p.x, -p.y); };
+    const ViewSide fromTheTop = [](const glm::dvec3& p) { return glm::dvec2(p.x, p.z); };
     const Bounds side = boundsOf(fromTheSide, nodes, cage);
     const Bounds top = boundsOf(fromTheTop, nodes, cage);
     const glm::dvec2 sideSize = side.most - side.least;
@@ -107,4 +108,4 @@ std::string drawBody(const Repertoire& repertoire) {
     return std::move(svg).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

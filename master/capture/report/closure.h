@@ -4,7 +4,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 // By how much the farthest nodal point is off the smooth way of its neighbours in time (the cubic
 // through two phases before and two after), in body lengths: where the last phases meet the first,
@@ -13,7 +13,7 @@ struct Seam {
     double atTheJoin = 0;
     double elsewhere = 0;
 };
-[[nodiscard]] Seam seamOf(const ActionSegment& segment);
+[[nodiscard]] Seam seamOf(const motion::ActionSegment& segment);
 
 // What repetitions add to the course that one cycle does not tell of.
 struct Drift {
@@ -21,6 +21,6 @@ struct Drift {
     double leanRadians = 0;     // roll and pitch together
     double climb = 0;           // body lengths
 };
-[[nodiscard]] Drift driftAfter(const ActionSegment& segment, int repetitions);
+[[nodiscard]] Drift driftAfter(const motion::ActionSegment& segment, int repetitions);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

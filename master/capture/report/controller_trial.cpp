@@ -9,21 +9,24 @@
 
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
 // Along the body's axis: backward is negative.
-double speedOver(Swimmer& swimmer, double seconds) {
+double speedOver(capture::Swimmer& swimmer, double seconds) {
     const glm::dvec3 from = middleOf(swimmer.state().positions);
     const double start = swimmer.seconds();
     swimmer.advance(static_cast<int>(std::lround(seconds / swimmer.stepSeconds())));
-    const PoseFrame frame = frameOf(swimmer.state().positions);
+    const capture::PoseFrame frame = capture::frameOf(swimmer.state().positions);
     return glm::dot(frame.origin - from, frame.worldFromBody[0]) / (swimmer.seconds() - start);
 }
 
-Trial record(Swimmer swimmer, const Order& order, double seconds, double speedBefore) {
-    Trial trial{.moments = {}, .speedBefore = speedBefore};
+ControllerTrial record(capture::Swimmer swimmer,
+                       const capture::Order& order,
+                       double seconds,
+                       double speedBefore) {
+    ControllerTrial trial{.moments = {}, .speedBefore = speedBefore};
     const glm::dvec3 start = middleOf(swimmer.state().positions);
     const double begin = swimmer.seconds();
     swimmer.give(order);
@@ -43,30 +46,38 @@ Trial record(Swimmer swimmer, const Order& order, double seconds, double speedBe
 
 }  // namespace
 
-glm::dvec3 middleOf(const NodeVectors& nodes) {
-    return frameOf(nodes).origin;
+glm::dvec3 middleOf(const capture::NodeVectors& nodes) {
+    return capture::frameOf(nodes).origin;
 }
 
-Trial swimmingThen(const Species& species, const Order& order, double seconds, double runUpBeats) {
-    const Gait& medium = species.swim.medium;
-    Swimmer swimmer(species);
-    swimmer.give({.controller = Controller::ForwardSwim, .gait = medium});
+ControllerTrial swimmingThen(const config::Species& species,
+                             const capture::Order& order,
+                             double seconds,
+                             double runUpBeats) {
+    const config::Gait& medium = species.swim.medium;
+    capture::Swimmer swimmer(species);
+    swimmer.give({.controller = capture::Controller::ForwardSwim, .gait = medium});
     speedOver(swimmer, runUpBeats / medium.beatHertz);
     const double speed = speedOver(swimmer, 1 / medium.beatHertz);
     return record(std::move(swimmer), order, seconds, speed);
 }
 
-Trial rolledThen(const Species& species, double rollRadians, const Order& order, double seconds) {
+ControllerTrial rolledThen(const config::Species& species,
+                           double rollRadians,
+                           const capture::Order& order,
+                           double seconds) {
     const double cosine = std::cos(rollRadians);
     const double sine = std::sin(rollRadians);
-    BiomechanicalFish fish = makeBiomechanicalFish(species);
+    capture::BiomechanicalFish fish = capture::makeBiomechanicalFish(species);
     for (glm::dvec3& x : fish.restPositions)
         x = {x.x, cosine * x.y + sine * x.z, -sine * x.y + cosine * x.z};
-    return record({fish, species.swim, longestStepSeconds(fish)}, order, seconds, 0);
+    return record({fish, species.swim, capture::longestStepSeconds(fish)}, order, seconds, 0);
 }
 
-Trial restingThen(const Species& species, const Order& order, double seconds) {
-    return record(Swimmer(species), order, seconds, 0);
+ControllerTrial restingThen(const config::Species& species,
+                            const capture::Order& order,
+                            double seconds) {
+    return record(capture::Swimmer(species), order, seconds, 0);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -8,34 +8,36 @@
 #include "master/capture/control/swimmer.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 // What is kept of a fish at an instant.
 struct Moment {
     double seconds = 0;
-    NodeVectors nodes{};
-    PectoralFins fins;
+    capture::NodeVectors nodes{};
+    capture::PectoralFins fins;
 };
 
 // From the order on, evenly in time; seen from where the fish was when it came.
-struct Trial {
+struct ControllerTrial {
     std::vector<Moment> moments;             // kMoments + 1
     double speedBefore = 0, speedAfter = 0;  // along the body, backward is negative
 };
 
 inline constexpr int kMoments = 240;
 
-[[nodiscard]] glm::dvec3 middleOf(const NodeVectors& nodes);
+[[nodiscard]] glm::dvec3 middleOf(const capture::NodeVectors& nodes);
 
 // After so many beats of medium swimming; from rest, rolled to its left; from rest.
-[[nodiscard]] Trial swimmingThen(const Species& species,
-                                 const Order& order,
-                                 double seconds,
-                                 double runUpBeats);
-[[nodiscard]] Trial rolledThen(const Species& species,
-                               double rollRadians,
-                               const Order& order,
-                               double seconds);
-[[nodiscard]] Trial restingThen(const Species& species, const Order& order, double seconds);
+[[nodiscard]] ControllerTrial swimmingThen(const config::Species& species,
+                                           const capture::Order& order,
+                                           double seconds,
+                                           double runUpBeats);
+[[nodiscard]] ControllerTrial rolledThen(const config::Species& species,
+                                         double rollRadians,
+                                         const capture::Order& order,
+                                         double seconds);
+[[nodiscard]] ControllerTrial restingThen(const config::Species& species,
+                                          const capture::Order& order,
+                                          double seconds);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

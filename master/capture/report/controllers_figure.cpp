@@ -6,12 +6,12 @@
 #include <numbers>
 #include <vector>
 
-#include "master/capture/control/attitude.h"
+#include "master/capture/control/body_angles.h"
 #include "master/capture/report/controller_trial.h"
 #include "master/capture/report/plot.h"
 #include "master/capture/report/silhouette.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -36,7 +36,8 @@ std::string spoken(std::string name) {
 
 class Sheet {
   public:
-    explicit Sheet(const Species& species) : species_(species), body_(makeBody(species)) {
+    explicit Sheet(const config::Species& species)
+        : species_(species), body_(body::makeBody(species)) {
         svg_.text({kFirstPanel.x, 36},
                   "Nine motor controllers: the biomechanical " + spoken(species.name) +
                       ", in its stride at medium speed, then so ordered",
@@ -50,7 +51,10 @@ class Sheet {
     [[nodiscard]] std::string finish() && { return std::move(svg_).finish(); }
 
     // Straight ways: where the fish is, up the paper as time goes.
-    void drawStraight(const std::string& title, const Trial& trial, double leastX, int fish) {
+    void drawStraight(const std::string& title,
+                      const ControllerTrial& trial,
+                      double leastX,
+                      int fish) {
         const double seconds = trial.moments.back().seconds;
         const double margin = 0.16 * seconds;
         const Plot plot = nextPlot(title + ", from above: " + speeds(trial),
@@ -63,7 +67,7 @@ class Sheet {
         std::vector<glm::dvec2> path;
         for (const Moment& moment : trial.moments)
             path.push_back(plot.at(middleOf(moment.nodes).x, moment.seconds));
-        drawFish(trial, fish, View::Above, [&](const Moment& moment, glm::dvec2 point) {
+        drawFish(trial, fish, ViewSide::Above, [&](const Moment& moment, glm::dvec2 point) {
             return plot.at(point.x, moment.seconds) - glm::dvec2(0, point.y * kBodyLength);
         });
         svg_.polyline(path, kPath);
@@ -71,19 +75,21 @@ class Sheet {
 
     // The way itself.
     void drawMap(const std::string& title,
-                 const Trial& trial,
-                 View view,
+                 const ControllerTrial& trial,
+                 ViewSide view,
                  double leastY,
                  int fish,
                  const std::string& caption) {
-        const std::string seenFrom = view == View::Above ? ", from above: " : ", from the side: ";
-        const Plot plot = nextPlot(title + seenFrom + caption,
-                                   along(-1),
-                                   {.least = leastY,
-                                    .most = leastY + kPanel.y / kBodyLength,
-                                    .tick = 0.5,
-                                    .digits = 1,
-                                    .label = view == View::Above ? "to the left, BL" : "up, BL"});
+        const std::string seenFrom =
+            view == ViewSide::Above ? ", from above: " : ", from the side: ";
+        const Plot plot =
+            nextPlot(title + seenFrom + caption,
+                     along(-1),
+                     {.least = leastY,
+                      .most = leastY + kPanel.y / kBodyLength,
+                      .tick = 0.5,
+                      .digits = 1,
+                      .label = view == ViewSide::Above ? "to the left, BL" : "up, BL"});
         std::vector<glm::dvec2> path;
         for (const Moment& moment : trial.moments) {
             const glm::dvec2 point = seen(view, middleOf(moment.nodes));
@@ -96,9 +102,9 @@ class Sheet {
     }
 
     // Roll over time, with the fish from behind.
-    void drawRoll(const std::string& title, const Trial& trial) {
+    void drawRoll(const std::string& title, const ControllerTrial& trial) {
         const auto rollOf = [](const Moment& moment) {
-            return attitudeOf({.positions = moment.nodes, .velocities = {}}).rollRadians;
+            return capture::bodyAnglesOf({.positions = moment.nodes, .velocities = {}}).rollRadians;
         };
         const auto level = std::ranges::find_if(trial.moments, [&](const Moment& moment) {
             return std::abs(rollOf(moment)) < 5 * kDegree;
@@ -132,11 +138,11 @@ class Sheet {
                 .label = "ahead, BL"};
     }
 
-    static std::string speeds(const Trial& trial) {
+    static std::string speeds(const ControllerTrial& trial) {
         return fixed(trial.speedBefore, 2) + " → " + fixed(trial.speedAfter, 2) + " BL/s";
     }
 
-    static const Moment& momentAt(const Trial& trial, int i, int count) {
+    static const Moment& momentAt(const ControllerTrial& trial, int i, int count) {
         return trial.moments.at(static_cast<std::size_t>(i * kMoments / (count - 1)));
     }
 
@@ -156,7 +162,7 @@ class Sheet {
     }
 
     template <class Place>
-    void drawFish(const Trial& trial, int count, View view, Place place) {
+    void drawFish(const ControllerTrial& trial, int count, ViewSide view, Place place) {
         for (int i = 0; i < count; ++i) {
             const Moment& moment = momentAt(trial, i, count);
             const auto onPaper = [&](const Polygon& polygon) {
@@ -188,8 +194,8 @@ class Sheet {
         svg_.line(turned(0.05, -0.03), turned(0.17, -0.06), kFin);
     }
 
-    const Species& species_;
-    FishBody body_;
+    const config::Species& species_;
+    body::FishBody body_;
     Svg svg_{kFirstPanel.x + 3 * kPitchOfPanels.x - 40, kFirstPanel.y + 3 * kPitchOfPanels.y - 40};
     int panels_ = 0;
 };
@@ -198,54 +204,56 @@ std::string degrees(double radians) {
     return fixed(radians / kDegree, 0) + "°";
 }
 
-std::string turnCaption(const Trial& trial) {
+std::string turnCaption(const ControllerTrial& trial) {
     const auto heading = [](const Moment& moment) {
-        return attitudeOf({.positions = moment.nodes, .velocities = {}}).headingRadians;
+        return capture::bodyAnglesOf({.positions = moment.nodes, .velocities = {}}).headingRadians;
     };
     return "turns by " + degrees(heading(trial.moments.back()) - heading(trial.moments.front()));
 }
 
-std::string climbCaption(const Trial& trial) {
+std::string climbCaption(const ControllerTrial& trial) {
     double pitch = 0;
     constexpr int kLast = kMoments / 4;
     for (int i = 0; i < kLast; ++i)
-        pitch +=
-            attitudeOf({.positions = trial.moments.at(static_cast<std::size_t>(kMoments - i)).nodes,
-                        .velocities = {}})
-                .pitchRadians /
-            kLast;
+        pitch += capture::bodyAnglesOf(
+                     {.positions = trial.moments.at(static_cast<std::size_t>(kMoments - i)).nodes,
+                      .velocities = {}})
+                     .pitchRadians /
+                 kLast;
     return "pitch " + degrees(pitch);
 }
 
 }  // namespace
 
-std::string drawControllers(const Species& species) {
-    const Gait& medium = species.swim.medium;
-    const auto order = [&](Controller controller) {
-        return Order{.controller = controller,
-                     .gait = medium,
-                     .bend = species.turn.sharp,
-                     .pitchRadians = kPitch};
+std::string drawControllers(const config::Species& species) {
+    const config::Gait& medium = species.swim.medium;
+    const auto order = [&](capture::Controller controller) {
+        return capture::Order{.controller = controller,
+                              .gait = medium,
+                              .bend = species.turn.sharp,
+                              .pitchRadians = kPitch};
     };
-    const auto after = [&](Controller controller, double seconds, double beats = kRunUpBeats) {
-        return swimmingThen(species, order(controller), seconds, beats);
-    };
+    const auto after =
+        [&](capture::Controller controller, double seconds, double beats = kRunUpBeats) {
+            return swimmingThen(species, order(controller), seconds, beats);
+        };
     Sheet sheet(species);
-    sheet.drawStraight("Forward swim", after(Controller::ForwardSwim, 1.5), -1, 4);
-    const Trial left = after(Controller::LeftTurn, 1);
-    sheet.drawMap("Left turn", left, View::Above, -0.7, 5, turnCaption(left));
+    sheet.drawStraight("Forward swim", after(capture::Controller::ForwardSwim, 1.5), -1, 4);
+    const ControllerTrial left = after(capture::Controller::LeftTurn, 1);
+    sheet.drawMap("Left turn", left, ViewSide::Above, -0.7, 5, turnCaption(left));
     // From the other half of the beat, so that it is the left one's mirror image.
-    const Trial right = after(Controller::RightTurn, 1, kRunUpBeats + 0.5);
-    sheet.drawMap("Right turn", right, View::Above, -1.55, 5, turnCaption(right));
-    sheet.drawStraight("Glide", after(Controller::Glide, 1.5), -1, 4);
-    const Trial up = after(Controller::Ascend, 1.5);
-    sheet.drawMap("Ascend", up, View::Side, -0.7, 4, climbCaption(up));
-    const Trial down = after(Controller::Descend, 1.5);
-    sheet.drawMap("Descend", down, View::Side, -1.55, 4, climbCaption(down));
-    sheet.drawRoll("Balance", rolledThen(species, kRoll, order(Controller::Balance), 2.5));
-    sheet.drawStraight("Brake", after(Controller::Brake, 1.5), -1, 4);
-    sheet.drawStraight("Retreat", restingThen(species, order(Controller::Retreat), 3.25), -3, 4);
+    const ControllerTrial right = after(capture::Controller::RightTurn, 1, kRunUpBeats + 0.5);
+    sheet.drawMap("Right turn", right, ViewSide::Above, -1.55, 5, turnCaption(right));
+    sheet.drawStraight("Glide", after(capture::Controller::Glide, 1.5), -1, 4);
+    const ControllerTrial up = after(capture::Controller::Ascend, 1.5);
+    sheet.drawMap("Ascend", up, ViewSide::Side, -0.7, 4, climbCaption(up));
+    const ControllerTrial down = after(capture::Controller::Descend, 1.5);
+    sheet.drawMap("Descend", down, ViewSide::Side, -1.55, 4, climbCaption(down));
+    sheet.drawRoll("Balance", rolledThen(species, kRoll, order(capture::Controller::Balance), 2.5));
+    sheet.drawStraight("Brake", after(capture::Controller::Brake, 1.5), -1, 4);
+    sheet.drawStraight(
+        "Retreat", restingThen(species, order(capture::Controller::Retreat), 3.25), -3, 4);
     return std::move(sheet).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

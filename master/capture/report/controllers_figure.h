@@ -6,9 +6,9 @@
 
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 // SVG. The fish of each panel is simulated for it: in its stride at medium speed, then so ordered.
-[[nodiscard]] std::string drawControllers(const Species& species);
+[[nodiscard]] std::string drawControllers(const config::Species& species);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

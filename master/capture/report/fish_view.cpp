@@ -6,7 +6,7 @@
 
 #include "common/body/cage_topology.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -36,7 +36,9 @@ std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& knots) {
 }
 
 // One side of the nodal network, from nose to tail; `upper` and `lower` are places in a ring.
-std::vector<glm::dvec2> sideOf(const NodeVectors& nodes, std::size_t upper, std::size_t lower) {
+std::vector<glm::dvec2> sideOf(const capture::NodeVectors& nodes,
+                               std::size_t upper,
+                               std::size_t lower) {
     std::vector<glm::dvec2> knots{fromAbove(nodes[0])};
     for (std::size_t ring = 0; ring < kRings; ++ring) {
         const std::size_t first = 1 + 4 * ring;
@@ -67,20 +69,21 @@ std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
     return hull;
 }
 
-void addRecorded(FishView& view, const std::vector<glm::dvec2>& cage) {
+void addRecorded(FishOutline& view, const std::vector<glm::dvec2>& cage) {
     const auto at = [&](int ring, int column) {
-        return cage.at(static_cast<std::size_t>(ring) * kTubeColumns +
+        return cage.at(static_cast<std::size_t>(ring) * body::kTubeColumns +
                        static_cast<std::size_t>(column));
     };
     view.outline = {view.midline.front()};
-    for (int ring = 0; ring < kTubeRings; ++ring) view.outline.push_back(at(ring, kRightFlank));
-    for (int ring = kTubeRings; ring-- > 0;) view.outline.push_back(at(ring, kLeftFlank));
-    static const std::vector<CageSite> kSites = makeCageTopology().sites;
+    for (int ring = 0; ring < body::kTubeRings; ++ring)
+        view.outline.push_back(at(ring, kRightFlank));
+    for (int ring = body::kTubeRings; ring-- > 0;) view.outline.push_back(at(ring, kLeftFlank));
+    static const std::vector<body::CageSite> kSites = body::makeCageTopology().sites;
     std::array<std::vector<glm::dvec2>, 2> fins;  // left, right
     for (std::size_t i = 0; i < kSites.size(); ++i) {
-        const CageSite& site = kSites[i];
-        if (site.part != CagePart::Pectoral) continue;
-        auto& fin = fins.at(site.column < kTubeColumns / 2 ? 1 : 0);
+        const body::CageSite& site = kSites[i];
+        if (site.part != body::CagePart::Pectoral) continue;
+        auto& fin = fins.at(site.column < body::kTubeColumns / 2 ? 1 : 0);
         fin.push_back(cage.at(i));
         fin.push_back(at(site.ring, site.column));  // its root
     }
@@ -93,22 +96,25 @@ glm::dvec2 fromAbove(const glm::dvec3& world) {
     return {world.x, world.z};
 }
 
-std::vector<glm::dvec2> midlineFromAbove(const ReplayedPhase& replayed) {
+std::vector<glm::dvec2> midlineFromAbove(const capture::ReplayedPhase& replayed) {
     std::vector<glm::dvec2> left = sideOf(replayed.nodes, 0, 3);
     const std::vector<glm::dvec2> right = sideOf(replayed.nodes, 1, 2);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] = (left[i] + right[i]) / 2.0;
     return left;
 }
 
-std::vector<glm::dvec3> controlPointsAt(const ActionSegment& segment, std::size_t phase) {
+std::vector<glm::dvec3> controlPointsAt(const motion::ActionSegment& segment, std::size_t phase) {
     std::vector<glm::dvec3> points;
-    for (const auto& point : segment.controlPoints.at(phase % kPhases))
-        points.push_back(static_cast<double>(kPoseUnit) * glm::dvec3(point[0], point[1], point[2]));
+    for (const auto& point : segment.controlPoints.at(phase % motion::kPhases))
+        points.push_back(static_cast<double>(motion::kPoseUnit) *
+                         glm::dvec3(point[0], point[1], point[2]));
     return points;
 }
 
-FishView viewFromAbove(const ActionSegment& segment, const ReplayedPhase& replayed, std::size_t k) {
-    FishView view{.outline = {}, .pectorals = {}, .midline = midlineFromAbove(replayed)};
+FishOutline viewFromAbove(const motion::ActionSegment& segment,
+                          const capture::ReplayedPhase& replayed,
+                          std::size_t k) {
+    FishOutline view{.outline = {}, .pectorals = {}, .midline = midlineFromAbove(replayed)};
     if (segment.controlPoints.empty()) {
         view.outline = sideOf(replayed.nodes, 1, 2);
         const std::vector<glm::dvec2> left = sideOf(replayed.nodes, 0, 3);
@@ -122,4 +128,4 @@ FishView viewFromAbove(const ActionSegment& segment, const ReplayedPhase& replay
     return view;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -11,12 +11,12 @@
 #include "common/motion/repertoire.h"
 #include "master/capture/measure/measure.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 // World x to the right of the paper, world z (the right of a fish that heads along x) down.
 [[nodiscard]] glm::dvec2 fromAbove(const glm::dvec3& world);
 
-struct FishView {
+struct FishOutline {
     std::vector<glm::dvec2> outline;                 // of body and tail
     std::vector<std::vector<glm::dvec2>> pectorals;  // left and right, where recorded
     std::vector<glm::dvec2> midline;                 // from nose to tip of the tail
@@ -24,17 +24,17 @@ struct FishView {
 
 // Of a segment as `replayed` at phase k of any cycle. The outline is that of the recorded control
 // points, or where the segment has none that of the rings of nodal points, which is slimmer.
-[[nodiscard]] FishView viewFromAbove(const ActionSegment& segment,
-                                     const ReplayedPhase& replayed,
-                                     std::size_t k);
+[[nodiscard]] FishOutline viewFromAbove(const motion::ActionSegment& segment,
+                                        const capture::ReplayedPhase& replayed,
+                                        std::size_t k);
 
 // Recorded control points in the body frame at a phase of any cycle; body lengths.
-[[nodiscard]] std::vector<glm::dvec3> controlPointsAt(const ActionSegment& segment,
+[[nodiscard]] std::vector<glm::dvec3> controlPointsAt(const motion::ActionSegment& segment,
                                                       std::size_t phase);
 
 // The smooth curve (Catmull-Rom) through nose, centres of the five rings and middle of the tail's
 // tips, evenly between them.
 inline constexpr std::size_t kMidlinePoints = 49;
-[[nodiscard]] std::vector<glm::dvec2> midlineFromAbove(const ReplayedPhase& replayed);
+[[nodiscard]] std::vector<glm::dvec2> midlineFromAbove(const capture::ReplayedPhase& replayed);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

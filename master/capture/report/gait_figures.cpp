@@ -9,7 +9,7 @@
 #include "master/capture/report/midlines.h"
 #include "master/capture/report/plot.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -43,10 +43,10 @@ Line leastSquares(const std::vector<glm::dvec2>& points) {
 }
 
 // Beat and speed of the three gaits.
-std::vector<glm::dvec2> speedsOf(const Repertoire& repertoire) {
+std::vector<glm::dvec2> speedsOf(const motion::Repertoire& repertoire) {
     std::vector<glm::dvec2> points;
     for (std::size_t i = 0; i < kGaits; ++i) {
-        const SegmentMeasures m = measure(repertoire.segments.at(i));
+        const capture::SegmentMeasures m = capture::measure(repertoire.segments.at(i));
         points.emplace_back(1 / m.periodSeconds, m.speedBodyLengths);
     }
     return points;
@@ -68,7 +68,7 @@ std::string signedTerm(double value, int digits) {
 
 }  // namespace
 
-SpeedLine fitSpeed(const Repertoire& repertoire) {
+SpeedLine fitSpeed(const motion::Repertoire& repertoire) {
     const std::vector<glm::dvec2> points = speedsOf(repertoire);
     const auto [slope, intercept] = leastSquares(points);
     double mean = 0;
@@ -82,7 +82,7 @@ SpeedLine fitSpeed(const Repertoire& repertoire) {
     return {slope, intercept, 1 - left / all};
 }
 
-std::string drawSpeed(const Repertoire& repertoire) {
+std::string drawSpeed(const motion::Repertoire& repertoire) {
     const std::vector<glm::dvec2> points = speedsOf(repertoire);
     const SpeedLine line = fitSpeed(repertoire);
     const Axis x = axisUpTo(points.back().x, "tail beat, Hz");
@@ -120,12 +120,12 @@ namespace {
 
 struct Band {
     std::string label;
-    double (*of)(const SegmentMeasures&);
+    double (*of)(const capture::SegmentMeasures&);
     double least, most;  // of living fish
     std::string source;
 };
 
-void drawBand(Svg& svg, glm::dvec2 corner, const Repertoire& repertoire, const Band& band) {
+void drawBand(Svg& svg, glm::dvec2 corner, const motion::Repertoire& repertoire, const Band& band) {
     constexpr double kMost = 0.8;
     const Axis x = axisUpTo(speedsOf(repertoire).back().x, "tail beat, Hz");
     const double xMost = x.most;
@@ -136,7 +136,7 @@ void drawBand(Svg& svg, glm::dvec2 corner, const Repertoire& repertoire, const B
     plot.drawAxes(svg);
     svg.text(plot.at(0, kMost) + glm::dvec2(8, 14), band.source, letters(11, "start", kAmber));
     for (std::size_t i = 0; i < kGaits; ++i) {
-        const SegmentMeasures m = measure(repertoire.segments.at(i));
+        const capture::SegmentMeasures m = capture::measure(repertoire.segments.at(i));
         const glm::dvec2 at = plot.at(1 / m.periodSeconds, band.of(m));
         svg.circle(at, 6, std::string("fill=\"") + colourOf(i) + "\"");
         svg.text(at + glm::dvec2(0, 20), fixed(band.of(m), 2), letters(11, "middle"));
@@ -145,13 +145,13 @@ void drawBand(Svg& svg, glm::dvec2 corner, const Repertoire& repertoire, const B
 
 }  // namespace
 
-std::string drawStrouhalAndStride(const Repertoire& repertoire) {
+std::string drawStrouhalAndStride(const motion::Repertoire& repertoire) {
     Svg svg(460, 380);
     drawBand(svg,
              {58, 14},
              repertoire,
              {"Strouhal number",
-              [](const SegmentMeasures& m) { return m.strouhal; },
+              [](const capture::SegmentMeasures& m) { return m.strouhal; },
               0.2,
               0.4,
               "0.2 to 0.4: Taylor, Nudds &amp; Thomas 2003"});
@@ -159,14 +159,14 @@ std::string drawStrouhalAndStride(const Repertoire& repertoire) {
              {58, 196},
              repertoire,
              {"stride, BL",
-              [](const SegmentMeasures& m) { return m.strideBodyLengths; },
+              [](const capture::SegmentMeasures& m) { return m.strideBodyLengths; },
               0.5,
               0.7,
               "0.5 to 0.7: Videler &amp; Wardle 1991"});
     return std::move(svg).finish();
 }
 
-std::string drawMidlines(const Repertoire& repertoire, Action gait) {
+std::string drawMidlines(const motion::Repertoire& repertoire, motion::Action gait) {
     constexpr std::size_t kEvery = 4;  // sixteen of the phases
     constexpr double kScale = 300;
     const auto action = static_cast<std::size_t>(gait);
@@ -200,4 +200,4 @@ std::string drawMidlines(const Repertoire& repertoire, Action gait) {
     return std::move(svg).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -7,7 +7,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 inline constexpr std::size_t kGaits = 3;  // the first three actions: slow, medium, fast
 
@@ -17,17 +17,17 @@ struct SpeedLine {
     double intercept = 0;  // body lengths a second
     double rSquared = 0;
 };
-[[nodiscard]] SpeedLine fitSpeed(const Repertoire& repertoire);
+[[nodiscard]] SpeedLine fitSpeed(const motion::Repertoire& repertoire);
 
 // Speed against beat frequency with that line, and Bainbridge's (1958).
-[[nodiscard]] std::string drawSpeed(const Repertoire& repertoire);
+[[nodiscard]] std::string drawSpeed(const motion::Repertoire& repertoire);
 
 // Strouhal number and stride against beat frequency, over the ranges of living fish (Taylor, Nudds
 // & Thomas 2003; Videler & Wardle 1991).
-[[nodiscard]] std::string drawStrouhalAndStride(const Repertoire& repertoire);
+[[nodiscard]] std::string drawStrouhalAndStride(const motion::Repertoire& repertoire);
 
 // The midlines of one beat over each other, in a frame that swims along at the mean speed; how far
 // each point of them swings, and a saithe's does (Videler & Hess 1984).
-[[nodiscard]] std::string drawMidlines(const Repertoire& repertoire, Action gait);
+[[nodiscard]] std::string drawMidlines(const motion::Repertoire& repertoire, motion::Action gait);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

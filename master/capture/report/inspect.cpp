@@ -11,7 +11,7 @@
 #include "master/capture/measure/measure.h"
 #include "master/capture/report/tables.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -28,25 +28,25 @@ double cleaned(double value) {
     return std::abs(value) < 1e-5 ? 0 : value;
 }
 
-std::string rowOf(Action action, const ActionSegment& segment) {
-    const SegmentMeasures m = measure(segment);
-    const bool isForward = action <= Action::ForwardFast;
+std::string rowOf(motion::Action action, const motion::ActionSegment& segment) {
+    const capture::SegmentMeasures m = capture::measure(segment);
+    const bool isForward = action <= motion::Action::ForwardFast;
     std::string row = line("  %-18s %8.4f %8.3f %8.3f",
-                           nameOf(action),
+                           motion::nameOf(action),
                            m.periodSeconds,
                            m.speedBodyLengths,
                            m.strideBodyLengths);
     // Amplitude is across a straight course, which a turn does not have.
     row += isForward ? line(" %7s %8s %8s", "-", "-", "-")
                      : line(" %7.1f %8.1f %8.2f",
-                            m.turnRadians / kRadiansPerDegree,
-                            m.turnRate / kRadiansPerDegree,
+                            m.turnRadians / config::kRadiansPerDegree,
+                            m.turnRate / config::kRadiansPerDegree,
                             turnRadius(segment));
     row +=
         isForward ? line(" %8.3f %8.3f", m.tailAmplitude, m.strouhal) : line(" %8s %8s", "-", "-");
     row += line(" %9.4f %9.1e %9.1e\n",
                 m.largestStep,
-                cleaned(m.leanRadians / kRadiansPerDegree),
+                cleaned(m.leanRadians / config::kRadiansPerDegree),
                 cleaned(m.climb));
     return row;
 }
@@ -60,7 +60,7 @@ int formatVersionOf(std::span<const std::byte> intactRepertoire) {
 }
 
 std::string inspectRepertoire(std::span<const std::byte> bytes, const std::string& source) {
-    const Repertoire repertoire = decodeRepertoire(bytes, source);
+    const motion::Repertoire repertoire = motion::decodeRepertoire(bytes, source);
     const bool hasCage = !repertoire.segments[0].controlPoints.empty();
     std::string text = line("repertoire of %s, recorded at %.3f m, format version %d\n",
                             repertoire.species.c_str(),
@@ -68,9 +68,9 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
                             formatVersionOf(bytes));
     text += line("%zu bytes, sha256 %s\n", bytes.size(), toHex(digestOf(bytes)).c_str());
     text += line("%d segments of %d phases, %d nodal points, %s\n",
-                 kCapturedActions,
-                 kPhases,
-                 kNodalPoints,
+                 motion::kCapturedActions,
+                 motion::kPhases,
+                 body::kNodalPoints,
                  hasCage ? "426 control points recorded" : "control points not recorded");
     const auto& [swim, glide, brake] = repertoire.response;
     text += line(
@@ -86,9 +86,10 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
         "Strouhal   largest      lean     climb\n"
         "  segment                   s     BL/s       BL     deg    deg/s       BL   p-p BL   "
         "number   BL/tick deg/cycle  BL/cycle\n";
-    for (int i = 0; i < kCapturedActions; ++i)
-        text += rowOf(static_cast<Action>(i), repertoire.segments.at(static_cast<std::size_t>(i)));
+    for (int i = 0; i < motion::kCapturedActions; ++i)
+        text += rowOf(static_cast<motion::Action>(i),
+                      repertoire.segments.at(static_cast<std::size_t>(i)));
     return text;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

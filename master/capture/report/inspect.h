@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace aquarama {
+namespace aquarama::report {
 
 // Throws Error, naming `source`, when the bytes are no intact repertoire.
 [[nodiscard]] std::string inspectRepertoire(std::span<const std::byte> bytes,
@@ -15,4 +15,4 @@ namespace aquarama {
 // Of the file format.
 [[nodiscard]] int formatVersionOf(std::span<const std::byte> intactRepertoire);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -6,11 +6,11 @@
 #include "master/capture/measure/course.h"
 #include "master/capture/report/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
-Midline midlineAt(const ReplayedPhase& phase, double travelled) {
+Midline midlineAt(const capture::ReplayedPhase& phase, double travelled) {
     Midline line;
     for (const glm::dvec2& point : midlineFromAbove(phase)) {
         line.station.push_back(travelled - point.x);
@@ -21,16 +21,17 @@ Midline midlineAt(const ReplayedPhase& phase, double travelled) {
 
 }  // namespace
 
-std::vector<Midline> midlinesOf(const ActionSegment& gait) {
-    const std::vector<ReplayedPhase> phases = replayAlongX(gait, 1);
+std::vector<Midline> midlinesOf(const motion::ActionSegment& gait) {
+    const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(gait, 1);
     const double advance = phases.back().origin.x;
     std::vector<Midline> lines;
     double nose = 0;
     double middle = 0;
-    for (std::size_t k = 0; k < kPhases; ++k) {
-        lines.push_back(midlineAt(phases[k], advance * static_cast<double>(k) / kPhases));
-        nose += lines.back().station.front() / kPhases;
-        for (const double left : lines.back().left) middle += left / (kPhases * kMidlinePoints);
+    for (std::size_t k = 0; k < motion::kPhases; ++k) {
+        lines.push_back(midlineAt(phases[k], advance * static_cast<double>(k) / motion::kPhases));
+        nose += lines.back().station.front() / motion::kPhases;
+        for (const double left : lines.back().left)
+            middle += left / (motion::kPhases * kMidlinePoints);
     }
     for (Midline& line : lines) {
         for (double& station : line.station) station -= nose;
@@ -57,4 +58,4 @@ Swing swingOf(const std::vector<Midline>& lines) {
     return swing;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -6,7 +6,7 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 // Body lengths, in a frame that swims along at the mean speed.
 struct Midline {
@@ -14,7 +14,7 @@ struct Midline {
     std::vector<double> left;     // of the mean course
 };
 // One a phase.
-[[nodiscard]] std::vector<Midline> midlinesOf(const ActionSegment& gait);
+[[nodiscard]] std::vector<Midline> midlinesOf(const motion::ActionSegment& gait);
 
 // How each point of the midline swings over the beat.
 struct Swing {
@@ -23,4 +23,4 @@ struct Swing {
 };
 [[nodiscard]] Swing swingOf(const std::vector<Midline>& lines);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -82,4 +82,4 @@ void drawLegend(Svg& svg,
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

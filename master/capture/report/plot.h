@@ -10,7 +10,7 @@
 
 #include "master/capture/report/svg.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 inline constexpr const char* kInk = "#1d2b36";
 inline constexpr const char* kQuietInk = "#5b7280";
@@ -50,4 +50,4 @@ void drawLegend(Svg& svg,
                 glm::dvec2 at,
                 const std::vector<std::pair<SvgStyle, std::string>>& entries);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

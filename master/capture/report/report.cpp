@@ -10,7 +10,7 @@
 #include "master/capture/report/path_figures.h"
 #include "master/capture/report/tables.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -48,13 +48,14 @@ std::string titleOf(std::string species) {
     return species;
 }
 
-std::string forwardSection(const Repertoire& repertoire) {
+std::string forwardSection(const motion::Repertoire& repertoire) {
     std::string html = "<h2>Swimming straight</h2>\n" + forwardTable(repertoire) +
                        "<h3>Body wave</h3>\n<div class=\"row three\">\n";
     for (std::size_t i = 0; i < kGaits; ++i) {
-        const auto gait = static_cast<Action>(i);
-        html += figure(
-            std::string("midlines_") + nameOf(gait), drawMidlines(repertoire, gait), nameOf(gait));
+        const auto gait = static_cast<motion::Action>(i);
+        html += figure(std::string("midlines_") + motion::nameOf(gait),
+                       drawMidlines(repertoire, gait),
+                       motion::nameOf(gait));
     }
     return html +
            "</div>\n<p class=\"quiet\">Midlines at 16 phases of one beat, dark to light; thick: "
@@ -69,12 +70,12 @@ std::string forwardSection(const Repertoire& repertoire) {
            "fish it is a guide only.</p>\n";
 }
 
-std::string segmentSection(const Repertoire& repertoire) {
+std::string segmentSection(const motion::Repertoire& repertoire) {
     std::string html =
         "<h2>Segments from above</h2>\n<p>In each frame the body as it bends, and the body frame "
         "up to then (as in Figs. 3 and 4 of Yu &amp; Terzopoulos 1998).</p>\n";
-    for (std::size_t i = 0; i < kCapturedActions; ++i) {
-        const std::string name = nameOf(static_cast<Action>(i));
+    for (std::size_t i = 0; i < motion::kCapturedActions; ++i) {
+        const std::string name = motion::nameOf(static_cast<motion::Action>(i));
         html += "<h3>" + name + "</h3>\n" + figure(name, drawSegment(repertoire.segments.at(i)));
     }
     return html;
@@ -82,7 +83,7 @@ std::string segmentSection(const Repertoire& repertoire) {
 
 }  // namespace
 
-std::string reportPage(const Repertoire& repertoire) {
+std::string reportPage(const motion::Repertoire& repertoire) {
     const std::string title = titleOf(repertoire.species);
     return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
            "name=\"viewport\" content=\"width=device-width\"><title>" +
@@ -113,11 +114,11 @@ std::string reportPage(const Repertoire& repertoire) {
            closureTable(repertoire) + segmentSection(repertoire) + "</body></html>\n";
 }
 
-fs::path writeReport(const Repertoire& repertoire, const fs::path& folder) {
+fs::path writeReport(const motion::Repertoire& repertoire, const fs::path& folder) {
     const std::string html = reportPage(repertoire);
     fs::path page = folder / (repertoire.species + ".html");
-    writeWhole(page, std::as_bytes(std::span(html)));
+    files::writeWhole(page, std::as_bytes(std::span(html)));
     return page;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

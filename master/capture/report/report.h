@@ -8,13 +8,13 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 // One page of HTML with its pictures inside.
-[[nodiscard]] std::string reportPage(const Repertoire& repertoire);
+[[nodiscard]] std::string reportPage(const motion::Repertoire& repertoire);
 
 // Writes it as SPECIES.html; returns its path. Throws Error when the folder cannot be written.
-std::filesystem::path writeReport(const Repertoire& repertoire,
+std::filesystem::path writeReport(const motion::Repertoire& repertoire,
                                   const std::filesystem::path& folder);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

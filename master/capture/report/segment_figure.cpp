@@ -10,7 +10,7 @@
 #include "master/capture/report/path_figures.h"
 #include "master/capture/report/plot.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -64,14 +64,14 @@ void drawArrow(Svg& svg, glm::dvec2 from, glm::dvec2 to, const SvgStyle& style) 
     svg.line(to, to - along * 4.0 - across * 2.2, style);
 }
 
-void drawFish(Svg& svg, const Chart& chart, const FishView& view) {
+void drawFish(Svg& svg, const Chart& chart, const FishOutline& view) {
     for (const auto& fin : view.pectorals) svg.polygon(chart(fin), kFinFlesh);
     svg.polygon(chart(view.outline), kFlesh);
     svg.polyline(chart(view.midline), stroke("#6d8794", 0.8));
     svg.circle(chart(view.midline.front()), 2.2, "fill=\"#10202b\"");
 }
 
-glm::dvec2 tipOf(const ReplayedPhase& phase, const glm::dvec3& axis) {
+glm::dvec2 tipOf(const capture::ReplayedPhase& phase, const glm::dvec3& axis) {
     return fromAbove(phase.origin + phase.worldFromBody * axis);
 }
 
@@ -80,7 +80,7 @@ constexpr glm::dvec3 kZ{0, 0, kZAxisLength};
 
 void drawTrail(Svg& svg,
                const Chart& chart,
-               const std::vector<ReplayedPhase>& phases,
+               const std::vector<capture::ReplayedPhase>& phases,
                std::size_t last) {
     for (const auto& [axis, style] : {std::pair{kZ, kZAxis}, std::pair{kX, kXAxis}})
         for (std::size_t k = 0; k <= last; k += kArrowEvery)
@@ -98,9 +98,10 @@ void drawKey(Svg& svg, glm::dvec2 at, double right, double bodyLength) {
     svg.text(bar + glm::dvec2(-8, 4), "1 body length", letters(12, "end"));
 }
 
-Extent extentOf(const std::vector<FishView>& views, const std::vector<ReplayedPhase>& phases) {
+Extent extentOf(const std::vector<FishOutline>& views,
+                const std::vector<capture::ReplayedPhase>& phases) {
     Extent extent;
-    for (const FishView& view : views) {
+    for (const FishOutline& view : views) {
         extent.add(view.outline);
         extent.add(view.midline);
         for (const auto& fin : view.pectorals) extent.add(fin);
@@ -114,10 +115,10 @@ Extent extentOf(const std::vector<FishView>& views, const std::vector<ReplayedPh
 
 }  // namespace
 
-std::string drawSegment(const ActionSegment& segment) {
-    const std::vector<ReplayedPhase> phases = replayAlongX(segment, 1);
-    std::vector<FishView> views;
-    const auto phaseOf = [](std::size_t panel) { return panel * kPhases / (kPanels - 1); };
+std::string drawSegment(const motion::ActionSegment& segment) {
+    const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, 1);
+    std::vector<FishOutline> views;
+    const auto phaseOf = [](std::size_t panel) { return panel * motion::kPhases / (kPanels - 1); };
     for (std::size_t i = 0; i < kPanels; ++i)
         views.push_back(viewFromAbove(segment, phases.at(phaseOf(i)), phaseOf(i)));
     const Extent extent = extentOf(views, phases);
@@ -136,12 +137,12 @@ std::string drawSegment(const ActionSegment& segment) {
         const Chart chart{corner + glm::dvec2(0, kTop), extent.least, scale};
         drawFish(svg, chart, views[i]);
         drawTrail(svg, chart, phases, phaseOf(i));
-        const double seconds =
-            static_cast<double>(segment.periodSeconds) * static_cast<double>(phaseOf(i)) / kPhases;
+        const double seconds = static_cast<double>(segment.periodSeconds) *
+                               static_cast<double>(phaseOf(i)) / motion::kPhases;
         svg.text(corner + glm::dvec2(8, 17), fixed(seconds, 3) + " s", letters(12));
     }
     drawKey(svg, {kGap + 4, height - 16}, width, scale);
     return std::move(svg).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -8,56 +8,61 @@
 #include "common/body/cage_topology.h"
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
 // Columns of the cage's tube at the edge of what is seen: flanks from above, back and belly from
 // the side.
-std::pair<int, int> edgeColumns(View view) {
-    return view == View::Above ? std::pair{3, 10} : std::pair{0, 6};
+std::pair<int, int> edgeColumns(ViewSide view) {
+    return view == ViewSide::Above ? std::pair{3, 10} : std::pair{0, 6};
 }
 
 constexpr double kFinBodyLengths = 0.17;
 
-bool isOnBackOrBelly(const CageSite& site) {
-    return site.kind == CageSiteKind::Flap &&
-           (site.part == CagePart::FirstDorsal || site.part == CagePart::SecondDorsal ||
-            site.part == CagePart::Anal);
+bool isOnBackOrBelly(const body::CageSite& site) {
+    return site.kind == body::CageSiteKind::Flap &&
+           (site.part == body::CagePart::FirstDorsal || site.part == body::CagePart::SecondDorsal ||
+            site.part == body::CagePart::Anal);
 }
 
-Polygon finLine(const PectoralFin& fin, double outward, const PoseFrame& frame, View view) {
+Polygon finLine(const capture::PectoralFin& fin,
+                double outward,
+                const capture::PoseFrame& frame,
+                ViewSide view) {
     const double across = std::cos(fin.angleRadians);
     const double flat = std::sin(fin.angleRadians);
     const glm::dvec3 root = frame.origin + frame.worldFromBody * glm::dvec3(0.1, 0, 0.05 * outward);
     const glm::dvec3 chord = frame.worldFromBody * glm::dvec3(-flat, across, 0);
     const glm::dvec3 span = frame.worldFromBody * glm::dvec3(-flat, 0, outward * std::abs(across));
-    const glm::dvec3 reach = kFinBodyLengths * (view == View::Above ? span : chord);
+    const glm::dvec3 reach = kFinBodyLengths * (view == ViewSide::Above ? span : chord);
     return {seen(view, root), seen(view, root + reach)};
 }
 
 }  // namespace
 
-glm::dvec2 seen(View view, const glm::dvec3& world) {
-    return {world.x, view == View::Above ? -world.z : world.y};
+glm::dvec2 seen(ViewSide view, const glm::dvec3& world) {
+    return {world.x, view == ViewSide::Above ? -world.z : world.y};
 }
 
-std::vector<Polygon> silhouetteOf(const FishBody& body, const NodeVectors& nodes, View view) {
-    NodalPoints points;
+std::vector<Polygon> silhouetteOf(const body::FishBody& body,
+                                  const capture::NodeVectors& nodes,
+                                  ViewSide view) {
+    body::NodalPoints points;
     std::ranges::copy(nodes, points.begin());
     std::vector<glm::vec3> cage(body.cage.vertices.size());
-    poseCage(body, points, cage);
+    body::poseCage(body, points, cage);
     const auto [one, other] = edgeColumns(view);
     const auto edge = [&](int ring, int column) {
-        return seen(view, cage.at(static_cast<std::size_t>(ring * kTubeColumns + column)));
+        return seen(view, cage.at(static_cast<std::size_t>(ring * body::kTubeColumns + column)));
     };
     Polygon outline{seen(view, nodes[0])};
-    for (int ring = 0; ring < kTubeRings; ++ring) outline.push_back(edge(ring, one));
-    for (int ring = kTubeRings; ring-- > 0;) outline.push_back(edge(ring, other));
+    for (int ring = 0; ring < body::kTubeRings; ++ring) outline.push_back(edge(ring, one));
+    for (int ring = body::kTubeRings; ring-- > 0;) outline.push_back(edge(ring, other));
     std::vector<Polygon> polygons{std::move(outline)};
-    if (view == View::Above) return polygons;
+    if (view == ViewSide::Above) return polygons;
 
-    static const CageTopology kTopology = makeCageTopology();
+    static const body::CageTopology kTopology = body::makeCageTopology();
     for (const auto& face : kTopology.faces) {
         if (!std::ranges::any_of(
                 face, [](auto corner) { return isOnBackOrBelly(kTopology.sites.at(corner)); }))
@@ -68,9 +73,11 @@ std::vector<Polygon> silhouetteOf(const FishBody& body, const NodeVectors& nodes
     return polygons;
 }
 
-std::vector<Polygon> finLines(const PectoralFins& fins, const NodeVectors& nodes, View view) {
-    const PoseFrame frame = frameOf(nodes);
+std::vector<Polygon> finLines(const capture::PectoralFins& fins,
+                              const capture::NodeVectors& nodes,
+                              ViewSide view) {
+    const capture::PoseFrame frame = capture::frameOf(nodes);
     return {finLine(fins.left, -1, frame, view), finLine(fins.right, 1, frame, view)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

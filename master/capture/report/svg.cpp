@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace aquarama {
+namespace aquarama::report {
 
 std::string fixed(double value, int digits) {
     std::array<char, 64> text{};
@@ -64,4 +64,4 @@ std::string Svg::finish() && {
     return std::move(out_) + "</svg>\n";
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

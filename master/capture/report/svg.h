@@ -7,7 +7,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace aquarama {
+namespace aquarama::report {
 
 // Presentation attributes as SVG spells them: R"(fill="none" stroke="#123")".
 using SvgStyle = std::string;
@@ -33,4 +33,4 @@ class Svg {
 
 [[nodiscard]] std::string fixed(double value, int digits);
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -15,7 +15,7 @@
 #include "master/capture/report/inspect.h"
 #include "master/capture/report/plot.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
@@ -30,7 +30,7 @@ std::string row(const Cells& values, const char* cell = "td") {
 
 std::string segmentCell(std::size_t action) {
     return std::string("<span class=\"swatch\" style=\"background:") + colourOf(action) +
-           "\"></span>" + nameOf(static_cast<Action>(action));
+           "\"></span>" + motion::nameOf(static_cast<motion::Action>(action));
 }
 
 // What is zero but for rounding is no exponent to read.
@@ -41,49 +41,50 @@ std::string exact(double value) {
 }
 
 double degrees(double radians) {
-    return radians / kRadiansPerDegree;
+    return radians / config::kRadiansPerDegree;
 }
 
 struct Quantity {
     const char* name;
-    double (*of)(const ActionSegment&);
+    double (*of)(const motion::ActionSegment&);
     int digits;
     const char* living;
     const char* source;
 };
 constexpr std::array kQuantities{
-    Quantity{"tail beat, Hz",
-             [](const ActionSegment& s) { return 1 / static_cast<double>(s.periodSeconds); },
-             2,
-             "",
-             ""},
+    Quantity{
+        "tail beat, Hz",
+        [](const motion::ActionSegment& s) { return 1 / static_cast<double>(s.periodSeconds); },
+        2,
+        "",
+        ""},
     Quantity{"speed, BL/s",
-             [](const ActionSegment& s) { return measure(s).speedBodyLengths; },
+             [](const motion::ActionSegment& s) { return capture::measure(s).speedBodyLengths; },
              2,
              "linear in the beat, see below",
              "Bainbridge 1958"},
     Quantity{"stride, BL a beat",
-             [](const ActionSegment& s) { return measure(s).strideBodyLengths; },
+             [](const motion::ActionSegment& s) { return capture::measure(s).strideBodyLengths; },
              3,
              "0.5&ndash;0.7, typically 0.6&ndash;0.7",
              "Videler &amp; Wardle 1991"},
     Quantity{"tail, peak to peak, BL",
-             [](const ActionSegment& s) { return measure(s).tailAmplitude; },
+             [](const motion::ActionSegment& s) { return capture::measure(s).tailAmplitude; },
              3,
              "rises with the beat to about 0.2",
              "Bainbridge 1958"},
     Quantity{"Strouhal number, beat &times; tail / speed",
-             [](const ActionSegment& s) { return measure(s).strouhal; },
+             [](const motion::ActionSegment& s) { return capture::measure(s).strouhal; },
              3,
              "0.2&ndash;0.4",
              "Taylor, Nudds &amp; Thomas 2003"},
     Quantity{"nose, peak to peak, BL",
-             [](const ActionSegment& s) { return measure(s).noseAmplitude; },
+             [](const motion::ActionSegment& s) { return capture::measure(s).noseAmplitude; },
              3,
              "0.008&ndash;0.024 (largemouth bass)",
              "Jayne &amp; Lauder 1995"},
     Quantity{"length of the body wave, BL",
-             [](const ActionSegment& s) { return bodyWave(s).wavelength; },
+             [](const motion::ActionSegment& s) { return capture::bodyWave(s).wavelength; },
              2,
              "0.9&ndash;1.1 (carangiform)",
              "Videler &amp; Hess 1984"},
@@ -95,20 +96,20 @@ std::string threeDigits(float perBodyLength) {
 
 }  // namespace
 
-double turnRadius(const ActionSegment& segment) {
-    const SegmentMeasures m = measure(segment);
+double turnRadius(const motion::ActionSegment& segment) {
+    const capture::SegmentMeasures m = capture::measure(segment);
     return m.strideBodyLengths / std::abs(m.turnRadians);
 }
 
-double peakTurnRate(const ActionSegment& segment) {
+double peakTurnRate(const motion::ActionSegment& segment) {
     double peak = 0;
-    for (const FrameIncrement& increment : segment.increments)
+    for (const motion::FrameIncrement& increment : segment.increments)
         peak = std::max(peak, std::abs(static_cast<double>(glm::angle(increment.rotation))));
-    return peak * kPhases / static_cast<double>(segment.periodSeconds);
+    return peak * motion::kPhases / static_cast<double>(segment.periodSeconds);
 }
 
-std::string fileTable(const Repertoire& repertoire) {
-    const std::vector<std::byte> bytes = encodeRepertoire(repertoire);
+std::string fileTable(const motion::Repertoire& repertoire) {
+    const std::vector<std::byte> bytes = motion::encodeRepertoire(repertoire);
     const bool hasCage = !repertoire.segments[0].controlPoints.empty();
     const auto& [swim, glide, brake] = repertoire.response;
     const bool isMeasured = glide > 0 || brake > 0;
@@ -117,11 +118,11 @@ std::string fileTable(const Repertoire& repertoire) {
                 fixed(static_cast<double>(repertoire.recordedLengthMetres), 3) +
                     " m, nose to tip of the tail"}) +
            row({"segments",
-                std::to_string(kCapturedActions) + " captured, " + std::to_string(kPhases) +
-                    " phases each"}) +
+                std::to_string(motion::kCapturedActions) + " captured, " +
+                    std::to_string(motion::kPhases) + " phases each"}) +
            row({"poses",
-                std::to_string(kNodalPoints) + " nodal points" +
-                    (hasCage ? " and " + std::to_string(kControlPoints) + " control points"
+                std::to_string(body::kNodalPoints) + " nodal points" +
+                    (hasCage ? " and " + std::to_string(body::kControlPoints) + " control points"
                              : "; control points are computed from them, not recorded")}) +
            row({"speed response",
                 isMeasured ? "drag " + threeDigits(swim[0]) + ", " + threeDigits(swim[1]) + ", " +
@@ -134,7 +135,7 @@ std::string fileTable(const Repertoire& repertoire) {
            row({"SHA-256", "<code>" + toHex(digestOf(bytes)) + "</code>"}) + "</table>\n";
 }
 
-std::string forwardTable(const Repertoire& repertoire) {
+std::string forwardTable(const motion::Repertoire& repertoire) {
     std::string html =
         "<table class=\"beside\">" +
         row({"", segmentCell(0), segmentCell(1), segmentCell(2), "living fish", ""}, "th");
@@ -148,7 +149,7 @@ std::string forwardTable(const Repertoire& repertoire) {
     return html + "</table>\n";
 }
 
-std::string turnTable(const Repertoire& repertoire) {
+std::string turnTable(const motion::Repertoire& repertoire) {
     std::string html = "<table>" + row({"segment",
                                         "lasts, s",
                                         "turns, deg",
@@ -157,9 +158,9 @@ std::string turnTable(const Repertoire& repertoire) {
                                         "peak rate, deg/s",
                                         "mean speed, BL/s"},
                                        "th");
-    for (std::size_t i = kGaits; i < kCapturedActions; ++i) {
-        const ActionSegment& segment = repertoire.segments.at(i);
-        const SegmentMeasures m = measure(segment);
+    for (std::size_t i = kGaits; i < motion::kCapturedActions; ++i) {
+        const motion::ActionSegment& segment = repertoire.segments.at(i);
+        const capture::SegmentMeasures m = capture::measure(segment);
         html += row({segmentCell(i),
                      fixed(m.periodSeconds, 3),
                      fixed(degrees(m.turnRadians), 1),
@@ -171,15 +172,15 @@ std::string turnTable(const Repertoire& repertoire) {
     return html + "</table>\n";
 }
 
-std::string closureTable(const Repertoire& repertoire) {
+std::string closureTable(const motion::Repertoire& repertoire) {
     std::string html =
         "<table><tr><th rowspan=\"2\">segment</th><th colspan=\"2\">pose, BL off a smooth way</th>"
         "<th colspan=\"2\">heading, deg</th><th colspan=\"2\">lean, deg</th>"
         "<th colspan=\"2\">climb, BL</th><th rowspan=\"2\">largest step,<br>BL a tick</th></tr>\n" +
         row({"at the join", "elsewhere", "after 1", "100", "after 1", "100", "after 1", "100"},
             "th");
-    for (std::size_t i = 0; i < kCapturedActions; ++i) {
-        const ActionSegment& segment = repertoire.segments.at(i);
+    for (std::size_t i = 0; i < motion::kCapturedActions; ++i) {
+        const motion::ActionSegment& segment = repertoire.segments.at(i);
         const Seam seam = seamOf(segment);
         const Drift once = driftAfter(segment, 1);
         const Drift often = driftAfter(segment, 100);
@@ -192,9 +193,9 @@ std::string closureTable(const Repertoire& repertoire) {
                      exact(degrees(often.leanRadians)),
                      exact(once.climb),
                      exact(often.climb),
-                     fixed(measure(segment).largestStep, 4)});
+                     fixed(capture::measure(segment).largestStep, 4)});
     }
     return html + "</table>\n";
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

@@ -6,19 +6,19 @@
 
 #include "common/motion/repertoire.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 // What the file is: length of the fish, format, digest, what is recorded, speed response.
-[[nodiscard]] std::string fileTable(const Repertoire& repertoire);
+[[nodiscard]] std::string fileTable(const motion::Repertoire& repertoire);
 // The three gaits.
-[[nodiscard]] std::string forwardTable(const Repertoire& repertoire);
+[[nodiscard]] std::string forwardTable(const motion::Repertoire& repertoire);
 // The four turns.
-[[nodiscard]] std::string turnTable(const Repertoire& repertoire);
+[[nodiscard]] std::string turnTable(const motion::Repertoire& repertoire);
 // How each segment closes, after 1 and 100 repetitions, and its largest step.
-[[nodiscard]] std::string closureTable(const Repertoire& repertoire);
+[[nodiscard]] std::string closureTable(const motion::Repertoire& repertoire);
 
 // The mean radius of a turning cycle and the fastest turn within it.
-[[nodiscard]] double turnRadius(const ActionSegment& segment);    // body lengths
-[[nodiscard]] double peakTurnRate(const ActionSegment& segment);  // radians a second
+[[nodiscard]] double turnRadius(const motion::ActionSegment& segment);    // body lengths
+[[nodiscard]] double peakTurnRate(const motion::ActionSegment& segment);  // radians a second
 
-}  // namespace aquarama
+}  // namespace aquarama::report

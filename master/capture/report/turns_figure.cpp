@@ -11,11 +11,11 @@
 #include "master/capture/report/path_figures.h"
 #include "master/capture/report/plot.h"
 
-namespace aquarama {
+namespace aquarama::report {
 
 namespace {
 
-constexpr auto kFirstTurn = static_cast<std::size_t>(Action::TurnLeftGradual);
+constexpr auto kFirstTurn = static_cast<std::size_t>(motion::Action::TurnLeftGradual);
 constexpr double kWidth = 460;
 constexpr double kHeight = 400;
 constexpr double kHeadingLength = 0.25;  // body lengths
@@ -30,10 +30,11 @@ glm::dvec2 aheadAndLeft(const glm::dvec3& world) {
     return {world.x, -world.z};
 }
 
-Way wayOf(const ActionSegment& segment) {
+Way wayOf(const motion::ActionSegment& segment) {
     Way way;
-    const std::vector<ReplayedPhase> phases = replayAlongX(segment, 1);
-    for (const ReplayedPhase& phase : phases) way.points.push_back(aheadAndLeft(phase.origin));
+    const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, 1);
+    for (const capture::ReplayedPhase& phase : phases)
+        way.points.push_back(aheadAndLeft(phase.origin));
     way.heading = glm::normalize(aheadAndLeft(phases.back().worldFromBody * glm::dvec3(1, 0, 0)));
     return way;
 }
@@ -50,32 +51,33 @@ void drawWay(Svg& svg, const Plot& plot, const Way& way, const char* colour) {
 }
 
 // Seconds and degrees, to the left.
-std::vector<glm::dvec2> headingOver(const ActionSegment& segment) {
+std::vector<glm::dvec2> headingOver(const motion::ActionSegment& segment) {
     std::vector<glm::dvec2> points;
-    const std::vector<ReplayedPhase> phases = replayAlongX(segment, 1);
+    const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, 1);
     for (std::size_t k = 0; k < phases.size(); ++k) {
         const glm::dvec2 heading = aheadAndLeft(phases[k].worldFromBody * glm::dvec3(1, 0, 0));
         points.emplace_back(
-            static_cast<double>(segment.periodSeconds) * static_cast<double>(k) / kPhases,
-            std::atan2(heading.y, heading.x) / kRadiansPerDegree);
+            static_cast<double>(segment.periodSeconds) * static_cast<double>(k) / motion::kPhases,
+            std::atan2(heading.y, heading.x) / config::kRadiansPerDegree);
     }
     return points;
 }
 
 std::vector<std::pair<SvgStyle, std::string>> legendOfTurns() {
     std::vector<std::pair<SvgStyle, std::string>> legend;
-    for (std::size_t i = kFirstTurn; i < kCapturedActions; ++i)
-        legend.emplace_back(stroke(colourOf(i), 2.4), nameOf(static_cast<Action>(i)));
+    for (std::size_t i = kFirstTurn; i < motion::kCapturedActions; ++i)
+        legend.emplace_back(stroke(colourOf(i), 2.4),
+                            motion::nameOf(static_cast<motion::Action>(i)));
     return legend;
 }
 
 }  // namespace
 
-std::string drawTurns(const Repertoire& repertoire) {
+std::string drawTurns(const motion::Repertoire& repertoire) {
     std::vector<Way> ways;
     double ahead = 0;
     double aside = 0;
-    for (std::size_t i = kFirstTurn; i < kCapturedActions; ++i) {
+    for (std::size_t i = kFirstTurn; i < motion::kCapturedActions; ++i) {
         ways.push_back(wayOf(repertoire.segments.at(i)));
         const Way& way = ways.back();
         for (const glm::dvec2 point : way.points) {
@@ -101,11 +103,11 @@ std::string drawTurns(const Repertoire& repertoire) {
     return std::move(svg).finish();
 }
 
-std::string drawHeadings(const Repertoire& repertoire) {
+std::string drawHeadings(const motion::Repertoire& repertoire) {
     std::vector<std::vector<glm::dvec2>> headings;
     double longest = 0;
     double most = 0;
-    for (std::size_t i = kFirstTurn; i < kCapturedActions; ++i) {
+    for (std::size_t i = kFirstTurn; i < motion::kCapturedActions; ++i) {
         headings.push_back(headingOver(repertoire.segments.at(i)));
         longest = std::max(longest, headings.back().back().x);
         for (const glm::dvec2 point : headings.back()) most = std::max(most, std::abs(point.y));
@@ -126,4 +128,4 @@ std::string drawHeadings(const Repertoire& repertoire) {
     return std::move(svg).finish();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::report

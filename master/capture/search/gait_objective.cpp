@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
@@ -59,4 +59,4 @@ double missOf(const ForwardFigures& gaits) {
     return sum;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

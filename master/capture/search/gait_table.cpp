@@ -11,14 +11,14 @@
 #include "master/capture/compile/turn.h"
 #include "master/capture/search/gait_trial.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::array kGaits{"slow", "medium", "fast"};
 
-std::string plainName(const Species& species) {
+std::string plainName(const config::Species& species) {
     std::string name = species.name;
     std::ranges::replace(name, '_', ' ');
     return name;
@@ -33,7 +33,7 @@ std::string gaitTableHead() {
            "|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
-std::string gaitTableRows(const Species& species) {
+std::string gaitTableRows(const config::Species& species) {
     const std::array gaits{species.swim.slow, species.swim.medium, species.swim.fast};
     std::ostringstream rows;
     rows << std::fixed << std::setprecision(2);
@@ -55,15 +55,16 @@ std::string turnTableHead() {
            "from fast |\n|---|---|---|---|---|---|---|\n";
 }
 
-std::string turnTableRow(const Species& species) {
+std::string turnTableRow(const config::Species& species) {
     std::ostringstream row;
     row << std::fixed << std::setprecision(0) << "| " << plainName(species) << " |";
-    const std::vector<TurnSpread> spreads = surveyTurns(species);
-    for (const Action turn : {Action::TurnLeftGradual, Action::TurnLeftSharp})
-        for (const TurnSpread& spread : spreads)
+    const std::vector<capture::TurnSpread> spreads = capture::surveyTurns(species);
+    for (const motion::Action turn :
+         {motion::Action::TurnLeftGradual, motion::Action::TurnLeftSharp})
+        for (const capture::TurnSpread& spread : spreads)
             if (spread.turn == turn)
                 row << ' ' << spread.least() * kDegrees << "–" << spread.most() * kDegrees << " |";
     return row.str() + '\n';
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

@@ -6,15 +6,15 @@
 
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 [[nodiscard]] std::string gaitTableHead();
 [[nodiscard]] std::string gaitTableRows(
-    const Species& species);  // slow, medium, fast: simulated now
+    const config::Species& species);  // slow, medium, fast: simulated now
 
 // How far its turns go, in degrees, when they are begun at any point of a slow, medium or fast
 // beat.
 [[nodiscard]] std::string turnTableHead();
-[[nodiscard]] std::string turnTableRow(const Species& species);
+[[nodiscard]] std::string turnTableRow(const config::Species& species);
 
-}  // namespace aquarama
+}  // namespace aquarama::search

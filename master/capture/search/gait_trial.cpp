@@ -9,7 +9,7 @@
 #include "master/capture/compile/steady_swimming.h"
 #include "master/capture/control/muscle_programs.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
@@ -17,31 +17,32 @@ namespace {
 constexpr double kFlyingStart = 0.62;  // body lengths a beat, as most fish go
 constexpr int kWarmUpBeats = 12;
 
-GaitFigures figuresOf(const Gait& gait, const Recording& beat) {
-    const ActionSegment segment = compileForward(beat);
-    return {gait.beatHertz, measure(segment), bodyWave(segment)};
+GaitFigures figuresOf(const config::Gait& gait, const capture::RecordedCycle& beat) {
+    const motion::ActionSegment segment = capture::compileForward(beat);
+    return {gait.beatHertz, capture::measure(segment), capture::bodyWave(segment)};
 }
 
-Recording quickBeat(const Species& species, const Gait& gait) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(species);
+capture::RecordedCycle quickBeat(const config::Species& species, const config::Gait& gait) {
+    const capture::BiomechanicalFish fish = capture::makeBiomechanicalFish(species);
     const double period = 1 / gait.beatHertz;
-    const int steps =
-        static_cast<int>(std::ceil(period / kPhases / longestStepSeconds(fish) - 1e-9));
-    const double stepSeconds = period / (kPhases * steps);
-    FishState state = stateAtRest(fish);
+    const int steps = static_cast<int>(
+        std::ceil(period / motion::kPhases / capture::longestStepSeconds(fish) - 1e-9));
+    const double stepSeconds = period / (motion::kPhases * steps);
+    capture::FishState state = capture::stateAtRest(fish);
     for (glm::dvec3& velocity : state.velocities) velocity.x = kFlyingStart * gait.beatHertz;
     std::int64_t done = 0;
     const auto advance = [&](int count) {
         for (int i = 0; i < count; ++i)
-            step(fish,
-                 {.muscles = swim(species, gait, stepSeconds * static_cast<double>(done++)),
-                  .fins = {}},
-                 stepSeconds,
-                 state);
+            capture::step(
+                fish,
+                {.muscles = capture::swim(species, gait, stepSeconds * static_cast<double>(done++)),
+                 .fins = {}},
+                stepSeconds,
+                state);
     };
-    advance(kWarmUpBeats * kPhases * steps);
-    Recording beat{.periodSeconds = period, .poses = {state.positions}};
-    for (int phase = 0; phase < kPhases; ++phase) {
+    advance(kWarmUpBeats * motion::kPhases * steps);
+    capture::RecordedCycle beat{.periodSeconds = period, .poses = {state.positions}};
+    for (int phase = 0; phase < motion::kPhases; ++phase) {
         advance(steps);
         beat.poses.push_back(state.positions);
     }
@@ -50,12 +51,12 @@ Recording quickBeat(const Species& species, const Gait& gait) {
 
 }  // namespace
 
-GaitFigures steadyFigures(const Species& species, const Gait& gait) {
-    return figuresOf(gait, swimUntilSteady(species, gait).beat);
+GaitFigures steadyFigures(const config::Species& species, const config::Gait& gait) {
+    return figuresOf(gait, capture::swimUntilSteady(species, gait).beat);
 }
 
-ForwardFigures quickFigures(const Species& species) {
-    const auto start = [&](const Gait& gait) {
+ForwardFigures quickFigures(const config::Species& species) {
+    const auto start = [&](const config::Gait& gait) {
         return std::async(std::launch::async,
                           [&species, &gait] { return figuresOf(gait, quickBeat(species, gait)); });
     };
@@ -65,4 +66,4 @@ ForwardFigures quickFigures(const Species& species) {
     return {slow.get(), medium.get(), fast.get()};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

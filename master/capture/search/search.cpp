@@ -10,7 +10,7 @@
 #include "common/units/error.h"
 #include "master/capture/search/gait_objective.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
@@ -20,8 +20,8 @@ constexpr double kSwims = 0.01;       // a miss by a tenth of one tolerance
 constexpr double kFirstStep = 0.1;    // of the range of each parameter
 constexpr double kDoesNotSwim = 1e6;  // the miss of a fish that finds no steady beat
 
-Trial tryAt(const SearchPoint& point, const Species& species) {
-    Trial trial{.point = point, .miss = kDoesNotSwim};
+SearchTrial tryAt(const SearchPoint& point, const config::Species& species) {
+    SearchTrial trial{.point = point, .miss = kDoesNotSwim};
     try {
         const ForwardFigures gaits = quickFigures(speciesAt(point, species));
         const auto strouhal = [](const GaitFigures& gait) { return gait.swum.strouhal; };
@@ -39,12 +39,12 @@ Trial tryAt(const SearchPoint& point, const Species& species) {
 // Makes trials in the optimiser's order; those that the journal holds it only recalls.
 class TrialRun {
   public:
-    TrialRun(const Species& species, SearchJournal& journal, const SearchProgress& progress)
+    TrialRun(const config::Species& species, SearchJournal& journal, const SearchProgress& progress)
         : species_(species), journal_(journal), progress_(progress) {}
 
     double missAt(const SearchPoint& point) {
         if (made_ == journal_.trials().size()) journal_.add(tryAt(point, species_));
-        const Trial& trial = journal_.trials()[made_++];
+        const SearchTrial& trial = journal_.trials()[made_++];
         if (trial.point != point)
             throw Error("trial " + std::to_string(made_) +
                         " of the journal is not what this program tries; remove the journal to "
@@ -53,14 +53,14 @@ class TrialRun {
         progress_(made_, best_);
         return trial.miss;
     }
-    [[nodiscard]] const Trial& best() const { return best_; }
+    [[nodiscard]] const SearchTrial& best() const { return best_; }
 
   private:
-    const Species& species_;
+    const config::Species& species_;
     SearchJournal& journal_;
     const SearchProgress& progress_;
     std::size_t made_ = 0;
-    Trial best_;
+    SearchTrial best_;
 };
 
 }  // namespace
@@ -69,10 +69,10 @@ std::string searchName(const std::string& speciesText) {
     return std::string(kSearchVersion) + ' ' + toHex(digestOf(speciesText));
 }
 
-Trial searchGaits(const Species& species,
-                  std::size_t mostTrials,
-                  SearchJournal& journal,
-                  const SearchProgress& progress) {
+SearchTrial searchGaits(const config::Species& species,
+                        std::size_t mostTrials,
+                        SearchJournal& journal,
+                        const SearchProgress& progress) {
     TrialRun run(species, journal, progress);
     SearchPoint point = pointOf(species);
     nlopt::opt optimiser(nlopt::LN_SBPLX, static_cast<unsigned>(point.size()));
@@ -108,4 +108,4 @@ Trial searchGaits(const Species& species,
     return run.best();
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

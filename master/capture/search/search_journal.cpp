@@ -8,7 +8,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kFigures = 5;  // of a trial, before its point
 
-std::string lineOf(const Trial& trial) {
+std::string lineOf(const SearchTrial& trial) {
     std::ostringstream line;
     line.precision(17);  // each double comes back as it was
     line << trial.miss << ' ' << trial.leastStrouhal << ' ' << trial.mostStrouhal << ' '
@@ -25,16 +25,16 @@ std::string lineOf(const Trial& trial) {
     return line.str();
 }
 
-std::optional<Trial> parseTrial(const std::string& line) {
+std::optional<SearchTrial> parseTrial(const std::string& line) {
     std::istringstream numbers(line);
     const std::vector<double> values{std::istream_iterator<double>(numbers), {}};
     if (!numbers.eof() || values.size() <= kFigures) return std::nullopt;
-    Trial trial{.point = {values.begin() + kFigures, values.end()},
-                .miss = values[0],
-                .leastStrouhal = values[1],
-                .mostStrouhal = values[2],
-                .leastStride = values[3],
-                .mostStride = values[4]};
+    SearchTrial trial{.point = {values.begin() + kFigures, values.end()},
+                      .miss = values[0],
+                      .leastStrouhal = values[1],
+                      .mostStrouhal = values[2],
+                      .leastStride = values[3],
+                      .mostStride = values[4]};
     return lineOf(trial) == line ? std::optional(std::move(trial)) : std::nullopt;
 }
 
@@ -45,17 +45,17 @@ std::string wholeLinesOf(const fs::path& path) {
     return text.substr(0, text.rfind('\n') + 1);
 }
 
-std::vector<Trial> parseTrials(const std::string& text,
-                               const std::string& search,
-                               const fs::path& path) {
+std::vector<SearchTrial> parseTrials(const std::string& text,
+                                     const std::string& search,
+                                     const fs::path& path) {
     std::istringstream lines(text);
     std::string line;
     if (!std::getline(lines, line) || line != search)
         throw Error(path.string() +
                     ":1: the journal of another search; remove it, or write elsewhere with --out");
-    std::vector<Trial> trials;
+    std::vector<SearchTrial> trials;
     while (std::getline(lines, line)) {
-        std::optional<Trial> trial = parseTrial(line);
+        std::optional<SearchTrial> trial = parseTrial(line);
         if (!trial)
             throw Error(path.string() + ':' + std::to_string(trials.size() + 2) +
                         ": not a trial, the journal is damaged; remove this line and those after "
@@ -79,11 +79,11 @@ SearchJournal::SearchJournal(fs::path path, const std::string& search) : path_(s
         throw Error(path_.string() + ": cannot be written; choose another folder with --out");
 }
 
-void SearchJournal::add(const Trial& trial) {
+void SearchJournal::add(const SearchTrial& trial) {
     file_ << lineOf(trial) << '\n' << std::flush;
     if (!file_)
         throw Error(path_.string() + ": cannot be written; make space and search again to go on");
     trials_.push_back(trial);
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

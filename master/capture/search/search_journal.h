@@ -10,14 +10,14 @@
 
 #include "master/capture/search/search_space.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
-struct Trial {
+struct SearchTrial {
     SearchPoint point;
     double miss = 0;  // of gait_objective.h
     double leastStrouhal = 0, mostStrouhal = 0;
     double leastStride = 0, mostStride = 0;  // body lengths a beat
-    friend bool operator==(const Trial&, const Trial&) = default;
+    friend bool operator==(const SearchTrial&, const SearchTrial&) = default;
 };
 
 // A text file: a first line that says of which search, then a line for each trial. A last line that
@@ -28,13 +28,13 @@ class SearchJournal {
     // written.
     SearchJournal(std::filesystem::path path, const std::string& search);
 
-    [[nodiscard]] const std::vector<Trial>& trials() const { return trials_; }
-    void add(const Trial& trial);  // is in the file when this returns
+    [[nodiscard]] const std::vector<SearchTrial>& trials() const { return trials_; }
+    void add(const SearchTrial& trial);  // is in the file when this returns
 
   private:
     std::filesystem::path path_;
-    std::vector<Trial> trials_;
+    std::vector<SearchTrial> trials_;
     std::ofstream file_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::search

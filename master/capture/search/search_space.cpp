@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
@@ -16,11 +16,11 @@ namespace {
 // scale are its own, and gains are relative to medium swimming.
 struct Parameter {
     double least, most;
-    double (*get)(const Species&);
-    void (*set)(Species&, double);
+    double (*get)(const config::Species&);
+    void (*set)(config::Species&, double);
 };
 
-void setStiffness(Species& s, double stiffness) {
+void setStiffness(config::Species& s, double stiffness) {
     const double factor = stiffness / s.tissue.stiffness;
     s.tissue.stiffness *= factor;
     s.tissue.crossStiffness *= factor;
@@ -29,48 +29,48 @@ void setStiffness(Species& s, double stiffness) {
 
 constexpr double kHalfBeat = std::numbers::pi;
 constexpr std::array kParameters{
-    Parameter{150, 1500, [](const Species& s) { return s.tissue.stiffness; }, setStiffness},
+    Parameter{150, 1500, [](const config::Species& s) { return s.tissue.stiffness; }, setStiffness},
     Parameter{0.8,
               4,
-              [](const Species& s) { return s.tissue.tailStiffening; },
-              [](Species& s, double v) { s.tissue.tailStiffening = v; }},
+              [](const config::Species& s) { return s.tissue.tailStiffening; },
+              [](config::Species& s, double v) { s.tissue.tailStiffening = v; }},
     Parameter{0.2,
               8,
-              [](const Species& s) { return s.tissue.damping; },
-              [](Species& s, double v) { s.tissue.damping = v; }},
+              [](const config::Species& s) { return s.tissue.damping; },
+              [](config::Species& s, double v) { s.tissue.damping = v; }},
     Parameter{150,
               900,
-              [](const Species& s) { return s.water.drag; },
-              [](Species& s, double v) { s.water.drag = v; }},
+              [](const config::Species& s) { return s.water.drag; },
+              [](config::Species& s, double v) { s.water.drag = v; }},
     Parameter{0.1,
               0.7,
-              [](const Species& s) { return s.water.frontFactor; },
-              [](Species& s, double v) { s.water.frontFactor = v; }},
+              [](const config::Species& s) { return s.water.frontFactor; },
+              [](config::Species& s, double v) { s.water.frontFactor = v; }},
     Parameter{0.1,
               1,
-              [](const Species& s) { return s.swim.middleDrive; },
-              [](Species& s, double v) { s.swim.middleDrive = v; }},
+              [](const config::Species& s) { return s.swim.middleDrive; },
+              [](config::Species& s, double v) { s.swim.middleDrive = v; }},
     Parameter{0.2,
               1,
-              [](const Species& s) { return s.swim.backDrive; },
-              [](Species& s, double v) { s.swim.backDrive = v; }},
+              [](const config::Species& s) { return s.swim.backDrive; },
+              [](config::Species& s, double v) { s.swim.backDrive = v; }},
     Parameter{0.35 * kHalfBeat,
               kHalfBeat,
-              [](const Species& s) { return s.swim.backLagRadians; },
-              [](Species& s, double v) { s.swim.backLagRadians = v; }},
+              [](const config::Species& s) { return s.swim.backLagRadians; },
+              [](config::Species& s, double v) { s.swim.backLagRadians = v; }},
     Parameter{0.3,
               1.6,
-              [](const Species& s) { return s.swim.slow.gain; },
-              [](Species& s, double v) { s.swim.slow.gain = v; }},
+              [](const config::Species& s) { return s.swim.slow.gain; },
+              [](config::Species& s, double v) { s.swim.slow.gain = v; }},
     Parameter{0.3,
               1.6,
-              [](const Species& s) { return s.swim.fast.gain; },
-              [](Species& s, double v) { s.swim.fast.gain = v; }},
+              [](const config::Species& s) { return s.swim.fast.gain; },
+              [](config::Species& s, double v) { s.swim.fast.gain = v; }},
 };
 
 }  // namespace
 
-SearchPoint pointOf(const Species& species) {
+SearchPoint pointOf(const config::Species& species) {
     SearchPoint point;
     for (const Parameter& p : kParameters)
         point.push_back(
@@ -78,8 +78,8 @@ SearchPoint pointOf(const Species& species) {
     return point;
 }
 
-Species speciesAt(const SearchPoint& point, const Species& species) {
-    Species changed = species;
+config::Species speciesAt(const SearchPoint& point, const config::Species& species) {
+    config::Species changed = species;
     for (std::size_t i = 0; i < kParameters.size(); ++i) {
         const Parameter& p = kParameters.at(i);
         p.set(changed, p.least * std::pow(p.most / p.least, std::clamp(point.at(i), 0.0, 1.0)));
@@ -87,4 +87,4 @@ Species speciesAt(const SearchPoint& point, const Species& species) {
     return changed;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

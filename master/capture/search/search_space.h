@@ -6,14 +6,14 @@
 
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 // A point of the cube: each coordinate goes from a parameter's least value at 0 to its most at 1 by
 // equal factors.
 using SearchPoint = std::vector<double>;
 
 // Parameters outside their range come out on its edge.
-[[nodiscard]] SearchPoint pointOf(const Species& species);
-[[nodiscard]] Species speciesAt(const SearchPoint& point, const Species& species);
+[[nodiscard]] SearchPoint pointOf(const config::Species& species);
+[[nodiscard]] config::Species speciesAt(const SearchPoint& point, const config::Species& species);
 
-}  // namespace aquarama
+}  // namespace aquarama::search

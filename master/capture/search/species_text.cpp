@@ -11,7 +11,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
@@ -93,7 +93,7 @@ std::string withNumber(const std::string& text,
                         [](const std::string& a, const std::string& b) { return a + '.' + b; }));
 }
 
-std::string withGaitsOf(const Species& species, std::string text) {
+std::string withGaitsOf(const config::Species& species, std::string text) {
     const auto& [tissue, water, swim] = std::tie(species.tissue, species.water, species.swim);
     const auto set = [&](const std::vector<std::string>& field, double value) {
         text = withNumber(text, field, value);
@@ -115,4 +115,4 @@ std::string withGaitsOf(const Species& species, std::string text) {
     return text;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

@@ -7,7 +7,7 @@
 
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 // The value of the first field that is reached by these names, as in {"swim", "slow", "gain"}, with
 // four significant digits. Throws Error when the text holds no such field.
@@ -16,6 +16,6 @@ namespace aquarama {
                                      double value);
 
 // With all that the search may change as `species` has it.
-[[nodiscard]] std::string withGaitsOf(const Species& species, std::string text);
+[[nodiscard]] std::string withGaitsOf(const config::Species& species, std::string text);
 
-}  // namespace aquarama
+}  // namespace aquarama::search

@@ -5,22 +5,30 @@
 
 #include "master/capture/compile/turn.h"
 
-namespace aquarama {
+namespace aquarama::search {
 
 namespace {
 
 constexpr int kHalvings = 8;
 
-double meanDegrees(const Species& species, const SteadySwimming& entry, const Bend& bend) {
+double meanDegrees(const config::Species& species,
+                   const capture::SteadySwimming& entry,
+                   const config::Bend& bend) {
     double sum = 0;
-    for (int i = 0; i < kOnsets; ++i)
-        sum += turnRadians(
-            recordTurn(species, entry, Controller::LeftTurn, bend, i * kPhases / kOnsets));
-    return sum / kOnsets * 180 / std::numbers::pi;
+    for (int i = 0; i < capture::kOnsets; ++i)
+        sum += capture::turnRadians(capture::recordTurn(species,
+                                                        entry,
+                                                        capture::Controller::LeftTurn,
+                                                        bend,
+                                                        i * motion::kPhases / capture::kOnsets));
+    return sum / capture::kOnsets * 180 / std::numbers::pi;
 }
 
 // The harder the bend the further the turn, so halving finds it.
-Bend fitting(const Species& species, const SteadySwimming& entry, Bend bend, double degrees) {
+config::Bend fitting(const config::Species& species,
+                     const capture::SteadySwimming& entry,
+                     config::Bend bend,
+                     double degrees) {
     double weak = 0;
     double strong = 1;
     for (int i = 0; i < kHalvings; ++i) {
@@ -32,10 +40,10 @@ Bend fitting(const Species& species, const SteadySwimming& entry, Bend bend, dou
 
 }  // namespace
 
-Turn withFittingStrengths(const Species& species) {
-    const SteadySwimming entry = swimUntilSteady(species, species.swim.medium);
+config::Turn withFittingStrengths(const config::Species& species) {
+    const capture::SteadySwimming entry = capture::swimUntilSteady(species, species.swim.medium);
     return {.gradual = fitting(species, entry, species.turn.gradual, kGradualDegrees),
             .sharp = fitting(species, entry, species.turn.sharp, kSharpDegrees)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::search

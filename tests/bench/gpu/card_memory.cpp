@@ -6,7 +6,7 @@
 
 #include <epoxy/gl.h>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::optional<double> freeMebibytes() {
     return kibibytes / 1024.0;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 struct CardMemory {
     double textureMebibytes = 0;  // by formats and sizes; what the driver adds is not in it
@@ -15,4 +15,4 @@ struct CardMemory {
 // What is free on the whole card, where the driver tells (NVX_gpu_memory_info).
 [[nodiscard]] std::optional<double> freeMebibytes();
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -18,7 +18,7 @@
 
 #include "common/wall/png_file.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,7 +96,8 @@ TEST(GpuBench, writesFiguresAndPicturesOfWhatItDrew) {
                                      " gpu_vertex_ms"))
             << stage;
     EXPECT_EQ(figures["gpu/golden/surface/window within_bounds"], 1);
-    const Picture picture = readPng((out / "gpu-theatre-bait_ball_100000-medium.png").string());
+    const wall::Picture picture =
+        wall::readPng((out / "gpu-theatre-bait_ball_100000-medium.png").string());
     EXPECT_EQ(picture.sizePixels, glm::ivec2(250, 62));
     const std::set<std::uint16_t> codes(picture.rgb.begin(), picture.rgb.end());
     EXPECT_GT(codes.size(), 40U) << "flat";
@@ -104,4 +105,4 @@ TEST(GpuBench, writesFiguresAndPicturesOfWhatItDrew) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -54,8 +54,8 @@ struct Options {
 struct Extent {
     int ticksBefore = 120;  // that a school takes to find its shape
     int frames = 32;        // of which each sea is made
-    Patience frameTimes;
-    Patience stageTimes{.leastFrames = 16, .mostFrames = 64, .seconds = 3};
+    bench::Patience frameTimes;
+    bench::Patience stageTimes{.leastFrames = 16, .mostFrames = 64, .seconds = 3};
     std::size_t channels = 8;  // at most
     int smaller = 1;           // pictures, along either axis
     std::uint32_t fewer = 1;   // fish
@@ -82,15 +82,15 @@ const SeaChoice kSeas[]{{"reef", "reef", std::nullopt},
 
 struct NamedWall {
     std::string name;
-    Rig rig;
-    PanoramaMap panorama{rig};
+    config::Rig rig;
+    theatre::PanoramaMap panorama{rig};
 };
 
-Rig within(const Extent& extent, Rig rig) {
+config::Rig within(const Extent& extent, config::Rig rig) {
     const int times = extent.smaller;
     rig.panoramaPixels /= times;
     rig.channels.resize(std::min(rig.channels.size(), extent.channels));
-    for (Channel& channel : rig.channels) {
+    for (config::Channel& channel : rig.channels) {
         channel.sizePixels /= times;
         channel.projector.focalPixels /= times;
         channel.projector.principalPixels /= times;
@@ -99,9 +99,9 @@ Rig within(const Extent& extent, Rig rig) {
 }
 
 NamedWall wallOf(const std::string& name, const std::string& file, const Extent& extent) {
-    const std::string path = sourceFolder() + "/" + file;
-    const Rig rig = readRig(path);
-    checkGeometry(rig, path);
+    const std::string path = test::sourceFolder() + "/" + file;
+    const config::Rig rig = config::readRig(path);
+    wall::checkGeometry(rig, path);
     return {name, within(extent, rig)};
 }
 
@@ -117,12 +117,12 @@ std::string renderer() {
 
 // A context on a graphics card; or nothing, and why.
 struct Card {
-    std::unique_ptr<Context> context;
+    std::unique_ptr<context::Context> context;
     std::string lack;
 };
 
 Card openCard(const Options& options) try {
-    Card card{makeOffscreenContext(options.device, {16, 16}), {}};
+    Card card{context::makeOffscreenContext(options.device, {16, 16}), {}};
     if (isSoftware(renderer()) && !options.software)
         return {nullptr, "OpenGL is drawn by " + renderer()};
     return card;
@@ -140,7 +140,7 @@ std::string fileOf(std::string name) {
     return name + ".png";
 }
 
-double sumOf(const StageTimes& stages) {
+double sumOf(const bench::StageTimes& stages) {
     double sum = 0;
     for (const auto& [stage, milliseconds] : stages) sum += milliseconds;
     return sum;
@@ -151,12 +151,13 @@ class Measurement {
     explicit Measurement(const Options& options)
         : options_{options},
           extent_{isSoftware(renderer()) ? kTrial : Extent{}},
-          csvPath_{options.out / (fileNameOf(renderer()) + ".csv")},
+          csvPath_{options.out / (bench::fileNameOf(renderer()) + ".csv")},
           csv_{openCsv()},
-          rows_{csv_, rendererAndVersion() + ", " + processorName()} {}
+          rows_{csv_, context::rendererAndVersion() + ", " + bench::processorName()} {}
 
     void measure() {
-        std::printf("%s, %s\n", rendererAndVersion().c_str(), processorName().c_str());
+        std::printf(
+            "%s, %s\n", context::rendererAndVersion().c_str(), bench::processorName().c_str());
         const std::vector<NamedWall> walls{
             wallOf("theatre", "config/theatre.txtpb", extent_),
             wallOf("eight_4k", "tests/bench/gpu/eight_4k.txtpb", extent_)};
@@ -173,15 +174,19 @@ class Measurement {
         return csv;
     }
 
-    static std::string nameOf(const NamedWall& wall, const SeaChoice& sea, QualityTier tier) {
-        return "gpu/" + wall.name + "/" + sea.name + "/" + std::string(aquarama::nameOf(tier));
+    static std::string nameOf(const NamedWall& wall,
+                              const SeaChoice& sea,
+                              config::QualityTier tier) {
+        return "gpu/" + wall.name + "/" + sea.name + "/" +
+               std::string(aquarama::config::nameOf(tier));
     }
 
     void measureSea(const SeaChoice& choice, const std::vector<NamedWall>& walls) {
-        std::optional<Sea> sea;
+        std::optional<bench::Sea> sea;
         for (const NamedWall& wall : walls)
-            for (const QualityTier tier :
-                 {QualityTier::Medium, QualityTier::High, QualityTier::Ultra}) {
+            for (const config::QualityTier tier : {config::QualityTier::Medium,
+                                                   config::QualityTier::High,
+                                                   config::QualityTier::Ultra}) {
                 const std::string name = nameOf(wall, choice, tier);
                 if (!options_.wants(name)) continue;
                 if (!sea) sea = made(choice);
@@ -189,21 +194,21 @@ class Measurement {
             }
     }
 
-    Sea made(const SeaChoice& choice) const {
+    bench::Sea made(const SeaChoice& choice) const {
         const auto fish = choice.fish ? std::optional{*choice.fish / extent_.fewer} : std::nullopt;
-        return makeSea(sourceFolder() + "/config/scenes/" + choice.scene + ".txtpb",
-                       fish,
-                       extent_.ticksBefore,
-                       extent_.frames);
+        return bench::makeSea(test::sourceFolder() + "/config/scenes/" + choice.scene + ".txtpb",
+                              fish,
+                              extent_.ticksBefore,
+                              extent_.frames);
     }
 
     void measureWall(const std::string& name,
-                     const Sea& sea,
+                     const bench::Sea& sea,
                      const NamedWall& wall,
-                     QualityTier tier) {
-        const auto free = freeMebibytes();
+                     config::QualityTier tier) {
+        const auto free = bench::freeMebibytes();
         const auto start = std::chrono::steady_clock::now();
-        DrawnWall drawn(sea, wall.rig, tier);
+        bench::DrawnWall drawn(sea, wall.rig, tier);
         const std::chrono::duration<double> building = std::chrono::steady_clock::now() - start;
         rows_.counter(name, "build_s", building.count());
         writeMemory(name, free);
@@ -211,23 +216,23 @@ class Measurement {
         writeStages(name,
                     drawn.timeStages(extent_.stageTimes, /*withPixels=*/true),
                     drawn.timeStages(extent_.stageTimes, /*withPixels=*/false));
-        writePng((options_.out / fileOf(name)).string(),
-                 pictureOf(wall.panorama.compose(drawn.lights()), 8, 0));
+        wall::writePng((options_.out / fileOf(name)).string(),
+                       wall::pictureOf(wall.panorama.compose(drawn.lights()), 8, 0));
         refuseErrors(name);
         csv_.flush();
     }
 
     void writeMemory(const std::string& name, std::optional<double> freeBefore) {
-        const CardMemory memory = cardMemory();
+        const bench::CardMemory memory = bench::cardMemory();
         rows_.counter(name, "textures_mib", memory.textureMebibytes);
         rows_.counter(name, "buffers_mib", memory.bufferMebibytes);
-        const auto free = freeMebibytes();
+        const auto free = bench::freeMebibytes();
         if (freeBefore && free) rows_.counter(name, "driver_mib", *freeBefore - *free);
     }
 
-    void writeFrames(const std::string& name, const FrameTimes& times) {
-        const double median = percentile(times.wall, 0.5);
-        const double slow = percentile(times.wall, 0.99);
+    void writeFrames(const std::string& name, const bench::FrameTimes& times) {
+        const double median = bench::percentile(times.wall, 0.5);
+        const double slow = bench::percentile(times.wall, 0.99);
         rows_.time(name, 1e6 * times.cpu);
         rows_.counter(name, "frames", static_cast<double>(times.wall.size()));
         rows_.counter(name, "frame_p50_ms", median);
@@ -241,7 +246,9 @@ class Measurement {
         std::fflush(stdout);
     }
 
-    void writeStages(const std::string& name, const StageTimes& all, const StageTimes& noPixels) {
+    void writeStages(const std::string& name,
+                     const bench::StageTimes& all,
+                     const bench::StageTimes& noPixels) {
         rows_.counter(name, "gpu_ms", sumOf(all));
         rows_.counter(name, "gpu_vertex_ms", sumOf(noPixels));
         for (const auto& [stage, milliseconds] : all) {
@@ -261,14 +268,14 @@ class Measurement {
         for (const test::GoldenStill& golden : test::goldenStills()) {
             const std::string name = "gpu/golden/" + golden.name;
             if (!options_.wants(name)) continue;
-            const Picture picture = test::pictureOf(golden.still);
+            const wall::Picture picture = test::pictureOf(golden.still);
             const auto apart =
-                test::codeDifference(picture, readPng(test::goldenPath(golden.name)));
+                test::codeDifference(picture, wall::readPng(test::goldenPath(golden.name)));
             const bool isWithin = apart.within(golden.limits);
             rows_.counter(name, "mean_codes", apart.meanCodes);
             rows_.counter(name, "percentile_999_codes", apart.percentile999Codes);
             rows_.counter(name, "within_bounds", isWithin ? 1 : 0);
-            writePng((options_.out / "golden" / fileOf(golden.name)).string(), picture);
+            wall::writePng((options_.out / "golden" / fileOf(golden.name)).string(), picture);
             if (!isWithin)
                 std::printf("%-40s differs: mean %.2f codes, 99.9 %% within %.0f\n",
                             name.c_str(),
@@ -291,7 +298,7 @@ class Measurement {
     Extent extent_;
     fs::path csvPath_;
     std::ofstream csv_;
-    CsvWriter rows_;
+    bench::CsvWriter rows_;
 };
 
 }  // namespace

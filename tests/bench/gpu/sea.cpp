@@ -8,39 +8,40 @@
 #include "master/production/living_world.h"
 #include "master/production/production.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 
 namespace {
 
-Admission admissionTo(const Production& production, const World& world) {
-    Admission admission;
+session::Admission admissionTo(const wire::Production& production, const world::World& world) {
+    session::Admission admission;
     admission.welcome.seed = production.seed;
     const auto school = world.traits();
     admission.welcome.school.assign(school.begin(), school.end());
-    admission.scene = parseScene(production.scene, production.sceneFile);
-    for (const ProducedSpecies& species : production.cast) {
+    admission.scene = config::parseScene(production.scene, production.sceneFile);
+    for (const wire::ProducedSpecies& species : production.cast) {
         const auto text = std::as_bytes(std::span{species.text});
         admission.welcome.cast.push_back(
             {digestOf(text), digestOf(species.repertoire), species.fish});
-        admission.cast.push_back(
-            {species.text, decodeRepertoire(species.repertoire, species.file), species.fish});
+        admission.cast.push_back({species.text,
+                                  motion::decodeRepertoire(species.repertoire, species.file),
+                                  species.fish});
     }
     return admission;
 }
 
-StateFrame frameAfter(const LivingWorld& world, const StateFrame& last) {
-    FoodCloud food;
+wire::StateFrame frameAfter(const production::LivingWorld& world, const wire::StateFrame& last) {
+    wire::FoodCloud food;
     world.food(food);
-    StateFrame frame{.frame = {last.frame.value + 1},
-                     .tick = world.tick(),
-                     .fraction = 0.5F,
-                     .eye = world.eye(),
-                     .before = last.after,
-                     .after = {},
-                     .foodOriginMetres = food.originMetres,
-                     .foodBefore = last.foodAfter,
-                     .foodAfter = food.particles,
-                     .daylight = world.daylight()};
+    wire::StateFrame frame{.frame = {last.frame.value + 1},
+                           .tick = world.tick(),
+                           .fraction = 0.5F,
+                           .eye = world.eye(),
+                           .before = last.after,
+                           .after = {},
+                           .foodOriginMetres = food.originMetres,
+                           .foodBefore = last.foodAfter,
+                           .foodAfter = food.particles,
+                           .daylight = world.daylight()};
     world.records(frame.after);
     return frame;
 }
@@ -51,11 +52,12 @@ Sea makeSea(const std::string& scenePath,
             std::optional<std::uint32_t> fish,
             int ticksBefore,
             int frames) {
-    const Production production = readProduction(scenePath, {.seed = 1, .fish = fish});
-    LivingWorld world(worldOptionsOf(production));
+    const wire::Production production =
+        production::readProduction(scenePath, {.seed = 1, .fish = fish});
+    production::LivingWorld world(production::worldOptionsOf(production));
     for (int i = 0; i < ticksBefore; ++i) world.advance();
     Sea sea{admissionTo(production, world.world()), {}};
-    StateFrame last = frameAfter(world, {});
+    wire::StateFrame last = frameAfter(world, {});
     for (int i = 0; i < frames; ++i) {
         world.advance();
         last = frameAfter(world, last);
@@ -64,4 +66,4 @@ Sea makeSea(const std::string& scenePath,
     return sea;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

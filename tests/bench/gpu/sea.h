@@ -10,11 +10,11 @@
 #include "common/wire/messages.h"
 #include "render_node/session/session.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 
 struct Sea {
-    Admission admission;             // without a rig
-    std::vector<StateFrame> frames;  // half-way between two ticks, as live shows have them
+    session::Admission admission;          // without a rig
+    std::vector<wire::StateFrame> frames;  // half-way between two ticks, as live shows have them
 };
 
 // Simulates the scene with so many fish of its first species: first `ticksBefore`, then a frame a
@@ -24,4 +24,4 @@ struct Sea {
                           int ticksBefore,
                           int frames);
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::map<std::string, double> StageClock::end() {
     return milliseconds;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

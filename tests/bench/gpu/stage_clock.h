@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::bench {
 
 // While it lives, stages of the current context are marked by timestamps. One at a time.
 class StageClock {
@@ -37,4 +37,4 @@ class StageClock {
     std::vector<std::string> open_;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

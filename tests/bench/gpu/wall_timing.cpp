@@ -11,7 +11,7 @@
 #include "render_node/show/snapshot.h"
 #include "tests/bench/gpu/stage_clock.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 
 namespace {
 
@@ -36,8 +36,9 @@ std::size_t repeat(const Patience& patience, const Frame& frame) {
 
 }  // namespace
 
-DrawnWall::DrawnWall(const Sea& sea, const Rig& rig, QualityTier quality) : sea_{sea} {
-    Admission admission = sea.admission;
+DrawnWall::DrawnWall(const Sea& sea, const config::Rig& rig, config::QualityTier quality)
+    : sea_{sea} {
+    session::Admission admission = sea.admission;
     admission.rig = rig;
     for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
         channels_.emplace_back(admission, channel, quality);
@@ -47,10 +48,10 @@ DrawnWall::DrawnWall(const Sea& sea, const Rig& rig, QualityTier quality) : sea_
     glFinish();
 }
 
-void DrawnWall::draw(const StateFrame& frame) {
+void DrawnWall::draw(const wire::StateFrame& frame) {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
         channels_[i].drawScene(frame, {});
-        channels_[i].project(targets_[i].framebuffer(), Encoding::Dithered8, {});
+        channels_[i].project(targets_[i].framebuffer(), project::Encoding::Dithered8, {});
     }
 }
 
@@ -85,11 +86,12 @@ StageTimes DrawnWall::timeStages(const Patience& patience, bool withPixels) {
     return medians;
 }
 
-std::vector<Light> DrawnWall::lights() {
+std::vector<wall::Light> DrawnWall::lights() {
     draw(sea_.frames.front());
-    std::vector<Light> lights;
-    for (ChannelPicture& channel : channels_)
-        lights.push_back(lightOf(takePicture(channel, PictureBits::Dithered8, Shown::Display)));
+    std::vector<wall::Light> lights;
+    for (show::ChannelPicture& channel : channels_)
+        lights.push_back(wall::lightOf(
+            show::takePicture(channel, show::PictureBits::Dithered8, show::Shown::Display)));
     return lights;
 }
 
@@ -100,4 +102,4 @@ double percentile(std::vector<double> samples, double share) {
     return samples[static_cast<std::size_t>(rank)];
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

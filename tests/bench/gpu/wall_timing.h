@@ -13,7 +13,7 @@
 #include "render_node/show/channel_picture.h"
 #include "tests/bench/gpu/sea.h"
 
-namespace aquarama {
+namespace aquarama::bench {
 
 // So many frames, fewer when they take longer.
 struct Patience {
@@ -34,23 +34,23 @@ using StageTimes = std::map<std::string, double>;
 // Each channel has its own scene, as each node has. Owns GL objects of the current context.
 class DrawnWall {
   public:
-    DrawnWall(const Sea& sea, const Rig& rig, QualityTier quality);
+    DrawnWall(const Sea& sea, const config::Rig& rig, config::QualityTier quality);
 
     [[nodiscard]] FrameTimes timeFrames(const Patience& patience);
     // Without pixels: with the rasterizer off, which leaves computation and vertices.
     [[nodiscard]] StageTimes timeStages(const Patience& patience, bool withPixels);
     // What each channel projects of the first frame, as light.
-    [[nodiscard]] std::vector<Light> lights();
+    [[nodiscard]] std::vector<wall::Light> lights();
 
   private:
-    void draw(const StateFrame& frame);
+    void draw(const wire::StateFrame& frame);
 
     const Sea& sea_;
-    std::deque<ChannelPicture> channels_;
+    std::deque<show::ChannelPicture> channels_;
     std::deque<gl::Target> targets_;
 };
 
 // Of samples: `share` of them are not greater.
 [[nodiscard]] double percentile(std::vector<double> samples, double share);
 
-}  // namespace aquarama
+}  // namespace aquarama::bench

@@ -18,7 +18,7 @@
 #include "common/wall/frame_pipe.h"
 #include "tests/support/read_clip.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,8 +35,8 @@ class ClipTest : public testing::Test {
 };
 
 // Smooth, in all colours, and with each step of time another.
-Picture pictureAt(glm::ivec2 size, int step) {
-    Picture picture{size, 8, {}};
+wall::Picture pictureAt(glm::ivec2 size, int step) {
+    wall::Picture picture{size, 8, {}};
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
             for (const double phase : {0.0, 2.1, 4.2}) {
@@ -58,13 +58,14 @@ TEST_F(ClipTest, everyEncoderKeepsNumberSizeTimeAndColours) {
         const std::string file = path(std::string(encoder) + ".mp4");
         const std::array only{encoder};
         writeSteps(*makeVideo({file, kSize, 1}, only), kSize, 12, 1);
-        const auto seen = readClip(file);
+        const auto seen = test::readClip(file);
         ASSERT_EQ(seen.pictures.size(), 12U) << encoder;
         EXPECT_EQ(seen.sizePixels, kSize);
         EXPECT_NEAR(seen.durationSeconds, 12 / 60.0, 1e-3) << encoder;
         for (std::size_t i = 0; i < 12; ++i) {
             EXPECT_NEAR(seen.seconds[i], static_cast<double>(i) / 60, 1e-3);
-            EXPECT_LT(meanCodesBetween(seen.pictures[i], pictureAt(kSize, static_cast<int>(i))), 3)
+            EXPECT_LT(
+                test::meanCodesBetween(seen.pictures[i], pictureAt(kSize, static_cast<int>(i))), 3)
                 << encoder << ", picture " << i;
         }
     }
@@ -73,9 +74,9 @@ TEST_F(ClipTest, everyEncoderKeepsNumberSizeTimeAndColours) {
 TEST_F(ClipTest, theFirstEncoderThatThereIsIsTaken) {
     const std::array unknownFirst{"no_such_encoder", "mpeg4"};
     writeSteps(*makeVideo({path("a.mp4"), {32, 32}, 1}, unknownFirst), {32, 32}, 3, 1);
-    EXPECT_EQ(readClip(path("a.mp4")).codec, "mpeg4");
+    EXPECT_EQ(test::readClip(path("a.mp4")).codec, "mpeg4");
     writeSteps(*makeClip({path("b.mp4"), {32, 32}, 1}), {32, 32}, 3, 1);
-    EXPECT_EQ(readClip(path("b.mp4")).codec, "h264");
+    EXPECT_EQ(test::readClip(path("b.mp4")).codec, "h264");
 }
 
 TEST_F(ClipTest, withoutAnyEncoderItSaysWhatItTried) {
@@ -92,14 +93,14 @@ TEST_F(ClipTest, withoutAnyEncoderItSaysWhatItTried) {
 TEST_F(ClipTest, anOddSizeKeepsEveryPixelAndRepeatsItsBorder) {
     constexpr glm::ivec2 kSize(81, 45);
     writeSteps(*makeClip({path("odd.mp4"), kSize, 1}), kSize, 4, 1);
-    const auto seen = readClip(path("odd.mp4"));
+    const auto seen = test::readClip(path("odd.mp4"));
     EXPECT_EQ(seen.sizePixels, glm::ivec2(82, 46));
-    EXPECT_LT(meanCodesBetween(seen.pictures.at(3), pictureAt(kSize, 3)), 3);
+    EXPECT_LT(test::meanCodesBetween(seen.pictures.at(3), pictureAt(kSize, 3)), 3);
 }
 
 TEST_F(ClipTest, everyThirdFrameIsShownForThreeTicks) {
     writeSteps(*makeClip({path("slow.mp4"), {64, 48}, 3}), {64, 48}, 10, 3);
-    const auto seen = readClip(path("slow.mp4"));
+    const auto seen = test::readClip(path("slow.mp4"));
     ASSERT_EQ(seen.pictures.size(), 10U);
     EXPECT_NEAR(seen.seconds[9], 27 / 60.0, 1e-3);
     EXPECT_NEAR(seen.durationSeconds, 30 / 60.0, 1e-3);
@@ -138,10 +139,10 @@ class FilmTest : public ClipTest {
     void filmed(const Filming& filming, const std::vector<std::vector<std::uint64_t>>& frames) {
         std::vector<std::thread> nodes;
         for (std::size_t i = 0; i < frames.size(); ++i) {
-            const fs::path pipe = framePipe(folder_, rig_.channels[i].name);
+            const fs::path pipe = wall::framePipe(folder_, rig_.channels[i].name);
             ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
             nodes.emplace_back([pipe, sent = frames[i], size = rig_.channels[i].sizePixels] {
-                FramePipeWriter writer(pipe);
+                wall::FramePipeWriter writer(pipe);
                 try {
                     for (const std::uint64_t frame : sent)
                         writer.write(frame, pictureAt(size, static_cast<int>(frame)));
@@ -167,19 +168,20 @@ class FilmTest : public ClipTest {
                 .firstPictures = {}};
     }
 
-    Rig rig_ = readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
+    config::Rig rig_ = config::readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
 };
 
 TEST_F(FilmTest, aChannelIsShownAsItIs) {
     filmed(filmingOf("left"), {{0, 1, 2}});
-    const auto seen = readClip(path("clip.mp4"));
+    const auto seen = test::readClip(path("clip.mp4"));
     ASSERT_EQ(seen.pictures.size(), 3U);
-    EXPECT_LT(meanCodesBetween(seen.pictures[2], pictureAt(rig_.channels[0].sizePixels, 2)), 3);
+    EXPECT_LT(test::meanCodesBetween(seen.pictures[2], pictureAt(rig_.channels[0].sizePixels, 2)),
+              3);
 }
 
 TEST_F(FilmTest, thePanoramaHasTheFramesThatAllChannelsSent) {
     filmed(filmingOf(kPanorama), {{0, 1, 2}, {0, 1, 2}, {0, 1}});
-    const auto seen = readClip(path("clip.mp4"));
+    const auto seen = test::readClip(path("clip.mp4"));
     EXPECT_EQ(seen.pictures.size(), 2U);
     EXPECT_EQ(seen.sizePixels, rig_.panoramaPixels);
 }
@@ -194,4 +196,4 @@ TEST_F(FilmTest, noFrameIsNoClip) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::theatre

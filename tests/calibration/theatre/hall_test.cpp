@@ -8,30 +8,30 @@
 #include "calibration/theatre/survey.h"
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 namespace {
 
 constexpr glm::ivec2 kSize(320, 180);
 
-Rig desk() {
-    return readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
+config::Rig desk() {
+    return config::readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
 }
 
 TEST(Hall, aBlackWallLeavesTheHallBlack) {
-    const Rig rig = desk();
-    const Light hall = composeHall(rig, darkness(rig.panoramaPixels), kSize);
+    const config::Rig rig = desk();
+    const wall::Light hall = composeHall(rig, wall::darkness(rig.panoramaPixels), kSize);
     EXPECT_TRUE(
         std::ranges::all_of(hall.rgb, [](glm::vec3 light) { return light == glm::vec3(0); }));
 }
 
 TEST(Hall, leftIsLeftAndTheWholeWallIsInView) {
-    const Rig rig = desk();
-    Light panorama = darkness(rig.panoramaPixels);
+    const config::Rig rig = desk();
+    wall::Light panorama = wall::darkness(rig.panoramaPixels);
     for (int y = 0; y < panorama.sizePixels.y; ++y)
         for (int x = 0; x < panorama.sizePixels.x; ++x)
             panorama.at(x, y) =
                 x < panorama.sizePixels.x / 2 ? glm::vec3(0.5F, 0, 0) : glm::vec3(0, 0.5F, 0);
-    const Light hall = composeHall(rig, panorama, kSize);
+    const wall::Light hall = composeHall(rig, panorama, kSize);
     const auto isScreen = [&](int x, int y) {
         return std::max(hall.at(x, y).x, hall.at(x, y).y) == 0.5F;
     };
@@ -48,25 +48,25 @@ TEST(Hall, leftIsLeftAndTheWholeWallIsInView) {
 }
 
 TEST(Hall, theRoomGivesBackLessThanItGets) {
-    const Rig rig = desk();
-    Light panorama = darkness(rig.panoramaPixels);
+    const config::Rig rig = desk();
+    wall::Light panorama = wall::darkness(rig.panoramaPixels);
     std::ranges::fill(panorama.rgb, glm::vec3(1));
     for (const glm::vec3& light : composeHall(rig, panorama, kSize).rgb)
         EXPECT_LE(light.x, 1.0001F);
 }
 
 TEST(Survey, theTheatreSharesAboutAHundredPixelsAndTheTouringRigASixth) {
-    const Rig theatre = readRig(AQUARAMA_SOURCE_DIR "/config/theatre.txtpb");
+    const config::Rig theatre = config::readRig(AQUARAMA_SOURCE_DIR "/config/theatre.txtpb");
     const ChannelSurvey left = surveyChannel(theatre, 0);
     EXPECT_NEAR(left.leftDegrees, -60, 0.01);
     ASSERT_EQ(left.overlaps.size(), 1U);
     EXPECT_EQ(left.overlaps[0].with, "middle");
     EXPECT_NEAR(left.overlaps[0].pixels, 100, 15);
 
-    const Rig touring = readRig(AQUARAMA_SOURCE_DIR "/config/touring.txtpb");
+    const config::Rig touring = config::readRig(AQUARAMA_SOURCE_DIR "/config/touring.txtpb");
     const ChannelSurvey middle = surveyChannel(touring, 1);
     ASSERT_EQ(middle.overlaps.size(), 2U);
-    for (const Overlap& overlap : middle.overlaps) {
+    for (const ChannelOverlap& overlap : middle.overlaps) {
         EXPECT_GT(overlap.pixels, 0.15 * 1920);
         EXPECT_LT(overlap.pixels, 0.20 * 1920);
     }
@@ -74,4 +74,4 @@ TEST(Survey, theTheatreSharesAboutAHundredPixelsAndTheTouringRigASixth) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::theatre

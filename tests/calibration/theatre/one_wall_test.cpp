@@ -12,19 +12,19 @@
 #include "common/config/angle.h"
 #include "common/config/rig.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 namespace {
 
-Rig shippedRig(const std::string& name) {
-    return readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
+config::Rig shippedRig(const std::string& name) {
+    return config::readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
 }
 
 // The large rigs with half as many pixels each way: the same geometry in a quarter of the time.
-Rig testRig(const std::string& name) {
-    Rig rig = shippedRig(name);
+config::Rig testRig(const std::string& name) {
+    config::Rig rig = shippedRig(name);
     if (name == "desk") return rig;
     rig.panoramaPixels /= 2;
-    for (Channel& channel : rig.channels) {
+    for (config::Channel& channel : rig.channels) {
         channel.sizePixels /= 2;
         channel.projector.focalPixels /= 2;
         channel.projector.principalPixels /= 2;
@@ -32,18 +32,19 @@ Rig testRig(const std::string& name) {
     return rig;
 }
 
-std::vector<Light> projected(const Rig& rig, TestPattern pattern) {
-    std::vector<Light> channels;
+std::vector<wall::Light> projected(const config::Rig& rig, wall::TestPattern pattern) {
+    std::vector<wall::Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         channels.push_back(projectedLight(rig, i, pattern));
     return channels;
 }
 
 // Through the codes that the channels' pictures are stored in.
-Light composed(const Rig& rig, const std::vector<Light>& projected, int bits) {
-    std::vector<Light> channels;
+wall::Light composed(const config::Rig& rig, const std::vector<wall::Light>& projected, int bits) {
+    std::vector<wall::Light> channels;
     for (std::size_t i = 0; i < projected.size(); ++i)
-        channels.push_back(lightOf(pictureOf(projected[i], bits, static_cast<std::uint32_t>(i))));
+        channels.push_back(
+            wall::lightOf(wall::pictureOf(projected[i], bits, static_cast<std::uint32_t>(i))));
     return composePanorama(rig, channels);
 }
 
@@ -57,9 +58,9 @@ class OneWall : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Shipped, OneWall, testing::Values("theatre", "touring", "desk"));
 
 TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
-    const Rig rig = testRig(GetParam());
-    const std::vector<Light> channels = projected(rig, TestPattern::Grid);
-    const Light direct = directPanorama(rig, TestPattern::Grid);
+    const config::Rig rig = testRig(GetParam());
+    const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grid);
+    const wall::Light direct = directPanorama(rig, wall::TestPattern::Grid);
     for (const int bits : {16, 8}) {
         const auto offsets = lineOffsets(rig, composed(rig, channels, bits), direct);
         EXPECT_GT(offsets.size(), 5000U);
@@ -68,25 +69,25 @@ TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
 }
 
 TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
-    const Rig rig = testRig(GetParam());
-    const std::vector<Light> channels = projected(rig, TestPattern::Grey);
-    const Light deep = composed(rig, channels, 16);
+    const config::Rig rig = testRig(GetParam());
+    const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
+    const wall::Light deep = composed(rig, channels, 16);
     EXPECT_LT(unevenness(deep, 1), 0.01);
     EXPECT_LT(unevenness(composed(rig, channels, 8), 16), 0.01);
     const glm::ivec2 middle = rig.panoramaPixels / 2;
-    EXPECT_NEAR(static_cast<double>(deep.at(middle.x, middle.y).y), kGreyLight, 1e-4);
+    EXPECT_NEAR(static_cast<double>(deep.at(middle.x, middle.y).y), wall::kGreyLight, 1e-4);
 }
 
 // The measures must see what they are there to refuse.
 
 TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
-    const Rig rig = shippedRig("desk");
-    const std::vector<Light> channels = projected(rig, TestPattern::Grid);
-    Rig pushed = rig;
-    pushed.channels[0].projector.yawPitchRollRadians.x += radiansOf(0.1);
+    const config::Rig rig = shippedRig("desk");
+    const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grid);
+    config::Rig pushed = rig;
+    pushed.channels[0].projector.yawPitchRollRadians.x += config::radiansOf(0.1);
     // The pictures were made for the rig; the hall has the left projector turned by 0.1 degrees.
-    const auto offsets =
-        lineOffsets(rig, composed(pushed, channels, 16), directPanorama(rig, TestPattern::Grid));
+    const auto offsets = lineOffsets(
+        rig, composed(pushed, channels, 16), directPanorama(rig, wall::TestPattern::Grid));
     EXPECT_GT(largest(offsets), 1);
     for (const LineOffset& line : offsets) {
         if (!line.upright || line.lineDegrees < -15) continue;  // the middle and right thirds
@@ -95,12 +96,12 @@ TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
 }
 
 TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
-    const Rig rig = shippedRig("desk");
-    const Light direct = directPanorama(rig, TestPattern::Grid);
-    Light shifted = direct;
+    const config::Rig rig = shippedRig("desk");
+    const wall::Light direct = directPanorama(rig, wall::TestPattern::Grid);
+    wall::Light shifted = direct;
     for (int y = 0; y < direct.sizePixels.y; ++y)
         for (int x = 0; x < direct.sizePixels.x; ++x)
-            shifted.at(x, y) = bilinear(direct, {x + 0.5 - 0.75, y + 0.5 + 0.25});
+            shifted.at(x, y) = wall::bilinear(direct, {x + 0.5 - 0.75, y + 0.5 + 0.25});
     const auto offsets = lineOffsets(rig, shifted, direct);
     ASSERT_FALSE(offsets.empty());
     for (const LineOffset& line : offsets)
@@ -108,33 +109,33 @@ TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
 }
 
 TEST(Measure, aMissingLineIsInfinitelyOff) {
-    const Rig rig = shippedRig("desk");
-    const auto offsets =
-        lineOffsets(rig, darkness(rig.panoramaPixels), directPanorama(rig, TestPattern::Grid));
+    const config::Rig rig = shippedRig("desk");
+    const auto offsets = lineOffsets(
+        rig, wall::darkness(rig.panoramaPixels), directPanorama(rig, wall::TestPattern::Grid));
     ASSERT_FALSE(offsets.empty());
     EXPECT_TRUE(std::ranges::all_of(
         offsets, [](const LineOffset& line) { return std::isinf(line.offsetPixels); }));
 }
 
 TEST(Measure, aSeamOfTwoPerCentIsSeen) {
-    const Rig rig = shippedRig("desk");
-    std::vector<Light> channels = projected(rig, TestPattern::Grey);
+    const config::Rig rig = shippedRig("desk");
+    std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
     for (glm::vec3& light : channels[2].rgb) light *= 1.03F;
     EXPECT_GT(unevenness(composed(rig, channels, 8), 16), 0.015);
 }
 
 // Blending in codes instead of light is the classic mistake: the sum is then too dark.
 TEST(Measure, blendingInCodesInsteadOfLightIsSeen) {
-    const Rig rig = shippedRig("desk");
-    std::vector<Light> channels = projected(rig, TestPattern::Grey);
-    const double greyCode = srgbFromLinear(kGreyLight);
-    for (Light& channel : channels)
+    const config::Rig rig = shippedRig("desk");
+    std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
+    const double greyCode = wall::srgbFromLinear(wall::kGreyLight);
+    for (wall::Light& channel : channels)
         for (glm::vec3& light : channel.rgb) {
-            const double share = static_cast<double>(light.x) / kGreyLight;
-            light = glm::vec3(static_cast<float>(linearFromSrgb(greyCode * share)));
+            const double share = static_cast<double>(light.x) / wall::kGreyLight;
+            light = glm::vec3(static_cast<float>(wall::linearFromSrgb(greyCode * share)));
         }
     EXPECT_GT(unevenness(composed(rig, channels, 16), 1), 0.2);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -12,7 +12,7 @@
 #include "common/config/rig.h"
 #include "common/wall/png_file.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 namespace {
 
 struct Outcome {
@@ -105,16 +105,16 @@ TEST_F(Program, checkRefusesABadSceneAndABadSpeciesInOneLine) {
 
 TEST_F(Program, composeMakesBothPicturesInTheDepthAskedFor) {
     const std::string rigPath = AQUARAMA_SOURCE_DIR "/config/desk.txtpb";
-    const Rig rig = readRig(rigPath);
+    const config::Rig rig = config::readRig(rigPath);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        writePng(folder() + "/channel-" + rig.channels[i].name + ".png",
-                 pictureOf(projectedLight(rig, i, TestPattern::Grey), 16, 0));
+        wall::writePng(folder() + "/channel-" + rig.channels[i].name + ".png",
+                       wall::pictureOf(projectedLight(rig, i, wall::TestPattern::Grey), 16, 0));
     const Outcome outcome = calibrate("compose " + rigPath + " " + folder() + " --deep");
     EXPECT_EQ(outcome.status, 0) << outcome.said;
-    const Picture panorama = readPng(folder() + "/panorama.png");
+    const wall::Picture panorama = wall::readPng(folder() + "/panorama.png");
     EXPECT_EQ(panorama.bits, 16);
     EXPECT_EQ(panorama.sizePixels, rig.panoramaPixels);
-    EXPECT_EQ(readPng(folder() + "/hall.png").sizePixels, glm::ivec2(1600, 900));
+    EXPECT_EQ(wall::readPng(folder() + "/hall.png").sizePixels, glm::ivec2(1600, 900));
 }
 
 TEST_F(Program, composeNamesAPictureThatIsMissingOrOfAnotherSize) {
@@ -122,7 +122,7 @@ TEST_F(Program, composeNamesAPictureThatIsMissingOrOfAnotherSize) {
     const Outcome missing = calibrate(compose);
     EXPECT_EQ(missing.status, 1);
     EXPECT_THAT(missing.said, testing::HasSubstr("channel-left.png: cannot be opened"));
-    writePng(folder() + "/channel-left.png", pictureOf(darkness({7, 5}), 8, 0));
+    wall::writePng(folder() + "/channel-left.png", wall::pictureOf(wall::darkness({7, 5}), 8, 0));
     const Outcome small = calibrate(compose);
     EXPECT_EQ(small.status, 1);
     EXPECT_THAT(small.said, testing::HasSubstr("is 7 x 5 pixels"));
@@ -133,4 +133,4 @@ TEST_F(Program, withoutACommandItFails) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::theatre

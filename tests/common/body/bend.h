@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace aquarama {
+namespace aquarama::body {
 
 // Along a circle whose centre is at the fish's right (a negative radius: left), beside its nose.
 inline glm::vec3 bentToTheRight(glm::vec3 p, float radius) {
@@ -13,4 +13,4 @@ inline glm::vec3 bentToTheRight(glm::vec3 p, float radius) {
     return {-(radius - p.z) * std::sin(angle), p.y, radius - (radius - p.z) * std::cos(angle)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::body

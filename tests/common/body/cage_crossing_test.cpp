@@ -14,7 +14,7 @@
 #include "tests/common/body/bend.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::body {
 namespace {
 
 using Triangle = std::array<glm::dvec3, 3>;
@@ -97,21 +97,21 @@ class CrossingOf : public testing::TestWithParam<std::string> {
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, CrossingOf, testing::ValuesIn(kCast), [](const auto& name) {
+INSTANTIATE_TEST_SUITE_P(Cast, CrossingOf, testing::ValuesIn(test::kCast), [](const auto& name) {
     return name.param;
 });
 
 TEST_P(CrossingOf, facesIsNowhereAtRest) {
-    const FishBody body = makeBody(castMember(GetParam()));
+    const FishBody body = makeBody(test::castMember(GetParam()));
     expectNone(body, body.restNodes);
 }
 
 TEST_P(CrossingOf, facesIsNowhereInASharpBend) {
-    const FishBody body = makeBody(castMember(GetParam()));
+    const FishBody body = makeBody(test::castMember(GetParam()));
     NodalPoints nodes = body.restNodes;
     for (glm::vec3& node : nodes) node = bentToTheRight(node, 0.6F);
     expectNone(body, nodes);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -15,15 +15,16 @@
 #include "tests/common/body/bend.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::body {
 namespace {
 
 // A body of the cast, made once.
 const FishBody& bodyOf(const std::string& name) {
     static std::map<std::string, FishBody> bodies;
     const auto found = bodies.find(name);
-    return found != bodies.end() ? found->second
-                                 : bodies.emplace(name, makeBody(castMember(name))).first->second;
+    return found != bodies.end()
+               ? found->second
+               : bodies.emplace(name, makeBody(test::castMember(name))).first->second;
 }
 
 using Edge = std::pair<int, int>;
@@ -64,22 +65,22 @@ double volumeOf(const ControlCage& cage, const std::vector<glm::vec3>& points) {
 
 class CageOf : public testing::TestWithParam<std::string> {
   protected:
-    const Species species_ = castMember(GetParam());
+    const config::Species species_ = test::castMember(GetParam());
     const FishBody& body_ = bodyOf(GetParam());
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, CageOf, testing::ValuesIn(kCast), [](const auto& name) {
+INSTANTIATE_TEST_SUITE_P(Cast, CageOf, testing::ValuesIn(test::kCast), [](const auto& name) {
     return name.param;
 });
 
 TEST_P(CageOf, hasThePapersNumberOfPointsAndTheTopologyOfAll) {
     EXPECT_EQ(body_.cage.vertices.size(), std::size_t{kControlPoints});
     EXPECT_EQ(body_.cage.faces.size(), std::size_t{kCageFaces});
-    EXPECT_EQ(body_.cage.faces, bodyOf(kCast[0]).cage.faces);
+    EXPECT_EQ(body_.cage.faces, bodyOf(test::kCast[0]).cage.faces);
 }
 
 TEST(ControlCage, isOneClosedSurfaceWithEulerCharacteristicTwo) {
-    const auto edges = directedEdges(bodyOf(kCast[0]).cage);
+    const auto edges = directedEdges(bodyOf(test::kCast[0]).cage);
     for (const auto& [edge, uses] : edges) {
         EXPECT_EQ(uses, 1) << edge.first << '-' << edge.second;
         EXPECT_TRUE(edges.contains({edge.second, edge.first})) << edge.first << '-' << edge.second;
@@ -89,7 +90,7 @@ TEST(ControlCage, isOneClosedSurfaceWithEulerCharacteristicTwo) {
 
 TEST(ControlCage, hasOnlyTheValencesOfItsConstruction) {
     std::vector<int> valence(kControlPoints);
-    for (const auto& face : bodyOf(kCast[0]).cage.faces)
+    for (const auto& face : bodyOf(test::kCast[0]).cage.faces)
         for (const auto vertex : face) ++valence.at(vertex);
     EXPECT_EQ(std::ranges::count(valence, 3), 36);
     EXPECT_EQ(std::ranges::count(valence, 4), 362);
@@ -97,7 +98,7 @@ TEST(ControlCage, hasOnlyTheValencesOfItsConstruction) {
 }
 
 TEST(ControlCage, creasesOnlyItsOwnEdgesAndEachOnce) {
-    const ControlCage& cage = bodyOf(kCast[0]).cage;
+    const ControlCage& cage = bodyOf(test::kCast[0]).cage;
     const auto edges = directedEdges(cage);
     std::set<Edge> seen;
     for (const CageCrease& crease : cage.creases) {
@@ -214,8 +215,8 @@ TEST_P(CageOf, reachesAsFarAsItsFile) {
     glm::vec2 most(-1);
     glm::vec2 drawnLeast(1);
     glm::vec2 drawnMost(-1);
-    const Fins& fins = species_.fins;
-    for (const Fin& fin :
+    const config::Fins& fins = species_.fins;
+    for (const config::Fin& fin :
          {fins.firstDorsal, fins.secondDorsal.value_or(fins.firstDorsal), fins.anal, fins.caudal})
         for (const glm::vec2& point : fin.edge) {
             drawnLeast = glm::min(drawnLeast, point);
@@ -288,4 +289,4 @@ TEST_P(CageOf, staysSoundWhenBentSharply) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -13,7 +13,7 @@
 
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::body {
 namespace {
 
 constexpr float kDegree = glm::pi<float>() / 180;
@@ -52,13 +52,13 @@ class FinsOf : public testing::TestWithParam<std::string> {
         return sum / count;
     }
 
-    const Species species_ = castMember(GetParam());
+    const config::Species species_ = test::castMember(GetParam());
     const FishBody body_ = makeBody(species_);
-    const Rowing& rowing_ = species_.finMotion.rowing;
+    const config::Rowing& rowing_ = species_.finMotion.rowing;
     const FinStyle& style_ = body_.fins.style;
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, FinsOf, testing::ValuesIn(kCast), [](const auto& name) {
+INSTANTIATE_TEST_SUITE_P(Cast, FinsOf, testing::ValuesIn(test::kCast), [](const auto& name) {
     return name.param;
 });
 
@@ -137,7 +137,7 @@ TEST_P(FinsOf, rippleByTheAmplitudeThatTheFileStates) {
     struct Case {
         float speed, amplitude;
     };
-    const FinMotion& motion = species_.finMotion;
+    const config::FinMotion& motion = species_.finMotion;
     for (const auto& [speed, amplitude] :
          {Case{0, motion.hovering.amplitude}, Case{2, motion.swimming.amplitude}})
         for (const std::size_t i : pointsOf(CagePart::Anal)) {
@@ -226,4 +226,4 @@ TEST_P(FinsOf, headingsAreThoseOfTheBody) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::body

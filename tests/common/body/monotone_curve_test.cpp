@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::body {
 namespace {
 
 TEST(MonotoneCurve, passesThroughItsTableAndHoldsOutsideOfIt) {
@@ -35,4 +35,4 @@ TEST(MonotoneCurve, neverSwingsPastItsNeighbours) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::body

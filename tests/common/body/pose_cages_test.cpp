@@ -10,12 +10,12 @@
 #include "common/body/cage_tables.h"
 #include "common/config/species.h"
 
-namespace aquarama {
+namespace aquarama::body {
 namespace {
 
 const FishBody& scad() {
     static const FishBody body =
-        makeBody(readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"));
+        makeBody(config::readSpecies(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"));
     return body;
 }
 
@@ -66,4 +66,4 @@ TEST(PoseCages, everyInstructionSetPosesFishOfAnyLengthAsTheReferenceDoes) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::body

@@ -13,7 +13,7 @@
 #include "common/units/error.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::config {
 namespace {
 
 using testing::HasSubstr;
@@ -26,7 +26,7 @@ std::string fileOf(const std::string& species) {
 }
 
 TEST(Habits, ofThePreyAreRead) {
-    const Habits scad = castMember("bigeye_scad").habits;
+    const Habits scad = test::castMember("bigeye_scad").habits;
     EXPECT_EQ(scad.role, Role::Prey);
     EXPECT_DOUBLE_EQ(scad.appetiteParticles, 4);
     EXPECT_DOUBLE_EQ(scad.digestionPerSecond, 0.004);
@@ -51,19 +51,19 @@ TEST(Habits, ofThePreyAreRead) {
 }
 
 TEST(Habits, ofAPacifistAreRead) {
-    const Habits tang = castMember("blue_tang").habits;
+    const Habits tang = test::castMember("blue_tang").habits;
     EXPECT_EQ(tang.role, Role::Pacifist);
     EXPECT_DOUBLE_EQ(tang.libidoPerSecond, 0.003);
     EXPECT_EQ(tang.home.kind, HomeKind::Place);
     EXPECT_LT(tang.home.radiusMetres, tang.home.leashMetres);
     EXPECT_TRUE(tang.home.onTheReef);
     EXPECT_DOUBLE_EQ(tang.pairBodyLengths, 3);
-    EXPECT_THAT(castMember("trumpetfish").habits.shadows,
+    EXPECT_THAT(test::castMember("trumpetfish").habits.shadows,
                 testing::ElementsAre("parrotfish", "blue_tang"));
 }
 
 TEST(Habits, ofThePredatorAreReadWithItsPreyInOrder) {
-    const Habits shark = castMember("blacktip_reef_shark").habits;
+    const Habits shark = test::castMember("blacktip_reef_shark").habits;
     EXPECT_EQ(shark.role, Role::Predator);
     EXPECT_THAT(shark.hunts, testing::ElementsAre("bigeye_scad", "blue_tang", "parrotfish"));
     EXPECT_DOUBLE_EQ(shark.hunt.chaseSeconds, 8);
@@ -276,4 +276,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& mistake) { return std::string(mistake.param.name); });
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -12,7 +12,7 @@
 #include "common/config/angle.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::config {
 namespace {
 
 const std::string kRig = R"(# A small rig.
@@ -300,4 +300,4 @@ TEST(Rig, aFileThatIsNotThereIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -13,7 +13,7 @@
 #include "common/config/file_kind.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::config {
 namespace {
 
 namespace fs = std::filesystem;
@@ -325,4 +325,4 @@ TEST(FileKind, isToldByWhatTheFileHolds) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::config

@@ -11,7 +11,7 @@
 #include "common/units/error.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::config {
 namespace {
 
 using testing::HasSubstr;
@@ -173,7 +173,7 @@ TEST(Species, keepsItsControlPointsOnlyIfItSaysSo) {
 }
 
 TEST(Species, allOfTheCastAreReadUnderTheirFilesNames) {
-    for (const std::string& name : kCast) EXPECT_EQ(castMember(name).name, name);
+    for (const std::string& name : test::kCast) EXPECT_EQ(test::castMember(name).name, name);
 }
 
 TEST(Species, aFileThatIsNotThereIsRefused) {
@@ -181,4 +181,4 @@ TEST(Species, aFileThatIsNotThereIsRefused) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::config

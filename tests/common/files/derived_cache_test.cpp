@@ -11,7 +11,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ TEST(Arrays, thatAnnounceMoreThanThereIsAreRefused) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::files

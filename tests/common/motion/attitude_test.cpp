@@ -4,7 +4,7 @@
 #include "tests/common/motion/captured_species.h"
 #include "tests/common/motion/school.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::array<Action, 4> kStraight{
@@ -198,4 +198,4 @@ TEST_P(Attitude, aTurnInAClimbChangesTheCourseAndLeavesTheClimb) {
 INSTANTIATE_TEST_SUITE_P(All, Attitude, testing::ValuesIn(speciesNames()), OfEachSpecies::suffix);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -13,19 +13,19 @@
 #include "master/capture/compile/capture_repertoire.h"
 #include "tests/support/all_species.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 inline std::vector<std::string> speciesNames() {
     std::vector<std::string> names;
-    for (const Species& species : allSpecies()) names.push_back(species.name);
+    for (const config::Species& species : test::allSpecies()) names.push_back(species.name);
     return names;
 }
 
 inline const Repertoire& repertoireOf(const std::string& name) {
     static std::map<std::string, Repertoire> captured;
     if (!captured.contains(name)) {
-        const auto species = std::ranges::find(allSpecies(), name, &Species::name);
-        captured.emplace(name, captureRepertoire(*species, [](double) {}));
+        const auto species = std::ranges::find(test::allSpecies(), name, &config::Species::name);
+        captured.emplace(name, capture::captureRepertoire(*species, [](double) {}));
     }
     return captured.at(name);
 }
@@ -53,4 +53,4 @@ class OfEachSpecies : public testing::TestWithParam<std::string> {
     }
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -7,7 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 glm::quat randomRotation(std::mt19937& random) {
@@ -160,4 +160,4 @@ TEST(MotionState, anAbsentFishIsNeitherRefusedNorLost) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -6,7 +6,7 @@
 #include "common/motion/headings.h"
 #include "tests/common/motion/school.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::size_t kFish = 3001;  // no multiple of any vector
@@ -112,4 +112,4 @@ TEST(MotorStep, theTestsWorldIsOneInWhichThingsHappen) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

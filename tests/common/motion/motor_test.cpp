@@ -6,7 +6,7 @@
 #include "common/motion/reconstruct.h"
 #include "tests/common/motion/school.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::array<Action, 3> kForward{
@@ -238,13 +238,13 @@ double largestRecordedStep() {
         fish.segment = static_cast<std::uint32_t>(a);
         const int rate = recordedPhaseRate(sharedTables(), static_cast<Action>(a));
         for (int phase = 0; phase < 65536; phase += 256) {
-            NodalPoints now;
-            NodalPoints next;
+            body::NodalPoints now;
+            body::NodalPoints next;
             fish.phase = static_cast<float>(phase) / 65536.0F;
             nodalPose(sharedRepertoire(), fish, now);
             fish.phase = static_cast<float>((phase + rate) % 65536) / 65536.0F;
             nodalPose(sharedRepertoire(), fish, next);
-            for (std::size_t i = 0; i < kNodalPoints; ++i) {
+            for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
                 most = std::max(most, static_cast<double>(glm::distance(now[i], next[i])));
             }
         }
@@ -252,9 +252,9 @@ double largestRecordedStep() {
     return most;
 }
 
-NodalPoints poseOf(const School& school) {
+body::NodalPoints poseOf(const School& school) {
     const FishRecord record = recordOf(school.states, 0);
-    NodalPoints nodes;
+    body::NodalPoints nodes;
     nodalPose(sharedRepertoire(), present(record, record, 1.0F, school.traits[0]), nodes);
     return nodes;
 }
@@ -269,11 +269,11 @@ TEST(MotionWarp, noNodalPointMovesFurtherThanTheEyeIsUsedTo) {
                 school.play(0, static_cast<Action>(from));
                 school.states.phase[0] = static_cast<std::uint16_t>(phase);
                 school.command(0, static_cast<Action>(to));
-                NodalPoints last = poseOf(school);
+                body::NodalPoints last = poseOf(school);
                 for (int tick = 0; tick < 90; ++tick) {
                     school.tick();
-                    const NodalPoints now = poseOf(school);
-                    for (std::size_t i = 0; i < kNodalPoints; ++i) {
+                    const body::NodalPoints now = poseOf(school);
+                    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
                         ASSERT_LT(static_cast<double>(glm::distance(last[i], now[i])), allowed)
                             << nameOf(static_cast<Action>(from)) << " at " << phase << " to "
                             << nameOf(static_cast<Action>(to)) << " node " << i;
@@ -320,4 +320,4 @@ TEST(MotionWarp, thePhaseRunsOnWhenTheWarpHasEnded) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -4,7 +4,7 @@
 #include "tests/common/motion/captured_species.h"
 #include "tests/common/motion/school.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::array<Action, 3> kForward{
@@ -189,4 +189,4 @@ TEST_P(Patterns, aTurnEnteredFastGoesFurtherThanOneEnteredSlowlyAndEndsFaster) {
 INSTANTIATE_TEST_SUITE_P(All, Patterns, testing::ValuesIn(speciesNames()), OfEachSpecies::suffix);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -6,12 +6,12 @@
 
 #include "tests/common/motion/school.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
-double travel(const NodalPoints& a, const NodalPoints& b) {
+double travel(const body::NodalPoints& a, const body::NodalPoints& b) {
     double most = 0;
-    for (std::size_t i = 0; i < kNodalPoints; ++i) {
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
         most = std::max(most, static_cast<double>(glm::distance(a[i], b[i])));
     }
     return most;
@@ -49,9 +49,9 @@ TEST(Reconstruct, nodalPointsAreThoseThatWereCaptured) {
             fish.rotation = glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w);
             fish.phase = static_cast<float>(phase);
             fish.segment = static_cast<std::uint32_t>(action);
-            NodalPoints nodes;
+            body::NodalPoints nodes;
             nodalPoints(sharedRepertoire(), fish, nodes);
-            for (std::size_t i = 0; i < kNodalPoints; ++i) {
+            for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
                 const glm::dvec3 captured = kLength * synthetic::placed(gait, phase, rest[i]);
                 EXPECT_LT(glm::distance(glm::dvec3(nodes[i]), captured), kLength * 5e-5);
             }
@@ -63,9 +63,9 @@ TEST(Reconstruct, everyInstructionSetIsWithinAMillionthOfTheReference) {
     std::mt19937 random(5);
     std::vector<PresentedFish> school(500);
     for (PresentedFish& fish : school) fish = randomFish(random);
-    std::vector<NodalPoints> nodes(school.size());
-    std::vector<glm::vec3> points(school.size() * kControlPoints);
-    std::vector<glm::vec3> expectedPoints(kControlPoints);
+    std::vector<body::NodalPoints> nodes(school.size());
+    std::vector<glm::vec3> points(school.size() * body::kControlPoints);
+    std::vector<glm::vec3> expectedPoints(body::kControlPoints);
     const ReconstructTables tables = makeReconstructTables(sharedRepertoire());
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
@@ -73,13 +73,13 @@ TEST(Reconstruct, everyInstructionSetIsWithinAMillionthOfTheReference) {
         nodalPoints(tables, school, nodes);
         controlPoints(tables, school, points);
         for (std::size_t f = 0; f < school.size(); ++f) {
-            NodalPoints expected;
+            body::NodalPoints expected;
             nodalPoints(sharedRepertoire(), school[f], expected);
             const double allowed = 1e-6 * static_cast<double>(school[f].lengthMetres) + 2e-7;
             ASSERT_LT(travel(nodes[f], expected), allowed) << hwy::TargetName(target);
             controlPoints(sharedRepertoire(), school[f], expectedPoints);
-            for (std::size_t i = 0; i < kControlPoints; ++i) {
-                const glm::vec3 point = points[f * kControlPoints + i];
+            for (std::size_t i = 0; i < body::kControlPoints; ++i) {
+                const glm::vec3 point = points[f * body::kControlPoints + i];
                 ASSERT_LT(static_cast<double>(glm::distance(point, expectedPoints[i])), allowed);
             }
         }
@@ -100,7 +100,7 @@ TEST(Reconstruct, aPresentedFishIsItsTicksAtBothEnds) {
             const FishRecord a = recordOf(before, i);
             const FishRecord b = recordOf(school.states, i);
             const auto nodesOf = [&](const FishRecord& from, const FishRecord& to, float fraction) {
-                NodalPoints nodes;
+                body::NodalPoints nodes;
                 nodalPoints(
                     sharedRepertoire(), present(from, to, fraction, school.traits[i]), nodes);
                 return nodes;
@@ -119,7 +119,7 @@ TEST(Reconstruct, framesBetweenTicksFlow) {
     std::mt19937 random(7);
     School school(1);
     school.play(0, Action::ForwardMedium);
-    NodalPoints last;
+    body::NodalPoints last;
     bool first = true;
     for (int tick = 0; tick < 400; ++tick) {
         if (tick % 25 == 0) school.command(0, static_cast<Action>(random() % kActions));
@@ -127,7 +127,7 @@ TEST(Reconstruct, framesBetweenTicksFlow) {
         school.tick();
         const FishRecord after = recordOf(school.states, 0);
         for (int frame = 0; frame < 10; ++frame) {
-            NodalPoints nodes;
+            body::NodalPoints nodes;
             const float fraction = static_cast<float>(frame) / 10.0F;
             nodalPoints(
                 sharedRepertoire(), present(before, after, fraction, school.traits[0]), nodes);
@@ -174,10 +174,10 @@ TEST(Reconstruct, aSegmentThatDoesNotExistIsNotReadBeyondTheLast) {
     fish.segment = 250;
     fish.phase = 7.5F;
     fish.lengthMetres = 1;
-    NodalPoints nodes;
+    body::NodalPoints nodes;
     nodalPoints(sharedRepertoire(), fish, nodes);
     for (const glm::vec3& node : nodes) EXPECT_LT(glm::length(node), 1.5F);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

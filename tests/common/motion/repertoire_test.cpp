@@ -14,13 +14,13 @@
 #include "common/units/error.h"
 #include "tests/support/synthetic_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 using Bytes = std::vector<std::byte>;
 
 const Bytes& smallFile() {
-    static const Bytes kFile = encodeRepertoire(syntheticRepertoire(false));
+    static const Bytes kFile = encodeRepertoire(test::syntheticRepertoire(false));
     return kFile;
 }
 
@@ -42,7 +42,7 @@ Bytes resigned(Bytes file) {
 }
 
 TEST(Repertoire, isReadAsItWasWritten) {
-    const Repertoire written = syntheticRepertoire(true);
+    const Repertoire written = test::syntheticRepertoire(true);
     const Bytes file = encodeRepertoire(written);
     const Repertoire read = decodeRepertoire(file, "file");
     EXPECT_EQ(read.species, "synthetic");
@@ -132,7 +132,7 @@ FloatsAt floatsOf(const std::string& species) {
     for (int action = 0; action < kCapturedActions; ++action) {
         at.ofSegments.push_back(segment);  // the period
         for (std::size_t i = 0; i < 7 * kPhases; ++i) at.ofSegments.push_back(segment + 5 + 4 * i);
-        segment += 5 + kPhases * (7 * 4 + kNodalPoints * 3 * 2);
+        segment += 5 + kPhases * (7 * 4 + body::kNodalPoints * 3 * 2);
     }
     return at;
 }
@@ -193,7 +193,7 @@ TEST(Repertoire, randomBytesAreRefused) {
 }
 
 TEST(Repertoire, isNotWrittenWithValuesOutOfBounds) {
-    const Repertoire good = syntheticRepertoire(false);
+    const Repertoire good = test::syntheticRepertoire(false);
     const auto broken = [&](auto&& damage) {
         Repertoire repertoire = good;
         damage(repertoire);
@@ -223,4 +223,4 @@ TEST(Repertoire, namesItsSegments) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

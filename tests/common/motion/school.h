@@ -11,12 +11,12 @@
 #include "common/motion/motor.h"
 #include "tests/support/synthetic_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 inline const Repertoire& sharedRepertoire() {
-    static const Repertoire kRepertoire = syntheticRepertoire(true);
+    static const Repertoire kRepertoire = test::syntheticRepertoire(true);
     return kRepertoire;
 }
 
@@ -117,4 +117,4 @@ inline void commandAtRandom(School& school, std::mt19937& random) {
     }
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::motion

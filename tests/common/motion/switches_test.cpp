@@ -4,24 +4,24 @@
 #include "tests/common/motion/captured_species.h"
 #include "tests/common/motion/school.h"
 
-namespace aquarama {
+namespace aquarama::motion {
 namespace {
 
 constexpr std::size_t kFish = 4096;
 constexpr int kSwitches = 150000;     // of each of seven species: a million
 constexpr double kRateMargin = 0.15;  // of the secondary controller
 
-float furthest(const NodalPoints& from, const NodalPoints& to) {
+float furthest(const body::NodalPoints& from, const body::NodalPoints& to) {
     float most = 0;
-    for (std::size_t i = 0; i < kNodalPoints; ++i) {
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
         const glm::vec3 d = to[i] - from[i];
         most = std::max(most, d.x * d.x + d.y * d.y + d.z * d.z);
     }
     return std::sqrt(most);
 }
 
-NodalPoints poseOf(const Repertoire& repertoire, const FishRecord& record) {
-    NodalPoints nodes;
+body::NodalPoints poseOf(const Repertoire& repertoire, const FishRecord& record) {
+    body::NodalPoints nodes;
     nodalPose(repertoire, present(record, record, 1.0F, {}), nodes);
     return nodes;
 }
@@ -34,7 +34,7 @@ float largestStepOf(const Repertoire& repertoire, const MotorTables& tables) {
         FishRecord record{.segment = static_cast<std::uint8_t>(action)};
         for (int phase = 0; phase < 65536; phase += 128) {
             record.phase = static_cast<std::uint16_t>(phase);
-            const NodalPoints now = poseOf(repertoire, record);
+            const body::NodalPoints now = poseOf(repertoire, record);
             record.phase = static_cast<std::uint16_t>(phase + rate);
             most = std::max(most, furthest(now, poseOf(repertoire, record)));
         }
@@ -91,4 +91,4 @@ TEST_P(Switches, noNodalPointMovesFurtherInATickThanAQuarterMoreThanTheRecording
 INSTANTIATE_TEST_SUITE_P(All, Switches, testing::ValuesIn(speciesNames()), OfEachSpecies::suffix);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::motion

@@ -6,7 +6,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 void requireBindAddress(const std::string& address) {
@@ -74,4 +74,4 @@ TEST(Address, aNodeMayReachAnyHostButNeedsItsPort) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 std::vector<std::byte> someBlob(std::size_t size) {
@@ -95,4 +95,4 @@ TEST_F(Blob, goesWithoutACacheThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -17,7 +17,7 @@
 #include "common/net/memory_channels.h"
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 using std::chrono::milliseconds;
@@ -302,4 +302,4 @@ TEST(ZmqChannels, aPacketThatIsTooLargeNeverArrives) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::net

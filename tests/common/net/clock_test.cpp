@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 using std::chrono::microseconds;
@@ -58,4 +58,4 @@ TEST(ClockOffset, ignoresAnEchoFromTheFuture) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::net {
 namespace {
 
 using std::chrono::milliseconds;
@@ -374,4 +374,4 @@ TEST(PresentBarrier, neverPresentsWhatTheWaitSetIsNotReadyFor) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::net

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::place {
 namespace {
 
 TEST(Angle, agreesWithTheLibraryAllAround) {
@@ -27,4 +27,4 @@ TEST(Angle, aTurnFromAheadToTheLeftIsPositive) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::place

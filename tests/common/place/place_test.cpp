@@ -11,7 +11,7 @@
 
 #include "common/place/noise.h"
 
-namespace aquarama {
+namespace aquarama::place {
 namespace {
 
 constexpr std::uint32_t kSeed = 1;
@@ -113,7 +113,7 @@ TEST(Place, schoolHasWaterAllRoundIt) {
 }
 
 TEST(OpenSea, holdsNothingButWaterOverADeepFloor) {
-    const PlaceKey sea{.seed = 3, .kind = PlaceKind::OpenSea};
+    const PlaceKey sea{.seed = 3, .kind = config::PlaceKind::OpenSea};
     EXPECT_TRUE(rocksOf(sea).empty());
     EXPECT_TRUE(plantsOf(sea).empty());
     for (const float x : {-500.0F, 0.0F, 7.5F})
@@ -121,4 +121,4 @@ TEST(OpenSea, holdsNothingButWaterOverADeepFloor) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::place

@@ -6,13 +6,13 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::place {
 namespace {
 
 constexpr float kLength = 0.24F;
 
-Scene sceneAt(PlaceKind place) {
-    Scene scene;
+config::Scene sceneAt(config::PlaceKind place) {
+    config::Scene scene;
     scene.place = place;
     scene.cast = {{.species = "scad.txtpb", .fish = 51, .place = {17, 8}}};
     scene.eyePlace = {5, 1};
@@ -26,8 +26,8 @@ double roomOfEach(const Region& water, std::size_t fish) {
 }
 
 TEST(Water, ofAFewFishIsTheScenesOwn) {
-    for (const PlaceKind place : {PlaceKind::Reef, PlaceKind::OpenSea}) {
-        const Scene scene = sceneAt(place);
+    for (const config::PlaceKind place : {config::PlaceKind::Reef, config::PlaceKind::OpenSea}) {
+        const config::Scene scene = sceneAt(place);
         for (const std::size_t fish : {0U, 60U, 4000U}) {
             EXPECT_EQ(waterFor(scene, fish, kLength).centre, scene.water.centre);
             EXPECT_EQ(waterFor(scene, fish, kLength).halfExtent, scene.water.halfExtent);
@@ -36,10 +36,10 @@ TEST(Water, ofAFewFishIsTheScenesOwn) {
 }
 
 TEST(Water, ofManyFishGivesEachItsRoomAndKeepsTheFaceTowardsTheEyeAndTheTop) {
-    for (const PlaceKind place : {PlaceKind::Reef, PlaceKind::OpenSea})
+    for (const config::PlaceKind place : {config::PlaceKind::Reef, config::PlaceKind::OpenSea})
         for (const std::size_t fish : {10'000U, 100'000U, 160'000U}) {
-            const Scene scene = sceneAt(place);
-            const SceneWater& box = scene.water;
+            const config::Scene scene = sceneAt(place);
+            const config::SceneWater& box = scene.water;
             const Region water = waterFor(scene, fish, kLength);
             EXPECT_NEAR(roomOfEach(water, fish), box.leastLengthsCubed, 1e-3);
             EXPECT_NEAR(
@@ -51,17 +51,17 @@ TEST(Water, ofManyFishGivesEachItsRoomAndKeepsTheFaceTowardsTheEyeAndTheTop) {
 }
 
 TEST(Water, ofAReefDoesNotGrowIntoTheSand) {
-    const Scene scene = sceneAt(PlaceKind::Reef);
+    const config::Scene scene = sceneAt(config::PlaceKind::Reef);
     EXPECT_EQ(waterFor(scene, 100'000, kLength).halfExtent.y, scene.water.halfExtent.y);
 }
 
 TEST(Water, ofAMillionFishStaysAboveTheFloorOfTheOpenSea) {
-    const Region water = waterFor(sceneAt(PlaceKind::OpenSea), kMostFish, kLength);
+    const Region water = waterFor(sceneAt(config::PlaceKind::OpenSea), config::kMostFish, kLength);
     EXPECT_GT(water.centre.y - water.halfExtent.y, -kOpenSeaFloorDepthMetres);
-    EXPECT_NEAR(roomOfEach(water, kMostFish), 4, 1e-3);
+    EXPECT_NEAR(roomOfEach(water, config::kMostFish), 4, 1e-3);
 }
 
-std::string refusalOf(const Scene& scene, std::size_t fish) {
+std::string refusalOf(const config::Scene& scene, std::size_t fish) {
     try {
         checkRoom(scene, "sea.txtpb", fish, kLength);
     } catch (const Error& error) {
@@ -71,23 +71,23 @@ std::string refusalOf(const Scene& scene, std::size_t fish) {
 }
 
 TEST(Room, ofAReefEndsSomewhereAndThatOfTheOpenSeaDoesNot) {
-    const std::uint32_t most = mostFishIn(sceneAt(PlaceKind::Reef), kLength);
+    const std::uint32_t most = mostFishIn(sceneAt(config::PlaceKind::Reef), kLength);
     EXPECT_GT(most, 100'000U);
-    EXPECT_EQ(refusalOf(sceneAt(PlaceKind::Reef), most), "accepted");
-    const std::string refusal = refusalOf(sceneAt(PlaceKind::Reef), most + 1);
+    EXPECT_EQ(refusalOf(sceneAt(config::PlaceKind::Reef), most), "accepted");
+    const std::string refusal = refusalOf(sceneAt(config::PlaceKind::Reef), most + 1);
     EXPECT_THAT(refusal, testing::StartsWith("sea.txtpb:17:8: "));
     EXPECT_THAT(refusal, testing::HasSubstr("room for " + std::to_string(most)));
-    EXPECT_EQ(refusalOf(sceneAt(PlaceKind::OpenSea), kMostFish), "accepted");
-    EXPECT_THAT(refusalOf(sceneAt(PlaceKind::OpenSea), kMostFish + 1),
+    EXPECT_EQ(refusalOf(sceneAt(config::PlaceKind::OpenSea), config::kMostFish), "accepted");
+    EXPECT_THAT(refusalOf(sceneAt(config::PlaceKind::OpenSea), config::kMostFish + 1),
                 testing::HasSubstr("take fewer"));
 }
 
 TEST(Room, theTourStaysWhereTheSubmarineMayGo) {
-    Scene scene = sceneAt(PlaceKind::Reef);
+    config::Scene scene = sceneAt(config::PlaceKind::Reef);
     const Region roaming = roamingRegion({scene.water.centre, scene.water.halfExtent}, scene.eye);
     EXPECT_LT(roaming.centre.y + roaming.halfExtent.y, -0.5F) << "below the surface";
     const auto refusalOfStop = [&](glm::vec3 at) {
-        scene.tour = SceneTour{};
+        scene.tour = config::SceneTour{};
         scene.tour->stops = {{.at = at, .lookAt = {}, .place = {9, 3}}};
         return refusalOf(scene, 60);
     };
@@ -98,15 +98,15 @@ TEST(Room, theTourStaysWhereTheSubmarineMayGo) {
 }
 
 TEST(Room, isNotInTheSand) {
-    Scene scene = sceneAt(PlaceKind::Reef);
+    config::Scene scene = sceneAt(config::PlaceKind::Reef);
     scene.eye.y = -8.5F;
     EXPECT_THAT(refusalOf(scene, 60), testing::StartsWith("sea.txtpb:5:1: the eye"));
-    scene.place = PlaceKind::OpenSea;
+    scene.place = config::PlaceKind::OpenSea;
     EXPECT_EQ(refusalOf(scene, 60), "accepted");
-    scene = sceneAt(PlaceKind::Reef);
+    scene = sceneAt(config::PlaceKind::Reef);
     scene.water.centre.y = -9;
     EXPECT_THAT(refusalOf(scene, 60), testing::StartsWith("sea.txtpb:7:1: the water"));
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::place

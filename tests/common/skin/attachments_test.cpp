@@ -17,11 +17,11 @@
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 namespace {
 
 struct Made {
-    FishBody body;
+    body::FishBody body;
     LimitTable table;
 };
 
@@ -29,7 +29,7 @@ const Made& madeOf(const std::string& name) {
     static std::map<std::string, Made> all;
     const auto found = all.find(name);
     if (found != all.end()) return found->second;
-    const FishBody body = makeBody(castMember(name));
+    const body::FishBody body = body::makeBody(test::castMember(name));
     return all.emplace(name, Made{body, makeLimitTable(body, 2)}).first->second;
 }
 
@@ -52,23 +52,23 @@ glm::vec3 nearestOf(const std::array<glm::vec3, 3>& t, glm::vec3 p) {
 
 class AttachmentsOf : public testing::TestWithParam<std::string> {
   protected:
-    [[nodiscard]] std::vector<SkinPoint> posed(const NodalPoints& nodes) const {
-        std::vector<glm::vec3> cage(kControlPoints);
-        poseCage(body_, nodes, cage);
+    [[nodiscard]] std::vector<SkinPoint> posed(const body::NodalPoints& nodes) const {
+        std::vector<glm::vec3> cage(body::kControlPoints);
+        body::poseCage(body_, nodes, cage);
         std::vector<SkinPoint> points;
         for (std::size_t i = 0; i < table_.vertices.size(); ++i)
             points.push_back(skinPoint(table_, i, cage));
         return points;
     }
-    [[nodiscard]] std::vector<NodalPoints> poses() const {
-        std::vector<NodalPoints> all{body_.restNodes};
+    [[nodiscard]] std::vector<body::NodalPoints> poses() const {
+        std::vector<body::NodalPoints> all{body_.restNodes};
         for (int k = 0; k < 4; ++k)
             all.push_back(test::sway(
                 body_, 0.12F, 0.15F * static_cast<float>(k - 2), 0.17F * static_cast<float>(k)));
         return all;
     }
     [[nodiscard]] bool isEye(std::size_t vertex) const {
-        return table_.vertices[vertex].part == static_cast<std::uint32_t>(CagePart::Eye);
+        return table_.vertices[vertex].part == static_cast<std::uint32_t>(body::CagePart::Eye);
     }
     // How far a place is over the skin, or under it: less than nothing.
     [[nodiscard]] float over(const std::vector<SkinPoint>& points, glm::vec3 place) const {
@@ -88,17 +88,17 @@ class AttachmentsOf : public testing::TestWithParam<std::string> {
         return sign * nearest;
     }
 
-    const FishBody& body_ = madeOf(GetParam()).body;
+    const body::FishBody& body_ = madeOf(GetParam()).body;
     const LimitTable& table_ = madeOf(GetParam()).table;
 };
 
-INSTANTIATE_TEST_SUITE_P(Cast, AttachmentsOf, testing::ValuesIn(kCast), [](const auto& name) {
+INSTANTIATE_TEST_SUITE_P(Cast, AttachmentsOf, testing::ValuesIn(test::kCast), [](const auto& name) {
     return name.param;
 });
 
 TEST_P(AttachmentsOf, eyesSitInTheSkinInEveryPose) {
     const float radius = body_.eye.z;
-    for (const NodalPoints& nodes : poses()) {
+    for (const body::NodalPoints& nodes : poses()) {
         const auto points = posed(nodes);
         int balls = 0;
         for (std::size_t i = table_.skinVertices; i < points.size(); ++i) {
@@ -119,7 +119,7 @@ TEST_P(AttachmentsOf, eyesSitInTheSkinInEveryPose) {
 }
 
 TEST_P(AttachmentsOf, eyesStayRoundAndLookOutwards) {
-    for (const NodalPoints& nodes : poses()) {
+    for (const body::NodalPoints& nodes : poses()) {
         const auto points = posed(nodes);
         glm::vec3 middle{};
         for (std::size_t i = table_.skinVertices; i < points.size(); ++i) {
@@ -139,16 +139,16 @@ TEST_P(AttachmentsOf, eyesStayRoundAndLookOutwards) {
 
 TEST_P(AttachmentsOf, threadsAreRootedInTheirFish) {
     constexpr std::size_t kSides = 4;
-    for (const NodalPoints& nodes : poses()) {
+    for (const body::NodalPoints& nodes : poses()) {
         const auto points = posed(nodes);
         std::size_t first = table_.skinVertices;
         while (first < points.size() && isEye(first)) ++first;
-        for (const BodyThread& thread : body_.threads) {
+        for (const body::BodyThread& thread : body_.threads) {
             const glm::vec3 root = 0.5F * (points[first].position + points[first + 2].position);
             EXPECT_LT(std::abs(over(points, root)), 0.012F)
                 << "root of a thread at s " << thread.at.front().x;
             const std::uint32_t part = table_.vertices[first].part;
-            EXPECT_EQ(part == static_cast<std::uint32_t>(CagePart::FirstDorsal),
+            EXPECT_EQ(part == static_cast<std::uint32_t>(body::CagePart::FirstDorsal),
                       thread.isOfFirstDorsal);
             first += kSides * (threadSteps(thread) + 1);
         }
@@ -161,7 +161,7 @@ TEST_P(AttachmentsOf, goWithTheWholeFish) {
         return glm::vec3(0.6F * p.x + 0.8F * p.z, p.y, -0.8F * p.x + 0.6F * p.z) +
                glm::vec3(1, -2, 3);
     };
-    NodalPoints nodes = body_.restNodes;
+    body::NodalPoints nodes = body_.restNodes;
     for (glm::vec3& node : nodes) node = move(node);
     const auto points = posed(nodes);
     for (std::size_t i = table_.skinVertices; i < points.size(); ++i)
@@ -181,13 +181,13 @@ TEST_P(AttachmentsOf, areTheSameAtEveryLevel) {
 TEST(MoorishIdol, whipWavesWithItsFin) {
     const std::string idol = "moorish_idol";
     const auto& [body, table] = madeOf(idol);
-    std::vector<glm::vec3> cage(kControlPoints);
-    poseCage(body, body.restNodes, cage);
+    std::vector<glm::vec3> cage(body::kControlPoints);
+    body::poseCage(body, body.restNodes, cage);
     const std::size_t tip = table.vertices.size() - 1;
     const glm::vec3 still = skinPoint(table, tip, cage).position;
     EXPECT_NEAR(still.x, -1.31F, 0.01F);
     for (std::size_t i = 0; i < cage.size(); ++i)
-        if (body.cage.vertices[i].part == CagePart::FirstDorsal)
+        if (body.cage.vertices[i].part == body::CagePart::FirstDorsal)
             cage[i].z += 0.02F * body.cage.vertices[i].fin.y;
     EXPECT_NEAR(skinPoint(table, tip, cage).position.z - still.z, 0.04F, 0.005F);
 }
@@ -197,4 +197,4 @@ TEST(Trumpetfish, hasTheSpinesOfItsKindAndABarbel) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::skin

@@ -14,15 +14,15 @@
 
 #include "tests/render_node/surface/test_fish.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 namespace {
 
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
-std::vector<glm::vec3> bentCage(const FishBody& body) {
-    std::vector<glm::vec3> points(kControlPoints);
-    poseCage(body, test::sway(body, 0.12F, 0.3F, 0.3F), points);
+std::vector<glm::vec3> bentCage(const body::FishBody& body) {
+    std::vector<glm::vec3> points(body::kControlPoints);
+    body::poseCage(body, test::sway(body, 0.12F, 0.3F, 0.3F), points);
     return points;
 }
 
@@ -41,20 +41,20 @@ struct RefinedPoint {
 struct RefinedFar {
     std::vector<glm::vec3> ofVertices, ofFaces;
 };
-RefinedFar refineFar(const FishBody& body, const std::vector<glm::vec3>& points) {
+RefinedFar refineFar(const body::FishBody& body, const std::vector<glm::vec3>& points) {
     constexpr int kLevels = 6;
     const std::vector<int> verticesPerFace(body.cage.faces.size(), 4);
     std::vector<int> corners, creaseEnds;
     std::vector<float> sharpness;
     for (const auto& face : body.cage.faces)
         corners.insert(corners.end(), face.begin(), face.end());
-    for (const CageCrease& crease : body.cage.creases) {
+    for (const body::CageCrease& crease : body.cage.creases) {
         creaseEnds.insert(creaseEnds.end(), crease.edge.begin(), crease.edge.end());
         sharpness.push_back(crease.sharpness);
     }
     Far::TopologyDescriptor descriptor;
-    descriptor.numVertices = kControlPoints;
-    descriptor.numFaces = kCageFaces;
+    descriptor.numVertices = body::kControlPoints;
+    descriptor.numFaces = body::kCageFaces;
     descriptor.numVertsPerFace = verticesPerFace.data();
     descriptor.vertIndicesPerFace = corners.data();
     descriptor.numCreases = static_cast<int>(sharpness.size());
@@ -67,7 +67,7 @@ RefinedFar refineFar(const FishBody& body, const std::vector<glm::vec3>& points)
 
     std::vector<RefinedPoint> level(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) level[i].position = points[i];
-    std::vector<int> vertexNow(points.size()), faceNow(kCageFaces);
+    std::vector<int> vertexNow(points.size()), faceNow(body::kCageFaces);
     for (std::size_t i = 0; i < points.size(); ++i) vertexNow[i] = static_cast<int>(i);
     for (int l = 1; l <= kLevels; ++l) {
         std::vector<RefinedPoint> next(
@@ -75,7 +75,7 @@ RefinedFar refineFar(const FishBody& body, const std::vector<glm::vec3>& points)
         Far::PrimvarRefiner(*refiner).Interpolate(l, level, next);
         const auto& parent = refiner->GetLevel(l - 1);
         for (int& vertex : vertexNow) vertex = parent.GetVertexChildVertex(vertex);
-        for (int f = 0; f < kCageFaces; ++f) {
+        for (int f = 0; f < body::kCageFaces; ++f) {
             int& point = faceNow[static_cast<std::size_t>(f)];
             point = l == 1 ? parent.GetFaceChildVertex(f) : parent.GetVertexChildVertex(point);
         }
@@ -95,7 +95,7 @@ class LimitTableOf : public testing::TestWithParam<int> {
     [[nodiscard]] bool isAttached(std::size_t firstIndex) const {
         return table_.indices[firstIndex] >= table_.skinVertices;
     }
-    const FishBody body_ = test::scad();
+    const body::FishBody body_ = test::scad();
     const LimitTable table_ = makeLimitTable(body_, GetParam());
 };
 
@@ -127,7 +127,7 @@ TEST_P(LimitTableOf, everyEdgeJoinsTwoTriangles) {
         ASSERT_TRUE(edges.contains({edge.second, edge.first}));
     }
     const int cuts = 1 << GetParam();
-    EXPECT_EQ(triangles, static_cast<std::size_t>(2 * kCageFaces * cuts * cuts));
+    EXPECT_EQ(triangles, static_cast<std::size_t>(2 * body::kCageFaces * cuts * cuts));
 }
 
 TEST_P(LimitTableOf, normalsPointOutOfAClosedSkin) {
@@ -161,7 +161,7 @@ TEST_P(LimitTableOf, finTrianglesAreToldByTheirLastVertex) {
         if (isAttached(t)) continue;
         const SkinPlace& last = table_.vertices[table_.indices[t + 2]];
         const bool isFin = t >= table_.bodyIndices;
-        ASSERT_EQ(last.part != static_cast<std::uint32_t>(CagePart::Body), isFin);
+        ASSERT_EQ(last.part != static_cast<std::uint32_t>(body::CagePart::Body), isFin);
         for (std::size_t k = 0; k < 3 && isFin; ++k) {
             const glm::vec2 fin = table_.vertices[table_.indices[t + k]].fin;
             ASSERT_TRUE(fin.x >= 0 && fin.x <= 1 && fin.y >= 0 && fin.y <= 1);
@@ -172,7 +172,7 @@ TEST_P(LimitTableOf, finTrianglesAreToldByTheirLastVertex) {
 INSTANTIATE_TEST_SUITE_P(Levels, LimitTableOf, testing::Values(0, 1, 2));
 
 TEST(LimitTable, level0IsTheControlMesh) {
-    const FishBody body = test::scad();
+    const body::FishBody body = test::scad();
     const LimitTable table = makeLimitTable(body, 0);
     const std::vector<glm::vec3> cage = bentCage(body);
     ASSERT_EQ(table.skinVertices, cage.size());
@@ -183,10 +183,10 @@ TEST(LimitTable, level0IsTheControlMesh) {
 // Where the control mesh takes over a fish fills some 160 pixels: the tips of its fins, which
 // change most, move by less than three.
 TEST(LimitTable, aChangeOfLevelMovesNoVertexFar) {
-    const FishBody body = test::scad();
+    const body::FishBody body = test::scad();
     const std::vector<glm::vec3> cage = bentCage(body);
     const LimitTable coarse = makeLimitTable(body, 1), fine = makeLimitTable(body, 2);
-    for (std::size_t i = 0; i < kControlPoints; ++i) {
+    for (std::size_t i = 0; i < body::kControlPoints; ++i) {
         const glm::vec3 limit = skinPoint(coarse, i, cage).position;
         EXPECT_LT(glm::distance(limit, cage[i]), 3.0F / 160.0F) << "vertex " << i;
         EXPECT_LT(glm::distance(limit, skinPoint(fine, i, cage).position), 1e-6F) << "vertex " << i;
@@ -194,12 +194,12 @@ TEST(LimitTable, aChangeOfLevelMovesNoVertexFar) {
 }
 
 TEST(LimitTable, finerLevelsLieWhereEndlessRefinementLeads) {
-    const FishBody body = test::scad();
+    const body::FishBody body = test::scad();
     const std::vector<glm::vec3> cage = bentCage(body);
     const RefinedFar far = refineFar(body, cage);
     for (const int level : {1, 2}) {
         const LimitTable table = makeLimitTable(body, level);
-        for (std::size_t i = 0; i < kControlPoints; ++i) {
+        for (std::size_t i = 0; i < body::kControlPoints; ++i) {
             const glm::vec3 limit = skinPoint(table, i, cage).position;
             ASSERT_LT(glm::distance(limit, far.ofVertices[i]), 1e-4F) << "vertex " << i;
         }
@@ -207,7 +207,7 @@ TEST(LimitTable, finerLevelsLieWhereEndlessRefinementLeads) {
     // On level 1 the vertex that a face's last triangles end in is the middle of that face.
     const LimitTable table = makeLimitTable(body, 1);
     std::size_t found = 0;
-    for (std::size_t i = kControlPoints; i < table.skinVertices; ++i) {
+    for (std::size_t i = body::kControlPoints; i < table.skinVertices; ++i) {
         const glm::vec3 limit = skinPoint(table, i, cage).position;
         for (const glm::vec3 middle : far.ofFaces) {
             if (glm::distance(limit, middle) < 1e-4F) {
@@ -220,4 +220,4 @@ TEST(LimitTable, finerLevelsLieWhereEndlessRefinementLeads) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::skin

@@ -10,7 +10,7 @@
 #include "common/skin/limit_table.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::skin {
 namespace {
 
 struct Range {
@@ -20,21 +20,21 @@ struct Range {
 // Vertices of the limit surface at rest, by the part of the fish.
 class Drawn {
   public:
-    explicit Drawn(const std::string& name) : body{makeBody(castMember(name))} {
-        std::vector<glm::vec3> cage(kControlPoints);
-        poseCage(body, body.restNodes, cage);
+    explicit Drawn(const std::string& name) : body{body::makeBody(test::castMember(name))} {
+        std::vector<glm::vec3> cage(body::kControlPoints);
+        body::poseCage(body, body.restNodes, cage);
         const LimitTable table = makeLimitTable(body, 2);
         for (std::size_t i = 0; i < table.skinVertices; ++i)
             places_.push_back(skinPoint(table, i, cage).position);
-        parts_.resize(places_.size(), CagePart::Body);
+        parts_.resize(places_.size(), body::CagePart::Body);
         // A triangle's part is that of its last vertex.
         for (std::size_t t = table.bodyIndices; t < table.indices.size(); t += 3)
             for (std::size_t k = 0; k < 3; ++k)
                 if (table.indices[t + k] < table.skinVertices)
                     parts_[table.indices[t + k]] =
-                        static_cast<CagePart>(table.vertices[table.indices[t + 2]].part);
+                        static_cast<body::CagePart>(table.vertices[table.indices[t + 2]].part);
     }
-    [[nodiscard]] Range along(int axis, CagePart part) const {
+    [[nodiscard]] Range along(int axis, body::CagePart part) const {
         Range range{1e9F, -1e9F};
         for (std::size_t i = 0; i < places_.size(); ++i) {
             if (parts_[i] != part) continue;
@@ -44,15 +44,15 @@ class Drawn {
         return range;
     }
     [[nodiscard]] float depth() const {
-        const Range up = along(1, CagePart::Body);
+        const Range up = along(1, body::CagePart::Body);
         return up.most - up.least;
     }
     [[nodiscard]] float standardLength() const { return body.profileStations.back(); }
-    const FishBody body;
+    const body::FishBody body;
 
   private:
     std::vector<glm::vec3> places_;
-    std::vector<CagePart> parts_;
+    std::vector<body::CagePart> parts_;
 };
 
 void expectWithin(float value, Range range) {
@@ -71,10 +71,11 @@ TEST(Silhouette, bodiesAreAsDeepAsTheirSpecies) {
 // Compagno's proportions: first dorsal 8 to 11.4 % of the length high, eye 2 to 3 %.
 TEST(Silhouette, aSharkHasTheFinsAndTheEyeOfItsKind) {
     const Drawn shark("blacktip_reef_shark");
-    const float back = shark.along(1, CagePart::Body).most;
-    expectWithin(shark.along(1, CagePart::FirstDorsal).most - back, {0.075F, 0.114F});
+    const float back = shark.along(1, body::CagePart::Body).most;
+    expectWithin(shark.along(1, body::CagePart::FirstDorsal).most - back, {0.075F, 0.114F});
     expectWithin(2 * shark.body.eye.z, {0.02F, 0.03F});
-    EXPECT_GT(shark.along(1, CagePart::Caudal).most, -shark.along(1, CagePart::Caudal).least)
+    EXPECT_GT(shark.along(1, body::CagePart::Caudal).most,
+              -shark.along(1, body::CagePart::Caudal).least)
         << "the upper lobe of its tail is the longer";
 }
 
@@ -89,13 +90,13 @@ TEST(Silhouette, aMoorishIdolsWhipIsLongerThanItsBody) {
 
 // A fish is wide as well as high: seen from the front none of them is a card.
 TEST(Silhouette, everyBodyHasItsWidth) {
-    for (const std::string& name : kCast) {
+    for (const std::string& name : test::kCast) {
         const Drawn fish(name);
-        const Range across = fish.along(2, CagePart::Body);
+        const Range across = fish.along(2, body::CagePart::Body);
         const float widest = 2 * *std::ranges::max_element(fish.body.profileHalfWidth);
         EXPECT_NEAR((across.most - across.least) / widest, 1, 0.08F) << name;
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::skin

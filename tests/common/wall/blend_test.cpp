@@ -4,14 +4,14 @@
 
 #include "rigs.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 namespace {
 
 class BlendOfRig : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Shipped, BlendOfRig, testing::Values("theatre", "touring", "desk"));
 
 TEST_P(BlendOfRig, theSharesOfEveryPointOfTheScreenSumToOne) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     Dice dice;
     for (int i = 0; i < 20000; ++i) {
         const glm::dvec3 point =
@@ -27,8 +27,8 @@ TEST_P(BlendOfRig, theSharesOfEveryPointOfTheScreenSumToOne) {
 }
 
 TEST_P(BlendOfRig, aShareFadesToNothingAtThePicturesBorderInsideAnOverlap) {
-    const Rig rig = shippedRig(GetParam());
-    const Channel& left = rig.channels[0];
+    const config::Rig rig = shippedRig(GetParam());
+    const config::Channel& left = rig.channels[0];
     for (int tenth = 1; tenth < 10; ++tenth) {
         const glm::dvec2 pixel(left.sizePixels.x - 1e-6, 0.1 * tenth * left.sizePixels.y);
         const auto border = screenPoint(rig.screen, left, pixel);
@@ -41,7 +41,7 @@ TEST_P(BlendOfRig, aShareFadesToNothingAtThePicturesBorderInsideAnOverlap) {
 // C1: as the step along the screen halves, so does the largest change of slope. At a kink it would
 // stay what it is.
 TEST_P(BlendOfRig, aShareHasNoKinkAlongTheScreen) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     const auto largestBend = [&](int steps) {
         const double step = 1.0 / steps;
         double largest = 0;
@@ -61,11 +61,11 @@ TEST_P(BlendOfRig, aShareHasNoKinkAlongTheScreen) {
 }
 
 TEST_P(BlendOfRig, outsideAnOverlapOneProjectorGivesAll) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     EXPECT_EQ(blendWeight(rig, 1, screenPointAt(rig.screen, {0.5, 0.5})), 1);
     EXPECT_EQ(blendWeight(rig, 0, screenPointAt(rig.screen, {0.5, 0.5})), 0);
     EXPECT_EQ(blendWeight(rig, 0, screenPointAt(rig.screen, {0.1, 0.2})), 1);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -10,10 +10,10 @@
 #include "common/units/error.h"
 #include "rigs.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 namespace {
 
-std::string refusal(const Rig& rig) {
+std::string refusal(const config::Rig& rig) {
     try {
         checkGeometry(rig, "hall.txtpb");
     } catch (const Error& error) {
@@ -22,7 +22,7 @@ std::string refusal(const Rig& rig) {
     return "accepted";
 }
 
-std::string at(SourcePlace place) {
+std::string at(config::SourcePlace place) {
     return "hall.txtpb:" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": ";
 }
 
@@ -32,15 +32,15 @@ TEST(CheckGeometry, acceptsTheRigsThatComeWithAquarama) {
 }
 
 TEST(CheckGeometry, aProjectorThatLooksAwayIsNamedAtItsChannel) {
-    Rig rig = shippedRig("desk");
-    rig.channels[2].projector.yawPitchRollRadians.x = radiansOf(140.8);
+    config::Rig rig = shippedRig("desk");
+    rig.channels[2].projector.yawPitchRollRadians.x = config::radiansOf(140.8);
     EXPECT_THAT(refusal(rig),
                 testing::StartsWith(at(rig.channels[2].place) +
                                     "projector \"right\" misses the screen: aim it"));
 }
 
 TEST(CheckGeometry, aGapBetweenNeighboursIsNamedInDegrees) {
-    Rig rig = shippedRig("desk");
+    config::Rig rig = shippedRig("desk");
     rig.channels[1].projector.focalPixels.x *= 1.4;  // 30 degrees wide instead of 42
     const std::string said = refusal(rig);
     EXPECT_THAT(said, testing::StartsWith(at(rig.screen.place) + "neighbours leave a gap from "));
@@ -53,33 +53,33 @@ TEST(CheckGeometry, aGapBetweenNeighboursIsNamedInDegrees) {
     const auto azimuth = [&](std::size_t channel, double x) {
         const double middleRow = rig.channels[channel].sizePixels.y / 2.0;
         const auto point = screenPoint(rig.screen, rig.channels[channel], {x, middleRow});
-        return std::atan2(-point->x, -point->z) / kRadiansPerDegree;
+        return std::atan2(-point->x, -point->z) / config::kRadiansPerDegree;
     };
     EXPECT_NEAR(from, azimuth(0, rig.channels[0].sizePixels.x), 0.8);
     EXPECT_NEAR(to, azimuth(1, 0), 0.8);  // the borders lean by as much
 }
 
 TEST(CheckGeometry, aScreenThatReachesPastTheLightIsNamedInDegrees) {
-    Rig rig = shippedRig("theatre");
-    rig.screen.arcRadians = radiansOf(140);
+    config::Rig rig = shippedRig("theatre");
+    rig.screen.arcRadians = config::radiansOf(140);
     EXPECT_THAT(refusal(rig),
                 testing::StartsWith(at(rig.screen.place) +
                                     "no projector lights the screen from 69.3 degrees left"));
 }
 
 TEST(CheckGeometry, aScreenThatIsTallerThanTheLightIsRefused) {
-    Rig rig = shippedRig("theatre");
+    config::Rig rig = shippedRig("theatre");
     rig.screen.heightMetres *= 1.1;
     EXPECT_THAT(refusal(rig), testing::HasSubstr("no projector lights the screen"));
 }
 
 TEST(CheckGeometry, aProjectorForMoreThanAFlatPictureHoldsIsRefused) {
-    Rig rig = axisRig();
-    rig.screen.arcRadians = radiansOf(170);
+    config::Rig rig = axisRig();
+    rig.screen.arcRadians = config::radiansOf(170);
     rig.screen.heightMetres = 0.01;
     rig.channels[0].projector.focalPixels = {2, 2};
     EXPECT_THAT(refusal(rig), testing::HasSubstr("150.0 degrees"));
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wall

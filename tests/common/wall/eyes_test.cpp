@@ -11,17 +11,17 @@
 #include "common/wall/pinhole.h"
 #include "rigs.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 namespace {
 
-Rig stereoRig() {
-    Rig rig = shippedRig("theatre");
-    rig.stereo.mode = StereoMode::SideBySide;
+config::Rig stereoRig() {
+    config::Rig rig = shippedRig("theatre");
+    rig.stereo.mode = config::StereoMode::SideBySide;
     return rig;
 }
 
 // Where the line from an eye to a point meets the screen.
-glm::dvec3 onScreen(const Rig& rig, EyeSide side, glm::dvec3 point) {
+glm::dvec3 onScreen(const config::Rig& rig, EyeSide side, glm::dvec3 point) {
     const glm::dvec3 eye = eyePosition(rig, side);
     return screenHit(rig.screen, {eye, point - eye}, 1.0).value();
 }
@@ -32,7 +32,7 @@ glm::dvec3 levelPoint(double distance, double azimuth) {
 }
 
 TEST(Eyes, lieBesideTheSweetSpotByHalfTheirSeparation) {
-    Rig rig = stereoRig();
+    config::Rig rig = stereoRig();
     rig.stereo.eyeSeparationMetres = 0.06;
     rig.sweetSpotMetres = {0.5, -0.2, 0.3};
     EXPECT_EQ(eyePosition(rig, EyeSide::Between), rig.sweetSpotMetres);
@@ -44,7 +44,7 @@ TEST(Eyes, lieBesideTheSweetSpotByHalfTheirSeparation) {
 // point: at the screen 1 - r/D of it is left. Crossed (negative) before the screen. Terms of third
 // order, (separation / distance)^2, are left out: a twentieth of a millimetre at arm's length.
 TEST(Eyes, seeAPointAsFarApartOnTheScreenAsTheGeometrySays) {
-    const Rig rig = stereoRig();
+    const config::Rig rig = stereoRig();
     const double radius = rig.screen.radiusMetres;
     const double separation = rig.stereo.eyeSeparationMetres;
     for (const double azimuth : {-0.9, -0.68, 0.0, 0.4, 0.68})
@@ -58,7 +58,7 @@ TEST(Eyes, seeAPointAsFarApartOnTheScreenAsTheGeometrySays) {
 }
 
 TEST(Eyes, lookTheSameWayThroughEveryChannel) {
-    const Rig rig = stereoRig();
+    const config::Rig rig = stereoRig();
     for (std::size_t c = 0; c < rig.channels.size(); ++c) {
         const auto between = channelFrustum(rig, c, 0.01);
         for (const EyeSide side : {EyeSide::Left, EyeSide::Right}) {
@@ -71,7 +71,7 @@ TEST(Eyes, lookTheSameWayThroughEveryChannel) {
 }
 
 TEST(Eyes, ofNoSeparationSeeAsOne) {
-    Rig rig = stereoRig();
+    config::Rig rig = stereoRig();
     rig.stereo.eyeSeparationMetres = 0;
     const auto left = channelFrustum(rig, 0, 0.01, EyeSide::Left);
     const auto between = channelFrustum(shippedRig("theatre"), 0, 0.01);
@@ -81,7 +81,7 @@ TEST(Eyes, ofNoSeparationSeeAsOne) {
 }
 
 TEST(Eyes, holdAllThatTheChannelLightsWhereverTheyAre) {
-    Rig rig = stereoRig();
+    config::Rig rig = stereoRig();
     rig.sweetSpotMetres = {0.4, 0.3, 0.8};
     for (const EyeSide side : {EyeSide::Left, EyeSide::Right}) {
         const auto frustum = channelFrustum(rig, 2, 0, side);
@@ -97,20 +97,20 @@ TEST(Eyes, holdAllThatTheChannelLightsWhereverTheyAre) {
 }
 
 TEST(Eyes, tooNearTheScreenAreRefused) {
-    Rig rig = stereoRig();
+    config::Rig rig = stereoRig();
     rig.sweetSpotMetres = {0, 0, -2.5};
     EXPECT_THROW(checkGeometry(rig, "rig.txtpb"), Error);
 }
 
 TEST(Eyes, aDisplayMayTakeThemOtherwiseThanTheRig) {
-    Rig rig = stereoRig();
-    rig.channels[1].display.stereo = StereoMode::Interlaced;
+    config::Rig rig = stereoRig();
+    rig.channels[1].display.stereo = config::StereoMode::Interlaced;
     rig.channels[1].display.swapEyes = true;
-    EXPECT_EQ(stereoOf(rig, 0).mode, StereoMode::SideBySide);
+    EXPECT_EQ(stereoOf(rig, 0).mode, config::StereoMode::SideBySide);
     EXPECT_FALSE(stereoOf(rig, 0).swapEyes);
-    EXPECT_EQ(stereoOf(rig, 1).mode, StereoMode::Interlaced);
+    EXPECT_EQ(stereoOf(rig, 1).mode, config::StereoMode::Interlaced);
     EXPECT_TRUE(stereoOf(rig, 1).swapEyes);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wall

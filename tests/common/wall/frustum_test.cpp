@@ -7,7 +7,7 @@
 
 #include "rigs.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 namespace {
 
 constexpr double kMargin = 0.01;
@@ -16,7 +16,7 @@ class FrustumOfRig : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Shipped, FrustumOfRig, testing::Values("theatre", "touring", "desk"));
 
 TEST_P(FrustumOfRig, holdsEveryLitPointAndTouchesTheOutermost) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     for (std::size_t c = 0; c < rig.channels.size(); ++c) {
         const ChannelFrustum frustum = channelFrustum(rig, c, 0);
         double left = 1e9, right = -1e9, bottom = 1e9, top = -1e9;
@@ -42,7 +42,7 @@ TEST_P(FrustumOfRig, holdsEveryLitPointAndTouchesTheOutermost) {
 }
 
 TEST_P(FrustumOfRig, growsByTheMarginAtEverySide) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     const ChannelFrustum tight = channelFrustum(rig, 0, 0);
     const ChannelFrustum wide = channelFrustum(rig, 0, kMargin);
     EXPECT_NEAR(std::atan(tight.left) - std::atan(wide.left), kMargin, 1e-12);
@@ -52,7 +52,7 @@ TEST_P(FrustumOfRig, growsByTheMarginAtEverySide) {
 }
 
 TEST(Frustum, ofAnAxisProjectorIsItsPicture) {
-    Rig rig = axisRig();
+    config::Rig rig = axisRig();
     rig.channels[0].projector.focalPixels = {100, 100};  // all of the picture falls on the screen
     const ChannelFrustum frustum = channelFrustum(rig, 0, 0);
     EXPECT_NEAR(frustum.left, -0.5, 1e-9);
@@ -83,4 +83,4 @@ TEST(Frustum, clipCornersAndDepthAreReversedZeroToOne) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wall

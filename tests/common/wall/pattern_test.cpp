@@ -8,12 +8,12 @@
 
 #include "common/config/angle.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 namespace {
 
 glm::dvec3 towards(double azimuthDegrees, double elevationDegrees) {
-    const double azimuth = radiansOf(azimuthDegrees);
-    return {std::sin(azimuth), std::tan(radiansOf(elevationDegrees)), -std::cos(azimuth)};
+    const double azimuth = config::radiansOf(azimuthDegrees);
+    return {std::sin(azimuth), std::tan(config::radiansOf(elevationDegrees)), -std::cos(azimuth)};
 }
 
 TEST(TestPattern, linesStandAtEveryFifthDegreeAndTheThirtiethAreBright) {
@@ -37,4 +37,4 @@ TEST(TestPattern, onlyTheDirectionCounts) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wall

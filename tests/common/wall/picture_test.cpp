@@ -10,7 +10,7 @@
 #include "common/units/error.h"
 #include "common/wall/png_file.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 namespace {
 
 TEST(Picture, theTransferFunctionsAreTheStandards) {
@@ -96,4 +96,4 @@ TEST_F(Png, aFileOfAnotherKindOrNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wall

@@ -8,16 +8,16 @@
 #include "common/config/rig.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 
-inline Rig shippedRig(const std::string& name) {
-    return readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
+inline config::Rig shippedRig(const std::string& name) {
+    return config::readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");
 }
 
 // A projector on the axis, straight ahead, 100 x 100 pixels, 45 degrees to each side, on a screen
 // of radius 2 and height 3.
-inline Rig axisRig() {
-    Rig rig;
+inline config::Rig axisRig() {
+    config::Rig rig;
     rig.screen.radiusMetres = 2;
     rig.screen.arcRadians = 1.5;
     rig.screen.heightMetres = 3;
@@ -40,4 +40,4 @@ class Dice {
     std::mt19937 engine_{1998};
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::wall

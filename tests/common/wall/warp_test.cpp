@@ -7,7 +7,7 @@
 
 #include "rigs.h"
 
-namespace aquarama {
+namespace aquarama::wall {
 namespace {
 
 double distance(glm::dvec3 a, glm::dvec3 b) {
@@ -15,14 +15,14 @@ double distance(glm::dvec3 a, glm::dvec3 b) {
 }
 
 TEST(Warp, aProjectorOnTheAxisHitsTheMiddle) {
-    const Rig rig = axisRig();
+    const config::Rig rig = axisRig();
     const auto point = screenPoint(rig.screen, rig.channels[0], {50, 50});
     ASSERT_TRUE(point);
     EXPECT_LT(distance(*point, {0, 0, -2}), 1e-12);
 }
 
 TEST(Warp, aPixelAtTangentTLightsTheAzimuthWhoseTangentIsT) {
-    const Rig rig = axisRig();
+    const config::Rig rig = axisRig();
     const auto point = screenPoint(rig.screen, rig.channels[0], {50 + 50 * 0.5, 50 - 50 * 0.25});
     ASSERT_TRUE(point);
     const double azimuth = std::atan(0.5);  // the projector is on the axis
@@ -33,7 +33,7 @@ TEST(Warp, aPixelAtTangentTLightsTheAzimuthWhoseTangentIsT) {
 }
 
 TEST(Warp, yawTurnsLeftPitchTurnsUpRollTurnsCounterClockwise) {
-    Rig rig = axisRig();
+    config::Rig rig = axisRig();
     rig.channels[0].projector.yawPitchRollRadians = {0.3, 0.1, 0};
     const auto aimed = screenPoint(rig.screen, rig.channels[0], {50, 50});
     ASSERT_TRUE(aimed);
@@ -46,7 +46,7 @@ TEST(Warp, yawTurnsLeftPitchTurnsUpRollTurnsCounterClockwise) {
 }
 
 TEST(Warp, aProjectorBehindTheScreenOrLookingAwayLightsNothing) {
-    Rig rig = axisRig();
+    config::Rig rig = axisRig();
     rig.channels[0].projector.positionMetres = {0, 0, -5};
     EXPECT_FALSE(screenPoint(rig.screen, rig.channels[0], {50, 50}));
     rig.channels[0].projector.yawPitchRollRadians.x = 3.14159265;
@@ -55,7 +55,7 @@ TEST(Warp, aProjectorBehindTheScreenOrLookingAwayLightsNothing) {
 }
 
 TEST(Warp, unrolledPositionsRunFromTheTopLeftCorner) {
-    const Screen screen = axisRig().screen;
+    const config::Screen screen = axisRig().screen;
     EXPECT_LT(glm::length(unrolled(screen, {0, 0, -2}) - glm::dvec2(0.5)), 1e-12);
     const glm::dvec3 corner = screenPointAt(screen, {0, 0});
     EXPECT_LT(distance(corner, {-2 * std::sin(0.75), 1.5, -2 * std::cos(0.75)}), 1e-12);
@@ -70,10 +70,10 @@ class WarpOfRig : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Shipped, WarpOfRig, testing::Values("theatre", "touring", "desk"));
 
 TEST_P(WarpOfRig, projectingAndUnprojectingAnyPixelReturnsIt) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     Dice dice;
     int lit = 0;
-    for (const Channel& channel : rig.channels)
+    for (const config::Channel& channel : rig.channels)
         for (int i = 0; i < 2000; ++i) {
             const glm::dvec2 pixel(dice.between(0, channel.sizePixels.x),
                                    dice.between(0, channel.sizePixels.y));
@@ -89,7 +89,7 @@ TEST_P(WarpOfRig, projectingAndUnprojectingAnyPixelReturnsIt) {
 }
 
 TEST_P(WarpOfRig, neighboursPutTheSameWorldPointOnTheSameScreenPoint) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     const glm::dvec2 panorama(rig.panoramaPixels);
     Dice dice;
     int shared = 0;
@@ -113,9 +113,9 @@ TEST_P(WarpOfRig, neighboursPutTheSameWorldPointOnTheSameScreenPoint) {
 }
 
 TEST_P(WarpOfRig, theMapSaysOfEachPixelWhatItsRaySays) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     const WarpMap map = warpMap(rig, 1);
-    const Channel& channel = rig.channels[1];
+    const config::Channel& channel = rig.channels[1];
     ASSERT_EQ(map.sizePixels, channel.sizePixels);
     for (int y = 0; y < channel.sizePixels.y; y += 37)
         for (int x = 0; x < channel.sizePixels.x; x += 41) {
@@ -130,7 +130,7 @@ TEST_P(WarpOfRig, theMapSaysOfEachPixelWhatItsRaySays) {
 
 // The float map is what the nodes draw by: its rounding must not be seen where pictures overlap.
 TEST_P(WarpOfRig, theMapIsExactToAHundredthOfAPanoramaPixel) {
-    const Rig rig = shippedRig(GetParam());
+    const config::Rig rig = shippedRig(GetParam());
     const glm::dvec2 panorama(rig.panoramaPixels);
     for (std::size_t c = 0; c < rig.channels.size(); ++c) {
         const WarpMap map = warpMap(rig, c);
@@ -151,4 +151,4 @@ TEST_P(WarpOfRig, theMapIsExactToAHundredthOfAPanoramaPixel) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wall

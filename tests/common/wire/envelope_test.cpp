@@ -10,14 +10,14 @@
 #include "tests/common/wire/sample_envelopes.h"
 #include "tests/support/count_memory.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 namespace {
 
 // decode(packet) and the memory that it took on the way.
 std::size_t memoryToDecode(std::span<const std::byte> packet) {
-    const std::size_t before = bytesTaken;
+    const std::size_t before = test::bytesTaken;
     const auto ignored = decode(packet);
-    return bytesTaken - before;
+    return test::bytesTaken - before;
 }
 
 std::string nameOf(const Envelope& envelope) {
@@ -105,7 +105,7 @@ TEST(Envelope, aFishCostsItsRecordAndLittleMore) {
     StateFrame state = sampleState(1000);
     state.before.clear();
     state.fraction = 1.0F;
-    EXPECT_LT(encodeState(9, state).size(), 1000 * sizeof(FishRecord) + 200);
+    EXPECT_LT(encodeState(9, state).size(), 1000 * sizeof(motion::FishRecord) + 200);
 }
 
 TEST(Envelope, noPrefixOfAnEnvelopeIsAnEnvelope) {
@@ -174,7 +174,7 @@ TEST(Envelope, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.fraction = 1.01F; }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.fraction = nan; }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.eye.positionMetres.y = nan; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = kActions; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = motion::kActions; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.before[0].fromSegment = 255; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.pop_back(); }));
@@ -183,7 +183,7 @@ TEST(Envelope, aStateThatLiesIsRefused) {
     EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[1].bits = 5; }));  // nothing, somewhere
     EXPECT_TRUE(refused([&](StateFrame& s) { s.foodOriginMetres.z = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
-    EXPECT_TRUE(refused([](StateFrame& s) { s.quality = static_cast<QualityTier>(4); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.quality = static_cast<config::QualityTier>(4); }));
     EXPECT_TRUE(refused([&](StateFrame& s) { s.daylight = nan; }));
     EXPECT_TRUE(refused([](StateFrame& s) {
         s.foodBefore.resize(kMostFood + 1);
@@ -265,4 +265,4 @@ TEST(Envelope, aHelloOfAnotherMajorVersionIsReadSoThatItCanBeAnswered) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wire

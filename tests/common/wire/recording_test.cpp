@@ -10,7 +10,7 @@
 #include "tests/common/wire/sample_recording.h"
 #include "tests/support/count_memory.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 namespace {
 
 using testing::HasSubstr;
@@ -138,12 +138,12 @@ TEST(RecordingFormat, alteredBytesNeitherCrashNorCostMemory) {
         for (const unsigned bit : {1U, 0x10U, 0x80U, 0xFFU}) {
             Packet altered = whole;
             altered[at] ^= static_cast<std::byte>(bit);
-            const std::size_t before = bytesTaken;
+            const std::size_t before = test::bytesTaken;
             static_cast<void>(refusalOf(altered));
-            ASSERT_LT(bytesTaken - before, 64 * whole.size() + 4096) << at;
+            ASSERT_LT(test::bytesTaken - before, 64 * whole.size() + 4096) << at;
         }
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -6,10 +6,10 @@
 
 #include "common/wire/envelope.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 
-inline std::vector<FishRecord> sampleRecords(std::uint32_t fish) {
-    std::vector<FishRecord> records;
+inline std::vector<motion::FishRecord> sampleRecords(std::uint32_t fish) {
+    std::vector<motion::FishRecord> records;
     for (std::uint32_t i = 0; i < fish; ++i) {
         const auto n = static_cast<std::int32_t>(i);
         records.push_back({n,
@@ -19,8 +19,8 @@ inline std::vector<FishRecord> sampleRecords(std::uint32_t fish) {
                            ~i >> 2U,
                            static_cast<std::uint16_t>(i * 31),
                            static_cast<std::uint16_t>(i * 57),
-                           static_cast<std::uint8_t>(i % kActions),
-                           static_cast<std::uint8_t>((i + 3) % kActions),
+                           static_cast<std::uint8_t>(i % motion::kActions),
+                           static_cast<std::uint8_t>((i + 3) % motion::kActions),
                            static_cast<std::uint8_t>(i % 8),
                            8,
                            1000 - n * 77});
@@ -47,7 +47,7 @@ inline StateFrame sampleState(std::uint32_t fish) {
     state.foodBefore = sampleFood();
     state.foodAfter = sampleFood();
     state.daylight = 0.75F;
-    state.quality = QualityTier::Medium;
+    state.quality = config::QualityTier::Medium;
     return state;
 }
 
@@ -62,7 +62,7 @@ inline Welcome sampleWelcome() {
     welcome.school = {{7, 230}, {4000000000U, 65535}};
     welcome.cast = {{digestOf("species"), digestOf("repertoire"), 1},
                     {digestOf("other species"), digestOf("other repertoire"), 1}};
-    welcome.quality = QualityTier::Ultra;
+    welcome.quality = config::QualityTier::Ultra;
     return welcome;
 }
 
@@ -85,7 +85,7 @@ inline std::vector<Envelope> sampleEnvelopes() {
                                      sampleWelcome(),
                                      BlobRequest{digestOf("x"), 1U << 18U},
                                      BlobChunk{digestOf("x"), 50, 200, chunk},
-                                     Prepared{QualityTier::High},
+                                     Prepared{config::QualityTier::High},
                                      Joined{{65}},
                                      sampleState(5),
                                      Beacon{},
@@ -108,4 +108,4 @@ inline std::vector<Envelope> sampleEnvelopes() {
     return envelopes;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

@@ -6,7 +6,7 @@
 
 #include "common/wire/recording.h"
 
-namespace aquarama {
+namespace aquarama::wire {
 
 inline Production sampleProduction() {
     const std::vector<std::byte> repertoire(300, std::byte{0x5A});
@@ -34,4 +34,4 @@ inline Packet joined(const std::vector<Packet>& entries) {
     return file;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::wire

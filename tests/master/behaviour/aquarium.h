@@ -12,7 +12,7 @@
 #include "master/fish/courses.h"
 #include "master/fish/minds.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 struct Aquarium {
     static constexpr glm::vec3 kCentre{0, -4, -5};
@@ -21,7 +21,7 @@ struct Aquarium {
     explicit Aquarium(const std::vector<glm::vec3>& offsets = {}) {
         surroundings.obstacles = {{3}, {kCentre, {6, 3, 4}}, {}};
         surroundings.submarine.position = kCentre + glm::vec3{100, 0, 0};
-        Nature nature;
+        fish::Nature nature;
         nature.habits.shares.schooling = 1;
         natures.push_back(nature);
         for (const glm::vec3 offset : offsets) addFish(offset);
@@ -40,8 +40,8 @@ struct Aquarium {
         view.kind[fish] = kind;
         if (natures[kind].last == 0) natures[kind].first = static_cast<std::uint32_t>(fish);
         natures[kind].last = static_cast<std::uint32_t>(fish) + 1;
-        Mind mind;
-        mind.likes = kLikesSchooling;
+        fish::Mind mind;
+        mind.likes = fish::kLikesSchooling;
         mind.eaten = 100;
         mind.sinceMeal = 0;
         minds[fish] = mind;
@@ -70,24 +70,24 @@ struct Aquarium {
     }
 
     // Every fish thinks once.
-    const Courses& think() {
+    const fish::Courses& think() {
         Grids grids = freshGrids();
         deeds.clear();
         for (std::uint32_t fish = 0; fish < view.size(); ++fish)
-            aquarama::think(environment(grids), fish, minds, courses, deeds);
-        tick.value += kTicksBetweenThoughts;
+            behaviour::think(environment(grids), fish, minds, courses, deeds);
+        tick.value += fish::kTicksBetweenThoughts;
         return courses;
     }
 
-    FishView view;
-    Minds minds;
-    Courses courses;
+    fish::FishView view;
+    fish::Minds minds;
+    fish::Courses courses;
     Deeds deeds;
-    Surroundings surroundings;
-    std::vector<Nature> natures;
-    Gathering gathering = Gathering::Journey;
-    Goal goal{kCentre, {0.4F, 0, 0}};
+    surroundings::Surroundings surroundings;
+    std::vector<fish::Nature> natures;
+    config::Gathering gathering = config::Gathering::Journey;
+    surroundings::Goal goal{kCentre, {0.4F, 0, 0}};
     Tick tick;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

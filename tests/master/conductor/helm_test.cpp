@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 using std::chrono::milliseconds;
@@ -16,12 +16,12 @@ constexpr Steering kNothing{};
 
 class HelmTest : public testing::Test {
   protected:
-    bool says(const PeerId& who, const Steering& what, int laterMs = 40) {
+    bool says(const net::PeerId& who, const Steering& what, int laterMs = 40) {
         now_ += milliseconds(laterMs);
         return helm_.heeds(who, what, now_);
     }
     Helm helm_;
-    Instant now_ = milliseconds(1000);
+    net::Instant now_ = milliseconds(1000);
 };
 
 TEST_F(HelmTest, oneHandIsHeardUntilItLetsGo) {
@@ -68,4 +68,4 @@ TEST_F(HelmTest, whoOnlyTriesToBeRememberedIsNot) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::conductor

@@ -12,7 +12,7 @@
 #include "common/net/blob.h"
 #include "tests/support/stage.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 using std::chrono::milliseconds;
@@ -20,13 +20,15 @@ using std::chrono::seconds;
 
 class Peer {
   public:
-    explicit Peer(MemoryNet& net) : channels_(net.node()) { channels_->subscribeState(""); }
-    ~Peer() { say(Farewell{}); }  // so that the master need not wait for it at the end
+    explicit Peer(net::MemoryNet& net) : channels_(net.node()) { channels_->subscribeState(""); }
+    ~Peer() { say(wire::Farewell{}); }  // so that the master need not wait for it at the end
     Peer(const Peer&) = delete;
     Peer& operator=(const Peer&) = delete;
 
-    void say(const Message& message) { channels_->sendControl(encode({session, message})); }
-    void sayNoise(const ByteVector& noise) { channels_->sendControl(noise); }
+    void say(const wire::Message& message) {
+        channels_->sendControl(wire::encode({session, message}));
+    }
+    void sayNoise(const net::ByteVector& noise) { channels_->sendControl(noise); }
 
     // The next message of this kind, whatever comes between; empty after five seconds.
     template <class Kind>
@@ -34,39 +36,39 @@ class Peer {
         return awaitKind<Kind>([&] { return channels_->receiveControl(); }, seconds(5));
     }
     template <class Kind>
-    bool hearsNo(Instant within) {
+    bool hearsNo(net::Instant within) {
         return !awaitKind<Kind>([&] { return channels_->receiveControl(); }, within);
     }
-    std::optional<StateFrame> seeState() {
-        return awaitKind<StateFrame>([&] { return channels_->receiveState(); }, seconds(5));
+    std::optional<wire::StateFrame> seeState() {
+        return awaitKind<wire::StateFrame>([&] { return channels_->receiveState(); }, seconds(5));
     }
     // Sees the state of this frame, says ready, and gives the frame that is presented then.
     std::optional<std::uint64_t> present(std::uint64_t frame) {
-        std::optional<StateFrame> state;
+        std::optional<wire::StateFrame> state;
         do {
             state = seeState();
         } while (state && state->frame.value < frame);
-        say(Ready{{frame}, {}});
-        const auto present = hear<Present>();
+        say(wire::Ready{{frame}, {}});
+        const auto present = hear<wire::Present>();
         return present ? std::optional{present->frame.value} : std::nullopt;
     }
     // Hello, welcome, prepared: a member.
-    bool join(const std::string& name, QualityTier bears = QualityTier::Low) {
-        say(Hello{name, kProtocolMajor, ""});
-        if (!hear<Welcome>()) return false;
-        say(Prepared{bears});
-        return hear<Joined>().has_value();
+    bool join(const std::string& name, config::QualityTier bears = config::QualityTier::Low) {
+        say(wire::Hello{name, wire::kProtocolMajor, ""});
+        if (!hear<wire::Welcome>()) return false;
+        say(wire::Prepared{bears});
+        return hear<wire::Joined>().has_value();
     }
 
     std::uint64_t session = 0;  // of the last message heard
 
   private:
     template <class Kind, class Receive>
-    std::optional<Kind> awaitKind(Receive receive, Instant within) {
-        const Instant end = monotonicNow() + within;
-        while (monotonicNow() < end) {
+    std::optional<Kind> awaitKind(Receive receive, net::Instant within) {
+        const net::Instant end = net::monotonicNow() + within;
+        while (net::monotonicNow() < end) {
             while (const auto bytes = receive()) {
-                auto envelope = decode(*bytes);
+                auto envelope = wire::decode(*bytes);
                 if (!envelope) continue;
                 session = envelope->session;
                 if (auto* kind = std::get_if<Kind>(&envelope->message)) return std::move(*kind);
@@ -76,41 +78,41 @@ class Peer {
         return std::nullopt;
     }
 
-    std::unique_ptr<NodeChannels> channels_;
+    std::unique_ptr<net::NodeChannels> channels_;
 };
 
 class Reception : public testing::Test {
   protected:
     static ConductorOptions lockstepOf(std::vector<std::string> names) {
         ConductorOptions options;
-        options.pace = Pace::Lockstep;
+        options.pace = wire::Pace::Lockstep;
         options.expected = std::move(names);
         return options;
     }
-    StatusReply status() {
+    wire::StatusReply status() {
         Peer asker(net_);
-        asker.say(StatusRequest{});
-        return asker.hear<StatusReply>().value_or(StatusReply{});
+        asker.say(wire::StatusRequest{});
+        return asker.hear<wire::StatusReply>().value_or(wire::StatusReply{});
     }
 
-    MemoryNet net_;
+    net::MemoryNet net_;
 };
 
 TEST_F(Reception, refusesAnotherMajorVersionByName) {
-    const StageMaster master(ConductorOptions{}, net_.master());
+    const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer peer(net_);
-    peer.say(Hello{"left", kProtocolMajor + 1, "9.9.9"});
-    const auto refusal = peer.hear<Refusal>();
+    peer.say(wire::Hello{"left", wire::kProtocolMajor + 1, "9.9.9"});
+    const auto refusal = peer.hear<wire::Refusal>();
     ASSERT_TRUE(refusal);
     EXPECT_THAT(refusal->reason, testing::HasSubstr("protocol 2"));
     EXPECT_THAT(refusal->reason, testing::HasSubstr("9.9.9"));
 }
 
 TEST_F(Reception, refusesANameThatTheRigDoesNotHaveAndSaysWhichItHas) {
-    const StageMaster master(ConductorOptions{}, net_.master());
+    const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer peer(net_);
-    peer.say(Hello{"ceiling", kProtocolMajor, ""});
-    const auto refusal = peer.hear<Refusal>();
+    peer.say(wire::Hello{"ceiling", wire::kProtocolMajor, ""});
+    const auto refusal = peer.hear<wire::Refusal>();
     ASSERT_TRUE(refusal);
     EXPECT_THAT(refusal->reason, testing::HasSubstr("left, middle, right"));
 }
@@ -118,32 +120,32 @@ TEST_F(Reception, refusesANameThatTheRigDoesNotHaveAndSaysWhichItHas) {
 TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
     ConductorOptions options;
     options.seed = 77;
-    options.pattern = Pattern::Grid;
-    const StageMaster master(options, net_.master());
+    options.pattern = wire::Pattern::Grid;
+    const test::StageMaster master(options, net_.master());
     Peer peer(net_);
-    peer.say(Hello{"left", kProtocolMajor, ""});
-    const auto welcome = peer.hear<Welcome>();
+    peer.say(wire::Hello{"left", wire::kProtocolMajor, ""});
+    const auto welcome = peer.hear<wire::Welcome>();
     ASSERT_TRUE(welcome);
-    EXPECT_EQ(parseRig(welcome->rigText, "welcome").channels.size(), 3U);
+    EXPECT_EQ(config::parseRig(welcome->rigText, "welcome").channels.size(), 3U);
     EXPECT_EQ(welcome->stateAddress, "memory:state");
     EXPECT_EQ(welcome->seed, 77U);
-    EXPECT_EQ(welcome->pattern, Pattern::Grid);
+    EXPECT_EQ(welcome->pattern, wire::Pattern::Grid);
     EXPECT_EQ(welcome->school.size(), 3U);
-    BlobAssembly assembly(welcome->cast.at(0).repertoire);
+    net::BlobAssembly assembly(welcome->cast.at(0).repertoire);
     while (!assembly.whole()) {
-        peer.say(BlobRequest{assembly.digest(), assembly.nextOffset()});
-        const auto chunk = peer.hear<BlobChunk>();
+        peer.say(wire::BlobRequest{assembly.digest(), assembly.nextOffset()});
+        const auto chunk = peer.hear<wire::BlobChunk>();
         ASSERT_TRUE(chunk && assembly.take(chunk->offset, chunk->total, chunk->content));
     }
-    EXPECT_EQ(assembly.checked(), StageMaster::repertoire());
+    EXPECT_EQ(assembly.checked(), test::StageMaster::repertoire());
 }
 
 // As of the status: a terminal is no node. Nobody draws, so the lockstep show stands still.
 TEST_F(Reception, tellsAnybodyOfAMindAlsoWhileTheShowWaits) {
-    const StageMaster master(lockstepOf({"left"}), net_.master());
+    const test::StageMaster master(lockstepOf({"left"}), net_.master());
     Peer asker(net_);
-    asker.say(ExplainRequest{2});
-    const auto explanation = asker.hear<Explanation>();
+    asker.say(wire::ExplainRequest{2});
+    const auto explanation = asker.hear<wire::Explanation>();
     ASSERT_TRUE(explanation);
     EXPECT_EQ(explanation->fish, 2U);
     EXPECT_EQ(explanation->school, 3U);
@@ -153,22 +155,24 @@ TEST_F(Reception, tellsAnybodyOfAMindAlsoWhileTheShowWaits) {
 
 // What is dropped is in the world from one of the next ticks on; lockstep runs a few ahead.
 TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
-    const StageMaster master(lockstepOf({"left"}), net_.master());
+    const test::StageMaster master(lockstepOf({"left"}), net_.master());
     Peer left(net_);
     ASSERT_TRUE(left.join("left"));
-    const auto pellets = [](const StateFrame& state) {
+    const auto pellets = [](const wire::StateFrame& state) {
         return state.foodAfter.size() -
-               static_cast<std::size_t>(std::ranges::count(state.foodAfter, FoodRecord{}));
+               static_cast<std::size_t>(std::ranges::count(state.foodAfter, wire::FoodRecord{}));
     };
-    const auto feed = [&](glm::vec3 place) { left.say(Input{InputKind::DropFood, place, {}}); };
+    const auto feed = [&](glm::vec3 place) {
+        left.say(wire::Input{wire::InputKind::DropFood, place, {}});
+    };
     feed({0.5F, 0, -2.5F});
     for (int stuck = 0; stuck < 100; ++stuck) feed({0, 0, -2});
-    std::optional<StateFrame> state;
+    std::optional<wire::StateFrame> state;
     for (std::uint64_t frame = 0; frame < 20; ++frame) {
         state = left.seeState();
         ASSERT_TRUE(state);
-        left.say(Ready{{frame}, {}});
-        ASSERT_TRUE(left.hear<Present>());
+        left.say(wire::Ready{{frame}, {}});
+        ASSERT_TRUE(left.hear<wire::Present>());
     }
     EXPECT_EQ(pellets(*state), 1U);
     EXPECT_LT(glm::distance(state->foodAfter.front().offsetMetres() + state->foodOriginMetres,
@@ -180,8 +184,8 @@ TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
     for (std::uint64_t frame = 20; frame < 40; ++frame) {
         state = left.seeState();
         ASSERT_TRUE(state);
-        left.say(Ready{{frame}, {}});
-        ASSERT_TRUE(left.hear<Present>());
+        left.say(wire::Ready{{frame}, {}});
+        ASSERT_TRUE(left.hear<wire::Present>());
     }
     EXPECT_EQ(pellets(*state), 1U);
     EXPECT_EQ(status().refusedPackets, refused + 2);  // and the farewell of who asked before
@@ -189,7 +193,7 @@ TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
 
 // From a window's node as from a pilot that drives no channel; whoever has hold last.
 TEST_F(Reception, handsMoveTheEye) {
-    const StageMaster master(lockstepOf({"left"}), net_.master());
+    const test::StageMaster master(lockstepOf({"left"}), net_.master());
     Peer left(net_);
     Peer pilot(net_);
     ASSERT_TRUE(left.join("left"));
@@ -200,91 +204,92 @@ TEST_F(Reception, handsMoveTheEye) {
             const auto state = left.seeState();
             if (!state) return -1.0F;
             ahead = -state->eye.positionMetres.z;
-            left.say(Ready{{frame}, {}});
-            if (!left.hear<Present>()) return -1.0F;
+            left.say(wire::Ready{{frame}, {}});
+            if (!left.hear<wire::Present>()) return -1.0F;
         }
         return ahead;
     };
-    left.say(Input{InputKind::Steer, {}, {.ahead = 5}});
+    left.say(wire::Input{wire::InputKind::Steer, {}, {.ahead = 5}});
     EXPECT_EQ(eyeAfterSome(), 5);
-    pilot.say(Input{InputKind::Steer, {}, {.ahead = 7}});
+    pilot.say(wire::Input{wire::InputKind::Steer, {}, {.ahead = 7}});
     EXPECT_EQ(eyeAfterSome(), 7);
     EXPECT_EQ(status().pilot, "pilot");
-    left.say(Input{InputKind::Steer, {}, {.ahead = 6}});  // still held, but not the latest
+    left.say(
+        wire::Input{wire::InputKind::Steer, {}, {.ahead = 6}});  // still held, but not the latest
     EXPECT_EQ(eyeAfterSome(), 7);
-    pilot.say(Input{InputKind::Steer, {}, {}});
+    pilot.say(wire::Input{wire::InputKind::Steer, {}, {}});
     EXPECT_EQ(eyeAfterSome(), 0);
     EXPECT_NE(status().pilot, "pilot");
 }
 
 TEST_F(Reception, aSecondNodeOfANameWaitsUntilTheFirstIsSilent) {
-    const StageMaster master(ConductorOptions{}, net_.master());
+    const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer first(net_);
     Peer second(net_);
-    first.say(Hello{"left", kProtocolMajor, ""});
-    ASSERT_TRUE(first.hear<Welcome>());
-    second.say(Hello{"left", kProtocolMajor, ""});
-    const auto dismissed = second.hear<Dismissed>();
+    first.say(wire::Hello{"left", wire::kProtocolMajor, ""});
+    ASSERT_TRUE(first.hear<wire::Welcome>());
+    second.say(wire::Hello{"left", wire::kProtocolMajor, ""});
+    const auto dismissed = second.hear<wire::Dismissed>();
     ASSERT_TRUE(dismissed);
     EXPECT_THAT(dismissed->reason, testing::HasSubstr("another node of this name"));
     std::this_thread::sleep_for(milliseconds(300));
-    second.say(Hello{"left", kProtocolMajor, ""});
-    EXPECT_TRUE(second.hear<Welcome>());
-    first.say(Ping{1});
-    EXPECT_TRUE(first.hear<Dismissed>());
+    second.say(wire::Hello{"left", wire::kProtocolMajor, ""});
+    EXPECT_TRUE(second.hear<wire::Welcome>());
+    first.say(wire::Ping{1});
+    EXPECT_TRUE(first.hear<wire::Dismissed>());
 }
 
 TEST_F(Reception, sendsAwayWhoSpeaksWithoutHelloOrOfAnotherRun) {
-    const StageMaster master(ConductorOptions{}, net_.master());
+    const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer stranger(net_);
-    stranger.say(Ready{{3}, {}});
-    EXPECT_TRUE(stranger.hear<Dismissed>());
+    stranger.say(wire::Ready{{3}, {}});
+    EXPECT_TRUE(stranger.hear<wire::Dismissed>());
     Peer node(net_);
     ASSERT_TRUE(node.join("left"));
     node.session ^= 2;
-    node.say(Ping{1});
-    EXPECT_TRUE(node.hear<Dismissed>());  // of the true run, by which it says farewell
+    node.say(wire::Ping{1});
+    EXPECT_TRUE(node.hear<wire::Dismissed>());  // of the true run, by which it says farewell
 }
 
 TEST_F(Reception, aNodeThatSaysFarewellIsNotWaitedFor) {
-    const StageMaster master(ConductorOptions{}, net_.master());
+    const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer left(net_);
     ASSERT_TRUE(left.join("left"));
     ASSERT_TRUE(left.seeState());
-    left.say(Farewell{});
+    left.say(wire::Farewell{});
     Peer right(net_);
     ASSERT_TRUE(right.join("right"));
     const auto state = right.seeState();
     ASSERT_TRUE(state);
-    right.say(Ready{state->frame, {}});
-    EXPECT_TRUE(right.hear<Present>());
-    EXPECT_EQ(status().nodes[0].condition, NodeCondition::Absent);
+    right.say(wire::Ready{state->frame, {}});
+    EXPECT_TRUE(right.hear<wire::Present>());
+    EXPECT_EQ(status().nodes[0].condition, wire::NodeCondition::Absent);
 }
 
 TEST_F(Reception, whoSaysReadyTooEarlyOrTwiceChangesNothing) {
-    const StageMaster master(lockstepOf({"left", "right"}), net_.master());
+    const test::StageMaster master(lockstepOf({"left", "right"}), net_.master());
     Peer left(net_), right(net_);
     ASSERT_TRUE(left.join("left"));
     ASSERT_TRUE(right.join("right"));
     ASSERT_TRUE(left.seeState());
-    left.say(Ready{{1}, {}});  // of a frame that nobody draws yet
-    left.say(Ready{{0}, {}});
-    left.say(Ready{{0}, {}});
-    left.say(Ready{{~std::uint64_t{0}}, {}});
-    EXPECT_TRUE(left.hearsNo<Present>(milliseconds(100)));
-    right.say(Ready{{0}, {}});
-    EXPECT_EQ(left.hear<Present>()->frame, Frame{0});
-    EXPECT_EQ(right.hear<Present>()->frame, Frame{0});
+    left.say(wire::Ready{{1}, {}});  // of a frame that nobody draws yet
+    left.say(wire::Ready{{0}, {}});
+    left.say(wire::Ready{{0}, {}});
+    left.say(wire::Ready{{~std::uint64_t{0}}, {}});
+    EXPECT_TRUE(left.hearsNo<wire::Present>(milliseconds(100)));
+    right.say(wire::Ready{{0}, {}});
+    EXPECT_EQ(left.hear<wire::Present>()->frame, Frame{0});
+    EXPECT_EQ(right.hear<wire::Present>()->frame, Frame{0});
 }
 
 TEST_F(Reception, aReleaseThatGotLostIsGivenAgain) {
-    const StageMaster master(lockstepOf({"left"}), net_.master());
+    const test::StageMaster master(lockstepOf({"left"}), net_.master());
     Peer left(net_);
     ASSERT_TRUE(left.join("left"));
     ASSERT_TRUE(left.seeState());
     for (int times = 0; times < 3; ++times) {
-        left.say(Ready{{0}, {}});
-        const auto present = left.hear<Present>();
+        left.say(wire::Ready{{0}, {}});
+        const auto present = left.hear<wire::Present>();
         ASSERT_TRUE(present);
         EXPECT_EQ(present->frame, Frame{0});
         EXPECT_EQ(present->atNs, 0);  // lockstep: at once
@@ -292,13 +297,13 @@ TEST_F(Reception, aReleaseThatGotLostIsGivenAgain) {
 }
 
 TEST_F(Reception, noiseIsCountedAndChangesNothing) {
-    const StageMaster master(lockstepOf({"left"}), net_.master());
+    const test::StageMaster master(lockstepOf({"left"}), net_.master());
     Peer left(net_);
     ASSERT_TRUE(left.join("left"));
     Peer stranger(net_);
     std::mt19937 random(1);
     for (int packet = 0; packet < 500; ++packet) {
-        ByteVector noise(random() % 300);
+        net::ByteVector noise(random() % 300);
         for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
         stranger.sayNoise(noise);
     }
@@ -309,20 +314,20 @@ TEST_F(Reception, noiseIsCountedAndChangesNothing) {
 }
 
 TEST_F(Reception, reportsReleaseSkewFromWhatNodesSay) {
-    const StageMaster master(lockstepOf({"left", "right"}), net_.master());
+    const test::StageMaster master(lockstepOf({"left", "right"}), net_.master());
     Peer left(net_), right(net_);
     ASSERT_TRUE(left.join("left"));
     ASSERT_TRUE(right.join("right"));
     for (std::uint64_t frame = 0; frame < 30; ++frame) {
         ASSERT_TRUE(left.seeState());
-        Ready ready{{frame}, {}};
+        wire::Ready ready{{frame}, {}};
         const auto releasedAt = static_cast<std::int64_t>(frame) * 16'000'000;
-        if (frame > 0) ready.released = ReleaseReport{{frame - 1}, releasedAt};
+        if (frame > 0) ready.released = wire::ReleaseReport{{frame - 1}, releasedAt};
         left.say(ready);
         if (frame > 0) ready.released->atNs += 3'000'000;
         right.say(ready);
-        ASSERT_TRUE(left.hear<Present>());
-        ASSERT_TRUE(right.hear<Present>());
+        ASSERT_TRUE(left.hear<wire::Present>());
+        ASSERT_TRUE(right.hear<wire::Present>());
     }
     EXPECT_FLOAT_EQ(status().skewMedianMs, 3.0F);
     EXPECT_FLOAT_EQ(status().skewP99Ms, 3.0F);
@@ -330,43 +335,43 @@ TEST_F(Reception, reportsReleaseSkewFromWhatNodesSay) {
 
 // All nodes draw at one tier: the finest that each of them bears, also those that have left.
 TEST_F(Reception, theSlowestNodeDecidesHowFineTheWallIsDrawn) {
-    StageMaster master(lockstepOf({"left", "right"}), net_.master());
+    test::StageMaster master(lockstepOf({"left", "right"}), net_.master());
     Peer left(net_);
     Peer right(net_);
-    ASSERT_TRUE(left.join("left", QualityTier::High));
-    ASSERT_TRUE(right.join("right", QualityTier::Medium));
+    ASSERT_TRUE(left.join("left", config::QualityTier::High));
+    ASSERT_TRUE(right.join("right", config::QualityTier::Medium));
     const auto state = left.seeState();
     ASSERT_TRUE(state);
-    EXPECT_EQ(state->quality, QualityTier::Medium);
+    EXPECT_EQ(state->quality, config::QualityTier::Medium);
 }
 
 TEST_F(Reception, aRigMaySayHowFineItsWallIsDrawn) {
     ConductorOptions options = lockstepOf({"left"});
-    options.quality = QualityTier::Ultra;
-    StageMaster master(options, net_.master());
+    options.quality = config::QualityTier::Ultra;
+    test::StageMaster master(options, net_.master());
     Peer left(net_);
-    left.say(Hello{"left", kProtocolMajor, ""});
-    const auto welcome = left.hear<Welcome>();
+    left.say(wire::Hello{"left", wire::kProtocolMajor, ""});
+    const auto welcome = left.hear<wire::Welcome>();
     ASSERT_TRUE(welcome);
-    EXPECT_EQ(welcome->quality, QualityTier::Ultra);
-    left.say(Prepared{QualityTier::Low});
+    EXPECT_EQ(welcome->quality, config::QualityTier::Ultra);
+    left.say(wire::Prepared{config::QualityTier::Low});
     const auto state = left.seeState();
     ASSERT_TRUE(state);
-    EXPECT_EQ(state->quality, QualityTier::Ultra);
+    EXPECT_EQ(state->quality, config::QualityTier::Ultra);
 }
 
 TEST_F(Reception, writesWhenEachStateWentOut) {
     ConductorOptions options = lockstepOf({"left"});
     options.frames = 5;
-    options.traceDirectory = freshDirectory();
+    options.traceDirectory = test::freshDirectory();
     {
-        StageMaster master(options, net_.master());
+        test::StageMaster master(options, net_.master());
         Peer left(net_);
         ASSERT_TRUE(left.join("left"));
         for (std::uint64_t frame = 0; frame < 5; ++frame) {
             ASSERT_EQ(left.present(frame), frame);
         }
-        ASSERT_TRUE(left.hear<Farewell>());
+        ASSERT_TRUE(left.hear<wire::Farewell>());
         EXPECT_EQ(master.report().frames, 5U);
     }
     std::ifstream file(options.traceDirectory / "master.csv");
@@ -388,8 +393,8 @@ TEST_F(Reception, writesWhenEachStateWentOut) {
 TEST_F(Reception, aTraceThatCannotBeWrittenIsAnErrorBeforeTheShow) {
     ConductorOptions options;
     options.traceDirectory = "/proc/nowhere";
-    EXPECT_THROW(StageMaster(options, net_.master()), Error);
+    EXPECT_THROW(test::StageMaster(options, net_.master()), Error);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::conductor

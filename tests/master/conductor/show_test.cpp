@@ -10,7 +10,7 @@
 #include "master/conductor/status.h"
 #include "tests/support/stage.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 using std::chrono::milliseconds;
@@ -19,27 +19,27 @@ const std::vector<std::string> kNames = {"left", "middle", "right"};
 
 ConductorOptions lockstep(std::uint64_t frames) {
     ConductorOptions options;
-    options.pace = Pace::Lockstep;
+    options.pace = wire::Pace::Lockstep;
     options.frames = frames;
     return options;
 }
 
-std::vector<std::unique_ptr<StageNode>> nodesOf(const StageMaster& master,
-                                                Journal& journal,
-                                                StageNode::Habits habits = {}) {
-    std::vector<std::unique_ptr<StageNode>> nodes;
+std::vector<std::unique_ptr<test::StageNode>> nodesOf(const test::StageMaster& master,
+                                                      test::Journal& journal,
+                                                      test::StageNode::Habits habits = {}) {
+    std::vector<std::unique_ptr<test::StageNode>> nodes;
     for (const std::string& name : kNames) {
-        nodes.push_back(std::make_unique<StageNode>(name, master.connect(), journal, habits));
+        nodes.push_back(std::make_unique<test::StageNode>(name, master.connect(), journal, habits));
     }
     return nodes;
 }
 
 // No node presents a frame before all three were ready for it, and the one before was presented.
-void expectLockstep(const std::vector<Event>& events, std::uint64_t frames) {
+void expectLockstep(const std::vector<test::Event>& events, std::uint64_t frames) {
     std::map<std::string, std::uint64_t> ready, presented;
-    for (const Event& event : events) {
+    for (const test::Event& event : events) {
         const std::uint64_t frame = event.state.frame.value;
-        if (event.kind == Event::Kind::Ready) {
+        if (event.kind == test::Event::Kind::Ready) {
             EXPECT_EQ(frame, ready[event.node]++) << event.node << " skipped a frame";
             continue;
         }
@@ -52,43 +52,43 @@ void expectLockstep(const std::vector<Event>& events, std::uint64_t frames) {
 }
 
 TEST(Show, inLockstepNobodyPresentsBeforeAllAreReady) {
-    StageMaster master(lockstep(60));
-    Journal journal;
+    test::StageMaster master(lockstep(60));
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     const ShowReport report = master.report();
     EXPECT_EQ(master.failure(), "");
     EXPECT_EQ(report.frames, 60U);
     EXPECT_EQ(report.tick, Tick{59});
-    EXPECT_EQ(report.worldHash, CountingWorld::hashAt({59}));
+    EXPECT_EQ(report.worldHash, test::CountingWorld::hashAt({59}));
     for (const std::string& name : kNames) ASSERT_TRUE(journal.awaitPresented(name, 60));
     expectLockstep(journal.events(), 60);
 }
 
 TEST(Show, inLockstepFrameNShowsTickNOnEveryNode) {
-    StageMaster master(lockstep(20));
-    Journal journal;
+    test::StageMaster master(lockstep(20));
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     master.report();
-    for (const Event& event : journal.events()) {
+    for (const test::Event& event : journal.events()) {
         EXPECT_EQ(event.state.tick.value, event.state.frame.value);
         EXPECT_EQ(event.state.fraction, 1.0F);
         EXPECT_TRUE(event.state.before.empty());
         ASSERT_EQ(event.state.after.size(), 3U);
         EXPECT_EQ(event.state.after[2].x, static_cast<int>(event.state.tick.value));
-        EXPECT_EQ(event.state.worldHash, CountingWorld::hashAt(event.state.tick));
+        EXPECT_EQ(event.state.worldHash, test::CountingWorld::hashAt(event.state.tick));
     }
 }
 
 TEST(Show, liveFramesAdvanceTogetherAndShowOneMomentOnEveryNode) {
     ConductorOptions options;
     options.frames = 40;
-    StageMaster master(options);
-    Journal journal;
+    test::StageMaster master(options);
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     EXPECT_EQ(master.report().frames, 40U);
     std::map<std::uint64_t, std::pair<std::uint64_t, float>> moments;
     double last = -1;
-    for (const Event& event : journal.events()) {
+    for (const test::Event& event : journal.events()) {
         const auto& s = event.state;
         const auto moment = std::pair{s.tick.value, s.fraction};
         EXPECT_EQ(moments.emplace(s.frame.value, moment).first->second, moment);
@@ -107,21 +107,22 @@ TEST(Show, comesUpInAnyOrder) {
         const auto upTo = [&](unsigned ms) { return milliseconds(random() % ms); };
         // The master may come last: its address must be known, so its port is taken and given back.
         const std::string control =
-            bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*")->controlAddress();
-        Journal journal;
-        std::vector<std::unique_ptr<StageNode>> nodes;
+            net::bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*")->controlAddress();
+        test::Journal journal;
+        std::vector<std::unique_ptr<test::StageNode>> nodes;
         auto names = kNames;
         std::ranges::shuffle(names, random);
-        std::unique_ptr<StageMaster> master;
+        std::unique_ptr<test::StageMaster> master;
         const std::size_t masterAt = random() % 4;
         for (std::size_t place = 0; place < 4; ++place) {
-            if (place == masterAt) master = std::make_unique<StageMaster>(lockstep(3), control);
+            if (place == masterAt)
+                master = std::make_unique<test::StageMaster>(lockstep(3), control);
             if (place == 3) break;
-            nodes.push_back(std::make_unique<StageNode>(
+            nodes.push_back(std::make_unique<test::StageNode>(
                 names[place],
-                [control] { return connectNode(control); },
+                [control] { return net::connectNode(control); },
                 journal,
-                StageNode::Habits{{}, upTo(60), upTo(30)}));
+                test::StageNode::Habits{{}, upTo(60), upTo(30)}));
             std::this_thread::sleep_for(upTo(20));
         }
         ASSERT_EQ(master->report().frames, 3U) << "seed " << seed;
@@ -131,8 +132,8 @@ TEST(Show, comesUpInAnyOrder) {
 }
 
 TEST(Show, liveGoesOnWithoutAFrozenNodeWhichComesBackInStep) {
-    StageMaster master(ConductorOptions{});
-    Journal journal;
+    test::StageMaster master(ConductorOptions{});
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal, {milliseconds(2), {}, {}});
     ASSERT_TRUE(journal.awaitPresented("middle", 5));
     nodes[1]->freeze();
@@ -146,8 +147,8 @@ TEST(Show, liveGoesOnWithoutAFrozenNodeWhichComesBackInStep) {
     // Back in step: its last frames are those that the others showed with it.
     std::map<std::string, std::set<std::uint64_t>> frames;
     std::uint64_t lastOfMiddle = 0;
-    for (const Event& event : journal.events()) {
-        if (event.kind != Event::Kind::Presented) continue;
+    for (const test::Event& event : journal.events()) {
+        if (event.kind != test::Event::Kind::Presented) continue;
         frames[event.node].insert(event.state.frame.value);
         if (event.node == "middle") lastOfMiddle = event.state.frame.value;
     }
@@ -159,31 +160,31 @@ TEST(Show, liveGoesOnWithoutAFrozenNodeWhichComesBackInStep) {
 }
 
 TEST(Show, liveGoesOnWithoutADeadNodeWhoseSuccessorTakesItsPlace) {
-    StageMaster master(ConductorOptions{});
-    Journal journal;
+    test::StageMaster master(ConductorOptions{});
+    test::Journal journal;
     auto nodes = nodesOf(master, journal);
     ASSERT_TRUE(journal.awaitPresented("right", 5));
     nodes[2]->freeze();  // so that no farewell is heard
     nodes[2].reset();
     const auto diedAt = journal.presentedBy("right");
-    nodes[2] = std::make_unique<StageNode>("right", master.connect(), journal);
+    nodes[2] = std::make_unique<test::StageNode>("right", master.connect(), journal);
     ASSERT_TRUE(journal.awaitPresented("right", diedAt + 10));
     EXPECT_EQ(nodes[0]->joins(), 1);
 }
 
 TEST(Show, lockstepWaitsForANodeThatStartsAgainAndSkipsNothing) {
-    StageMaster master(lockstep(400));
-    Journal journal;
+    test::StageMaster master(lockstep(400));
+    test::Journal journal;
     auto nodes = nodesOf(master, journal, {milliseconds(1), {}, {}});
     ASSERT_TRUE(journal.awaitPresented("left", 10));
     nodes[0]->freeze();
     nodes[0].reset();
-    nodes[0] = std::make_unique<StageNode>("left", master.connect(), journal);
+    nodes[0] = std::make_unique<test::StageNode>("left", master.connect(), journal);
     EXPECT_EQ(master.report().frames, 400U);
     ASSERT_TRUE(journal.awaitPresented("middle", 400));
     std::map<std::string, std::uint64_t> presented;
-    for (const Event& event : journal.events()) {
-        if (event.kind != Event::Kind::Presented || event.node == "left") continue;
+    for (const test::Event& event : journal.events()) {
+        if (event.kind != test::Event::Kind::Presented || event.node == "left") continue;
         EXPECT_EQ(event.state.frame.value, presented[event.node]++);
     }
 }
@@ -191,8 +192,8 @@ TEST(Show, lockstepWaitsForANodeThatStartsAgainAndSkipsNothing) {
 TEST(Show, lockstepEndsByNameWhenANodeStaysSilent) {
     ConductorOptions options = lockstep(100000);
     options.patience = std::chrono::seconds(2);
-    StageMaster master(options);
-    Journal journal;
+    test::StageMaster master(options);
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     ASSERT_TRUE(journal.awaitPresented("left", 3));
     nodes[1]->freeze();
@@ -201,16 +202,16 @@ TEST(Show, lockstepEndsByNameWhenANodeStaysSilent) {
 }
 
 TEST(Show, nodesFindAMasterThatWasStartedAgain) {
-    auto first = std::make_unique<StageMaster>(ConductorOptions{});
+    auto first = std::make_unique<test::StageMaster>(ConductorOptions{});
     const std::string control = first->control();
-    Journal journal;
+    test::Journal journal;
     const auto nodes = nodesOf(*first, journal);
     ASSERT_TRUE(journal.awaitPresented("left", 5));
     // A master that dies says no farewell. Here it is stopped, and says one: so the nodes' cables
     // are cut while it does.
     for (const auto& node : nodes) node->freeze();
     first.reset();
-    StageMaster second(ConductorOptions{}, control);
+    test::StageMaster second(ConductorOptions{}, control);
     for (const auto& node : nodes) node->thaw();
     for (const std::string& name : kNames) {
         ASSERT_TRUE(journal.awaitPresented(name, journal.presentedBy(name) + 5)) << name;
@@ -219,29 +220,30 @@ TEST(Show, nodesFindAMasterThatWasStartedAgain) {
 }
 
 TEST(Show, anyNodeMayEndIt) {
-    StageMaster master(ConductorOptions{});
-    Journal journal;
+    test::StageMaster master(ConductorOptions{});
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     ASSERT_TRUE(journal.awaitPresented("middle", 3));
-    nodes[1]->session().send(NodeInput::Quit);
+    nodes[1]->session().send(session::NodeInput::Quit);
     EXPECT_GE(master.report().frames, 3U);
 }
 
 TEST(Show, aPausedWorldStandsStillWhileFramesGoOn) {
-    StageMaster master(ConductorOptions{});
-    Journal journal;
+    test::StageMaster master(ConductorOptions{});
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal);
     ASSERT_TRUE(journal.awaitPresented("left", 5));
-    nodes[0]->session().send(NodeInput::TogglePause);
+    nodes[0]->session().send(session::NodeInput::TogglePause);
     std::uint64_t still = 0;
     while (still < 20) {  // the suite's budget would stop it
         ASSERT_TRUE(journal.awaitPresented("left", journal.presentedBy("left") + 1));
         const auto events = journal.events();
-        still = static_cast<std::uint64_t>(std::ranges::count_if(events, [&](const Event& event) {
-            return event.state.tick == events.back().state.tick;
-        }));
+        still =
+            static_cast<std::uint64_t>(std::ranges::count_if(events, [&](const test::Event& event) {
+                return event.state.tick == events.back().state.tick;
+            }));
     }
-    nodes[1]->session().send(NodeInput::TogglePause);
+    nodes[1]->session().send(session::NodeInput::TogglePause);
     const Tick paused = journal.events().back().state.tick;
     while (journal.events().back().state.tick <= paused) {
         ASSERT_TRUE(journal.awaitPresented("left", journal.presentedBy("left") + 1));
@@ -249,24 +251,24 @@ TEST(Show, aPausedWorldStandsStillWhileFramesGoOn) {
 }
 
 TEST(Show, anEvenlySlowWallLosesNobody) {
-    Rig rig = StageMaster::deskRig();
+    config::Rig rig = test::StageMaster::deskRig();
     rig.timing.presentDeadlineSeconds = 1.0 / 60;  // far less than a frame takes
     ConductorOptions options;
     options.frames = 12;
-    StageMaster master(options, "tcp://127.0.0.1:*", rig);
-    Journal journal;
+    test::StageMaster master(options, "tcp://127.0.0.1:*", rig);
+    test::Journal journal;
     const auto nodes = nodesOf(master, journal, {milliseconds(80), {}, {}});
     EXPECT_EQ(master.report().frames, 12U);
     for (const auto& node : nodes) EXPECT_EQ(node->joins(), 1);
 }
 
 TEST(Show, lostStatesAreSentAgain) {
-    MemoryNet net({milliseconds(1), 16, 3});  // one in four
-    StageMaster master(lockstep(4), net.master());
-    Journal journal;
-    std::vector<std::unique_ptr<StageNode>> nodes;
+    net::MemoryNet net({milliseconds(1), 16, 3});  // one in four
+    test::StageMaster master(lockstep(4), net.master());
+    test::Journal journal;
+    std::vector<std::unique_ptr<test::StageNode>> nodes;
     for (const std::string& name : kNames) {
-        nodes.push_back(std::make_unique<StageNode>(
+        nodes.push_back(std::make_unique<test::StageNode>(
             name, [&net] { return net.node(); }, journal));
     }
     EXPECT_EQ(master.report().frames, 4U);
@@ -275,9 +277,9 @@ TEST(Show, lostStatesAreSentAgain) {
 }
 
 TEST(Show, itsStatusNamesEveryNode) {
-    StageMaster master(ConductorOptions{});
-    Journal journal;
-    const StageNode left("left", master.connect(), journal);
+    test::StageMaster master(ConductorOptions{});
+    test::Journal journal;
+    const test::StageNode left("left", master.connect(), journal);
     ASSERT_TRUE(journal.awaitPresented("left", 30));
     const std::string text = runStatus(master.control());
     EXPECT_THAT(text, testing::HasSubstr("live"));
@@ -286,4 +288,4 @@ TEST(Show, itsStatusNamesEveryNode) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::conductor

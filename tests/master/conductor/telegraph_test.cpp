@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 TEST(Telegraph, eachKeyIsANotchOfItsAxisUpToFull) {
@@ -43,4 +43,4 @@ TEST(Telegraph, endsAtQEscapeAndInterruptAndPassesOverTheRest) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::conductor

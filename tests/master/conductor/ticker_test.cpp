@@ -11,7 +11,7 @@
 #include "master/conductor/status.h"
 #include "tests/support/stage.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
 Snapshot next(Ticker& ticker) {
@@ -22,13 +22,13 @@ Snapshot next(Ticker& ticker) {
 }
 
 TEST(Ticker, lockstepGivesEveryTickOnceAndStopsAtTheLast) {
-    CountingWorld world;
+    test::CountingWorld world;
     std::atomic<int> calls = 0;
-    Ticker ticker(world, Pace::Lockstep, Tick{30}, [&] { ++calls; });
+    Ticker ticker(world, wire::Pace::Lockstep, Tick{30}, [&] { ++calls; });
     for (std::uint64_t tick = 0; tick <= 30; ++tick) {
         const Snapshot snapshot = next(ticker);
         EXPECT_EQ(snapshot.tick, Tick{tick});
-        EXPECT_EQ(snapshot.hash, CountingWorld::hashAt({tick}));
+        EXPECT_EQ(snapshot.hash, test::CountingWorld::hashAt({tick}));
         EXPECT_EQ(snapshot.fish.at(0).x, static_cast<int>(tick));
     }
     while (calls < 31) std::this_thread::yield();
@@ -37,10 +37,10 @@ TEST(Ticker, lockstepGivesEveryTickOnceAndStopsAtTheLast) {
 }
 
 TEST(Ticker, lockstepRunsNoFurtherAheadThanAFewTicks) {
-    CountingWorld world;
+    test::CountingWorld world;
     std::atomic<int> calls = 0;
     {
-        const Ticker ticker(world, Pace::Lockstep, {}, [&] { ++calls; });
+        const Ticker ticker(world, wire::Pace::Lockstep, {}, [&] { ++calls; });
         while (calls < 4) std::this_thread::yield();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
@@ -48,8 +48,8 @@ TEST(Ticker, lockstepRunsNoFurtherAheadThanAFewTicks) {
 }
 
 TEST(Ticker, liveTicksAreDueOnePeriodApartWhateverTheirDelay) {
-    CountingWorld world;
-    Ticker ticker(world, Pace::Live, {}, [] {});
+    test::CountingWorld world;
+    Ticker ticker(world, wire::Pace::Live, {}, [] {});
     Snapshot last = next(ticker);
     for (int tick = 1; tick < 10; ++tick) {
         const Snapshot snapshot = next(ticker);
@@ -63,8 +63,8 @@ TEST(Ticker, liveTicksAreDueOnePeriodApartWhateverTheirDelay) {
 }
 
 TEST(Ticker, aPausePutsOffAllThatIsDue) {
-    CountingWorld world;
-    Ticker ticker(world, Pace::Live, {}, [] {});
+    test::CountingWorld world;
+    Ticker ticker(world, wire::Pace::Live, {}, [] {});
     next(ticker);
     ticker.togglePause();
     EXPECT_TRUE(ticker.paused());
@@ -73,7 +73,7 @@ TEST(Ticker, aPausePutsOffAllThatIsDue) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     EXPECT_FALSE(ticker.take());
-    const Instant resumed = monotonicNow();
+    const net::Instant resumed = net::monotonicNow();
     ticker.togglePause();
     EXPECT_GE(next(ticker).due, resumed);
 }
@@ -82,28 +82,28 @@ TEST(Ticker, aPausePutsOffAllThatIsDue) {
 void askAndExpectAnAnswer(Ticker& ticker) {
     std::atomic<bool> answered = false;
     ASSERT_TRUE(ticker.betweenTicks([&](Simulation& world) {
-        EXPECT_EQ(world.hash(), CountingWorld::hashAt(world.tick()));
+        EXPECT_EQ(world.hash(), test::CountingWorld::hashAt(world.tick()));
         answered = true;
     }));
     while (!answered) std::this_thread::yield();  // the suite's budget would stop it
 }
 
 TEST(Ticker, doesJobsWhileItRunsWhileItIsPausedAndWhileNobodyTakesItsTicks) {
-    CountingWorld world;
-    Ticker live(world, Pace::Live, {}, [] {});
+    test::CountingWorld world;
+    Ticker live(world, wire::Pace::Live, {}, [] {});
     askAndExpectAnAnswer(live);
     live.togglePause();
     askAndExpectAnAnswer(live);
 
-    CountingWorld other;
-    Ticker lockstep(other, Pace::Lockstep, {}, [] {});
+    test::CountingWorld other;
+    Ticker lockstep(other, wire::Pace::Lockstep, {}, [] {});
     while (other.tick().value < Timeline::kKept / 2) std::this_thread::yield();
     askAndExpectAnAnswer(lockstep);
 }
 
 TEST(Ticker, doesJobsAfterTheLastTick) {
-    CountingWorld world;
-    Ticker ticker(world, Pace::Lockstep, Tick{0}, [] {});
+    test::CountingWorld world;
+    Ticker ticker(world, wire::Pace::Lockstep, Tick{0}, [] {});
     next(ticker);
     askAndExpectAnAnswer(ticker);
     EXPECT_EQ(world.tick(), Tick{0});
@@ -111,11 +111,11 @@ TEST(Ticker, doesJobsAfterTheLastTick) {
 
 // Jobs run one after the other with the world, so they need no lock of their own.
 TEST(Ticker, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
-    CountingWorld world;
+    test::CountingWorld world;
     std::atomic<bool> holding = false, held = true;
     std::atomic<int> done = 0;
     std::vector<int> order;
-    Ticker ticker(world, Pace::Live, {}, [] {});
+    Ticker ticker(world, wire::Pace::Live, {}, [] {});
     ASSERT_TRUE(ticker.betweenTicks([&](Simulation&) {
         holding = true;
         while (held) std::this_thread::yield();
@@ -134,10 +134,10 @@ TEST(Ticker, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
 }
 
 TEST(Ticker, endsWhileItWaits) {
-    CountingWorld world;
-    for (const Pace pace : {Pace::Live, Pace::Lockstep}) {
+    test::CountingWorld world;
+    for (const wire::Pace pace : {wire::Pace::Live, wire::Pace::Lockstep}) {
         Ticker ticker(world, pace, {}, [] {});
-        if (pace == Pace::Live) ticker.togglePause();
+        if (pace == wire::Pace::Live) ticker.togglePause();
     }
 }
 
@@ -167,9 +167,9 @@ TEST(SkewMeter, oneNodeAloneHasNoSkew) {
 }
 
 TEST(Status, saysWhenNoMasterAnswers) {
-    const auto free = bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*")->controlAddress();
+    const auto free = net::bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*")->controlAddress();
     EXPECT_THROW(static_cast<void>(runStatus(free)), Error);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::conductor

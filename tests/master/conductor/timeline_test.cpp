@@ -5,18 +5,18 @@
 
 #include "common/net/clock.h"
 
-namespace aquarama {
+namespace aquarama::conductor {
 namespace {
 
-constexpr Instant kStart = std::chrono::seconds(100);
+constexpr net::Instant kStart = std::chrono::seconds(100);
 
-Snapshot at(std::uint64_t tick, Instant due) {
+Snapshot at(std::uint64_t tick, net::Instant due) {
     return {{tick},
             due,
             tick * 10,
             {glm::vec3(static_cast<float>(tick), 0, 0), {1, 0, 0, 0}},
             1.0F / static_cast<float>(1 + tick),
-            {FishRecord{.x = static_cast<std::int32_t>(tick)}},
+            {motion::FishRecord{.x = static_cast<std::int32_t>(tick)}},
             {{7, 8, 9}, {{tick}}}};
 }
 
@@ -97,4 +97,4 @@ TEST(Timeline, forgetsTheOldest) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::conductor

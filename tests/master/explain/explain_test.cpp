@@ -13,7 +13,7 @@
 #include "tests/master/world/few_fish.h"
 #include "tests/support/synthetic_production.h"
 
-namespace aquarama {
+namespace aquarama::explain {
 namespace {
 
 using testing::AllOf;
@@ -21,14 +21,14 @@ using testing::Contains;
 using testing::HasSubstr;
 
 // A world that has lived for so many ticks.
-struct Lived final : LivingWorld {
-    Lived(const WorldOptions& options, int ticks) : LivingWorld(options) {
+struct Lived final : production::LivingWorld {
+    Lived(const world::WorldOptions& options, int ticks) : production::LivingWorld(options) {
         for (int i = 0; i < ticks; ++i) advance();
     }
 };
 
 TEST(Explain, lookingIntoAMindChangesNothing) {
-    const WorldOptions options = worldOptionsOf(syntheticProduction());
+    const world::WorldOptions options = production::worldOptionsOf(test::syntheticProduction());
     Lived watched(options, 200);
     Lived alone(options, 200);
     for (int tick = 0; tick < 60; ++tick) {
@@ -42,41 +42,43 @@ TEST(Explain, lookingIntoAMindChangesNothing) {
 
 // The nodes draw it, terminals print it.
 TEST(Explain, everyMindFitsOnAScreenOfPlainText) {
-    Lived world(worldOptionsOf(syntheticProduction()), 100);
+    Lived world(production::worldOptionsOf(test::syntheticProduction()), 100);
     for (int tick = 0; tick < 300; ++tick) {
         world.advance();
         for (std::uint32_t fish = 0; fish < 41; ++fish) {
-            const Explanation explanation = world.explain(fish);
+            const wire::Explanation explanation = world.explain(fish);
             ASSERT_LE(explanation.lines.size(), kScreenLines);
             for (const std::string& line : explanation.lines) {
                 ASSERT_LE(line.size(), kScreenColumns) << line;
                 ASSERT_TRUE(std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; }))
                     << line;
             }
-            ASSERT_TRUE(decode(encode({1, explanation})));
+            ASSERT_TRUE(wire::decode(wire::encode({1, explanation})));
         }
     }
 }
 
 TEST(Explain, aFishThatIsNotThereHasNoLines) {
-    const Lived world(worldOptionsOf(syntheticProduction()), 1);
-    const Explanation explanation = world.explain(41);
+    const Lived world(production::worldOptionsOf(test::syntheticProduction()), 1);
+    const wire::Explanation explanation = world.explain(41);
     EXPECT_EQ(explanation.school, 41U);
     EXPECT_TRUE(explanation.lines.empty());
 }
 
 // Exactly one rung wins; whatever is below it has lost, each for a reason that is printed.
 TEST(Explain, oneIntentionWinsAndEveryOtherSaysWhyItLost) {
-    Lived world(worldOptionsOf(syntheticProduction()), 300);
+    Lived world(production::worldOptionsOf(test::syntheticProduction()), 300);
     for (std::uint32_t fish = 0; fish < 41; ++fish) {
         const auto insight = insightInto(world.world(), fish);
         ASSERT_TRUE(insight);
-        EXPECT_EQ(std::ranges::count(insight->reasoning.rungs, Verdict::Wins, &Weighed::verdict),
-                  1);
+        EXPECT_EQ(
+            std::ranges::count(
+                insight->reasoning.rungs, behaviour::Verdict::Wins, &behaviour::Weighed::verdict),
+            1);
         const std::vector<std::string> lines = world.explain(fish).lines;
         const auto why = std::ranges::find_if(
             lines, [](const std::string& line) { return line.starts_with("WHY"); });
-        ASSERT_EQ(lines.end() - why, static_cast<std::ptrdiff_t>(kRungs));
+        ASSERT_EQ(lines.end() - why, static_cast<std::ptrdiff_t>(behaviour::kRungs));
         EXPECT_TRUE(std::all_of(
             why, lines.end(), [](const std::string& line) { return line.size() > 25; }));
     }
@@ -84,11 +86,11 @@ TEST(Explain, oneIntentionWinsAndEveryOtherSaysWhyItLost) {
 
 // A scad two metres before a hungry shark's mouth.
 TEST(Explain, aFrightenedFishIsSaidToFlee) {
-    WorldOptions options = openWater(1, {scads(1), sharks(1)});
+    world::WorldOptions options = world::openWater(1, {world::scads(1), world::sharks(1)});
     const glm::vec3 middle = options.scene.water.centre;
-    options.cast[0].start = Start{.centre = middle, .radiusMetres = 0.01};
-    options.cast[1].start =
-        Start{.centre = middle + glm::vec3{0.8F, 0, 0.3F}, .radiusMetres = 0.01, .hunger = 0.9};
+    options.cast[0].start = config::Start{.centre = middle, .radiusMetres = 0.01};
+    options.cast[1].start = config::Start{
+        .centre = middle + glm::vec3{0.8F, 0, 0.3F}, .radiusMetres = 0.01, .hunger = 0.9};
     const Lived world(options, 12);
     const auto insight = insightInto(world.world(), 0);
     ASSERT_TRUE(insight);
@@ -103,11 +105,11 @@ TEST(Explain, aFrightenedFishIsSaidToFlee) {
 TEST(Explain, anEatenFishIsSaidToBeAway) {
     Insight insight;
     insight.away = true;
-    FishView view;
+    fish::FishView view;
     view.resize(1);
     const std::vector<std::string> names{"scad"};
     EXPECT_THAT(linesOf(insight, {view, names}), Contains(HasSubstr("away")));
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::explain

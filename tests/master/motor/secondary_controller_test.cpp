@@ -9,7 +9,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::fish {
 namespace {
 
 // The bigeye scad's gaits in round numbers.
@@ -32,39 +32,39 @@ struct Mind {
         want(0, 2.0F);
     }
     void want(float degreesToTheLeft, float speed, float urgency = 0) {
-        const float angle = degreesToTheLeft * kRadiansPerDegree;
+        const float angle = degreesToTheLeft * place::kRadiansPerDegree;
         courses[0].direction = {std::cos(angle), 0, -std::sin(angle)};
         courses[0].speed = speed;
         courses[0].urgency = urgency;
         courses[0].openToChange = true;
     }
     // Thinks once; the motor is taken to follow at once, and to be done with every turn by then.
-    Action think() {
+    motion::Action think() {
         SecondaryController{&gaits, &view, &courses, &states, 1, {tick}, &commands, &memory}.run(0,
                                                                                                  1);
         tick += kTicksBetweenThoughts;
         states.segment[0] = commands.segment[0];
         states.phase[0] = 65535;
-        return static_cast<Action>(commands.segment[0]);
+        return static_cast<motion::Action>(commands.segment[0]);
     }
-    Action thinkFor(int thoughts) {
+    motion::Action thinkFor(int thoughts) {
         for (int i = 1; i < thoughts; ++i) think();
         return think();
     }
 
     Gaits gaits = scadGaits();
     FishView view;
-    MotionStates states;
-    MotorCommands commands;
+    motion::MotionStates states;
+    motion::MotorCommands commands;
     Courses courses;
     ControllerMemory memory;
     std::uint64_t tick = 0;
 };
 
 TEST(SecondaryController, aWantedSpeedBecomesSlowMediumOrFast) {
-    for (const auto& [speed, gait] : {std::pair{0.9F, Action::ForwardSlow},
-                                      std::pair{2.0F, Action::ForwardMedium},
-                                      std::pair{2.8F, Action::ForwardFast}}) {
+    for (const auto& [speed, gait] : {std::pair{0.9F, motion::Action::ForwardSlow},
+                                      std::pair{2.0F, motion::Action::ForwardMedium},
+                                      std::pair{2.8F, motion::Action::ForwardFast}}) {
         Mind mind;
         mind.want(0, speed);
         EXPECT_EQ(mind.thinkFor(8), gait) << speed;
@@ -88,10 +88,10 @@ TEST(SecondaryController, aGaitIsPlayedFasterOrSlowerButByFifteenPercentAtMost) 
 }
 
 TEST(SecondaryController, aWantedCourseBecomesAGradualOrASharpTurnToItsSide) {
-    for (const auto& [degrees, action] : {std::pair{40.0F, Action::TurnLeftGradual},
-                                          std::pair{-40.0F, Action::TurnRightGradual},
-                                          std::pair{110.0F, Action::TurnLeftSharp},
-                                          std::pair{-110.0F, Action::TurnRightSharp}}) {
+    for (const auto& [degrees, action] : {std::pair{40.0F, motion::Action::TurnLeftGradual},
+                                          std::pair{-40.0F, motion::Action::TurnRightGradual},
+                                          std::pair{110.0F, motion::Action::TurnLeftSharp},
+                                          std::pair{-110.0F, motion::Action::TurnRightSharp}}) {
         Mind mind;
         mind.want(degrees, 2.0F);
         EXPECT_EQ(mind.think(), action) << degrees;
@@ -111,26 +111,26 @@ TEST(SecondaryController, aSmallErrorOfCourseIsSteeredWithinTheStroke) {
 TEST(SecondaryController, inDangerItTurnsSharplyEarlier) {
     Mind calm;
     calm.want(60, 2.0F);
-    EXPECT_EQ(calm.think(), Action::TurnLeftGradual);
+    EXPECT_EQ(calm.think(), motion::Action::TurnLeftGradual);
     Mind alarmed;
     alarmed.want(60, 2.0F, 1.5F);
-    EXPECT_EQ(alarmed.think(), Action::TurnLeftSharp);
+    EXPECT_EQ(alarmed.think(), motion::Action::TurnLeftSharp);
 }
 
 TEST(SecondaryController, backwardsItKeepsTheSideOfTheTurnItIsIn) {
     Mind mind;
     mind.want(170, 2.0F);
-    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
-    mind.states.segment[0] = static_cast<std::uint8_t>(Action::TurnLeftGradual);
+    EXPECT_EQ(mind.think(), motion::Action::TurnLeftSharp);
+    mind.states.segment[0] = static_cast<std::uint8_t>(motion::Action::TurnLeftGradual);
     mind.want(-175, 2.0F);
-    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
+    EXPECT_EQ(mind.think(), motion::Action::TurnLeftSharp);
 }
 
 TEST(SecondaryController, whatATurnWillHaveDoneCounts) {
     for (const float degrees : {90.0F, 30.0F}) {
         Mind mind;
         mind.want(degrees, 2.0F);
-        const Action turn = mind.think();
+        const motion::Action turn = mind.think();
         EXPECT_TRUE(isTurn(turn) && isLeft(turn));
         mind.states.phase[0] = 0;  // just begun: all of its 55 or 30 degrees are still to come
         mind.want(degrees > 50 ? 57 : 30, 2.0F);
@@ -146,7 +146,7 @@ TEST(SecondaryController, whatFollowsATurnIsChosenInItsLastTick) {
     mind.states.phase[0] = 60000;
     mind.want(0, 2.0F);
     ++mind.tick;  // not its time to think
-    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
+    EXPECT_EQ(mind.think(), motion::Action::TurnLeftSharp);
     mind.states.phase[0] = 65000;
     EXPECT_TRUE(isForward(mind.think()));
 }
@@ -155,7 +155,7 @@ TEST(SecondaryController, aFishThatIsMuchTooFastBrakes) {
     Mind mind;
     mind.want(0, 1.0F);
     for (const auto& [speed, brake] : {std::pair{1.5F, 0}, {2.1F, 127}, {4.0F, 255}}) {
-        setSpeedBodyLengths(mind.states, 0, speed);
+        motion::setSpeedBodyLengths(mind.states, 0, speed);
         mind.thinkFor(8);
         EXPECT_NEAR(mind.commands.brake[0], brake, 1) << speed;
     }
@@ -166,9 +166,9 @@ TEST(SecondaryController, aGlideIsRecommendedToThoseWhoAreFastEnough) {
         Mind mind;
         bool glides = false;
         for (int i = 0; i < 5 * 60 * 60 / 8; ++i) {
-            setSpeedBodyLengths(mind.states, 0, speed);
+            motion::setSpeedBodyLengths(mind.states, 0, speed);
             mind.want(0, 1.6F);
-            glides |= mind.think() == Action::Glide;
+            glides |= mind.think() == motion::Action::Glide;
         }
         EXPECT_EQ(glides, speed > 1.6F);
     }
@@ -177,10 +177,10 @@ TEST(SecondaryController, aGlideIsRecommendedToThoseWhoAreFastEnough) {
 TEST(SecondaryController, aSpeedAboutABorderDoesNotDither) {
     Mind mind;
     int switches = 0;
-    Action last = mind.think();
+    motion::Action last = mind.think();
     for (int i = 0; i < 25; ++i) {  // less than the shortest patience
         mind.want(0, i % 2 == 0 ? 1.45F : 1.55F);
-        const Action next = mind.think();
+        const motion::Action next = mind.think();
         switches += next == last ? 0 : 1;
         last = next;
     }
@@ -189,13 +189,13 @@ TEST(SecondaryController, aSpeedAboutABorderDoesNotDither) {
 
 TEST(SecondaryController, oneWhoSwamOnePatternForLongChangesItForAWhile) {
     Mind mind;
-    std::set<Action> seen;
+    std::set<motion::Action> seen;
     int elsewhere = 0;
     for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {  // two minutes
         mind.want(0, 1.6F);
-        const Action action = mind.think();
+        const motion::Action action = mind.think();
         seen.insert(action);
-        elsewhere += action == Action::ForwardMedium ? 0 : 1;
+        elsewhere += action == motion::Action::ForwardMedium ? 0 : 1;
     }
     EXPECT_GE(seen.size(), 3U);
     EXPECT_GT(elsewhere, 20);
@@ -206,7 +206,7 @@ TEST(SecondaryController, theIntentionMayRefuseARecommendation) {
     for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {
         mind.want(0, 2.0F);
         mind.courses[0].openToChange = false;
-        EXPECT_EQ(mind.think(), Action::ForwardMedium);
+        EXPECT_EQ(mind.think(), motion::Action::ForwardMedium);
     }
 }
 
@@ -215,10 +215,11 @@ TEST(SecondaryController, theIntentionMayWithdrawItsConsent) {
     int withdrawn = 0;
     for (int i = 0; i < 2 * 60 * 60 / 8; ++i) {
         mind.want(0, 2.0F);
-        const Action action = mind.think();
-        if (!isForward(action) || action == Action::ForwardMedium) continue;
+        const motion::Action action = mind.think();
+        if (!isForward(action) || action == motion::Action::ForwardMedium) continue;
         mind.courses[0].openToChange = false;
-        EXPECT_EQ(mind.thinkFor(6), Action::ForwardMedium) << "after the shortest time of a gait";
+        EXPECT_EQ(mind.thinkFor(6), motion::Action::ForwardMedium)
+            << "after the shortest time of a gait";
         ++withdrawn;
     }
     EXPECT_GT(withdrawn, 0);
@@ -227,19 +228,19 @@ TEST(SecondaryController, theIntentionMayWithdrawItsConsent) {
 TEST(SecondaryController, aFishThatWantsToBeWhereItIsGlidesAndBrakes) {
     Mind mind;
     mind.want(50, 0.1F);
-    setSpeedBodyLengths(mind.states, 0, 1.0F);
-    EXPECT_EQ(mind.think(), Action::Glide);
+    motion::setSpeedBodyLengths(mind.states, 0, 1.0F);
+    EXPECT_EQ(mind.think(), motion::Action::Glide);
     EXPECT_EQ(mind.commands.brake[0], 255);
     EXPECT_GT(mind.commands.yawRate[0], 0) << "it turns about its fins";
-    setSpeedBodyLengths(mind.states, 0, 0.05F);
-    EXPECT_EQ(mind.think(), Action::Glide);
+    motion::setSpeedBodyLengths(mind.states, 0, 0.05F);
+    EXPECT_EQ(mind.think(), motion::Action::Glide);
     EXPECT_EQ(mind.commands.brake[0], 0);
 }
 
 TEST(SecondaryController, oneThatHoversTurnsAwayFromDanger) {
     Mind mind;
     mind.want(50, 0.0F, 1.5F);
-    EXPECT_EQ(mind.think(), Action::TurnLeftSharp);
+    EXPECT_EQ(mind.think(), motion::Action::TurnLeftSharp);
 }
 
 TEST(SecondaryController, temposDifferByTenPercentAtMost) {
@@ -254,4 +255,4 @@ TEST(SecondaryController, temposDifferByTenPercentAtMost) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::fish

@@ -9,7 +9,7 @@
 #include "master/pilot/pilot.h"
 #include "tests/master/pilot/voyages.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 namespace {
 
 // The largest changes in a tick, a second: of speed, of the rates of yaw, pitch and roll.
@@ -18,7 +18,7 @@ struct Jerks {
 
     void add(const Vessel& before, const Vessel& after) {
         const auto most = [](float& so, float now) { so = std::max(so, std::abs(now) * 60); };
-        most(speed, lengthOf(after.velocity - before.velocity));
+        most(speed, place::lengthOf(after.velocity - before.velocity));
         most(yaw, after.rate.yaw - before.rate.yaw);
         most(pitch, after.rate.pitch - before.rate.pitch);
         most(roll, after.rate.roll - before.rate.roll);
@@ -48,7 +48,7 @@ class HandOver : public testing::Test {
         EXPECT_LT(jerks.roll, 0.4F);
     }
 
-    Scene scene_ = shippedScene("reef");
+    config::Scene scene_ = shippedScene("reef");
     Voyage voyage_ = voyageIn(scene_);
     Pilot pilot_ = pilotOf(voyage_, scene_.eye);
     Tick now_;
@@ -65,13 +65,13 @@ TEST_F(HandOver, theAutopilotTakesOverWithoutAJerk) {
     advance(60 * 60, &touring);
     expectGentle(jerks);
     EXPECT_LT(touring.speed, 0.3F) << "alone it is gentler still";
-    EXPECT_LT(touring.yaw * 180 / kPi, 6);
+    EXPECT_LT(touring.yaw * 180 / place::kPi, 6);
 }
 
 TEST_F(HandOver, aHandTakesOverWithoutAJerk) {
     advance(voyage_.idleTicks + 60 * 20);
     ASSERT_TRUE(pilot_.touring);
-    ASSERT_GT(lengthOf(pilot_.vessel.velocity), 0.2F);
+    ASSERT_GT(place::lengthOf(pilot_.vessel.velocity), 0.2F);
     Jerks jerks;
     hold({.ahead = -127, .aside = 127, .up = 127, .turn = 127, .tilt = -127}, 200, &jerks);
     EXPECT_FALSE(pilot_.touring);
@@ -94,13 +94,13 @@ TEST_F(HandOver, theAutopilotFindsBackToItsTourFromAnywhere) {
         for (std::uint32_t i = 0; i < 60; ++i) hold(whim(seed, 45 * i), 45);
         advance(voyage_.idleTicks + 60 * 90);
         const glm::vec3 path = pointOf(voyage_.tour, pilot_.along, {}).at;
-        EXPECT_LT(lengthOf(path - pilot_.vessel.position), 1.0F) << seed;
-        EXPECT_GT(lengthOf(pilot_.vessel.velocity), 0.1F) << seed << ": it goes on";
+        EXPECT_LT(place::lengthOf(path - pilot_.vessel.position), 1.0F) << seed;
+        EXPECT_GT(place::lengthOf(pilot_.vessel.velocity), 0.1F) << seed << ": it goes on";
     }
 }
 
 TEST(Home, withoutATourItComesBackToTheEyeAndLooksAhead) {
-    const Scene scene = shippedScene("routines/school");
+    const config::Scene scene = shippedScene("routines/school");
     const Voyage voyage = voyageIn(scene);
     Pilot pilot = pilotOf(voyage, scene.eye);
     Tick now;
@@ -111,11 +111,11 @@ TEST(Home, withoutATourItComesBackToTheEyeAndLooksAhead) {
         steer(pilot, voyage, {.ahead = -127, .aside = 100, .turn = 127}, now);
         advance(1);
     }
-    EXPECT_GT(lengthOf(pilot.vessel.position - scene.eye), 1.0F);
+    EXPECT_GT(place::lengthOf(pilot.vessel.position - scene.eye), 1.0F);
     advance(voyage.idleTicks + 60 * 90);
-    EXPECT_LT(lengthOf(pilot.vessel.position - scene.eye), 0.05F);
+    EXPECT_LT(place::lengthOf(pilot.vessel.position - scene.eye), 0.05F);
     EXPECT_LT(std::abs(pilot.vessel.attitude.yaw), 0.02F);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::pilot

@@ -10,7 +10,7 @@
 #include "common/place/angle.h"
 #include "tests/master/pilot/voyages.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 namespace {
 
 // Full ahead in one direction of the world, whatever the nose does.
@@ -24,7 +24,7 @@ struct Straight {
             const glm::vec3 before = velocity;
             velocity += (way * 1.2F - velocity) * 0.02F;
             moveHull(waters, at, velocity);
-            hardest = std::max(hardest, lengthOf(velocity - before) / kTickSeconds);
+            hardest = std::max(hardest, place::lengthOf(velocity - before) / kTickSeconds);
         }
     }
 };
@@ -47,11 +47,11 @@ TEST(Hull, slidesOverTheSandAndRoundRocks) {
     sinking.run(voyage.waters, {0.5F, -0.8F, 0}, 60 * 6);
     EXPECT_GT(gapAt(voyage.waters, sinking.at), 0);
     EXPECT_GT(std::abs(sinking.at.x), 1.0F) << "it goes on along the sand";
-    for (const Rock& rock : voyage.waters.rocks) {
+    for (const place::Rock& rock : voyage.waters.rocks) {
         const glm::vec3 from{rock.centre.x + 0.1F, -6.2F, std::min(rock.centre.z + 5, 2.0F)};
         if (gapAt(voyage.waters, from) < kStandOffMetres) continue;
         Straight hull{.at = from};
-        hull.run(voyage.waters, directionOf(rock.centre - from, {0, 0, -1}), 60 * 30);
+        hull.run(voyage.waters, place::directionOf(rock.centre - from, {0, 0, -1}), 60 * 30);
         EXPECT_GE(gapAt(voyage.waters, hull.at), 0) << rock.centre.x << ' ' << rock.centre.z;
         EXPECT_LT(hull.hardest, 6 * kBrakingMetres);
     }
@@ -60,13 +60,13 @@ TEST(Hull, slidesOverTheSandAndRoundRocks) {
 TEST(Hull, thatBeginsTooNearIsLedAwayGently) {
     const Waters waters = voyageIn(shippedScene("reef")).waters;
     glm::vec3 at{0, 0, 0};
-    at.y = floorHeight(waters.place, {0, 0}) + 0.5F * kHullRadiusMetres;
+    at.y = place::floorHeight(waters.place, {0, 0}) + 0.5F * kHullRadiusMetres;
     ASSERT_LT(gapAt(waters, at), 0);
     glm::vec3 velocity{};
     float fastest = 0;
     for (int i = 0; i < 60 * 20; ++i) {
         moveHull(waters, at, velocity);
-        fastest = std::max(fastest, lengthOf(velocity));
+        fastest = std::max(fastest, place::lengthOf(velocity));
     }
     EXPECT_GT(gapAt(waters, at), 0.5F * kStandOffMetres);
     EXPECT_LT(fastest, 0.2F);
@@ -75,7 +75,7 @@ TEST(Hull, thatBeginsTooNearIsLedAwayGently) {
 // Nobody drives it into anything: minutes of whims, from many seeds, in a reef with kelp.
 TEST(Hull, isNeverInsideAnythingWhateverHandsDo) {
     for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-        const Scene scene = shippedScene("reef");
+        const config::Scene scene = shippedScene("reef");
         const Voyage voyage = voyageIn(scene, seed);
         Pilot pilot = pilotOf(voyage, scene.eye);
         float least = 9;
@@ -86,8 +86,9 @@ TEST(Hull, isNeverInsideAnythingWhateverHandsDo) {
             const glm::vec3 before = pilot.vessel.velocity;
             advancePilot(pilot, voyage, {}, tick);
             least = std::min(least, gapAt(voyage.waters, pilot.vessel.position));
-            hardest = std::max(hardest, lengthOf(pilot.vessel.velocity - before) / kTickSeconds);
-            roamed = std::max(roamed, lengthOf(pilot.vessel.position - scene.eye));
+            hardest =
+                std::max(hardest, place::lengthOf(pilot.vessel.velocity - before) / kTickSeconds);
+            roamed = std::max(roamed, place::lengthOf(pilot.vessel.position - scene.eye));
         }
         EXPECT_GT(least, 0.8F * kStandOffMetres) << seed;
         EXPECT_GT(roamed, 4) << seed;
@@ -96,4 +97,4 @@ TEST(Hull, isNeverInsideAnythingWhateverHandsDo) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::pilot

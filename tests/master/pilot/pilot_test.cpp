@@ -7,7 +7,7 @@
 #include "common/place/angle.h"
 #include "tests/master/pilot/voyages.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 namespace {
 
 constexpr Steering kAhead{.ahead = kFullSteering};
@@ -18,7 +18,7 @@ void run(Pilot& pilot, const Voyage& voyage, Tick& now, std::uint64_t ticks) {
 }
 
 TEST(Pilot, staysAtTheEyeToTheBitWhereTheSceneHasNoTour) {
-    const Scene scene = shippedScene("routines/school");
+    const config::Scene scene = shippedScene("routines/school");
     const Voyage voyage = voyageIn(scene);
     ASSERT_TRUE(voyage.stays);
     Pilot pilot = pilotOf(voyage, scene.eye);
@@ -30,7 +30,7 @@ TEST(Pilot, staysAtTheEyeToTheBitWhereTheSceneHasNoTour) {
 }
 
 TEST(Pilot, aHandThatFallsSilentLetsGoAfterHalfASecond) {
-    const Scene scene = shippedScene("empty_sea");
+    const config::Scene scene = shippedScene("empty_sea");
     const Voyage voyage = voyageIn(scene);
     Pilot pilot = pilotOf(voyage, scene.eye);
     Tick now;
@@ -45,7 +45,7 @@ TEST(Pilot, aHandThatFallsSilentLetsGoAfterHalfASecond) {
 }
 
 TEST(Pilot, aHandThatSpeaksOnHoldsOnAndOneThatLetsGoLetsGoAtOnce) {
-    const Scene scene = shippedScene("empty_sea");
+    const config::Scene scene = shippedScene("empty_sea");
     const Voyage voyage = voyageIn(scene);
     Pilot pilot = pilotOf(voyage, scene.eye);
     Tick now;
@@ -60,7 +60,7 @@ TEST(Pilot, aHandThatSpeaksOnHoldsOnAndOneThatLetsGoLetsGoAtOnce) {
 }
 
 TEST(Pilot, whoHoldsNothingDoesNotKeepTheAutopilotAway) {
-    const Scene scene = shippedScene("bait_ball");
+    const config::Scene scene = shippedScene("bait_ball");
     ASSERT_TRUE(scene.tour);
     const Voyage voyage = voyageIn(scene);
     Pilot pilot = pilotOf(voyage, scene.eye);
@@ -74,7 +74,7 @@ TEST(Pilot, whoHoldsNothingDoesNotKeepTheAutopilotAway) {
 }
 
 TEST(Pilot, sameHandsSameBits) {
-    const Scene scene = shippedScene("reef");
+    const config::Scene scene = shippedScene("reef");
     const Voyage voyage = voyageIn(scene);
     const auto hashAfter = [&](std::uint32_t seed) {
         Pilot pilot = pilotOf(voyage, scene.eye);
@@ -92,4 +92,4 @@ TEST(Pilot, sameHandsSameBits) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::pilot

@@ -7,7 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::pilot {
 namespace {
 
 TEST(Rotation, sineAndCosineAreThoseOfTheTables) {
@@ -20,8 +20,8 @@ TEST(Rotation, sineAndCosineAreThoseOfTheTables) {
 }
 
 TEST(Rotation, anAngleIsWrappedToHalfATurn) {
-    EXPECT_NEAR(wrapped(3.5F), 3.5F - 2 * kPi, 1e-5F);
-    EXPECT_NEAR(wrapped(-7.0F), 2 * kPi - 7.0F, 1e-5F);
+    EXPECT_NEAR(wrapped(3.5F), 3.5F - 2 * place::kPi, 1e-5F);
+    EXPECT_NEAR(wrapped(-7.0F), 2 * place::kPi - 7.0F, 1e-5F);
     EXPECT_EQ(wrapped(1.25F), 1.25F);
 }
 
@@ -30,16 +30,16 @@ TEST(Rotation, worldFromBodyLooksAlongTheNose) {
     for (const float yaw : {-3.0F, -0.4F, 0.0F, 1.2F, 2.8F})
         for (const float pitch : {-0.4F, 0.0F, 0.3F}) {
             const Attitude attitude{yaw, pitch, 0};
-            const Quaternion q = worldFromBody(attitude);
+            const motion::Quaternion q = worldFromBody(attitude);
             const glm::quat turn{q.w, q.x, q.y, q.z};
             EXPECT_NEAR(glm::distance(turn * glm::vec3(0, 0, -1), noseOf(attitude)), 0, 1e-5F);
             EXPECT_NEAR(glm::distance(turn * glm::vec3(1, 0, 0), rightOf(attitude)), 0, 1e-5F);
         }
     EXPECT_GT(noseOf({0, 0.3F, 0}).y, 0) << "pitched up";
     EXPECT_LT(noseOf({0.3F, 0, 0}).x, 0) << "yawed to the left";
-    const Quaternion q = worldFromBody({0, 0, 0.1F});
+    const motion::Quaternion q = worldFromBody({0, 0, 0.1F});
     EXPECT_GT((glm::quat{q.w, q.x, q.y, q.z} * glm::vec3(1, 0, 0)).y, 0) << "right side up";
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::pilot

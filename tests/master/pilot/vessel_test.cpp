@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::pilot {
 namespace {
 
 void push(Vessel& vessel, const Push& wanted, int ticks) {
@@ -42,7 +42,7 @@ TEST(Vessel, glidesAsFarAsItsMomentumCarriesIt) {
     const double metres = double{kVesselKilograms} / b * std::log1p(b * 1.2 / a);
     EXPECT_NEAR(metres, 2.3, 0.1);
     EXPECT_NEAR(-vessel.position.z, metres, 0.01 * metres);
-    EXPECT_LT(lengthOf(vessel.velocity), 1e-6F);
+    EXPECT_LT(place::lengthOf(vessel.velocity), 1e-6F);
 }
 
 TEST(Vessel, turnsAtItsFastestAndStopsTurning) {
@@ -82,4 +82,4 @@ TEST(Vessel, aHandsFullSteeringIsAFullPush) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::pilot

@@ -10,13 +10,13 @@
 #include "common/place/water.h"
 #include "master/pilot/pilot.h"
 
-namespace aquarama {
+namespace aquarama::pilot {
 
-inline Scene shippedScene(const std::string& name) {
-    return readScene(AQUARAMA_SOURCE_DIR "/config/scenes/" + name + ".txtpb");
+inline config::Scene shippedScene(const std::string& name) {
+    return config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/" + name + ".txtpb");
 }
 
-inline Voyage voyageIn(const Scene& scene, std::uint32_t seed = 1) {
+inline Voyage voyageIn(const config::Scene& scene, std::uint32_t seed = 1) {
     return voyageOf(scene, seed, {scene.water.centre, scene.water.halfExtent});
 }
 
@@ -24,10 +24,11 @@ inline Voyage voyageIn(const Scene& scene, std::uint32_t seed = 1) {
 inline Steering whim(std::uint32_t seed, std::uint64_t tick) {
     const auto second = static_cast<std::uint32_t>(tick / 45);
     const auto axis = [&](std::uint32_t stream) {
-        const float wish = 2 * signedUnitOf(hashOf(hashOf(seed, stream), second));
+        const float wish =
+            2 * place::signedUnitOf(place::hashOf(place::hashOf(seed, stream), second));
         return static_cast<std::int8_t>(wish > 1 ? 127 : wish < -1 ? -127 : 127 * wish);
     };
     return {axis(1), axis(2), axis(3), axis(4), axis(5)};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::pilot

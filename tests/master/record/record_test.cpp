@@ -16,7 +16,7 @@
 #include "master/record/recorder.h"
 #include "tests/support/synthetic_production.h"
 
-namespace aquarama {
+namespace aquarama::record {
 namespace {
 
 using testing::HasSubstr;
@@ -34,16 +34,16 @@ class Record : public testing::Test {
 
     // Returns the hash of the world at every tick.
     std::vector<std::uint64_t> recordAShow() {
-        const Production production = syntheticProduction();
-        LivingWorld world(worldOptionsOf(production));
+        const wire::Production production = test::syntheticProduction();
+        production::LivingWorld world(production::worldOptionsOf(production));
         RecordingFile file(path(), production);
         RecordedWorld recorded(world, file);
         std::vector<std::uint64_t> hashes{recorded.hash()};
         while (recorded.tick().value < kTicks) {
             const std::uint64_t tick = recorded.tick().value;
             if (tick == 0 || tick == 100 || tick == 401)
-                recorded.apply(DropFood{.position = kTable});
-            if (tick == 200) recorded.apply(MoveSubmarine{{0, -6, -1}, {0, 0, -0.1F}});
+                recorded.apply(world::DropFood{.position = kTable});
+            if (tick == 200) recorded.apply(world::MoveSubmarine{{0, -6, -1}, {0, 0, -0.1F}});
             recorded.advance();
             hashes.push_back(recorded.hash());
         }
@@ -55,8 +55,8 @@ class Record : public testing::Test {
         std::filesystem::temp_directory_path() / ("aquarama-record-" + std::to_string(getpid()));
 };
 
-std::optional<Difference> differenceOf(const Recording& recording) {
-    LivingWorld world(worldOptionsOf(recording.production));
+std::optional<Difference> differenceOf(const wire::Recording& recording) {
+    production::LivingWorld world(production::worldOptionsOf(recording.production));
     Playback playback(recording, world);
     while (!playback.over()) playback.advance();
     return playback.difference();
@@ -64,14 +64,14 @@ std::optional<Difference> differenceOf(const Recording& recording) {
 
 TEST_F(Record, aReplayIsTheSameWorldTickForTickOnAnyNumberOfThreads) {
     const std::vector<std::uint64_t> hashes = recordAShow();
-    const Recording recording = readRecording(path());
+    const wire::Recording recording = wire::readRecording(path());
     ASSERT_EQ(recording.inputs.size(), 4U);
     EXPECT_EQ(recording.checkpoints.size(), 2U);
     ASSERT_TRUE(recording.end);
     for (const unsigned threads : {1U, 2U, 4U}) {
-        WorldOptions options = worldOptionsOf(recording.production);
+        world::WorldOptions options = production::worldOptionsOf(recording.production);
         options.threads = threads;
-        LivingWorld world(options);
+        production::LivingWorld world(options);
         Playback playback(recording, world);
         while (!playback.over()) {
             playback.advance();
@@ -87,9 +87,9 @@ TEST_F(Record, aReplayIsTheSameWorldTickForTickOnAnyNumberOfThreads) {
 // Else the test above would prove little.
 TEST_F(Record, theInputsMatter) {
     const std::vector<std::uint64_t> hashes = recordAShow();
-    Recording recording = readRecording(path());
+    wire::Recording recording = wire::readRecording(path());
     for (std::size_t left = 0; left < recording.inputs.size(); ++left) {
-        Recording without = recording;
+        wire::Recording without = recording;
         without.inputs.erase(without.inputs.begin() + static_cast<std::ptrdiff_t>(left));
         EXPECT_TRUE(differenceOf(without)) << left;
     }
@@ -97,42 +97,42 @@ TEST_F(Record, theInputsMatter) {
 
 TEST_F(Record, anotherSeedSceneSpeciesOrCheckpointGivesADifference) {
     recordAShow();
-    const Recording recording = readRecording(path());
+    const wire::Recording recording = wire::readRecording(path());
     const auto firstDifference = [&](auto alter) {
-        Recording altered = recording;
+        wire::Recording altered = recording;
         alter(altered);
         const auto difference = differenceOf(altered);
         return difference ? std::optional{difference->tick.value} : std::nullopt;
     };
-    EXPECT_EQ(firstDifference([](Recording&) {}), std::nullopt);
-    EXPECT_EQ(firstDifference([](Recording& r) { ++r.production.seed; }), 0U);
-    EXPECT_EQ(firstDifference([](Recording& r) {
+    EXPECT_EQ(firstDifference([](wire::Recording&) {}), std::nullopt);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) { ++r.production.seed; }), 0U);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) {
                   r.production.scene.replace(r.production.scene.find("200"), 3, "201");
               }),
               0U);
-    EXPECT_EQ(firstDifference([](Recording& r) { --r.production.cast[0].fish; }), 0U);
-    EXPECT_EQ(firstDifference([](Recording& r) { r.checkpoints[1].hash ^= 1U; }), 600U);
-    EXPECT_EQ(firstDifference([](Recording& r) { r.end->hash ^= 1U; }), kTicks);
-    EXPECT_EQ(firstDifference([](Recording& r) { ++r.inputs[1].tick.value; }), 600U);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) { --r.production.cast[0].fish; }), 0U);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) { r.checkpoints[1].hash ^= 1U; }), 600U);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) { r.end->hash ^= 1U; }), kTicks);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) { ++r.inputs[1].tick.value; }), 600U);
 }
 
 TEST_F(Record, aDamagedRepertoireOrSpeciesIsNamed) {
     recordAShow();
-    const auto refusalOf = [](const Recording& recording) -> std::string {
+    const auto refusalOf = [](const wire::Recording& recording) -> std::string {
         try {
-            static_cast<void>(worldOptionsOf(recording.production));
+            static_cast<void>(production::worldOptionsOf(recording.production));
         } catch (const Error& error) {
             return error.what();
         }
         return "";
     };
-    Recording recording = readRecording(path());
+    wire::Recording recording = wire::readRecording(path());
     recording.production.cast[0].repertoire[5000] ^= std::byte{1};
     EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its bigeye_scad.txtpb"));
-    recording = readRecording(path());
+    recording = wire::readRecording(path());
     recording.production.cast[1].text += "\nfins_of_gold: 3\n";
     EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its blacktip_reef_shark.txtpb:"));
-    recording = readRecording(path());
+    recording = wire::readRecording(path());
     recording.production.cast.pop_back();
     EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its scene"));
 }
@@ -141,7 +141,7 @@ TEST_F(Record, aDamagedRepertoireOrSpeciesIsNamed) {
 TEST_F(Record, aFileThatWasCutShortReplaysUpToThere) {
     recordAShow();
     std::filesystem::resize_file(path(), std::filesystem::file_size(path()) - 5);
-    const Recording recording = readRecording(path());
+    const wire::Recording recording = wire::readRecording(path());
     EXPECT_FALSE(recording.end);
     EXPECT_EQ(recording.lastTick().value, 600U);
     EXPECT_GT(recording.bytesLeftOver, 0U);
@@ -150,10 +150,10 @@ TEST_F(Record, aFileThatWasCutShortReplaysUpToThere) {
 
 TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
     std::ofstream(path()) << "dear diary";
-    EXPECT_THROW(RecordingFile(path(), syntheticProduction()), Error);
-    EXPECT_EQ(textOf(path()), "dear diary");
+    EXPECT_THROW(RecordingFile(path(), test::syntheticProduction()), Error);
+    EXPECT_EQ(test::textOf(path()), "dear diary");
     try {
-        const RecordingFile nowhere("/nowhere/show.aqrec", syntheticProduction());
+        const RecordingFile nowhere("/nowhere/show.aqrec", test::syntheticProduction());
         FAIL() << "it was opened";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("/nowhere/show.aqrec: cannot be written: No such"));
@@ -162,8 +162,8 @@ TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
 
 // A limit of the file's size stands for a full disk.
 TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
-    const Production production = syntheticProduction();
-    LivingWorld world(worldOptionsOf(production));
+    const wire::Production production = test::syntheticProduction();
+    production::LivingWorld world(production::worldOptionsOf(production));
     RecordingFile file(path(), production);
     RecordedWorld recorded(world, file);
     ASSERT_TRUE(file.recording());
@@ -174,25 +174,25 @@ TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
     getrlimit(RLIMIT_FSIZE, &before);
     const rlimit full{.rlim_cur = std::filesystem::file_size(path()), .rlim_max = before.rlim_max};
     setrlimit(RLIMIT_FSIZE, &full);
-    recorded.apply(DropFood{.position = kTable});
+    recorded.apply(world::DropFood{.position = kTable});
     recorded.advance();
     setrlimit(RLIMIT_FSIZE, &before);
 
     EXPECT_FALSE(file.recording());
     recorded.advance();
     EXPECT_EQ(recorded.tick(), Tick{2});
-    EXPECT_EQ(readRecording(path()).checkpoints.size(), 1U);
+    EXPECT_EQ(wire::readRecording(path()).checkpoints.size(), 1U);
 }
 
 TEST_F(Record, visitorsDoNotReachAReplayAndItEndsOnce) {
     const std::vector<std::uint64_t> hashes = recordAShow();
-    const Recording recording = readRecording(path());
-    LivingWorld world(worldOptionsOf(recording.production));
+    const wire::Recording recording = wire::readRecording(path());
+    production::LivingWorld world(production::worldOptionsOf(recording.production));
     int ends = 0;
     ReplayedWorld replayed(recording, world, [&] { ++ends; });
     while (replayed.tick().value < kTicks) {
         EXPECT_EQ(ends, 0);
-        replayed.apply(DropFood{.position = kTable});
+        replayed.apply(world::DropFood{.position = kTable});
         replayed.advance();
     }
     EXPECT_EQ(replayed.hash(), hashes.back());
@@ -201,4 +201,4 @@ TEST_F(Record, visitorsDoNotReachAReplayAndItEndsOnce) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::record

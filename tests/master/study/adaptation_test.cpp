@@ -8,13 +8,13 @@
 #include "master/study/study.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::study {
 namespace {
 
 Scenario calmSchool() {
     Scenario scenario;
     scenario.name = "school";
-    WorldSpecies school{.tables = syntheticTables(), .fish = 51};
+    world::WorldSpecies school{.tables = world::syntheticTables(), .fish = 51};
     school.name = "synthetic scad";
     school.habits.shares.schooling = 1;
     scenario.world.scene.plankton = 0;
@@ -61,4 +61,4 @@ TEST(Study, sharedAmongThreadsItFindsTheSame) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -7,7 +7,7 @@
 
 #include "master/study/overlap_log.h"
 
-namespace aquarama {
+namespace aquarama::study {
 namespace {
 
 // One metre long, a tenth wide; the body frame's origin 0.385 m behind the nose.
@@ -38,7 +38,7 @@ TEST(Bodies, ofTwoTheShorterOneCounts) {
     EXPECT_EQ(overlapOf(rodAt({0, 0.1F, 0}), rodAt({}, {1, 0, 0}, 4)), 1);
 }
 
-constexpr std::array kWandering{Intention::Wander, Intention::Wander};
+constexpr std::array kWandering{fish::Intention::Wander, fish::Intention::Wander};
 
 TEST(OverlapLog, aPairThatPartsAndMeetsAgainHasOverlappedTwice) {
     OverlapLog log(5);
@@ -70,4 +70,4 @@ TEST(OverlapLog, whoIsDeepInTheOtherIsToldFromWhoOnlyTouches) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -13,7 +13,7 @@
 #include "master/study/chronicle_report.h"
 #include "master/study/scenarios.h"
 
-namespace aquarama {
+namespace aquarama::study {
 namespace {
 
 constexpr std::uint64_t kTicksOfMinute = 3600;
@@ -25,11 +25,11 @@ bool isSoak() {
 // What was seen, each hour or, of the short life, all of it.
 struct Life {
     std::vector<Hour> hours;
-    std::vector<Overlap> overlaps;
+    std::vector<BodyOverlap> overlaps;
     std::uint64_t hash = 0;
 };
 
-void print(const Chronicle& chronicle, const World& world, const Scenario& scenario) {
+void print(const Chronicle& chronicle, const world::World& world, const Scenario& scenario) {
     const auto hours = static_cast<double>(world.tick().value) / (60.0 * kTicksOfMinute);
     std::cout << hoursMarkdown(chronicle.hours()) << '\n'
               << overlapsMarkdown(chronicle.overlaps(), world, scenario.world.cast, hours)
@@ -38,7 +38,7 @@ void print(const Chronicle& chronicle, const World& world, const Scenario& scena
 
 Life lived() {
     const Scenario scenario = readScenario(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
-    World world(scenario.world);
+    world::World world(scenario.world);
     const std::uint64_t hour = (isSoak() ? 60 : 5) * kTicksOfMinute;
     Chronicle chronicle(world, scenario.halfWidths, hour);
     const std::uint64_t ticks = isSoak() ? 24 * hour : hour;
@@ -70,7 +70,7 @@ TEST_F(Reef, noTwoFishOverlapForLong) {
     // In a day of many thousands some last longer.
     const std::uint64_t longest = (isSoak() ? 12 : 6) * 60;
     const std::uint64_t longestDeep = (isSoak() ? 8 : 4) * 60;
-    for (const Overlap& overlap : life().overlaps) {
+    for (const BodyOverlap& overlap : life().overlaps) {
         const auto pair = [&] {
             return testing::Message() << "fish " << overlap.a << " and " << overlap.b
                                       << " from tick " << overlap.from.value;
@@ -104,25 +104,26 @@ TEST_F(Reef, noSpeciesDiesOut) {
 
 TEST_F(Reef, inADayEveryRoutineIsSeenAndFishEatHuntAndSpawn) {
     if (!isSoak()) GTEST_SKIP() << "takes a day: AQUARAMA_SOAK=1";
-    WorldCounts all;
-    std::array<double, kIntentions> shares{};
+    world::WorldCounts all;
+    std::array<double, fish::kIntentions> shares{};
     for (const Hour& hour : life().hours) {
         all.meals += hour.counts.meals;
         all.catches += hour.counts.catches;
         all.spawnings += hour.counts.spawnings;
         all.returns += hour.counts.returns;
         EXPECT_GT(hour.counts.meals, 0U);
-        for (std::size_t i = 0; i < kIntentions; ++i) shares.at(i) += hour.intentionShare.at(i);
+        for (std::size_t i = 0; i < fish::kIntentions; ++i)
+            shares.at(i) += hour.intentionShare.at(i);
     }
     EXPECT_GT(all.catches, 0U);
     EXPECT_GT(all.spawnings, 0U);
     EXPECT_LE(all.catches - all.returns, 6U) << "who was eaten is replaced within a minute";
-    for (std::size_t i = 0; i < kIntentions; ++i) {
+    for (std::size_t i = 0; i < fish::kIntentions; ++i) {
         // The reef's light and warmth suit all who live there.
-        if (i == static_cast<std::size_t>(Intention::Leave)) continue;
+        if (i == static_cast<std::size_t>(fish::Intention::Leave)) continue;
         EXPECT_GT(shares.at(i), 0) << "routine " << i;
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::study

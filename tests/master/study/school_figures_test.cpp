@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::study {
 namespace {
 
 // Fish of half a metre on a ring of radius 1, which swim round it.
-FishView ring(std::size_t fish) {
-    FishView view;
+fish::FishView ring(std::size_t fish) {
+    fish::FishView view;
     view.resize(fish);
     for (std::size_t i = 0; i < fish; ++i) {
         const double angle =
@@ -34,7 +34,7 @@ TEST(SchoolFigures, aMillRotatesAndIsNotPolarised) {
 }
 
 TEST(SchoolFigures, thoseWhoHeadOneWayArePolarisedAndDoNotRotate) {
-    FishView view = ring(12);
+    fish::FishView view = ring(12);
     for (std::size_t i = 0; i < 12; ++i) {
         view.fish[i].heading.x = 1;
         view.fish[i].heading.z = 0;
@@ -45,14 +45,14 @@ TEST(SchoolFigures, thoseWhoHeadOneWayArePolarisedAndDoNotRotate) {
 }
 
 TEST(SchoolFigures, whoIsAwayDoesNotCount) {
-    FishView view = ring(12);
-    for (const std::size_t away : {1, 3, 5, 7, 9, 11}) view.signs[away] = kAway;
+    fish::FishView view = ring(12);
+    for (const std::size_t away : {1, 3, 5, 7, 9, 11}) view.signs[away] = fish::kAway;
     EXPECT_NEAR(
         schoolFigures(view, 0, 12).nearestNeighbour, 2 * 2 * std::sin(std::numbers::pi / 6), 1e-4);
 }
 
 TEST(Synchrony, isWholeWhereAllBeatAlikeAndFallsWithSegmentsAndPhases) {
-    MotionStates states;
+    motion::MotionStates states;
     states.resize(4);
     Synchrony all = synchronyOf(states, 0, 4);
     EXPECT_NEAR(all.resultant, 1, 1e-6);
@@ -73,4 +73,4 @@ TEST(Synchrony, isWholeWhereAllBeatAlikeAndFallsWithSegmentsAndPhases) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::study

@@ -10,7 +10,7 @@
 #include "common/place/noise.h"
 #include "master/surroundings/obstacles.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 namespace {
 
 constexpr int kPlaces = 20'000;
@@ -22,23 +22,23 @@ struct Probe {
 };
 
 // Within the water and a metre about it.
-Probe probeIn(const Region& water, std::uint32_t index) {
-    const std::uint32_t hash = hashOf(77, index);
-    const auto draw = [&](std::uint32_t i) { return signedUnitOf(hashOf(hash, i)); };
+Probe probeIn(const place::Region& water, std::uint32_t index) {
+    const std::uint32_t hash = place::hashOf(77, index);
+    const auto draw = [&](std::uint32_t i) { return place::signedUnitOf(place::hashOf(hash, i)); };
     return {water.centre + (water.halfExtent + 1.0F) * glm::vec3{draw(0), draw(1), draw(2)},
-            directionOf({draw(3), 0.4F * draw(4), draw(5)}, {1, 0, 0}),
+            place::directionOf({draw(3), 0.4F * draw(4), draw(5)}, {1, 0, 0}),
             0.5F + 1.2F * std::abs(draw(6))};
 }
 
 TEST(Chart, knowsTheSandToHalfACentimetre) {
-    const Region water = schoolRegion();
+    const place::Region water = place::schoolRegion();
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const Chart chart({seed}, water, {});
         float worst = 0;
         for (std::uint32_t i = 0; i < kPlaces; ++i) {
             const glm::vec3 at = probeIn(water, i).position;
             ASSERT_TRUE(chart.covers({at.x, at.z}));
-            const float sand = floorHeight({seed}, {at.x, at.z});
+            const float sand = place::floorHeight({seed}, {at.x, at.z});
             worst = std::max(worst, std::abs(chart.sand({at.x, at.z}) - sand));
             EXPECT_LT(sand, chart.highestSand() + 0.005F);
         }
@@ -49,7 +49,7 @@ TEST(Chart, knowsTheSandToHalfACentimetre) {
 
 TEST(Chart, pushesAsWithoutIt) {
     // Deep enough that the sand pushes too, and wide enough for kelp.
-    Region water = schoolRegion();
+    place::Region water = place::schoolRegion();
     water.halfExtent += glm::vec3{3, 1.2F, 1};
     const Obstacles obstacles = obstaclesOf({1}, water);
     ASSERT_GT(obstacles.rocks.size(), 5U);
@@ -61,15 +61,15 @@ TEST(Chart, pushesAsWithoutIt) {
             plainAvoidance(obstacles, probe.position, probe.heading, probe.reachMetres);
         const glm::vec3 charted =
             avoidance(obstacles, probe.position, probe.heading, probe.reachMetres);
-        ASSERT_LT(lengthOf(plain - charted), 0.1F) << i;
-        pushed += lengthOf(plain) > 0 ? 1 : 0;
+        ASSERT_LT(place::lengthOf(plain - charted), 0.1F) << i;
+        pushed += place::lengthOf(plain) > 0 ? 1 : 0;
     }
     EXPECT_GT(pushed, kPlaces / 4);
     EXPECT_LT(pushed, kPlaces);
 }
 
 TEST(Chart, awayFromTheSandItPushesToTheBitAsWithoutIt) {
-    const Obstacles obstacles = obstaclesOf({2}, schoolRegion());
+    const Obstacles obstacles = obstaclesOf({2}, place::schoolRegion());
     for (std::uint32_t i = 0; i < kPlaces; ++i) {
         Probe probe = probeIn(obstacles.water, i);
         probe.position.y = std::max(probe.position.y, -6.0F);
@@ -80,7 +80,7 @@ TEST(Chart, awayFromTheSandItPushesToTheBitAsWithoutIt) {
 }
 
 TEST(Chart, offTheChartAndFartherThanItReachesThePlainWayServes) {
-    const Obstacles obstacles = obstaclesOf({2}, schoolRegion());
+    const Obstacles obstacles = obstaclesOf({2}, place::schoolRegion());
     const glm::vec3 far = obstacles.water.centre + glm::vec3{40, 0, 0};
     EXPECT_EQ(avoidance(obstacles, far, {1, 0, 0}, 1),
               plainAvoidance(obstacles, far, {1, 0, 0}, 1));
@@ -90,11 +90,11 @@ TEST(Chart, offTheChartAndFartherThanItReachesThePlainWayServes) {
 }
 
 TEST(Chart, theOpenSeaHasNothingInIt) {
-    const Obstacles sea = obstaclesOf({1, PlaceKind::OpenSea}, schoolRegion());
+    const Obstacles sea = obstaclesOf({1, config::PlaceKind::OpenSea}, place::schoolRegion());
     EXPECT_TRUE(sea.rocks.empty());
     EXPECT_TRUE(sea.stems.empty());
     EXPECT_EQ(avoidance(sea, sea.water.centre, {1, 0, 0}, 1), glm::vec3(0));
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

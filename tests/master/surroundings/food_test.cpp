@@ -6,14 +6,14 @@
 #include "common/place/angle.h"
 #include "common/place/place.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 namespace {
 
 constexpr std::uint32_t kSeed = 5;
 constexpr std::uint32_t kPlankton = 300;
 
 Obstacles reef() {
-    return obstaclesOf({kSeed}, schoolRegion());
+    return obstaclesOf({kSeed}, place::schoolRegion());
 }
 
 void drift(Food& food, const Obstacles& obstacles, Tick& tick, int ticks) {
@@ -33,21 +33,22 @@ TEST(Food, planktonDriftsAndStaysInTheWaterAndOffTheSandForTenMinutes) {
             EXPECT_LT(std::abs(from.x), obstacles.water.halfExtent.x);
             EXPECT_LT(std::abs(from.z), obstacles.water.halfExtent.z);
             EXPECT_LT(food.y[i], 0);
-            EXPECT_GT(food.y[i], floorHeight({kSeed}, {food.x[i], food.z[i]}) + 0.5F);
+            EXPECT_GT(food.y[i], place::floorHeight({kSeed}, {food.x[i], food.z[i]}) + 0.5F);
             if (minute == 0)
-                farthest = std::max(farthest, lengthOf(food.position(i) - before.position(i)));
+                farthest =
+                    std::max(farthest, place::lengthOf(food.position(i) - before.position(i)));
         }
     }
     EXPECT_GT(farthest, 0.3F);
 }
 
 TEST(Food, theCurrentNeverJumps) {
-    const Region water = schoolRegion();
+    const place::Region water = place::schoolRegion();
     const glm::vec3 place = water.centre + water.halfExtent * 0.3F;
     for (std::uint64_t tick = 0; tick < 30'000; ++tick) {
         const glm::vec3 change =
             currentAt(water, place, {tick + 1}) - currentAt(water, place, {tick});
-        ASSERT_LT(lengthOf(change), 0.0005F) << "tick " << tick;
+        ASSERT_LT(place::lengthOf(change), 0.0005F) << "tick " << tick;
     }
 }
 
@@ -76,18 +77,18 @@ TEST(Food, eatenPlanktonComesBackElsewhere) {
     drift(food, obstacles, tick, 25 * 60);
     ASSERT_TRUE(food.isFree(7));
     EXPECT_EQ(food.generation[7], generation + 1);
-    EXPECT_GT(lengthOf(food.position(7) - before), 0.3F);
+    EXPECT_GT(place::lengthOf(food.position(7) - before), 0.3F);
 }
 
 TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
     const Obstacles obstacles = reef();
     Food food = makeFood(kSeed, obstacles, 0);
     Tick tick;
-    const glm::vec3 place = schoolRegion().centre;
+    const glm::vec3 place = place::schoolRegion().centre;
     dropPellets(food, kSeed, obstacles, place, 12, tick);
     EXPECT_EQ(food.pellets, 12U);
-    EXPECT_LT(lengthOf(food.position(0) - place), 0.6F);
-    const float sand = floorHeight({kSeed}, {food.x[0], food.z[0]});
+    EXPECT_LT(place::lengthOf(food.position(0) - place), 0.6F);
+    const float sand = place::floorHeight({kSeed}, {food.x[0], food.z[0]});
     const int sinks = static_cast<int>((food.y[0] - sand) / 0.05F * 60);
     drift(food, obstacles, tick, sinks + 60);
     EXPECT_TRUE(food.isThere(0));
@@ -99,8 +100,8 @@ TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
 }
 
 TEST(Food, pelletsThatSinkIntoTheDeepDissolveWhereNoFishGoes) {
-    const Region water = schoolRegion();
-    const Obstacles sea = obstaclesOf({kSeed, PlaceKind::OpenSea}, water);
+    const place::Region water = place::schoolRegion();
+    const Obstacles sea = obstaclesOf({kSeed, config::PlaceKind::OpenSea}, water);
     Food food = makeFood(kSeed, sea, 0);
     Tick tick;
     dropPellets(food, kSeed, sea, water.centre, 12, tick);
@@ -116,10 +117,10 @@ TEST(Food, pelletsThatSinkIntoTheDeepDissolveWhereNoFishGoes) {
 
 TEST(Food, thereIsRoomForSoManyPellets) {
     Food food = makeFood(kSeed, reef(), 10);
-    dropPellets(food, kSeed, reef(), schoolRegion().centre, 100'000, {});
+    dropPellets(food, kSeed, reef(), place::schoolRegion().centre, 100'000, {});
     EXPECT_EQ(food.pellets, kMostPellets);
     EXPECT_EQ(food.size(), 10 + kMostPellets);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

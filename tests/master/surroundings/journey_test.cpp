@@ -10,7 +10,7 @@
 #include "common/place/angle.h"
 #include "common/place/place.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 namespace {
 
 constexpr std::uint64_t kTenMinutes = 36000;  // ticks
@@ -23,14 +23,14 @@ TEST(Journey, theGoalMovesAsItsVelocitySaysAndNeverJumps) {
             const glm::vec3 moved = (after.position - before.position) * 60.0F;
             const glm::vec3 mean =
                 (after.velocityMetresPerSecond + before.velocityMetresPerSecond) * 0.5F;
-            ASSERT_LT(lengthOf(moved - mean), 5e-3F) << "seed " << seed << " tick " << tick;
+            ASSERT_LT(place::lengthOf(moved - mean), 5e-3F) << "seed " << seed << " tick " << tick;
             before = after;
         }
     }
 }
 
 TEST(Journey, theGoalKeepsToTheWaterOfTheSchoolAndToSpeedsThatScadSwim) {
-    const Region water = schoolRegion();
+    const place::Region water = place::schoolRegion();
     for (std::uint32_t seed = 1; seed < 6; ++seed)
         for (std::uint64_t tick = 0; tick < kTenMinutes; tick += 7) {
             const Goal goal = journeyGoal(seed, {tick});
@@ -38,7 +38,7 @@ TEST(Journey, theGoalKeepsToTheWaterOfTheSchoolAndToSpeedsThatScadSwim) {
             ASSERT_TRUE(glm::all(glm::lessThan(from, water.halfExtent - 0.3F)))
                 << "seed " << seed << " tick " << tick;
             // `fast` is 2.6 body lengths of 0.24 m a second.
-            ASSERT_LT(lengthOf(goal.velocityMetresPerSecond), 0.68F) << seed << " " << tick;
+            ASSERT_LT(place::lengthOf(goal.velocityMetresPerSecond), 0.68F) << seed << " " << tick;
         }
 }
 
@@ -46,10 +46,10 @@ TEST(Journey, everyRoundPassesNearAndFarAndThroughBothWings) {
     for (std::uint32_t seed = 1; seed < 6; ++seed) {
         float nearest = 99, farthest = 0, leftmost = 0, rightmost = 0;
         for (std::uint64_t tick = 0; tick < 5400; ++tick) {
-            const glm::vec3 from = journeyGoal(seed, {tick}).position - kEyePosition;
-            const float azimuth = angleOf(from.x, -from.z) / kRadiansPerDegree;
-            nearest = std::min(nearest, lengthOf(from));
-            farthest = std::max(farthest, lengthOf(from));
+            const glm::vec3 from = journeyGoal(seed, {tick}).position - place::kEyePosition;
+            const float azimuth = place::angleOf(from.x, -from.z) / place::kRadiansPerDegree;
+            nearest = std::min(nearest, place::lengthOf(from));
+            farthest = std::max(farthest, place::lengthOf(from));
             leftmost = std::min(leftmost, azimuth);
             rightmost = std::max(rightmost, azimuth);
         }
@@ -61,7 +61,7 @@ TEST(Journey, everyRoundPassesNearAndFarAndThroughBothWings) {
 }
 
 TEST(Mill, theBallRisesAndSinksByAMetreInTwentySecondsAndNeverJumps) {
-    const Region water{{0, -7, -7}, {6, 4, 6}};
+    const place::Region water{{0, -7, -7}, {6, 4, 6}};
     float lowest = 0;
     float highest = -99;
     for (std::uint64_t tick = 0; tick < 1200; ++tick) {
@@ -79,10 +79,10 @@ TEST(Mill, theBallRisesAndSinksByAMetreInTwentySecondsAndNeverJumps) {
 }
 
 TEST(Mill, theBallGrowsWithTheCubeRootOfItsFishAndFlattensInShallowWater) {
-    const Region deep{{0, -50, 0}, {50, 50, 50}};
+    const place::Region deep{{0, -50, 0}, {50, 50, 50}};
     EXPECT_NEAR(millRadiusMetres(deep, 300, 0.24F), 0.925F, 0.005F);
     EXPECT_NEAR(millRadiusMetres(deep, 8 * 300, 0.24F), 2 * 0.925F, 0.01F);
-    const Region shallow{{0, -5, 0}, {50, 4, 50}};
+    const place::Region shallow{{0, -5, 0}, {50, 4, 50}};
     const float broad = millRadiusMetres(shallow, 250'000, 0.24F);
     const float ball = millRadiusMetres(deep, 250'000, 0.24F);
     const float high = broad * millGoal(1, shallow, broad, {}).flatness;
@@ -91,4 +91,4 @@ TEST(Mill, theBallGrowsWithTheCubeRootOfItsFishAndFlattensInShallowWater) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

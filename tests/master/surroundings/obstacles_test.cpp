@@ -5,7 +5,7 @@
 
 #include "common/place/angle.h"
 
-namespace aquarama {
+namespace aquarama::surroundings {
 namespace {
 
 const glm::vec3 kForward{1, 0, 0};
@@ -31,7 +31,7 @@ TEST(Avoidance, aBorderIsFeltBeforeItIsReachedAndTheMoreTheNearer) {
 TEST(Avoidance, theSandPushesUpAndTheSurfacePushesDown) {
     Obstacles water = openWater();
     water.water.halfExtent.y = 20;  // so that only the place itself is felt
-    const float floor = floorHeight(water.place, {0, -5});
+    const float floor = place::floorHeight(water.place, {0, -5});
     EXPECT_GT(avoidance(water, {0, floor + 0.4F, -5}, kForward, 0.1F).y, 0.5F);
     EXPECT_LT(avoidance(water, {0, -0.5F, -5}, kForward, 0.1F).y, -0.5F);
     EXPECT_EQ(avoidance(water, {0, floor + 2.0F, -5}, kForward, 0.1F).y, 0);
@@ -55,4 +55,4 @@ TEST(Avoidance, aKelpPlantPushesAsideBelowItsTopAndNotAbove) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::surroundings {
 namespace {
 
-Scene seaWithDrops() {
-    Scene scene;
-    scene.place = PlaceKind::OpenSea;
+config::Scene seaWithDrops() {
+    config::Scene scene;
+    scene.place = config::PlaceKind::OpenSea;
     scene.plankton = 5;
     scene.drops = {{.atSeconds = 1, .position = {0, -5, -5}, .pellets = 12},
                    {.atSeconds = 1, .position = {2, -5, -5}, .pellets = 3},
@@ -23,11 +23,11 @@ long pelletsIn(const Surroundings& surroundings) {
 }
 
 TEST(Surroundings, ofASceneAreItsOwn) {
-    const Scene scene = seaWithDrops();
+    const config::Scene scene = seaWithDrops();
     const Surroundings sea = makeSurroundings(scene, 3, 60, 0.24F);
     EXPECT_EQ(sea.submarine.position, scene.eye);
     EXPECT_EQ(sea.obstacles.water.halfExtent, scene.water.halfExtent);
-    EXPECT_EQ(sea.obstacles.place.kind, PlaceKind::OpenSea);
+    EXPECT_EQ(sea.obstacles.place.kind, config::PlaceKind::OpenSea);
     EXPECT_TRUE(sea.obstacles.rocks.empty());
 }
 
@@ -44,4 +44,4 @@ TEST(Surroundings, foodOfTheSceneFallsInAtItsTimes) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surroundings

@@ -7,7 +7,7 @@
 #include "common/place/angle.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 constexpr std::uint32_t kSchool = 51;
@@ -20,9 +20,9 @@ WorldOptions reef(unsigned threads) {
     WorldSpecies school{.tables = syntheticTables(), .fish = kSchool};
     school.habits.shares.schooling = 1;
     WorldSpecies few{.tables = syntheticTables(), .fish = 8};
-    few.habits.role = Role::Pacifist;
+    few.habits.role = config::Role::Pacifist;
     WorldSpecies one{.tables = syntheticTables(), .fish = 1, .lengths = kLarge};
-    one.habits.role = Role::Pacifist;
+    one.habits.role = config::Role::Pacifist;
     options.cast = {school, few, one};
     return options;
 }
@@ -49,7 +49,7 @@ TEST(Cast, thoseWhoKeepToThemselvesStayInTheWaterAndGoAbout) {
     WorldOptions options = reef(1);
     options.scene.plankton = 0;  // no food keeps them anywhere
     World world(options);
-    const Region water = schoolRegion();
+    const place::Region water = place::schoolRegion();
     for (std::size_t fish = kSchool; fish < 60; ++fish) EXPECT_GT(world.view().fish[fish].speed, 0);
     std::vector<float> west(60, 100.0F);
     std::vector<float> east(60, -100.0F);
@@ -82,7 +82,7 @@ TEST(Cast, theSchoolFollowsNobodyElse) {
         for (std::size_t fish = 0; fish < kSchool; ++fish) centre += world.view().position(fish);
         centre /= static_cast<float>(kSchool);
         for (std::size_t fish = 0; fish < kSchool; ++fish)
-            distances.push_back(lengthOf(world.view().position(fish) - centre));
+            distances.push_back(place::lengthOf(world.view().position(fish) - centre));
     }
     std::ranges::sort(distances);
     EXPECT_LT(distances[distances.size() * 99 / 100], 2.5F);
@@ -90,4 +90,4 @@ TEST(Cast, theSchoolFollowsNobodyElse) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -9,18 +9,18 @@
 #include "master/fish/mouth.h"
 #include "tests/master/world/few_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 constexpr glm::vec3 kMiddle{0, -5.5F, -5};
 
 WorldSpecies hungry(WorldSpecies species, double radiusMetres) {
-    species.start = Start{.centre = kMiddle, .radiusMetres = radiusMetres, .hunger = 0.8};
+    species.start = config::Start{.centre = kMiddle, .radiusMetres = radiusMetres, .hunger = 0.8};
     return species;
 }
 
 float hungerOf(const World& world, std::uint32_t fish) {
-    return innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
+    return fish::innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
 }
 
 glm::vec3 middleOf(const World& world) {
@@ -34,13 +34,13 @@ float polarisation(const World& world) {
     glm::vec3 sum{};
     for (std::size_t fish = 0; fish < world.view().size(); ++fish)
         sum += world.view().heading(fish);
-    return lengthOf(sum) / static_cast<float>(world.view().size());
+    return place::lengthOf(sum) / static_cast<float>(world.view().size());
 }
 
 TEST(Eat, ASchoolEatsAPinchOfPelletsWithinAMinuteAndFormsAgain) {
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
         WorldOptions options = openWater(seed, {hungry(scads(51), 1)});
-        options.scene.gathering = Gathering::Journey;
+        options.scene.gathering = config::Gathering::Journey;
         World world(options);
         for (int i = 0; i < 300; ++i) world.advance();
         world.apply(DropFood{middleOf(world) + glm::vec3{0.5F, 0.5F, 0}, 12});
@@ -73,7 +73,7 @@ TEST(Eat, AMealIsInOneStomachAndHungerFalls) {
         for (std::uint32_t fish = 0; fish < 20; ++fish)
             if (world.minds()[fish].eaten > eaten[fish]) {
                 ++fed;
-                EXPECT_LT(world.minds()[fish].sinceMeal, kTicksBetweenThoughts);
+                EXPECT_LT(world.minds()[fish].sinceMeal, fish::kTicksBetweenThoughts);
             }
         eaten = eatenByEach();
         meals = world.counts().meals;
@@ -88,7 +88,7 @@ TEST(Eat, AMealIsInOneStomachAndHungerFalls) {
 TEST(Eat, AParticleIsDrawnIntoTheMouthInSightOfAll) {
     World world(openWater(1, {hungry(scads(1), 0.1)}));
     world.apply(DropFood{world.view().position(0) + glm::vec3{0.6F, 0, 0}, 12});
-    const Food& food = world.surroundings().food;
+    const surroundings::Food& food = world.surroundings().food;
     const auto isTaken = [](std::uint8_t taken) { return taken != 0; };
     int taken = 0;
     for (int i = 0; i < 3600 && taken == 0; ++i) {
@@ -97,7 +97,7 @@ TEST(Eat, AParticleIsDrawnIntoTheMouthInSightOfAll) {
         if (one == food.taken.end()) continue;
         const auto particle = static_cast<std::size_t>(one - food.taken.begin());
         const auto fromMouth = [&] {
-            return lengthOf(mouthOf(world.view(), 0) - food.position(particle));
+            return place::lengthOf(fish::mouthOf(world.view(), 0) - food.position(particle));
         };
         float before = fromMouth();
         EXPECT_LT(before, 0.4F * world.view().fish[0].length);
@@ -125,4 +125,4 @@ TEST(Eat, ThoseWhoLiveAloneFindPlankton) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

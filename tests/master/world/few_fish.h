@@ -8,11 +8,11 @@
 
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 // As quick and as wide in its turns as the blacktip reef shark.
-inline std::shared_ptr<const MotorTables> sharkTables() {
-    static const std::shared_ptr<const MotorTables> tables = [] {
+inline std::shared_ptr<const motion::MotorTables> sharkTables() {
+    static const std::shared_ptr<const motion::MotorTables> tables = [] {
         constexpr double kDegree = std::numbers::pi / 180;
         using synthetic::Gait;
         const Gait gradual{
@@ -23,22 +23,23 @@ inline std::shared_ptr<const MotorTables> sharkTables() {
             gait.turnRadians = -gait.turnRadians;
             return gait;
         };
-        const std::array<Gait, kCapturedActions> gaits{Gait{.periodSeconds = 1.6, .stride = 0.65},
-                                                       Gait{.periodSeconds = 1.07, .stride = 0.60},
-                                                       Gait{.periodSeconds = 0.73, .stride = 0.53},
-                                                       gradual,
-                                                       sharp,
-                                                       right(gradual),
-                                                       right(sharp)};
-        Repertoire shark{
+        const std::array<Gait, motion::kCapturedActions> gaits{
+            Gait{.periodSeconds = 1.6, .stride = 0.65},
+            Gait{.periodSeconds = 1.07, .stride = 0.60},
+            Gait{.periodSeconds = 0.73, .stride = 0.53},
+            gradual,
+            sharp,
+            right(gradual),
+            right(sharp)};
+        motion::Repertoire shark{
             .species = "synthetic shark",
             .recordedLengthMetres = 1.3F,
             .response = {.swimDrag = {0.3F, 0.3F, 0.3F}, .glideDrag = 0.09F, .brakeRate = 0.9F},
             .segments = {}};
-        for (std::size_t action = 0; action < kCapturedActions; ++action)
+        for (std::size_t action = 0; action < motion::kCapturedActions; ++action)
             shark.segments[action] = synthetic::segmentOf(gaits[action], false);
-        addGlide(shark);
-        return makeMotorTables(shark);
+        motion::addGlide(shark);
+        return motion::makeMotorTables(shark);
     }();
     return tables;
 }
@@ -57,8 +58,8 @@ inline WorldSpecies sharks(std::uint32_t fish) {
         .lengths = {
             .meanMetres = 1.3F, .deviationMetres = 0, .leastMetres = 1.3F, .mostMetres = 1.3F}};
     sharks.name = "synthetic shark";
-    Habits& habits = sharks.habits;
-    habits.role = Role::Predator;
+    config::Habits& habits = sharks.habits;
+    habits.role = config::Role::Predator;
     habits.eatsPlankton = false;
     habits.digestionPerSecond = 0.002;
     habits.shares = {};
@@ -73,8 +74,8 @@ inline WorldSpecies sharks(std::uint32_t fish) {
 inline WorldSpecies pacifists(std::uint32_t fish) {
     WorldSpecies pacifists{.tables = syntheticTables(), .fish = fish};
     pacifists.name = "synthetic tang";
-    Habits& habits = pacifists.habits;
-    habits.role = Role::Pacifist;
+    config::Habits& habits = pacifists.habits;
+    habits.role = config::Role::Pacifist;
     habits.libidoPerSecond = 0.004;
     return pacifists;
 }
@@ -82,11 +83,11 @@ inline WorldSpecies pacifists(std::uint32_t fish) {
 inline WorldOptions openWater(std::uint32_t seed, std::vector<WorldSpecies> cast) {
     WorldOptions options;
     options.seed = seed;
-    options.scene.gathering = Gathering::None;
+    options.scene.gathering = config::Gathering::None;
     options.scene.plankton = 0;
     options.scene.eye = {0, -6, 30};
     options.cast = std::move(cast);
     return options;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

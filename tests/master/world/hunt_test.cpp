@@ -8,7 +8,7 @@
 #include "common/place/angle.h"
 #include "tests/master/world/few_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 constexpr std::uint32_t kScads = 60;
@@ -16,16 +16,16 @@ constexpr std::uint32_t kShark = kScads;
 
 WorldOptions seaOfTheHunt(std::uint32_t seed) {
     WorldSpecies prey = scads(kScads);
-    prey.start = Start{.centre = {0, -5.5F, -5}, .radiusMetres = 1};
+    prey.start = config::Start{.centre = {0, -5.5F, -5}, .radiusMetres = 1};
     WorldSpecies hunter = sharks(1);
-    hunter.start = Start{.centre = {-4, -5.5F, -5}, .radiusMetres = 0.5, .hunger = 1};
+    hunter.start = config::Start{.centre = {-4, -5.5F, -5}, .radiusMetres = 0.5, .hunger = 1};
     WorldOptions options = openWater(seed, {prey, hunter});
     options.scene.water.halfExtent = {8, 2, 6};
     return options;
 }
 
 bool isHunting(const World& world) {
-    return aimOf(world.minds()[kShark]).intention == Intention::Eat;
+    return fish::aimOf(world.minds()[kShark]).intention == fish::Intention::Eat;
 }
 
 TEST(Hunt, SometimesCatchesAndNotAlways) {
@@ -58,7 +58,7 @@ TEST(Hunt, WhoIsEatenIsAwayAndAnotherComesFromAfar) {
     for (int i = 0; i < 6 * 3600; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish <= kShark; ++fish) {
-            const bool away = isAway(world.states(), fish);
+            const bool away = motion::isAway(world.states(), fish);
             const bool was = awaySince[fish] != 0;
             if (away && !was) {
                 awaySince[fish] = world.tick().value;
@@ -70,15 +70,16 @@ TEST(Hunt, WhoIsEatenIsAwayAndAnotherComesFromAfar) {
                 EXPECT_LE(ticks, 60U * 60 + 1);
                 awaySince[fish] = 0;
                 const glm::vec3 eye = world.surroundings().submarine.position;
-                EXPECT_GT(lengthOf(bodyFrameOf(world.states(), fish).position - eye), 12);
+                EXPECT_GT(place::lengthOf(motion::bodyFrameOf(world.states(), fish).position - eye),
+                          12);
             }
-            if (away && world.tick().value > awaySince[fish] + kTicksBetweenThoughts) {
+            if (away && world.tick().value > awaySince[fish] + fish::kTicksBetweenThoughts) {
                 EXPECT_FALSE(isHunting(world) && world.minds()[kShark].target == fish);
             }
         }
         std::uint64_t away = 0;
         for (std::uint32_t fish = 0; fish <= kShark; ++fish)
-            away += static_cast<std::uint64_t>(isAway(world.states(), fish));
+            away += static_cast<std::uint64_t>(motion::isAway(world.states(), fish));
         ASSERT_EQ(away, world.counts().catches - world.counts().returns);
     }
     EXPECT_GT(catches, 0);
@@ -94,9 +95,9 @@ TEST(Hunt, TheSchoolFormsAgainAfterAChase) {
             float least = 1.0e9F;
             for (std::uint32_t other = 0; other < kScads; ++other)
                 if (other != fish)
-                    least = std::min(
-                        least,
-                        lengthOf(world.view().position(other) - world.view().position(fish)));
+                    least = std::min(least,
+                                     place::lengthOf(world.view().position(other) -
+                                                     world.view().position(fish)));
             nearest.push_back(least / world.view().fish[fish].length);
         }
         std::ranges::sort(nearest);
@@ -138,4 +139,4 @@ TEST(Hunt, IsOneWorldOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -7,7 +7,7 @@
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
-namespace aquarama {
+namespace aquarama::world {
 
 // One of hwy::SupportedAndGeneratedTargets(); 0 allows all that the processor has.
 inline void useOnly(std::int64_t target) {
@@ -15,4 +15,4 @@ inline void useOnly(std::int64_t target) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

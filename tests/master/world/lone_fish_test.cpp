@@ -12,19 +12,19 @@
 #include "master/motor/secondary_controller.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 class LoneFish {
   public:
-    LoneFish(const Obstacles& obstacles, glm::vec3 start, glm::vec3 lure)
+    LoneFish(const surroundings::Obstacles& obstacles, glm::vec3 start, glm::vec3 lure)
         : grids_(obstacles.water, 1, 0), goal_{lure, {}} {
         surroundings_.obstacles = obstacles;
         surroundings_.submarine.position = {100, 0, 0};
         nature_.habits.shares.schooling = 1;
         nature_.last = 1;
         minds_.resize(1);
-        minds_[0].likes = kLikesSchooling;
+        minds_[0].likes = fish::kLikesSchooling;
         minds_[0].eaten = 1000;
         minds_[0].sinceMeal = 0;
         view_.resize(1);
@@ -33,33 +33,34 @@ class LoneFish {
         courses_.resize(1);
         memory_.resize(1);
         view_.fish[0].length = 0.24F;
-        setBodyFrame(states_, 0, {start, {1, 0, 0, 0}});  // heads along +x
-        states_.segment[0] = static_cast<std::uint8_t>(Action::ForwardMedium);
-        startCommands(gaits_, 1, 0, 1, commands_, memory_);
+        motion::setBodyFrame(states_, 0, {start, {1, 0, 0, 0}});  // heads along +x
+        states_.segment[0] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
+        fish::startCommands(gaits_, 1, 0, 1, commands_, memory_);
     }
 
     glm::vec3 swim() {
-        const glm::vec3 position = bodyFrameOf(states_, 0).position;
-        const glm::vec3 heading = meanRotation(*tables_, states_, 0) * glm::vec3{1, 0, 0};
+        const glm::vec3 position = motion::bodyFrameOf(states_, 0).position;
+        const glm::vec3 heading = motion::meanRotation(*tables_, states_, 0) * glm::vec3{1, 0, 0};
         view_.fish[0].position = position;
         view_.fish[0].heading = heading;
         view_.fish[0].speed = 2 * view_.fish[0].length;
         grids_.rebuild(view_, surroundings_.food, {&nature_, 1});
-        if (thinksAt(tick_, 0)) think(environment(), 0, minds_, courses_, deeds_);
-        SecondaryController{&gaits_, &view_, &courses_, &states_, 1, tick_, &commands_, &memory_}
+        if (fish::thinksAt(tick_, 0)) behaviour::think(environment(), 0, minds_, courses_, deeds_);
+        fish::SecondaryController{
+            &gaits_, &view_, &courses_, &states_, 1, tick_, &commands_, &memory_}
             .run(0, 1);
-        MotorStep{tables_.get(), traits_, &commands_, &states_, 0, 1}.run();
+        motion::MotorStep{tables_.get(), traits_, &commands_, &states_, 0, 1}.run();
         ++tick_.value;
-        return bodyFrameOf(states_, 0).position;
+        return motion::bodyFrameOf(states_, 0).position;
     }
 
   private:
-    [[nodiscard]] Environment environment() const {
+    [[nodiscard]] behaviour::Environment environment() const {
         return {.view = &view_,
                 .grids = &grids_,
                 .surroundings = &surroundings_,
                 .natures = {&nature_, 1},
-                .gathering = Gathering::Journey,
+                .gathering = config::Gathering::Journey,
                 .goal = goal_,
                 .schoolRadiusMetres = 0.3F,
                 .seed = 1,
@@ -67,24 +68,24 @@ class LoneFish {
                 .adaptation = {}};
     }
 
-    std::shared_ptr<const MotorTables> tables_ = syntheticTables();
-    Gaits gaits_ = gaitsOf(*tables_);
-    std::array<FishTraits, 1> traits_{{{0, 240}}};
-    Surroundings surroundings_;
-    Nature nature_;
-    Grids grids_;
-    Minds minds_;
-    Deeds deeds_;
-    Goal goal_;
-    FishView view_;
-    MotionStates states_;
-    MotorCommands commands_;
-    Courses courses_;
-    ControllerMemory memory_;
+    std::shared_ptr<const motion::MotorTables> tables_ = syntheticTables();
+    fish::Gaits gaits_ = fish::gaitsOf(*tables_);
+    std::array<motion::FishTraits, 1> traits_{{{0, 240}}};
+    surroundings::Surroundings surroundings_;
+    fish::Nature nature_;
+    behaviour::Grids grids_;
+    fish::Minds minds_;
+    behaviour::Deeds deeds_;
+    surroundings::Goal goal_;
+    fish::FishView view_;
+    motion::MotionStates states_;
+    motion::MotorCommands commands_;
+    fish::Courses courses_;
+    fish::ControllerMemory memory_;
     Tick tick_;
 };
 
-const Obstacles kOpenWater{{3}, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
+const surroundings::Obstacles kOpenWater{{3}, {{0, -5, -5}, {4, 2.5F, 3}}, {}};
 
 TEST(LoneFish, turnsInTimeBeforeEveryWall) {
     for (const glm::vec3 lure : {glm::vec3{20, -5, -5},
@@ -105,14 +106,14 @@ TEST(LoneFish, turnsInTimeBeforeEveryWall) {
 
 TEST(LoneFish, goesRoundARockOnItsWay) {
     for (const float aside : {-0.4F, -0.1F, 0.0F, 0.2F, 0.5F}) {
-        Obstacles obstacles = kOpenWater;
+        surroundings::Obstacles obstacles = kOpenWater;
         obstacles.rocks = {{{0.5F, -5, -5 + aside}, 0.6F, 1}};
         LoneFish fish(obstacles, {-2.5F, -5, -5}, {2.5F, -5, -5});
         float nearest = 99;
         float farthest = -99;
         for (int tick = 0; tick < 30 * 60; ++tick) {
             const glm::vec3 position = fish.swim();
-            nearest = std::min(nearest, lengthOf(position - obstacles.rocks[0].centre));
+            nearest = std::min(nearest, place::lengthOf(position - obstacles.rocks[0].centre));
             farthest = std::max(farthest, position.x);
         }
         EXPECT_GT(nearest, 0.6F) << "rock " << aside << " m aside";
@@ -121,4 +122,4 @@ TEST(LoneFish, goesRoundARockOnItsWay) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

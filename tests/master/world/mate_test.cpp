@@ -8,18 +8,18 @@
 #include "common/place/angle.h"
 #include "tests/master/world/few_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 constexpr std::uint32_t kFish = 6;
 
 WorldSpecies inTheMood(WorldSpecies species, double libido) {
-    species.start = Start{.centre = {0, -5.5F, -5}, .radiusMetres = 1.5, .libido = libido};
+    species.start = config::Start{.centre = {0, -5.5F, -5}, .radiusMetres = 1.5, .libido = libido};
     return species;
 }
 
 bool isFemale(const World& world, std::uint32_t fish) {
-    return (world.minds()[fish].likes & kIsFemale) != 0;
+    return (world.minds()[fish].likes & fish::kIsFemale) != 0;
 }
 
 std::uint32_t females(const World& world) {
@@ -47,8 +47,8 @@ TEST(Mate, ThePairGoesThroughAllStagesInOrderAndBothAreSpentTogether) {
     for (int i = 0; i < 3600 && world.counts().spawnings == 0; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish < kFish; ++fish) {
-            const Mind mind = world.minds()[fish];
-            if (mind.intention != Intention::Mate || mind.stage < 2) continue;
+            const fish::Mind mind = world.minds()[fish];
+            if (mind.intention != fish::Intention::Mate || mind.stage < 2) continue;
             EXPECT_LE(mind.stage, reached[fish] < 2 ? 5 : reached[fish] + 1);
             reached[fish] = mind.stage;
             EXPECT_NE(isFemale(world, fish), isFemale(world, mind.target));
@@ -65,7 +65,7 @@ TEST(Mate, ThePairGoesThroughAllStagesInOrderAndBothAreSpentTogether) {
     for (int i = 0; i < 16; ++i) world.advance();
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
         EXPECT_TRUE(world.minds()[fish].sinceSpawning > 60 ||
-                    world.minds()[fish].intention != Intention::Mate)
+                    world.minds()[fish].intention != fish::Intention::Mate)
             << "it is over";
 }
 
@@ -80,7 +80,7 @@ TEST(Mate, NobodyCourtsItsOwnSexNorWhoIsNotWillingNorAnotherSpecies) {
         for (int i = 0; i < 1800; ++i) {
             world.advance();
             for (std::uint32_t fish = 0; fish < 2 * kFish; ++fish)
-                ASSERT_NE(world.minds()[fish].intention, Intention::Mate);
+                ASSERT_NE(world.minds()[fish].intention, fish::Intention::Mate);
         }
     }
     WorldSpecies unwilling = inTheMood(pacifists(kFish), 0.0);
@@ -88,7 +88,7 @@ TEST(Mate, NobodyCourtsItsOwnSexNorWhoIsNotWillingNorAnotherSpecies) {
     World world(openWater(3, {unwilling}));
     for (int i = 0; i < 1800; ++i) world.advance();
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
-        EXPECT_NE(world.minds()[fish].intention, Intention::Mate);
+        EXPECT_NE(world.minds()[fish].intention, fish::Intention::Mate);
 }
 
 TEST(Mate, ThoseTooDifferentInSizeNever) {
@@ -100,8 +100,8 @@ TEST(Mate, ThoseTooDifferentInSizeNever) {
     for (int i = 0; i < 1800; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish < 20; ++fish) {
-            const Mind mind = world.minds()[fish];
-            if (mind.intention != Intention::Mate) continue;
+            const fish::Mind mind = world.minds()[fish];
+            if (mind.intention != fish::Intention::Mate) continue;
             ++courting;
             const auto [least, most] =
                 std::minmax(world.view().fish[fish].length, world.view().fish[mind.target].length);
@@ -122,8 +122,8 @@ TEST(Mate, WhoIsNotAnsweredGivesUp) {
     for (int i = 0; i < 3 * 3600; ++i) {
         world.advance();
         for (std::uint32_t fish = 0; fish < kFish; ++fish) {
-            const Mind mind = world.minds()[fish];
-            const bool waits = mind.intention == Intention::Mate && mind.stage < 2;
+            const fish::Mind mind = world.minds()[fish];
+            const bool waits = mind.intention == fish::Intention::Mate && mind.stage < 2;
             now[fish] = waits ? now[fish] + 1 : 0;
             longest[fish] = std::max(longest[fish], now[fish]);
         }
@@ -133,4 +133,4 @@ TEST(Mate, WhoIsNotAnsweredGivesUp) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

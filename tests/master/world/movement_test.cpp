@@ -14,7 +14,7 @@
 #include "tests/master/world/scene_of_synthetic_fish.h"
 #include "tests/master/world/school_shape.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 constexpr int kSecond = 60;  // ticks
@@ -29,7 +29,7 @@ void advance(World& world, int ticks) {
 }
 
 float distanceBetween(const World& world, std::uint32_t a, std::uint32_t b) {
-    return lengthOf(world.view().position(a) - world.view().position(b));
+    return place::lengthOf(world.view().position(a) - world.view().position(b));
 }
 
 TEST(AvoidObstacle, noFishEntersRockOrSand) {
@@ -40,10 +40,11 @@ TEST(AvoidObstacle, noFishEntersRockOrSand) {
             world.advance();
             for (std::uint32_t fish = 0; fish < world.view().size(); ++fish) {
                 const glm::vec3 at = world.view().position(fish);
-                for (const Rock& rock : world.surroundings().obstacles.rocks)
-                    ASSERT_GT(lengthOf(at - rock.centre), rock.radiusMetres) << fish << " " << i;
-                ASSERT_GT(at.y, floorHeight({seed}, {at.x, at.z}) + 0.1F);
-                avoided |= world.minds()[fish].intention == Intention::AvoidObstacle;
+                for (const place::Rock& rock : world.surroundings().obstacles.rocks)
+                    ASSERT_GT(place::lengthOf(at - rock.centre), rock.radiusMetres)
+                        << fish << " " << i;
+                ASSERT_GT(at.y, place::floorHeight({seed}, {at.x, at.z}) + 0.1F);
+                avoided |= world.minds()[fish].intention == fish::Intention::AvoidObstacle;
             }
         }
         EXPECT_TRUE(avoided) << "nothing was in their way: seed " << seed;
@@ -92,7 +93,7 @@ TEST(Escape, theDistanceToThePredatorGrows) {
     bool fled = false;
     for (int i = 0; i < 5 * kSecond; ++i) {
         world.advance();
-        fled |= world.minds()[0].intention == Intention::Escape;
+        fled |= world.minds()[0].intention == fish::Intention::Escape;
     }
     EXPECT_TRUE(fled);
     print("distance after 5 s, m", double{distanceBetween(world, 0, 1)});
@@ -131,7 +132,7 @@ TEST(SchoolRoutine, reformsAfterItWasScattered) {
 TEST(SchoolRoutine, splitsRoundTheSubmarineAndIsOneSchoolAgain) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         World world(syntheticScene("routines/submarine", seed));
-        const Submarine& submarine = world.surroundings().submarine;
+        const surroundings::Submarine& submarine = world.surroundings().submarine;
         const std::size_t fish = world.view().size();
         std::vector<char> side(fish);  // by which it passed
         std::size_t passed = 0;
@@ -140,7 +141,7 @@ TEST(SchoolRoutine, splitsRoundTheSubmarineAndIsOneSchoolAgain) {
             world.advance();
             for (std::size_t one = 0; one < fish; ++one) {
                 const glm::vec3 from = world.view().position(one) - submarine.position;
-                ASSERT_GT(lengthOf(from), submarine.radiusMetres) << seed << " tick " << i;
+                ASSERT_GT(place::lengthOf(from), submarine.radiusMetres) << seed << " tick " << i;
                 if (side[one] != 0 || from.z < 0) continue;
                 side[one] = from.x < 0 ? 'l' : 'r';
                 ++passed;
@@ -187,11 +188,11 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
     World world(syntheticScene("routines/leave"));
     advance(world, kSecond);
     const auto suits = [&](std::uint32_t fish) {
-        const Habits& habits = world.natures()[0].habits;
-        const Surroundings& around = world.surroundings();
+        const config::Habits& habits = world.natures()[0].habits;
+        const surroundings::Surroundings& around = world.surroundings();
         const float y = world.view().fish[fish].position.y;
-        const float light = lightAt(around.climate, around.daylight, y);
-        const float celsius = celsiusAt(around.climate, y);
+        const float light = surroundings::lightAt(around.climate, around.daylight, y);
+        const float celsius = surroundings::celsiusAt(around.climate, y);
         constexpr float kNearly = 0.05F;  // at the edge of what suits a fish stops
         return light >= static_cast<float>(habits.light.least) - kNearly &&
                celsius >= static_cast<float>(habits.waterCelsius.least) - kNearly;
@@ -213,13 +214,14 @@ WorldOptions one(const std::string& species) {
 TEST(Wander, eachPaceHasItsShareOfTheTime) {
     const WorldOptions options = one("parrotfish");
     const World world(options);
-    const Nature& nature = world.natures()[0];
-    const Paces& paces = options.cast[0].habits.paces;
+    const fish::Nature& nature = world.natures()[0];
+    const config::Paces& paces = options.cast[0].habits.paces;
     int slow = 0;
     int hovers = 0;
     constexpr int kSpells = 4000;
     for (int i = 0; i < kSpells; ++i) {
-        const float pace = paceOf(nature, 1, 0, {static_cast<std::uint64_t>(i) * 5 * kSecond});
+        const float pace =
+            behaviour::paceOf(nature, 1, 0, {static_cast<std::uint64_t>(i) * 5 * kSecond});
         slow += pace == nature.slow ? 1 : 0;
         hovers += pace < 0.25F * nature.slow ? 1 : 0;
     }
@@ -242,15 +244,15 @@ TEST(Wander, oneWithoutAHomeVisitsAllItsWater) {
 
 TEST(Wander, oneWithAHomeStaysWithinItsLeash) {
     WorldOptions options = one("clownfish");
-    const Home& home = options.cast[0].habits.home;
-    ASSERT_EQ(home.kind, HomeKind::Place);
+    const config::Home& home = options.cast[0].habits.home;
+    ASSERT_EQ(home.kind, config::HomeKind::Place);
     World world(options);
     const auto depth = static_cast<float>(options.cast[0].habits.bestDepthMetres);
-    const glm::vec3 place = homeOf(1, home, world.surroundings().obstacles, depth, 0);
+    const glm::vec3 place = behaviour::homeOf(1, home, world.surroundings().obstacles, depth, 0);
     float farthest = 0;
     for (int i = 0; i < 180 * kSecond; ++i) {
         world.advance();
-        farthest = std::max(farthest, lengthOf(world.view().position(0) - place));
+        farthest = std::max(farthest, place::lengthOf(world.view().position(0) - place));
     }
     EXPECT_LT(farthest, static_cast<float>(home.leashMetres) + 0.3F) << "room of a turn";
 }
@@ -273,8 +275,8 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
     WorldOptions options = syntheticScene("reef");
     options.scene.tour.reset();
     World world(options);
-    const Obstacles& obstacles = world.surroundings().obstacles;
-    const Submarine& submarine = world.surroundings().submarine;
+    const surroundings::Obstacles& obstacles = world.surroundings().obstacles;
+    const surroundings::Submarine& submarine = world.surroundings().submarine;
     float outside = -99;  // metres
     float aboveSand = 99;
     float aboveRock = 99;  // from the rocks' balls
@@ -283,15 +285,16 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
         world.advance();
         if (i % 4 != 0) continue;
         for (std::uint32_t fish = 0; fish < world.view().size(); ++fish) {
-            if (world.view().shows(fish, kAway)) continue;
+            if (world.view().shows(fish, fish::kAway)) continue;
             const glm::vec3 at = world.view().position(fish);
             const glm::vec3 out =
                 glm::abs(at - obstacles.water.centre) - obstacles.water.halfExtent;
             outside = std::max({outside, out.x, out.y, out.z});
-            aboveSand = std::min(aboveSand, at.y - floorHeight({1}, {at.x, at.z}));
-            fromSubmarine = std::min(fromSubmarine, lengthOf(at - submarine.position));
-            for (const Rock& rock : obstacles.rocks)
-                aboveRock = std::min(aboveRock, lengthOf(at - rock.centre) - rock.radiusMetres);
+            aboveSand = std::min(aboveSand, at.y - place::floorHeight({1}, {at.x, at.z}));
+            fromSubmarine = std::min(fromSubmarine, place::lengthOf(at - submarine.position));
+            for (const place::Rock& rock : obstacles.rocks)
+                aboveRock =
+                    std::min(aboveRock, place::lengthOf(at - rock.centre) - rock.radiusMetres);
         }
     }
     print("outside the water, m", double{outside});
@@ -307,16 +310,16 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
 // It goes through their midst at half a metre a second, and they feel it come.
 TEST(Reef, allMakeWayForASubmarineOnItsTour) {
     World world(syntheticScene("reef"));
-    const Submarine& submarine = world.surroundings().submarine;
+    const surroundings::Submarine& submarine = world.surroundings().submarine;
     float nearest = 99;
     float farthest = 0;
     for (int i = 0; i < 400 * kSecond; ++i) {
         world.advance();
-        farthest = std::max(farthest, lengthOf(submarine.position - kEyePosition));
+        farthest = std::max(farthest, place::lengthOf(submarine.position - place::kEyePosition));
         for (std::uint32_t fish = 0; i % 4 == 0 && fish < world.view().size(); ++fish)
-            if (!world.view().shows(fish, kAway))
-                nearest =
-                    std::min(nearest, lengthOf(world.view().position(fish) - submarine.position));
+            if (!world.view().shows(fish, fish::kAway))
+                nearest = std::min(
+                    nearest, place::lengthOf(world.view().position(fish) - submarine.position));
     }
     print("from the touring submarine's eye, m", double{nearest});
     EXPECT_GT(farthest, 4) << "it went through";
@@ -329,7 +332,7 @@ TEST(BaitBall, millsOpensBeforeASharkAndClosesBehindIt) {
     options.scene.plankton = 0;
     options.cast[1].habits.digestionPerSecond = 1e-6;
     options.cast[1].habits.paces = {0, 0, 1, 0};
-    options.cast[1].start = Start{.centre = {4.5F, -11, -7}, .radiusMetres = 1.5};
+    options.cast[1].start = config::Start{.centre = {4.5F, -11, -7}, .radiusMetres = 1.5};
     World world(options);
     const std::uint32_t scad = options.cast[0].fish;
     advance(world, 20 * kSecond);
@@ -348,7 +351,8 @@ TEST(BaitBall, millsOpensBeforeASharkAndClosesBehindIt) {
         longestOpen = std::max(longestOpen, open);
         for (std::uint32_t shark = scad; shark < world.view().size(); ++shark) {
             const glm::vec3 at = world.view().position(shark);
-            if (lengthOf(at - shape.centre) > 2 * world.environment().schoolRadiusMetres) continue;
+            if (place::lengthOf(at - shape.centre) > 2 * world.environment().schoolRadiusMetres)
+                continue;
             float nearest = 99;
             for (std::uint32_t fish = 0; fish < scad; ++fish)
                 nearest = std::min(nearest, distanceBetween(world, shark, fish));
@@ -370,4 +374,4 @@ TEST(BaitBall, millsOpensBeforeASharkAndClosesBehindIt) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -10,7 +10,7 @@
 #include "master/fish/drives.h"
 #include "tests/master/world/few_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 int minutes() {
@@ -25,24 +25,24 @@ WorldOptions livingSea() {
     WorldSpecies prey = scads(kScads);
     prey.habits.fearMetres = 0.8;  // in so little water farther sight would be endless fear
     WorldOptions options = openWater(4, {prey, pacifists(kTangs), hunter});
-    options.scene.gathering = Gathering::Journey;
+    options.scene.gathering = config::Gathering::Journey;
     options.scene.plankton = 300;
-    options.scene.eye = kEyePosition;
+    options.scene.eye = place::kEyePosition;
     return options;
 }
 
 std::uint64_t away(const World& world) {
     std::uint64_t count = 0;
     for (std::size_t fish = 0; fish < world.view().size(); ++fish)
-        count += static_cast<std::uint64_t>(isAway(world.states(), fish));
+        count += static_cast<std::uint64_t>(motion::isAway(world.states(), fish));
     return count;
 }
 
 // Fish in each eighth of the water.
 void countOctants(const World& world, std::array<int, 8>& octants) {
-    const Region& water = world.surroundings().obstacles.water;
+    const place::Region& water = world.surroundings().obstacles.water;
     for (std::size_t fish = 0; fish < world.view().size(); ++fish) {
-        if (isAway(world.states(), fish)) continue;
+        if (motion::isAway(world.states(), fish)) continue;
         const glm::vec3 from = world.view().position(fish) - water.centre;
         ++octants[static_cast<std::size_t>((from.x > 0 ? 1 : 0) + (from.y > 0 ? 2 : 0) +
                                            (from.z > 0 ? 4 : 0))];
@@ -61,7 +61,8 @@ TEST(Population, isStable) {
         if (minute < 10) continue;
         float hunger = 0;
         for (std::uint32_t fish = 0; fish < kScads + kTangs; ++fish)
-            hunger += innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
+            hunger +=
+                fish::innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
         mostHungry = std::max(mostHungry, hunger / (kScads + kTangs));
     }
     const WorldCounts& counts = world.counts();
@@ -83,4 +84,4 @@ TEST(Population, isStable) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -14,7 +14,7 @@ namespace {
 bool use(std::string_view name) {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         if (name != hwy::TargetName(target)) continue;
-        aquarama::useOnly(target);
+        aquarama::world::useOnly(target);
         return true;
     }
     std::fprintf(stderr, "no instruction set %.*s here; there are:", int(name.size()), name.data());
@@ -34,9 +34,9 @@ int main(int argc, char** argv) {
     }
     if (argc == 6 && !use(argv[5])) return 2;
     const auto number = [&](int i) { return std::strtoul(argv[i], nullptr, 10); };
-    World world = syntheticWorld(static_cast<std::uint32_t>(number(1)),
-                                 static_cast<std::uint32_t>(number(2)),
-                                 static_cast<unsigned>(number(4)));
+    world::World world = world::syntheticWorld(static_cast<std::uint32_t>(number(1)),
+                                               static_cast<std::uint32_t>(number(2)),
+                                               static_cast<unsigned>(number(4)));
     for (unsigned long i = 0; i < number(3); ++i) world.advance();
     std::printf("%016llx\n", static_cast<unsigned long long>(world.hash()));
 }

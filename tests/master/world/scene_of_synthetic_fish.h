@@ -11,11 +11,11 @@
 #include "common/config/scene.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 // About as quick and as agile as the blacktip reef shark.
-inline std::shared_ptr<const MotorTables> syntheticShark() {
-    static const std::shared_ptr<const MotorTables> tables = [] {
+inline std::shared_ptr<const motion::MotorTables> syntheticShark() {
+    static const std::shared_ptr<const motion::MotorTables> tables = [] {
         constexpr double kDegree = std::numbers::pi / 180;
         using synthetic::Gait;
         const auto bend = [](double seconds, double degrees, double stride) {
@@ -24,21 +24,22 @@ inline std::shared_ptr<const MotorTables> syntheticShark() {
                         .stride = stride,
                         .bends = true};
         };
-        const std::array<Gait, kCapturedActions> gaits{Gait{.periodSeconds = 1.6, .stride = 0.64},
-                                                       Gait{.periodSeconds = 1.1, .stride = 0.66},
-                                                       Gait{.periodSeconds = 0.6, .stride = 0.65},
-                                                       bend(1.4, 30, 0.6),
-                                                       bend(2.0, 58, 0.8),
-                                                       bend(1.4, -30, 0.6),
-                                                       bend(2.0, -58, 0.8)};
-        Repertoire shark = syntheticScad();
+        const std::array<Gait, motion::kCapturedActions> gaits{
+            Gait{.periodSeconds = 1.6, .stride = 0.64},
+            Gait{.periodSeconds = 1.1, .stride = 0.66},
+            Gait{.periodSeconds = 0.6, .stride = 0.65},
+            bend(1.4, 30, 0.6),
+            bend(2.0, 58, 0.8),
+            bend(1.4, -30, 0.6),
+            bend(2.0, -58, 0.8)};
+        motion::Repertoire shark = syntheticScad();
         shark.species = "synthetic shark";
         shark.recordedLengthMetres = 1.3F;
         shark.segments = {};
-        for (std::size_t action = 0; action < kCapturedActions; ++action)
+        for (std::size_t action = 0; action < motion::kCapturedActions; ++action)
             shark.segments[action] = synthetic::segmentOf(gaits[action], false);
-        addGlide(shark);
-        return makeMotorTables(shark);
+        motion::addGlide(shark);
+        return motion::makeMotorTables(shark);
     }();
     return tables;
 }
@@ -47,23 +48,24 @@ inline WorldOptions syntheticScene(const std::string& name, std::uint32_t seed =
     const std::string path = AQUARAMA_SOURCE_DIR "/config/scenes/" + name + ".txtpb";
     WorldOptions options;
     options.seed = seed;
-    options.scene = readScene(path);
-    const std::vector<CastSpecies> species = readCastSpecies(options.scene, path);
+    options.scene = config::readScene(path);
+    const std::vector<config::CastSpecies> species = config::readCastSpecies(options.scene, path);
     for (std::size_t i = 0; i < species.size(); ++i) {
-        const Species& read = species[i].species;
+        const config::Species& read = species[i].species;
         const auto metres = [](double value) { return static_cast<float>(value); };
-        options.cast.push_back(
-            {.tables = read.habits.role == Role::Predator ? syntheticShark() : syntheticTables(),
-             .fish = options.scene.cast[i].fish,
-             .lengths = {metres(read.size.meanMetres),
-                         metres(read.size.deviationMetres),
-                         metres(read.size.leastMetres),
-                         metres(read.size.mostMetres)},
-             .name = read.name,
-             .habits = read.habits,
-             .start = options.scene.cast[i].start});
+        options.cast.push_back({.tables = read.habits.role == config::Role::Predator
+                                              ? syntheticShark()
+                                              : syntheticTables(),
+                                .fish = options.scene.cast[i].fish,
+                                .lengths = {metres(read.size.meanMetres),
+                                            metres(read.size.deviationMetres),
+                                            metres(read.size.leastMetres),
+                                            metres(read.size.mostMetres)},
+                                .name = read.name,
+                                .habits = read.habits,
+                                .start = options.scene.cast[i].start});
     }
     return options;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -11,9 +11,9 @@
 #include "master/world/world.h"
 #include "tests/support/synthetic_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
-inline Repertoire syntheticScad() {
+inline motion::Repertoire syntheticScad() {
     constexpr double kDegree = std::numbers::pi / 180;
     using synthetic::Gait;
     const Gait gradual{
@@ -24,26 +24,28 @@ inline Repertoire syntheticScad() {
         gait.turnRadians = -gait.turnRadians;
         return gait;
     };
-    const std::array<Gait, kCapturedActions> gaits{Gait{.periodSeconds = 1.0 / 2, .stride = 0.50},
-                                                   Gait{.periodSeconds = 1.0 / 3, .stride = 0.65},
-                                                   Gait{.periodSeconds = 1.0 / 5, .stride = 0.52},
-                                                   gradual,
-                                                   sharp,
-                                                   right(gradual),
-                                                   right(sharp)};
-    Repertoire scad{
+    const std::array<Gait, motion::kCapturedActions> gaits{
+        Gait{.periodSeconds = 1.0 / 2, .stride = 0.50},
+        Gait{.periodSeconds = 1.0 / 3, .stride = 0.65},
+        Gait{.periodSeconds = 1.0 / 5, .stride = 0.52},
+        gradual,
+        sharp,
+        right(gradual),
+        right(sharp)};
+    motion::Repertoire scad{
         .species = "synthetic scad",
         .recordedLengthMetres = 0.24F,
         .response = {.swimDrag = {1.0F, 1.0F, 1.0F}, .glideDrag = 0.4F, .brakeRate = 4.0F},
         .segments = {}};
-    for (std::size_t action = 0; action < kCapturedActions; ++action)
+    for (std::size_t action = 0; action < motion::kCapturedActions; ++action)
         scad.segments[action] = synthetic::segmentOf(gaits[action], false);
-    addGlide(scad);
+    motion::addGlide(scad);
     return scad;
 }
 
-inline std::shared_ptr<const MotorTables> syntheticTables() {
-    static const std::shared_ptr<const MotorTables> tables = makeMotorTables(syntheticScad());
+inline std::shared_ptr<const motion::MotorTables> syntheticTables() {
+    static const std::shared_ptr<const motion::MotorTables> tables =
+        motion::makeMotorTables(syntheticScad());
     return tables;
 }
 
@@ -62,4 +64,4 @@ inline World syntheticWorld(std::uint32_t seed, std::uint32_t fish, unsigned thr
     return World(optionsOfSchool(seed, fish, threads));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -9,7 +9,7 @@
 #include "common/place/angle.h"
 #include "master/fish/fish_view.h"
 
-namespace aquarama {
+namespace aquarama::world {
 
 struct SchoolShape {
     glm::vec3 centre{};
@@ -22,7 +22,7 @@ struct SchoolShape {
 // Fish nearer than this see one another.
 inline constexpr float kLinkMetres = 1.2F;
 
-inline SchoolShape shapeOf(const FishView& view, std::uint32_t first, std::uint32_t last) {
+inline SchoolShape shapeOf(const fish::FishView& view, std::uint32_t first, std::uint32_t last) {
     const std::uint32_t count = last - first;
     SchoolShape shape;
     glm::vec3 heading{};
@@ -30,7 +30,7 @@ inline SchoolShape shapeOf(const FishView& view, std::uint32_t first, std::uint3
         shape.centre += view.position(i) / static_cast<float>(count);
         heading += view.heading(i) / static_cast<float>(count);
     }
-    shape.polarisation = lengthOf(heading);
+    shape.polarisation = place::lengthOf(heading);
     std::vector<std::uint32_t> group(count);
     for (std::uint32_t i = 0; i < count; ++i) group[i] = i;
     const auto rootOf = [&](std::uint32_t i) {
@@ -44,7 +44,8 @@ inline SchoolShape shapeOf(const FishView& view, std::uint32_t first, std::uint3
         shape.rotation += double{from.z * course.x - from.x * course.z} / away / count;
         float nearest = 1e9F;
         for (std::uint32_t j = 0; j < count; ++j) {
-            const float distance = lengthOf(view.position(first + j) - view.position(first + i));
+            const float distance =
+                place::lengthOf(view.position(first + j) - view.position(first + i));
             if (j != i) nearest = std::min(nearest, distance);
             if (j < i && distance < kLinkMetres) group[rootOf(i)] = rootOf(j);
         }
@@ -58,8 +59,8 @@ inline SchoolShape shapeOf(const FishView& view, std::uint32_t first, std::uint3
     return shape;
 }
 
-inline SchoolShape shapeOf(const FishView& view) {
+inline SchoolShape shapeOf(const fish::FishView& view) {
     return shapeOf(view, 0, static_cast<std::uint32_t>(view.size()));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -13,7 +13,7 @@
 #include "common/place/place.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 constexpr int kTicks = 5 * 60 * 60;
@@ -81,7 +81,7 @@ class Watch {
     void note(bool withCompany) {
         fish_.clear();
         for (std::uint32_t i = 0; i < kFish; ++i) {
-            fish_.push_back({bodyFrameOf(world_.states(), i).position,
+            fish_.push_back({motion::bodyFrameOf(world_.states(), i).position,
                              world_.view().heading(i),
                              0.001F * static_cast<float>(world_.traits()[i].lengthMillimetres)});
             diary_.actions[i].insert(world_.states().segment[i]);
@@ -92,10 +92,10 @@ class Watch {
     }
 
     void notePlace(glm::vec3 position) {
-        const Region water = schoolRegion();
+        const place::Region water = place::schoolRegion();
         const glm::vec3 out = glm::abs(position - water.centre) - water.halfExtent;
-        const float floor = floorHeight({seed_}, {position.x, position.z});
-        const glm::vec3 fromEye = position - kEyePosition;
+        const float floor = place::floorHeight({seed_}, {position.x, position.z});
+        const glm::vec3 fromEye = position - place::kEyePosition;
         diary_.farthestOutOfWater = std::max({diary_.farthestOutOfWater, out.x, out.y, out.z});
         diary_.nearestToSand = std::min(diary_.nearestToSand, position.y - floor);
         diary_.nearestToSurface = std::min(diary_.nearestToSurface, -position.y);
@@ -123,7 +123,7 @@ class Watch {
         }
         for (const float distance : nearest)
             diary_.nearestNeighbour += static_cast<double>(distance / kMeanLength) / kFish;
-        const float range = glm::distance(middle, kEyePosition);
+        const float range = glm::distance(middle, place::kEyePosition);
         diary_.polarised += glm::length(heading) / kFish > 0.6F ? 1 : 0;
         diary_.nearPasses += range < 3.2F ? 1 : 0;
         diary_.farOff += range > 6.0F ? 1 : 0;
@@ -208,4 +208,4 @@ TEST_P(School, isSeenNearAndFarOnTheWall) {
 INSTANTIATE_TEST_SUITE_P(Seeds, School, testing::Values(1U, 2U));
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

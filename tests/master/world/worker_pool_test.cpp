@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 TEST(WorkerPool, everyChunkOfEveryJobIsDoneOnceBeforeRunReturns) {
@@ -25,4 +25,4 @@ TEST(WorkerPool, everyChunkOfEveryJobIsDoneOnceBeforeRunReturns) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

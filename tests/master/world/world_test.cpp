@@ -11,7 +11,7 @@
 #include "tests/master/world/instruction_sets.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
-namespace aquarama {
+namespace aquarama::world {
 namespace {
 
 std::uint64_t hashAfter(World world, int ticks) {
@@ -69,18 +69,18 @@ TEST(World, theHashSeesAtOnceWhatReachesTheWorldFromOutside) {
 TEST(World, recordsAreTheStates) {
     World world = syntheticWorld(1, 51);
     world.advance();
-    std::vector<FishRecord> records;
+    std::vector<motion::FishRecord> records;
     world.records(records);
     ASSERT_EQ(records.size(), 51U);
     for (std::size_t fish = 0; fish < records.size(); ++fish)
-        EXPECT_EQ(records[fish], recordOf(world.states(), fish));
+        EXPECT_EQ(records[fish], motion::recordOf(world.states(), fish));
 }
 
 TEST(World, lengthsVaryAboutTheSpeciesMeanWithinItsBounds) {
     const World world = syntheticWorld(3, 2000);
     double sum = 0;
     double squares = 0;
-    for (const FishTraits& fish : world.traits()) {
+    for (const motion::FishTraits& fish : world.traits()) {
         EXPECT_GE(fish.lengthMillimetres, 200);
         EXPECT_LE(fish.lengthMillimetres, 280);
         sum += fish.lengthMillimetres;
@@ -101,10 +101,10 @@ TEST(World, tailBeatsBeginAtPhasesOfAllTheCycle) {
 TEST(World, withoutFishItIsEmptyWater) {
     World sea = syntheticWorld(1, 0);
     for (int i = 0; i < 60; ++i) sea.advance();
-    std::vector<FishRecord> records;
+    std::vector<motion::FishRecord> records;
     sea.records(records);
     EXPECT_TRUE(records.empty());
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::world

@@ -12,7 +12,7 @@
 #include "render_node/context/context.h"
 #include "render_node/context/driver.h"
 
-namespace aquarama {
+namespace aquarama::context {
 namespace {
 
 std::string refusalOf(const std::string& device) {
@@ -102,4 +102,4 @@ TEST(OffscreenContextDeathTest, lessThanOpenGl45IsRefused) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::context

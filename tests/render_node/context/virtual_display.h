@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace aquarama {
+namespace aquarama::context {
 
 // NOLINTBEGIN(concurrency-mt-unsafe): tests change the environment before they make threads.
 class VirtualDisplay {
@@ -122,4 +122,4 @@ class VirtualDisplay {
 };
 // NOLINTEND(concurrency-mt-unsafe)
 
-}  // namespace aquarama
+}  // namespace aquarama::context

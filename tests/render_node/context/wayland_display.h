@@ -18,7 +18,7 @@
 
 #include "tests/render_node/context/virtual_display.h"
 
-namespace aquarama {
+namespace aquarama::context {
 
 // NOLINTBEGIN(concurrency-mt-unsafe): tests change the environment before they make threads.
 class WaylandDisplay {
@@ -85,4 +85,4 @@ class WaylandDisplay {
 };
 // NOLINTEND(concurrency-mt-unsafe)
 
-}  // namespace aquarama
+}  // namespace aquarama::context

@@ -16,18 +16,18 @@
 #include "tests/render_node/context/virtual_display.h"
 #include "tests/render_node/context/wayland_display.h"
 
-namespace aquarama {
+namespace aquarama::context {
 namespace {
 
 using namespace std::chrono_literals;
 
-Display windowAt(glm::ivec2 position) {
-    Display display;
+config::Display windowAt(glm::ivec2 position) {
+    config::Display display;
     display.windowPosition = position;
     return display;
 }
 
-std::string refusalOf(const Display& display, glm::ivec2 size) {
+std::string refusalOf(const config::Display& display, glm::ivec2 size) {
     try {
         (void)makeWindowContext(display, "Aquarama refused", size);
     } catch (const Error& error) {
@@ -166,15 +166,15 @@ TEST_F(WindowTest, goesFullscreenAndBack) {
 }
 
 TEST_F(WindowTest, fullscreenTakesTheMonitorOfItsSize) {
-    Display display;
-    display.mode = DisplayMode::Fullscreen;
+    config::Display display;
+    display.mode = config::DisplayMode::Fullscreen;
     const auto context = makeWindowContext(display, "Aquarama wall", VirtualDisplay::kSize);
     EXPECT_EQ(context->framebufferPixels(), VirtualDisplay::kSize);
 }
 
 TEST_F(WindowTest, aMonitorThatIsNotTheChannelsIsRefused) {
-    Display display;
-    display.mode = DisplayMode::Fullscreen;
+    config::Display display;
+    display.mode = config::DisplayMode::Fullscreen;
     EXPECT_THAT(refusalOf(display, {1400, 1050}),
                 testing::HasSubstr("cannot show the channel's 1400 x 1050"));
     display.monitor = 3;
@@ -182,7 +182,7 @@ TEST_F(WindowTest, aMonitorThatIsNotTheChannelsIsRefused) {
     display.monitor = 0;
     display.refreshHertz = 119.88;
     EXPECT_THAT(refusalOf(display, VirtualDisplay::kSize), testing::HasSubstr("120 Hz"));
-    display.mode = DisplayMode::Window;
+    display.mode = config::DisplayMode::Window;
     EXPECT_THAT(refusalOf(display, {200, 100}), testing::HasSubstr("refresh rate"));
 }
 
@@ -209,4 +209,4 @@ TEST(WindowContext, opensOnWaylandWhereThereIsNoX) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::context

@@ -13,7 +13,7 @@
 #include "render_node/project/projection.h"
 #include "tests/common/wall/rigs.h"
 
-namespace aquarama {
+namespace aquarama::project {
 namespace {
 
 constexpr double kMarginRadians = 0.01;
@@ -23,9 +23,9 @@ constexpr std::uint32_t kChannelId = 7;
 class PairProjectionTest : public testing::Test {
   protected:
     struct EyeStage {
-        explicit EyeStage(const Rig& rig, EyeSide side, float turn)
-            : map{projectionMap(warpMap(rig, kChannel),
-                                channelFrustum(rig, kChannel, kMarginRadians, side))},
+        explicit EyeStage(const config::Rig& rig, wall::EyeSide side, float turn)
+            : map{projectionMap(wall::warpMap(rig, kChannel),
+                                wall::channelFrustum(rig, kChannel, kMarginRadians, side))},
               projection{map, kChannelId},
               scene{GL_RGBA16F, scenePictureSize(map)} {
             std::vector<float> rgb;
@@ -53,7 +53,7 @@ class PairProjectionTest : public testing::Test {
     };
 
     // As light, before dither: 16 bits.
-    [[nodiscard]] std::vector<std::uint16_t> packed(StereoMode mode) const {
+    [[nodiscard]] std::vector<std::uint16_t> packed(config::StereoMode mode) const {
         const gl::Target target(GL_RGBA16, size_);
         PairProjection(size_, kChannelId, mode)
             .draw(left_.eye(),
@@ -78,11 +78,11 @@ class PairProjectionTest : public testing::Test {
         return {linear(codes[at]), linear(codes[at + 1]), linear(codes[at + 2])};
     }
 
-    std::unique_ptr<Context> context_ = makeOffscreenContext("auto", {480, 360});
-    Rig rig_ = shippedRig("desk_stereo");
+    std::unique_ptr<context::Context> context_ = context::makeOffscreenContext("auto", {480, 360});
+    config::Rig rig_ = wall::shippedRig("desk_stereo");
     glm::ivec2 size_ = rig_.channels[kChannel].sizePixels;
-    EyeStage left_{rig_, EyeSide::Left, 0.0F};
-    EyeStage right_{rig_, EyeSide::Right, 1.5F};
+    EyeStage left_{rig_, wall::EyeSide::Left, 0.0F};
+    EyeStage right_{rig_, wall::EyeSide::Right, 1.5F};
 };
 
 void expectNear(glm::dvec3 one, glm::dvec3 other, int x, int y) {
@@ -90,7 +90,7 @@ void expectNear(glm::dvec3 one, glm::dvec3 other, int x, int y) {
 }
 
 TEST_F(PairProjectionTest, halvesBesideOneAnotherAreTheMeansOfTwoColumns) {
-    const auto both = packed(StereoMode::SideBySide);
+    const auto both = packed(config::StereoMode::SideBySide);
     const auto left = alone(left_);
     const auto right = alone(right_);
     for (int y = 0; y < size_.y; y += 7)
@@ -103,7 +103,7 @@ TEST_F(PairProjectionTest, halvesBesideOneAnotherAreTheMeansOfTwoColumns) {
 }
 
 TEST_F(PairProjectionTest, halvesAboveOneAnotherAreTheMeansOfTwoRows) {
-    const auto both = packed(StereoMode::TopBottom);
+    const auto both = packed(config::StereoMode::TopBottom);
     const auto left = alone(left_);
     const auto right = alone(right_);
     for (int y = 0; y < size_.y / 2; y += 5)
@@ -116,7 +116,7 @@ TEST_F(PairProjectionTest, halvesAboveOneAnotherAreTheMeansOfTwoRows) {
 }
 
 TEST_F(PairProjectionTest, rowsTakeTurnsFromTheLeftEyeOn) {
-    const auto both = packed(StereoMode::Interlaced);
+    const auto both = packed(config::StereoMode::Interlaced);
     const auto left = alone(left_);
     const auto right = alone(right_);
     const auto width = static_cast<std::size_t>(size_.x) * 3;
@@ -125,7 +125,7 @@ TEST_F(PairProjectionTest, rowsTakeTurnsFromTheLeftEyeOn) {
 }
 
 TEST_F(PairProjectionTest, redAndCyanAreDuboisLeastSquares) {
-    const auto both = packed(StereoMode::Anaglyph);
+    const auto both = packed(config::StereoMode::Anaglyph);
     const auto left = alone(left_);
     const auto right = alone(right_);
     const glm::dmat3 toRed = glm::transpose(glm::dmat3(0.4561,
@@ -156,12 +156,13 @@ TEST_F(PairProjectionTest, redAndCyanAreDuboisLeastSquares) {
 // Else its grain would hang in the room at a depth of its own.
 TEST_F(PairProjectionTest, theDitherIsTheSameForBothEyes) {
     const gl::Target target(GL_RGBA8, size_);
-    for (const StereoMode mode : {StereoMode::SideBySide, StereoMode::TopBottom}) {
+    for (const config::StereoMode mode :
+         {config::StereoMode::SideBySide, config::StereoMode::TopBottom}) {
         PairProjection(size_, kChannelId, mode)
             .draw(left_.eye(), left_.eye(), {.framebuffer = target.framebuffer(), .frame = {}});
         const auto codes = gl::readRgb<std::uint8_t>(target);
-        const glm::ivec2 half = mode == StereoMode::SideBySide ? glm::ivec2(size_.x / 2, 0)
-                                                               : glm::ivec2(0, size_.y / 2);
+        const glm::ivec2 half = mode == config::StereoMode::SideBySide ? glm::ivec2(size_.x / 2, 0)
+                                                                       : glm::ivec2(0, size_.y / 2);
         for (int y = 0; y < size_.y - half.y; ++y)
             for (int x = 0; x < 3 * (size_.x - half.x); ++x) {
                 const auto at = static_cast<std::size_t>(y * size_.x * 3 + x);
@@ -175,14 +176,14 @@ TEST_F(PairProjectionTest, theDitherIsTheSameForBothEyes) {
 
 TEST(PixelOfEye, isTheSamePlaceOfTheScreenInBothHalves) {
     constexpr glm::ivec2 kSize(480, 360);
-    using enum StereoMode;
+    using enum config::StereoMode;
     EXPECT_EQ(pixelOfEye(SideBySide, kSize, {60, 90}), glm::vec2(120, 90));
     EXPECT_EQ(pixelOfEye(SideBySide, kSize, {300, 90}), glm::vec2(120, 90));
     EXPECT_EQ(pixelOfEye(TopBottom, kSize, {60, 90}), glm::vec2(60, 180));
     EXPECT_EQ(pixelOfEye(TopBottom, kSize, {60, 270}), glm::vec2(60, 180));
-    for (const StereoMode whole : {Mono, QuadBuffer, Interlaced, Anaglyph})
+    for (const config::StereoMode whole : {Mono, QuadBuffer, Interlaced, Anaglyph})
         EXPECT_EQ(pixelOfEye(whole, kSize, {60, 90}), glm::vec2(60, 90));
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -10,7 +10,7 @@
 #include "render_node/project/projection_map.h"
 #include "tests/common/wall/rigs.h"
 
-namespace aquarama {
+namespace aquarama::project {
 namespace {
 
 constexpr double kMarginRadians = 0.01;
@@ -29,7 +29,7 @@ glm::dvec2 placeAt(const ProjectionMap& map, glm::dvec2 pixel) {
 }
 
 // Where a point of the world is in the picture of an eye's frustum.
-glm::dvec2 seenAt(const ChannelFrustum& frustum, glm::dvec3 point) {
+glm::dvec2 seenAt(const wall::ChannelFrustum& frustum, glm::dvec3 point) {
     const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(point, 1);
     const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
     return {(tangent.x - frustum.left) / (frustum.right - frustum.left),
@@ -40,20 +40,21 @@ class Parallax : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(Channels, Parallax, testing::Values(0, 1, 2));
 
 TEST_P(Parallax, ofEveryEyeEndsOnTheScreenWhereItsLineOfSightDoes) {
-    Rig rig = shippedRig("desk_stereo");
+    config::Rig rig = wall::shippedRig("desk_stereo");
     rig.sweetSpotMetres = {0.1, -0.05, 0.2};
-    const Channel& channel = rig.channels[GetParam()];
+    const config::Channel& channel = rig.channels[GetParam()];
     const glm::dvec3 middle =
-        screenPoint(rig.screen, channel, glm::dvec2(channel.sizePixels) / 2.0).value();
-    const WarpMap warp = warpMap(rig, GetParam());
-    for (const EyeSide side : {EyeSide::Left, EyeSide::Right}) {
-        const ChannelFrustum frustum = channelFrustum(rig, GetParam(), kMarginRadians, side);
+        wall::screenPoint(rig.screen, channel, glm::dvec2(channel.sizePixels) / 2.0).value();
+    const wall::WarpMap warp = wall::warpMap(rig, GetParam());
+    for (const wall::EyeSide side : {wall::EyeSide::Left, wall::EyeSide::Right}) {
+        const wall::ChannelFrustum frustum =
+            wall::channelFrustum(rig, GetParam(), kMarginRadians, side);
         const ProjectionMap map = projectionMap(warp, frustum);
-        const glm::dvec3 eye = eyePosition(rig, side);
+        const glm::dvec3 eye = wall::eyePosition(rig, side);
         for (const double away : {0.4, 1.0, 2.5, 100.0}) {
             const glm::dvec3 point = middle * away;  // before, on and behind the screen
-            const auto lit = screenHit(rig.screen, {eye, point - eye}, 1).value();
-            const auto pixel = projectorPixel(channel, lit).value();
+            const auto lit = wall::screenHit(rig.screen, {eye, point - eye}, 1).value();
+            const auto pixel = wall::projectorPixel(channel, lit).value();
             const glm::dvec2 off = placeAt(map, pixel) - seenAt(frustum, point);
             EXPECT_LT(glm::length(off * glm::dvec2(scenePictureSize(map))), 0.02)
                 << "channel " << channel.name << ", " << away << " of the way to the screen";
@@ -62,4 +63,4 @@ TEST_P(Parallax, ofEveryEyeEndsOnTheScreenWhereItsLineOfSightDoes) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -12,7 +12,7 @@
 #include "render_node/gl/target.h"
 #include "tests/common/wall/rigs.h"
 
-namespace aquarama {
+namespace aquarama::project {
 namespace {
 
 class PatternPassTest : public testing::Test {
@@ -24,14 +24,14 @@ class PatternPassTest : public testing::Test {
                                   glm::mix(frustum_.top, frustum_.bottom, place.y),
                                   -1,
                                   0);
-        return gridLight(glm::dvec3(glm::inverse(frustum_.cameraFromWall) * inCamera));
+        return wall::gridLight(glm::dvec3(glm::inverse(frustum_.cameraFromWall) * inCamera));
     }
 
     static constexpr glm::ivec2 kSize{500, 380};
-    std::unique_ptr<Context> context_ = makeOffscreenContext("auto", kSize);
-    ChannelFrustum frustum_ = channelFrustum(shippedRig("desk"), 2, 0.01);
+    std::unique_ptr<context::Context> context_ = context::makeOffscreenContext("auto", kSize);
+    wall::ChannelFrustum frustum_ = wall::channelFrustum(wall::shippedRig("desk"), 2, 0.01);
     gl::Target target_{GL_RGBA32F, kSize};
-    PatternPass pass_{frustum_, shippedRig("desk").screen};
+    PatternPass pass_{frustum_, wall::shippedRig("desk").screen};
 };
 
 TEST_F(PatternPassTest, theGridIsTheReferences) {
@@ -55,8 +55,8 @@ TEST_F(PatternPassTest, theGridIsAddedToWhatIsThere) {
     pass_.addGrid(target_.framebuffer(), kSize);
     const std::vector<float> both = gl::readRgb<float>(target_);
     for (std::size_t i = 0; i < both.size(); i += 3)
-        ASSERT_FLOAT_EQ(both[i], grid[i] + static_cast<float>(kGreyLight));
+        ASSERT_FLOAT_EQ(both[i], grid[i] + static_cast<float>(wall::kGreyLight));
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::project

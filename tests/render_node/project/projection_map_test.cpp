@@ -12,13 +12,13 @@
 #include "common/units/error.h"
 #include "tests/common/wall/rigs.h"
 
-namespace aquarama {
+namespace aquarama::project {
 namespace {
 
 constexpr double kMarginRadians = 0.01;
 
 // Direction from the sweet spot through a place in the frustum's picture, wall frame.
-glm::dvec3 directionThrough(const ChannelFrustum& frustum, glm::dvec2 place) {
+glm::dvec3 directionThrough(const wall::ChannelFrustum& frustum, glm::dvec2 place) {
     const glm::dvec4 inCamera(glm::mix(frustum.left, frustum.right, place.x),
                               glm::mix(frustum.bottom, frustum.top, place.y),
                               -1,
@@ -28,10 +28,10 @@ glm::dvec3 directionThrough(const ChannelFrustum& frustum, glm::dvec2 place) {
 
 TEST(ProjectionMap, leadsEachPixelToTheRayThroughThePointThatItLights) {
     for (const char* name : {"desk", "theatre", "touring"}) {
-        const Rig rig = shippedRig(name);
+        const config::Rig rig = wall::shippedRig(name);
         for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
-            const WarpMap warp = warpMap(rig, channel);
-            const ChannelFrustum frustum = channelFrustum(rig, channel, kMarginRadians);
+            const wall::WarpMap warp = wall::warpMap(rig, channel);
+            const wall::ChannelFrustum frustum = wall::channelFrustum(rig, channel, kMarginRadians);
             const ProjectionMap map = projectionMap(warp, frustum);
             const glm::dvec2 size(scenePictureSize(map));
             const double pixelRadians = (frustum.right - frustum.left) / size.x;
@@ -66,26 +66,26 @@ glm::dvec2 placeAt(const ProjectionMap& map, glm::dvec2 pixel) {
 // A fish at any distance is drawn by every channel into the pixel that lights the one point of the
 // wall on the way to the eye: so neighbours agree about it.
 TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
-    Dice dice;
+    wall::Dice dice;
     for (const char* name : {"desk", "theatre", "touring"}) {
-        const Rig rig = shippedRig(name);
+        const config::Rig rig = wall::shippedRig(name);
         std::vector<glm::dvec3> directions(1000);
         for (glm::dvec3& direction : directions)
-            direction =
-                screenPointAt(rig.screen, {dice.between(0.01, 0.99), dice.between(0.05, 0.95)});
+            direction = wall::screenPointAt(rig.screen,
+                                            {dice.between(0.01, 0.99), dice.between(0.05, 0.95)});
         std::vector<std::size_t> channelsOf(directions.size(), 0);
         for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
-            const ChannelFrustum frustum = channelFrustum(rig, channel, kMarginRadians);
-            const ProjectionMap map = projectionMap(warpMap(rig, channel), frustum);
+            const wall::ChannelFrustum frustum = wall::channelFrustum(rig, channel, kMarginRadians);
+            const ProjectionMap map = projectionMap(wall::warpMap(rig, channel), frustum);
             const glm::dvec2 size(scenePictureSize(map));
             for (std::size_t i = 0; i < directions.size(); ++i) {
-                if (blendWeight(rig, channel, directions[i]) < 0.01) continue;
+                if (wall::blendWeight(rig, channel, directions[i]) < 0.01) continue;
                 ++channelsOf[i];
                 const glm::dvec3 fish = directions[i] * dice.between(0.5, 8);
-                const glm::dvec4 clip = glm::dmat4(clipFromCamera(frustum, 0.05F)) *
+                const glm::dvec4 clip = glm::dmat4(wall::clipFromCamera(frustum, 0.05F)) *
                                         frustum.cameraFromWall * glm::dvec4(fish, 1);
                 const glm::dvec2 drawn = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
-                const auto pixel = projectorPixel(rig.channels[channel], directions[i]);
+                const auto pixel = wall::projectorPixel(rig.channels[channel], directions[i]);
                 ASSERT_TRUE(pixel);
                 EXPECT_LT(glm::distance(drawn, placeAt(map, *pixel) * size), 0.05) << name;
             }
@@ -95,9 +95,9 @@ TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
 }
 
 TEST(ProjectionMap, staysInsideThePictureWithRoomForTheFilter) {
-    const Rig rig = shippedRig("desk");
+    const config::Rig rig = wall::shippedRig("desk");
     const ProjectionMap map =
-        projectionMap(warpMap(rig, 0), channelFrustum(rig, 0, kMarginRadians));
+        projectionMap(wall::warpMap(rig, 0), wall::channelFrustum(rig, 0, kMarginRadians));
     const glm::vec2 texel = 1.0F / glm::vec2(scenePictureSize(map));
     for (const glm::vec4& place : map.placeAndWeight) {
         if (place.z <= 0) continue;
@@ -110,9 +110,9 @@ TEST(ProjectionMap, staysInsideThePictureWithRoomForTheFilter) {
 // elsewhere is more detail, never less than three quarters.
 TEST(ProjectionMap, scenePictureIsAsFineAsTheProjector) {
     for (const char* name : {"desk", "theatre", "touring"}) {
-        const Rig rig = shippedRig(name);
+        const config::Rig rig = wall::shippedRig(name);
         const ProjectionMap map =
-            projectionMap(warpMap(rig, 1), channelFrustum(rig, 1, kMarginRadians));
+            projectionMap(wall::warpMap(rig, 1), wall::channelFrustum(rig, 1, kMarginRadians));
         const glm::dvec2 size(scenePictureSize(map));
         const auto width = static_cast<std::size_t>(map.sizePixels.x);
         const auto stepAt = [&](std::size_t i) {
@@ -137,4 +137,4 @@ TEST(ProjectionMap, aProjectorWhoseMiddleMissesTheScreenIsRefused) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::project

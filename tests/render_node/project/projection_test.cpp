@@ -14,7 +14,7 @@
 #include "tests/common/wall/rigs.h"
 #include "tests/render_node/project/reference.h"
 
-namespace aquarama {
+namespace aquarama::project {
 namespace {
 
 constexpr double kMarginRadians = 0.01;
@@ -65,9 +65,10 @@ class ProjectionTest : public testing::Test {
     }
 
     static constexpr std::uint32_t kChannelId = 5;
-    std::unique_ptr<Context> context_ = makeOffscreenContext("auto", {480, 360});
-    Rig rig_ = shippedRig("desk");
-    ProjectionMap map_ = projectionMap(warpMap(rig_, 0), channelFrustum(rig_, 0, kMarginRadians));
+    std::unique_ptr<context::Context> context_ = context::makeOffscreenContext("auto", {480, 360});
+    config::Rig rig_ = wall::shippedRig("desk");
+    ProjectionMap map_ =
+        projectionMap(wall::warpMap(rig_, 0), wall::channelFrustum(rig_, 0, kMarginRadians));
     glm::ivec2 sceneSize_ = scenePictureSize(map_);
     gl::Target scene_{GL_RGBA16F, sceneSize_};
     LightPicture light_;
@@ -171,4 +172,4 @@ TEST_F(ProjectionTest, theBlendMaskIsTheBlendAlone) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -14,7 +14,7 @@
 
 #include "render_node/project/projection_map.h"
 
-namespace aquarama {
+namespace aquarama::project {
 
 // A picture in linear light, top row first.
 struct LightPicture {
@@ -76,4 +76,4 @@ inline glm::dvec3 projectedLight(const ProjectionMap& map,
     return scene.sample(glm::dvec2(place)) * place.z;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::project

@@ -17,7 +17,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/shaders/plant_bend.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 namespace {
 
 constexpr std::uint32_t kSeed = 1;
@@ -122,12 +122,12 @@ TEST(Scatter, followsFromTheSeed) {
 
 // Fish keep clear of the balls that the master knows: each holds the stone that is drawn.
 TEST(Scatter, stoneKeepsWithinTheBallsThatFishAvoid) {
-    const std::vector<Rock> rocks = rocksOf({kSeed});
+    const std::vector<place::Rock> rocks = place::rocksOf({kSeed});
     std::size_t boulders = 0;
     for (const Instance& one : instances()) {
         if (!isRock(one)) continue;
         const glm::vec3 centre(one.placeAndScale);
-        const bool known = std::ranges::any_of(rocks, [&](const Rock& rock) {
+        const bool known = std::ranges::any_of(rocks, [&](const place::Rock& rock) {
             return rock.centre == centre && rock.radiusMetres == one.placeAndScale.w;
         });
         boulders += known ? 1 : 0;
@@ -140,14 +140,14 @@ TEST(Scatter, stoneKeepsWithinTheBallsThatFishAvoid) {
 }
 
 TEST(Scatter, allStandsOnSandOrStone) {
-    const std::vector<Rock> rocks = rocksOf({kSeed});
+    const std::vector<place::Rock> rocks = place::rocksOf({kSeed});
     for (const Instance& one : instances()) {
         if (isRock(one)) continue;
         const glm::vec3 root(one.placeAndScale);
-        const float aboveSand = root.y - floorHeight({kSeed}, {root.x, root.z});
+        const float aboveSand = root.y - place::floorHeight({kSeed}, {root.x, root.z});
         EXPECT_GT(aboveSand, -0.2F);
         if (aboveSand < 0.05F) continue;
-        EXPECT_TRUE(std::ranges::any_of(rocks, [&](const Rock& rock) {
+        EXPECT_TRUE(std::ranges::any_of(rocks, [&](const place::Rock& rock) {
             return glm::distance(rock.centre, root) < 1.001F * rock.radiusMetres;
         })) << "it floats";
     }
@@ -156,7 +156,7 @@ TEST(Scatter, allStandsOnSandOrStone) {
 TEST(Scatter, noThirdOfTheWallIsBareAndNoWayRoundIsEmpty) {
     std::array<int, 9> inSector{};  // of 40 degrees, all round
     for (const Instance& one : instances()) {
-        const glm::vec3 way = glm::vec3(one.placeAndScale) - kEyePosition;
+        const glm::vec3 way = glm::vec3(one.placeAndScale) - place::kEyePosition;
         if (glm::length(way) > 16.0F || one.placeAndScale.w < 0.2F) continue;
         const float azimuth = std::atan2(way.x, -way.z) / (2.0F * std::numbers::pi_v<float>);
         ++inSector.at(static_cast<std::size_t>((azimuth + 1.0F + 0.5F / 9.0F) * 9.0F) % 9);
@@ -170,7 +170,7 @@ TEST(Ground, theSandIsWhereTheMasterHasIt) {
     ASSERT_TRUE(namesItsOwnVertices(mesh));
     int onSand = 0;
     for (const SolidVertex& vertex : mesh.vertices) {
-        const float sand = floorHeight({kSeed}, {vertex.position.x, vertex.position.z});
+        const float sand = place::floorHeight({kSeed}, {vertex.position.x, vertex.position.z});
         ASSERT_LE(vertex.position.y, sand);
         onSand += vertex.position.y == sand ? 1 : 0;
     }
@@ -178,7 +178,7 @@ TEST(Ground, theSandIsWhereTheMasterHasIt) {
 }
 
 TEST(Shade, aBoulderShadesWhatLiesBehindIt) {
-    const std::array rocks{Rock{{0.0F, -8.0F, 0.0F}, 1.0F, 1}};
+    const std::array rocks{place::Rock{{0.0F, -8.0F, 0.0F}, 1.0F, 1}};
     const glm::vec3 behind = rocks[0].centre - 2.0F * sunInWater();
     EXPECT_LT(sunOpenness(rocks, behind), 0.05F);
     EXPECT_EQ(sunOpenness(rocks, rocks[0].centre + 2.0F * sunInWater()), 1.0F);
@@ -197,4 +197,4 @@ TEST(Tiles, reliefIsLevelOnTheWhole) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::scene

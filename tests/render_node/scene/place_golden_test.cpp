@@ -5,15 +5,15 @@
 #include "render_node/context/context.h"
 #include "tests/support/golden_stills.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 namespace {
 
 TEST(PlaceGolden, looksAsItDidFromThreeDirections) {
-    const auto context = makeOffscreenContext("mesa", {16, 16});
+    const auto context = context::makeOffscreenContext("mesa", {16, 16});
     test::Photographer photographer;
     for (const test::GoldenStill& golden : test::goldenStills("place/"))
         test::expectGolden(photographer.pictureOf(golden.still), golden.name, golden.limits);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -16,7 +16,7 @@
 #include "common/place/place.h"
 #include "render_node/context/context.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 namespace {
 
 constexpr glm::ivec2 kSize{320, 288};
@@ -42,7 +42,7 @@ View viewTowards(float azimuthDegrees) {
     view.clipFromCamera[3][2] = kNear;
     view.cameraFromWorld =
         glm::rotate(glm::mat4{1.0F}, glm::radians(azimuthDegrees), glm::vec3{0, 1, 0}) *
-        glm::translate(glm::mat4{1.0F}, -kEyePosition);
+        glm::translate(glm::mat4{1.0F}, -place::kEyePosition);
     return view;
 }
 
@@ -57,7 +57,7 @@ Shot shoot(SceneRenderer& scene,
            const Water& water = {}) {
     SceneFrame frame;
     frame.timeSeconds = timeSeconds;
-    frame.eyePositionMetres = kEyePosition;
+    frame.eyePositionMetres = place::kEyePosition;
     frame.food = water.food;
     frame.daylight = water.daylight;
     scene.update(frame);
@@ -76,7 +76,7 @@ Shot shoot(SceneRenderer& scene,
 class Place : public testing::Test {
   protected:
     static void SetUpTestSuite() {
-        context() = makeOffscreenContext("auto", {16, 16});
+        context() = context::makeOffscreenContext("auto", {16, 16});
         scene() = fresh({});
     }
     static void TearDownTestSuite() {
@@ -84,10 +84,10 @@ class Place : public testing::Test {
         context().reset();
     }
     static std::unique_ptr<SceneRenderer> fresh(const SceneOptions& options) {
-        return std::make_unique<SceneRenderer>(options, std::span<const SchoolSpecies>{});
+        return std::make_unique<SceneRenderer>(options, std::span<const surface::SchoolSpecies>{});
     }
-    static std::unique_ptr<Context>& context() {
-        static std::unique_ptr<Context> instance;
+    static std::unique_ptr<context::Context>& context() {
+        static std::unique_ptr<context::Context> instance;
         return instance;
     }
     static std::unique_ptr<SceneRenderer>& scene() {
@@ -162,7 +162,7 @@ TEST_F(Place, getsDarkerAndBluerTowardsTheNight) {
 }
 
 std::vector<FoodParticle> foodAt(glm::vec3 fromEye, bool isPellet) {
-    return {{kEyePosition + fromEye, 77, isPellet}};
+    return {{place::kEyePosition + fromEye, 77, isPellet}};
 }
 
 // How much redder than without, summed over a square about a pixel.
@@ -253,7 +253,7 @@ std::vector<float> differencesAlongTheSeam(const Shot& left, const Shot& right, 
 
 TEST_F(Place, neighboursAgreeWhereTheyOverlap) {
     constexpr float kBetween = 30.0F;
-    const auto smooth = fresh({.quality = QualityTier::High});
+    const auto smooth = fresh({.quality = config::QualityTier::High});
     const Shot left = shoot(*smooth, 9.0, -kBetween / 2.0F);
     const Shot right = shoot(*smooth, 9.0, kBetween / 2.0F);
     std::vector<float> codes = differencesAlongTheSeam(left, right, kBetween);
@@ -267,4 +267,4 @@ TEST_F(Place, neighboursAgreeWhereTheyOverlap) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::scene

@@ -22,23 +22,23 @@
 #include "render_node/shaders/frame_uniforms.h"
 #include "tests/support/golden_stills.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 namespace {
 
 constexpr float kFilterDepthMetres = 4.9F;
 
 class Sunlight : public testing::Test {
   protected:
-    static void SetUpTestSuite() { context() = makeOffscreenContext("auto", {16, 16}); }
+    static void SetUpTestSuite() { context() = context::makeOffscreenContext("auto", {16, 16}); }
     static void TearDownTestSuite() { context().reset(); }
-    static std::unique_ptr<Context>& context() {
-        static std::unique_ptr<Context> instance;
+    static std::unique_ptr<context::Context>& context() {
+        static std::unique_ptr<context::Context> instance;
         return instance;
     }
 
     Sunlight() {
-        uniforms_.eyeAndTime = glm::vec4(kEyePosition, 0.0F);
-        uniforms_.sharedEyeAndPixel = glm::vec4(kEyePosition, 0.002F);
+        uniforms_.eyeAndTime = glm::vec4(place::kEyePosition, 0.0F);
+        uniforms_.sharedEyeAndPixel = glm::vec4(place::kEyePosition, 0.002F);
         uniforms_.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
         uniforms_.daylight = glm::vec4(1.0F);
         glNamedBufferStorage(block_.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -108,7 +108,7 @@ TEST_F(Sunlight, wavesGatherLightAndMakeNone) {
     const LightQuality quality{.causticLayers = 4, .causticTexels = 256, .causticCells = 120};
     SeaLight light{{.quality = quality}};
     for (const double time : {0.0, 2.7, 1000.3}) {
-        light.update(time, kEyePosition);
+        light.update(time, place::kEyePosition);
         const int texels = quality.causticTexels * quality.causticTexels;
         const std::vector<float> all =
             texelsOf(light.causticLayers(), GL_RED, texels * quality.causticLayers);
@@ -127,7 +127,7 @@ TEST_F(Sunlight, theNetOfLightMovesWithinASecond) {
     const LightQuality quality;
     SeaLight light{{.quality = quality}};
     const auto netAt = [&](double time) {
-        light.update(time, kEyePosition);
+        light.update(time, place::kEyePosition);
         const int side = quality.causticTexels >> kLevel;
         std::vector<float> net = texelsOf(light.causticLayers(), GL_RED, side * side, kLevel);
         for (float& value : net) value -= 1.0F;
@@ -172,7 +172,8 @@ TEST_F(Sunlight, shaftsMakeNoLight) {
     const int texels = quality.shaftTexels;
     glm::dvec4 mean{0.0};
     for (int i = 0; i < kTimes; ++i) {
-        const glm::vec3 eye = kEyePosition + glm::vec3{3.7F, 0.0F, 2.3F} * static_cast<float>(i);
+        const glm::vec3 eye =
+            place::kEyePosition + glm::vec3{3.7F, 0.0F, 2.3F} * static_cast<float>(i);
         uniforms_.eyeAndTime = glm::vec4(eye, 0.0F);
         setUniforms();
         light.update(1.7 * i, eye);
@@ -226,7 +227,7 @@ TEST_F(Sunlight, theWindowOfACalmSeaEndsAtTheCriticalAngle) {
 TEST_F(Sunlight, snowComesAndGoesWithoutPopping) {
     const Canvas canvas{128};
     SeaLight light{{}};
-    light.update(3.0, kEyePosition);
+    light.update(3.0, place::kEyePosition);
     const gl::ProgramHandle snow = gl::makeProgram({"snow.vert", "snow.frag"});
     const auto lightFrom = [&](glm::vec3 eye) {
         uniforms_.clipFromWorld =
@@ -245,11 +246,11 @@ TEST_F(Sunlight, snowComesAndGoesWithoutPopping) {
         glDisable(GL_BLEND);
         return meanOf(canvas.rgb());
     };
-    double before = lightFrom(kEyePosition);
+    double before = lightFrom(place::kEyePosition);
     ASSERT_GT(before, 0.0);
     for (int step = 1; step <= 30; ++step) {
-        const double now = lightFrom(kEyePosition + glm::vec3{0.0007F, 0.0002F, -0.0007F} *
-                                                        static_cast<float>(step));
+        const double now = lightFrom(place::kEyePosition + glm::vec3{0.0007F, 0.0002F, -0.0007F} *
+                                                               static_cast<float>(step));
         EXPECT_NEAR(now / before, 1.0, 0.02) << step;
         before = now;
     }
@@ -258,10 +259,10 @@ TEST_F(Sunlight, snowComesAndGoesWithoutPopping) {
 // Seen from straight above its shadow, the fish being out of the picture.
 TEST_F(Sunlight, aFishThrowsAShadowOnTheSand) {
     test::Still still;
-    still.options.quality = QualityTier::Medium;
+    still.options.quality = config::QualityTier::Medium;
     still.camera = {{0.0F, -6.0F, 1.5F}, 0.0F, -89.0F, 24.0F, {64, 64}};
     const auto shown = [&] {
-        const Picture picture = test::pictureOf(still);
+        const wall::Picture picture = test::pictureOf(still);
         double sum = 0;
         for (int y = 24; y < 40; ++y)
             for (int x = 24; x < 40; ++x)
@@ -270,7 +271,7 @@ TEST_F(Sunlight, aFishThrowsAShadowOnTheSand) {
     };
     const double open = shown();
     const glm::vec3 sun = sunInWater();
-    const glm::vec3 sand{0.0F, floorHeight({1}, {0.0F, 1.5F}), 1.5F};
+    const glm::vec3 sand{0.0F, place::floorHeight({1}, {0.0F, 1.5F}), 1.5F};
     const glm::vec3 fish = sand + sun * 2.0F;
     still.fish.push_back({"bigeye_scad", fish, {1, 0, 0, 0}, 1.2F, 0.0F});
     EXPECT_LT(shown(), 0.9 * open);
@@ -282,4 +283,4 @@ TEST_F(Sunlight, looksAsItDidFromBelowAndASchoolShadesItself) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::scene

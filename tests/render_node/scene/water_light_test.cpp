@@ -18,7 +18,7 @@ namespace aquarama::test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-const glm::dvec3 kSun{sunInWater()};
+const glm::dvec3 kSun{scene::sunInWater()};
 
 const ForwardPhase& phase() {
     static const ForwardPhase instance;
@@ -61,7 +61,7 @@ TEST(MonteCarlo, aboutHalfOfTheScatteredLightStaysInThePicture) {
     for (const double albedo : {0.4, 0.75}) {
         const double arrived = transmitted(phase(), albedo, 1.5, kDetail, 40000, 3).mean;
         const double stays = (1 + std::log(arrived) / 1.5) / albedo;
-        EXPECT_NEAR(stays, kStaysInPicture, 0.1) << albedo;
+        EXPECT_NEAR(stays, scene::kStaysInPicture, 0.1) << albedo;
     }
 }
 
@@ -84,11 +84,14 @@ TEST(MonteCarlo, withoutThePeakItIsTheSameLight) {
     EXPECT_LT(quiet.deviation, sharp.deviation);
 }
 
-class TableOfTheLobe : public testing::TestWithParam<WaterType> {};
-INSTANTIATE_TEST_SUITE_P(
-    Jerlov, TableOfTheLobe, testing::Values(WaterType::IA, WaterType::II), [](const auto& tested) {
-        return "type" + std::string(kWaterTypeNames.at(static_cast<std::size_t>(tested.param)));
-    });
+class TableOfTheLobe : public testing::TestWithParam<config::WaterType> {};
+INSTANTIATE_TEST_SUITE_P(Jerlov,
+                         TableOfTheLobe,
+                         testing::Values(config::WaterType::IA, config::WaterType::II),
+                         [](const auto& tested) {
+                             return "type" + std::string(config::kWaterTypeNames.at(
+                                                 static_cast<std::size_t>(tested.param)));
+                         });
 
 // Other seeds than the table's. What is left is noise of a short run for a part.
 TEST_P(TableOfTheLobe, looksAsTheMonteCarlo) {

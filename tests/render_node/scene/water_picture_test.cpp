@@ -23,17 +23,17 @@ namespace {
 class WaterPicture : public testing::Test {
   protected:
     static void SetUpTestSuite() {
-        context = makeOffscreenContext("auto", {16, 16});
+        context = context::makeOffscreenContext("auto", {16, 16});
         photographer = std::make_unique<Photographer>();
     }
     static void TearDownTestSuite() {
         photographer.reset();
         context.reset();
     }
-    static Picture pictureOf(const Still& still) { return photographer->pictureOf(still); }
+    static wall::Picture pictureOf(const Still& still) { return photographer->pictureOf(still); }
 
   private:
-    static inline std::unique_ptr<Context> context;
+    static inline std::unique_ptr<context::Context> context;
     static inline std::unique_ptr<Photographer> photographer;
 };
 
@@ -46,12 +46,12 @@ struct Levels {
     double mean = 0, darkest = 0, clipped = 0;  // linear; the darkest hundredth; share of pixels
 };
 
-Levels levelsOf(const Picture& picture) {
+Levels levelsOf(const wall::Picture& picture) {
     std::vector<double> lights;
     Levels levels;
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
         const auto linear = [&](std::size_t c) {
-            return linearFromSrgb(picture.rgb[i + c] / 255.0);
+            return wall::linearFromSrgb(picture.rgb[i + c] / 255.0);
         };
         lights.push_back(0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2));
         const int brightest = std::max({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
@@ -71,7 +71,7 @@ Levels levelsOf(const Picture& picture) {
 TEST_F(WaterPicture, lightIsWithinWhatAWallBears) {
     constexpr double kBlack = 1.0 / 1500;
     for (const float azimuth : {-40.0F, 0.0F, 40.0F}) {
-        Still still = reefIn(WaterType::IA);
+        Still still = reefIn(config::WaterType::IA);
         still.camera.azimuthDegrees = azimuth;
         const Levels levels = levelsOf(pictureOf(still));
         EXPECT_GT(levels.mean, 0.05) << azimuth;
@@ -89,7 +89,7 @@ TEST_F(WaterPicture, lightIsWithinWhatAWallBears) {
 
 // Blue, and bluer the farther: no neon, where one colour stands at its end and another at nothing.
 TEST_F(WaterPicture, clearWaterIsABlueThatADisplayCanShow) {
-    const Picture picture = pictureOf(openSea(12.0F));
+    const wall::Picture picture = pictureOf(openSea(12.0F));
     int neon = 0;
     double blue = 0;
     double green = 0;
@@ -106,7 +106,7 @@ constexpr float kBetween = 24.0F;  // degrees, of two channels
 
 // Where a picture shows a direction; empty within the passes' reach of its edge.
 std::optional<glm::vec2> pixelOf(const Camera& camera, float azimuth, float elevation) {
-    const View view = viewOf(camera);
+    const scene::View view = viewOf(camera);
     const glm::vec3 direction{std::sin(glm::radians(azimuth)) * std::cos(glm::radians(elevation)),
                               std::sin(glm::radians(elevation)),
                               -std::cos(glm::radians(azimuth)) * std::cos(glm::radians(elevation))};
@@ -121,7 +121,7 @@ std::optional<glm::vec2> pixelOf(const Camera& camera, float azimuth, float elev
     return pixel;
 }
 
-glm::dvec3 sampled(const Picture& picture, glm::vec2 pixel) {
+glm::dvec3 sampled(const wall::Picture& picture, glm::vec2 pixel) {
     const glm::vec2 corner = glm::floor(pixel - 0.5F);
     const glm::dvec2 t(pixel - 0.5F - corner);
     const auto at = [&](int x, int y) {
@@ -136,7 +136,7 @@ glm::dvec3 sampled(const Picture& picture, glm::vec2 pixel) {
 // Means over blocks of 16 x 16 pixels. The passes read neighbours: were their margin too small, or
 // were they sized in pixels of a channel, the overlap would show it.
 TEST_F(WaterPicture, neighboursSoftenAlikeWhereTheyOverlap) {
-    Still still = reefIn(WaterType::IA);
+    Still still = reefIn(config::WaterType::IA);
     still.camera.sizePixels = {320, 288};
     still.camera.heightDegrees = 50.0F;
     const auto towards = [&](float azimuth) {
@@ -146,8 +146,8 @@ TEST_F(WaterPicture, neighboursSoftenAlikeWhereTheyOverlap) {
     };
     const Still left = towards(-kBetween / 2);
     const Still right = towards(kBetween / 2);
-    const Picture leftPicture = pictureOf(left);
-    const Picture rightPicture = pictureOf(right);
+    const wall::Picture leftPicture = pictureOf(left);
+    const wall::Picture rightPicture = pictureOf(right);
     constexpr float kBlockDegrees = 2.6F;
     constexpr int kSteps = 16;
     std::vector<double> codes;

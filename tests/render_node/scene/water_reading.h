@@ -21,7 +21,7 @@ inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
 using Pigment = std::function<double(double nanometres)>;
 
 // Axes as in water.glsl, bilinear between texels.
-inline glm::vec3 read(const Table& table, double u, double v, int layer = 0) {
+inline glm::vec3 read(const scene::Table& table, double u, double v, int layer = 0) {
     const double x = u * (table.width - 1);
     const double y = v * (table.height - 1);
     const int left = std::min(static_cast<int>(x), table.width - 2);
@@ -45,25 +45,26 @@ inline double depthAxis(double depth) {
     return std::sqrt((depth + 10.0) / 40.0);
 }
 
-inline glm::dvec3 integrated(const WaterSpectra& water,
+inline glm::dvec3 integrated(const scene::WaterSpectra& water,
                              const std::function<double(std::size_t)>& light) {
     glm::dvec3 sum{0.0};
-    for (std::size_t band = 0; band < kBands; ++band)
+    for (std::size_t band = 0; band < scene::kBands; ++band)
         for (int c = 0; c < 3; ++c) sum[c] += water.weights[c][band] * light(band);
     return sum;
 }
 
-inline glm::dvec3 colourOf(const WaterSpectra& water, const Pigment& pigment) {
-    return integrated(water, [&](std::size_t band) { return pigment(wavelengthOf(band)); });
+inline glm::dvec3 colourOf(const scene::WaterSpectra& water, const Pigment& pigment) {
+    return integrated(water, [&](std::size_t band) { return pigment(scene::wavelengthOf(band)); });
 }
 
-inline glm::dvec3 seenThrough(const WaterSpectra& water,
+inline glm::dvec3 seenThrough(const scene::WaterSpectra& water,
                               const Pigment& pigment,
                               double range,
                               double depth) {
     return integrated(water, [&](std::size_t band) {
-        return pigment(wavelengthOf(band)) *
-               std::exp(-water.downwelling[band] * depth - beamAttenuation(water, band) * range);
+        return pigment(scene::wavelengthOf(band)) *
+               std::exp(-water.downwelling[band] * depth -
+                        scene::beamAttenuation(water, band) * range);
     });
 }
 
@@ -71,7 +72,7 @@ inline glm::dvec3 seenThrough(const WaterSpectra& water,
 struct Sight {
     double depth = 0, rise = 0, azimuthDegrees = 0;
     [[nodiscard]] glm::dvec3 direction() const {
-        const glm::dvec3 sun{sunInWater()};
+        const glm::dvec3 sun{scene::sunInWater()};
         const glm::dvec3 ahead = glm::normalize(glm::dvec3{sun.x, 0, sun.z});
         const glm::dvec3 aside = glm::cross(ahead, glm::dvec3{0, 1, 0});
         const double flat = std::sqrt(1 - rise * rise);
@@ -82,20 +83,21 @@ struct Sight {
 };
 
 // Light scattered into the view, through the diver's filter, at noon without shafts.
-inline glm::dvec3 veil(const WaterSpectra& water, const Sight& sight, double range) {
-    const double lit = sight.depth - filterDepthMetres(sight.depth);
-    const double lobes = plainLobe(sight.direction(), glm::dvec3{sunInWater()});
+inline glm::dvec3 veil(const scene::WaterSpectra& water, const Sight& sight, double range) {
+    const double lit = sight.depth - scene::filterDepthMetres(sight.depth);
+    const double lobes = scene::plainLobe(sight.direction(), glm::dvec3{scene::sunInWater()});
     return integrated(water, [&](std::size_t band) {
         const double b = water.scattering[band];
         const double c = water.absorption[band] + b;
-        const WaterLobe lobe = waterLobe(b / c, c * sight.depth, sight.rise, sight.azimuthDegrees);
+        const scene::WaterLobe lobe =
+            scene::waterLobe(b / c, c * sight.depth, sight.rise, sight.azimuthDegrees);
         const double loss = std::max(c * lobe.loss, 0.004);
         return b * lobe.source * lobes * std::exp(-water.downwelling[band] * lit) *
                (1 - std::exp(-loss * range)) / loss;
     });
 }
 
-inline glm::dvec3 veilByTable(const Table& table, const Sight& sight, double range) {
+inline glm::dvec3 veilByTable(const scene::Table& table, const Sight& sight, double range) {
     const double cosine = std::cos(sight.azimuthDegrees * std::numbers::pi / 180);
     const double place = (0.5 + 0.5 * cosine) * (table.layers - 1);
     const int layer = std::min(static_cast<int>(place), table.layers - 2);
@@ -103,7 +105,7 @@ inline glm::dvec3 veilByTable(const Table& table, const Sight& sight, double ran
         return glm::dvec3(read(table, rangeAxis(range), 0.5 + 0.5 * sight.rise, of));
     };
     return glm::mix(at(layer), at(layer + 1), place - layer) *
-           plainLobe(sight.direction(), glm::dvec3{sunInWater()});
+           scene::plainLobe(sight.direction(), glm::dvec3{scene::sunInWater()});
 }
 
 }  // namespace aquarama::test

@@ -9,7 +9,7 @@
 
 #include "common/place/place.h"
 
-namespace aquarama {
+namespace aquarama::scene {
 namespace {
 
 constexpr std::uint32_t kSeed = 1;
@@ -28,10 +28,10 @@ void expectOnTile(const Waves& waves, float tileMetres, double pace) {
 }
 
 TEST(Waves, fitTheirTilesAndFocusOnTheSand) {
-    const Sea sea = seaOf(kSeed, kMeanFloorDepthMetres);
+    const Sea sea = seaOf(kSeed, place::kMeanFloorDepthMetres);
     expectOnTile(sea.waves, kTileMetres, 0.55);
     expectOnTile(sea.ripples, kRippleTileMetres, 1.0);
-    const double focus = focusNumber(sea.waves, static_cast<double>(kMeanFloorDepthMetres));
+    const double focus = focusNumber(sea.waves, static_cast<double>(place::kMeanFloorDepthMetres));
     EXPECT_GT(focus, 0.45);
     EXPECT_LT(focus, 0.70);
 }
@@ -39,7 +39,7 @@ TEST(Waves, fitTheirTilesAndFocusOnTheSand) {
 // As they are seen from below (waves 1.5 times steeper, as in water_surface.frag): Cox and Munk
 // 1954 measured 0.003 + 0.00512 U, U the wind in m/s.
 TEST(Waves, areAsSteepAsInALightBreeze) {
-    const Sea sea = seaOf(kSeed, kMeanFloorDepthMetres);
+    const Sea sea = seaOf(kSeed, place::kMeanFloorDepthMetres);
     const double square =
         std::pow(1.5 * steepness(sea.waves), 2) + std::pow(steepness(sea.ripples), 2);
     EXPECT_GT(square, 0.003 + 0.00512 * 2.0);
@@ -47,7 +47,7 @@ TEST(Waves, areAsSteepAsInALightBreeze) {
 }
 
 TEST(Waves, keepTheirPhaseForMonths) {
-    const Sea sea = seaOf(kSeed, kMeanFloorDepthMetres);
+    const Sea sea = seaOf(kSeed, place::kMeanFloorDepthMetres);
     constexpr double kMonth = 30.0 * 86400.0;
     const auto expectPhase = [](const Wave& wave, float phase) {
         const double exact =
@@ -63,4 +63,4 @@ TEST(Waves, keepTheirPhaseForMonths) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::scene

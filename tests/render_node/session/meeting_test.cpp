@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::session {
 namespace {
 
 ArrivedState stateOf(std::uint64_t frame) {
-    StateFrame state;
+    wire::StateFrame state;
     state.frame = {frame};
-    return {state, Instant{static_cast<std::int64_t>(frame)}};
+    return {state, net::Instant{static_cast<std::int64_t>(frame)}};
 }
 
 std::uint64_t taken(Meeting& meeting) {
@@ -19,7 +19,7 @@ std::uint64_t taken(Meeting& meeting) {
 TEST(Meeting, lockstepGivesEveryFrameInOrderHoweverTheyArrive) {
     Meeting meeting;
     for (const std::uint64_t frame : {6, 4, 5, 4, 3, 7}) meeting.put(stateOf(frame));
-    meeting.start(Pace::Lockstep, {4});
+    meeting.start(wire::Pace::Lockstep, {4});
     for (const std::uint64_t frame : {4, 5, 6, 7}) EXPECT_EQ(taken(meeting), frame);
     meeting.put(stateOf(5));  // sent again for somebody else
     meeting.put(stateOf(8));
@@ -28,7 +28,7 @@ TEST(Meeting, lockstepGivesEveryFrameInOrderHoweverTheyArrive) {
 
 TEST(Meeting, liveGivesTheNewest) {
     Meeting meeting;
-    meeting.start(Pace::Live, {0});
+    meeting.start(wire::Pace::Live, {0});
     for (const std::uint64_t frame : {0, 1, 2}) meeting.put(stateOf(frame));
     EXPECT_EQ(taken(meeting), 2U);
     meeting.put(stateOf(1));
@@ -39,21 +39,21 @@ TEST(Meeting, liveGivesTheNewest) {
 TEST(Meeting, keepsOnlyTheLastFewStates) {
     Meeting meeting;
     for (std::uint64_t frame = 0; frame < 1000; ++frame) meeting.put(stateOf(frame));
-    meeting.start(Pace::Lockstep, {992});
+    meeting.start(wire::Pace::Lockstep, {992});
     EXPECT_EQ(taken(meeting), 992U);
 }
 
 TEST(Meeting, theNewestReleaseCounts) {
     Meeting meeting;
-    meeting.release({{5}, Instant{50}});
-    meeting.release({{4}, Instant{40}});
+    meeting.release({{5}, net::Instant{50}});
+    meeting.release({{4}, net::Instant{40}});
     EXPECT_EQ(meeting.awaitRelease({3})->frame, Frame{5});
-    EXPECT_EQ(meeting.awaitRelease({5})->at, Instant{50});
+    EXPECT_EQ(meeting.awaitRelease({5})->at, net::Instant{50});
 }
 
 TEST(Meeting, aReleaseThatHasComeIsGivenBeforeTheEnd) {
     Meeting meeting;
-    meeting.release({{5}, Instant{50}});
+    meeting.release({{5}, net::Instant{50}});
     meeting.interrupt(Release::Quit);
     EXPECT_TRUE(meeting.awaitRelease({5}));
     EXPECT_FALSE(meeting.awaitRelease({6}));
@@ -62,13 +62,13 @@ TEST(Meeting, aReleaseThatHasComeIsGivenBeforeTheEnd) {
 
 TEST(Meeting, aNewJoinForgetsTheOldShowButNotItsEnd) {
     Meeting meeting;
-    meeting.start(Pace::Live, {0});
+    meeting.start(wire::Pace::Live, {0});
     meeting.put(stateOf(500));
     meeting.release({{500}, {}});
     meeting.interrupt(Release::Rejoin);
     EXPECT_FALSE(meeting.takeState());
     meeting.expectJoin();
-    meeting.start(Pace::Live, {0});
+    meeting.start(wire::Pace::Live, {0});
     meeting.put(stateOf(2));
     EXPECT_EQ(taken(meeting), 2U);
     meeting.interrupt(Release::Quit);
@@ -79,4 +79,4 @@ TEST(Meeting, aNewJoinForgetsTheOldShowButNotItsEnd) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::session

@@ -11,7 +11,7 @@
 #include "common/net/blob.h"
 #include "tests/support/stage.h"
 
-namespace aquarama {
+namespace aquarama::session {
 namespace {
 
 using std::chrono::milliseconds;
@@ -22,11 +22,15 @@ constexpr std::uint64_t kRun = 42;
 // The master's side, in the test's own thread.
 class ScriptedMaster {
   public:
-    explicit ScriptedMaster(MemoryNet& net) : channels_(net.master()) {}
+    explicit ScriptedMaster(net::MemoryNet& net) : channels_(net.master()) {}
 
-    void say(const Message& message) { channels_->sendControl(peer_, encode({run, message})); }
-    void publish(const Message& message) { channels_->publishState(encode({run, message})); }
-    void sayNoise(const ByteVector& noise) {
+    void say(const wire::Message& message) {
+        channels_->sendControl(peer_, wire::encode({run, message}));
+    }
+    void publish(const wire::Message& message) {
+        channels_->publishState(wire::encode({run, message}));
+    }
+    void sayNoise(const net::ByteVector& noise) {
         channels_->sendControl(peer_, noise);
         channels_->publishState(noise);
     }
@@ -34,15 +38,15 @@ class ScriptedMaster {
     // The next message of this kind from the node; answers pings on the way. Empty after ten
     // seconds.
     template <class Kind>
-    std::optional<Kind> hear(Instant within = seconds(10)) {
-        const Instant end = monotonicNow() + within;
-        while (monotonicNow() < end) {
+    std::optional<Kind> hear(net::Instant within = seconds(10)) {
+        const net::Instant end = net::monotonicNow() + within;
+        while (net::monotonicNow() < end) {
             while (const auto from = channels_->receiveControl()) {
-                const auto envelope = decode(from->bytes);
+                const auto envelope = wire::decode(from->bytes);
                 if (!envelope) continue;
                 peer_ = from->peer;
-                if (auto* ping = std::get_if<Ping>(&envelope->message)) {
-                    say(Pong{ping->sentNs, (monotonicNow() + clockAhead).count()});
+                if (auto* ping = std::get_if<wire::Ping>(&envelope->message)) {
+                    say(wire::Pong{ping->sentNs, (net::monotonicNow() + clockAhead).count()});
                 }
                 if (const auto* kind = std::get_if<Kind>(&envelope->message)) return *kind;
             }
@@ -52,48 +56,48 @@ class ScriptedMaster {
     }
 
     // Everything up to the node's first frame, delivering these bytes for each blob.
-    void admit(const Blobs& blobs, Pace pace = Pace::Live) {
-        ASSERT_TRUE(hear<Hello>());
-        Welcome welcome = StageMaster::welcomeTo(StageMaster::deskRig());
+    void admit(const conductor::Blobs& blobs, wire::Pace pace = wire::Pace::Live) {
+        ASSERT_TRUE(hear<wire::Hello>());
+        wire::Welcome welcome = test::StageMaster::welcomeTo(test::StageMaster::deskRig());
         welcome.pace = pace;
         say(welcome);
         giveBlobs(blobs, 2);
     }
-    void giveBlobs(const Blobs& blobs, int count) {
+    void giveBlobs(const conductor::Blobs& blobs, int count) {
         while (count > 0) {
-            const auto request = hear<BlobRequest>();
+            const auto request = hear<wire::BlobRequest>();
             ASSERT_TRUE(request);
             const auto& blob = blobs.at(request->digest);
-            const auto chunk = chunkAt(blob, request->offset, kBlobChunkBytes);
-            say(BlobChunk{
+            const auto chunk = net::chunkAt(blob, request->offset, wire::kBlobChunkBytes);
+            say(wire::BlobChunk{
                 request->digest, request->offset, blob.size(), {chunk.begin(), chunk.end()}});
             if (request->offset + chunk.size() == blob.size()) --count;
             ++chunksGiven;
         }
     }
     void letIn(Frame first) {
-        publish(Beacon{});
-        ASSERT_TRUE(hear<Prepared>());
-        say(Joined{first});
+        publish(wire::Beacon{});
+        ASSERT_TRUE(hear<wire::Prepared>());
+        say(wire::Joined{first});
     }
     void show(std::uint64_t frame) {
-        StateFrame state;
+        wire::StateFrame state;
         state.frame = {frame};
         publish(state);
     }
 
     std::uint64_t run = kRun;
-    Instant clockAhead{};
+    net::Instant clockAhead{};
     int chunksGiven = 0;
 
   private:
-    std::unique_ptr<MasterChannels> channels_;
-    PeerId peer_;
+    std::unique_ptr<net::MasterChannels> channels_;
+    net::PeerId peer_;
 };
 
 class SessionTest : public testing::Test {
   protected:
-    SessionTest() : master_(net_), blobs_(freshDirectory()), session_(connect()) {}
+    SessionTest() : master_(net_), blobs_(test::freshDirectory()), session_(connect()) {}
     ~SessionTest() override {
         session_.reset();
         std::filesystem::remove_all(blobs_);
@@ -116,11 +120,11 @@ class SessionTest : public testing::Test {
         }
         return "";
     }
-    void becomeMember(Pace pace, Frame first) {
+    void becomeMember(wire::Pace pace, Frame first) {
         auto join = joining();
-        master_.admit(StageMaster::blobs(), pace);
+        master_.admit(test::StageMaster::blobs(), pace);
         ASSERT_TRUE(join.get());
-        session_->prepared(QualityTier::Low);
+        session_->prepared(config::QualityTier::Low);
         master_.letIn(first);
     }
     std::uint64_t nextFrame() { return session_->nextFrame().value().frame.value; }
@@ -129,7 +133,7 @@ class SessionTest : public testing::Test {
                           [this, frame] { return session_->readyThenWait({frame}); });
     }
 
-    MemoryNet net_;
+    net::MemoryNet net_;
     ScriptedMaster master_;
     std::filesystem::path blobs_;
     std::unique_ptr<Session> session_;
@@ -137,7 +141,7 @@ class SessionTest : public testing::Test {
 
 TEST_F(SessionTest, joinsWithRigSpeciesAndRepertoire) {
     auto join = joining();
-    master_.admit(StageMaster::blobs());
+    master_.admit(test::StageMaster::blobs());
     const auto admission = join.get();
     ASSERT_TRUE(admission);
     EXPECT_EQ(admission->rig.channels.size(), 3U);
@@ -149,18 +153,18 @@ TEST_F(SessionTest, joinsWithRigSpeciesAndRepertoire) {
 
 TEST_F(SessionTest, takesFromItsCacheWhatItOnceFetched) {
     auto join = joining();
-    master_.admit(StageMaster::blobs());
+    master_.admit(test::StageMaster::blobs());
     ASSERT_TRUE(join.get());
     session_ = connect();
     join = joining();
-    ASSERT_TRUE(master_.hear<Hello>());
-    master_.say(StageMaster::welcomeTo(StageMaster::deskRig()));
+    ASSERT_TRUE(master_.hear<wire::Hello>());
+    master_.say(test::StageMaster::welcomeTo(test::StageMaster::deskRig()));
     EXPECT_TRUE(join.get());  // no chunk was given
 }
 
 TEST_F(SessionTest, refusesABlobThatIsNotWhatItsNameSays) {
-    Blobs altered = StageMaster::blobs();
-    altered.at(digestOf(StageMaster::species())).front() ^= std::byte{1};
+    conductor::Blobs altered = test::StageMaster::blobs();
+    altered.at(digestOf(test::StageMaster::species())).front() ^= std::byte{1};
     auto join = joining();
     master_.admit(altered);  // delivered twice here, and a third time below
     master_.giveBlobs(altered, 1);
@@ -170,8 +174,8 @@ TEST_F(SessionTest, refusesABlobThatIsNotWhatItsNameSays) {
 
 TEST_F(SessionTest, aRefusalIsAnErrorThatSaysWhy) {
     auto join = joining();
-    ASSERT_TRUE(master_.hear<Hello>());
-    master_.say(Refusal{"it speaks protocol 2"});
+    ASSERT_TRUE(master_.hear<wire::Hello>());
+    master_.say(wire::Refusal{"it speaks protocol 2"});
     const std::string error = errorOf(std::move(join));
     EXPECT_THAT(error, testing::HasSubstr("\"left\""));
     EXPECT_THAT(error, testing::HasSubstr("protocol 2"));
@@ -179,127 +183,127 @@ TEST_F(SessionTest, aRefusalIsAnErrorThatSaysWhy) {
 
 TEST_F(SessionTest, aRigThatCannotBeReadIsAnError) {
     auto join = joining();
-    ASSERT_TRUE(master_.hear<Hello>());
-    Welcome welcome = StageMaster::welcomeTo(StageMaster::deskRig());
+    ASSERT_TRUE(master_.hear<wire::Hello>());
+    wire::Welcome welcome = test::StageMaster::welcomeTo(test::StageMaster::deskRig());
     welcome.rigText = "name: \"desk\" colour: \"red\"";
     master_.say(welcome);
-    master_.giveBlobs(StageMaster::blobs(), 2);
+    master_.giveBlobs(test::StageMaster::blobs(), 2);
     EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("colour"));
 }
 
 TEST_F(SessionTest, aSceneThatCannotBeReadIsAnError) {
     auto join = joining();
-    ASSERT_TRUE(master_.hear<Hello>());
-    Welcome welcome = StageMaster::welcomeTo(StageMaster::deskRig());
+    ASSERT_TRUE(master_.hear<wire::Hello>());
+    wire::Welcome welcome = test::StageMaster::welcomeTo(test::StageMaster::deskRig());
     welcome.sceneText = "name: \"reef\" mermaids: 3";
     master_.say(welcome);
-    master_.giveBlobs(StageMaster::blobs(), 2);
+    master_.giveBlobs(test::StageMaster::blobs(), 2);
     EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("mermaids"));
 }
 
 TEST_F(SessionTest, goesOnSayingHelloUntilItIsHeard) {
     auto join = joining();
-    for (int times = 0; times < 3; ++times) ASSERT_TRUE(master_.hear<Hello>());
-    master_.say(Dismissed{"another node of this name takes part already"});
-    ASSERT_TRUE(master_.hear<Hello>());
-    master_.admit(StageMaster::blobs());
+    for (int times = 0; times < 3; ++times) ASSERT_TRUE(master_.hear<wire::Hello>());
+    master_.say(wire::Dismissed{"another node of this name takes part already"});
+    ASSERT_TRUE(master_.hear<wire::Hello>());
+    master_.admit(test::StageMaster::blobs());
     EXPECT_TRUE(join.get());
 }
 
 TEST_F(SessionTest, isPreparedOnlyOnceItHearsTheStates) {
     auto join = joining();
-    master_.admit(StageMaster::blobs());
+    master_.admit(test::StageMaster::blobs());
     ASSERT_TRUE(join.get());
-    session_->prepared(QualityTier::Low);
-    EXPECT_FALSE(master_.hear<Prepared>(milliseconds(200)));
-    master_.publish(Beacon{});
-    EXPECT_TRUE(master_.hear<Prepared>());
+    session_->prepared(config::QualityTier::Low);
+    EXPECT_FALSE(master_.hear<wire::Prepared>(milliseconds(200)));
+    master_.publish(wire::Beacon{});
+    EXPECT_TRUE(master_.hear<wire::Prepared>());
 }
 
 TEST_F(SessionTest, speaksWhileItsRenderThreadIsBusy) {
     auto join = joining();
-    master_.admit(StageMaster::blobs());
+    master_.admit(test::StageMaster::blobs());
     ASSERT_TRUE(join.get());
-    for (int ping = 0; ping < 5; ++ping) EXPECT_TRUE(master_.hear<Ping>());
+    for (int ping = 0; ping < 5; ++ping) EXPECT_TRUE(master_.hear<wire::Ping>());
 }
 
 TEST_F(SessionTest, saysReadyAndWaitsForTheRelease) {
-    becomeMember(Pace::Lockstep, {7});
+    becomeMember(wire::Pace::Lockstep, {7});
     master_.show(7);
     EXPECT_EQ(nextFrame(), 7U);
     auto release = readying(7);
-    EXPECT_EQ(master_.hear<Ready>()->frame, Frame{7});
+    EXPECT_EQ(master_.hear<wire::Ready>()->frame, Frame{7});
     EXPECT_EQ(release.wait_for(milliseconds(50)), std::future_status::timeout);
-    master_.say(Present{{7}, 0});
+    master_.say(wire::Present{{7}, 0});
     EXPECT_EQ(release.get(), Release::Present);
-    EXPECT_GT(session_->stateArrival(), Instant{0});
+    EXPECT_GT(session_->stateArrival(), net::Instant{0});
 }
 
 TEST_F(SessionTest, letsGoAtTheAppointedTimeOfTheMastersClock) {
     master_.clockAhead = seconds(1000);
-    becomeMember(Pace::Live, {0});
-    for (int ping = 0; ping < 3; ++ping) ASSERT_TRUE(master_.hear<Ping>());
+    becomeMember(wire::Pace::Live, {0});
+    for (int ping = 0; ping < 3; ++ping) ASSERT_TRUE(master_.hear<wire::Ping>());
     master_.show(0);
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
-    ASSERT_TRUE(master_.hear<Ready>());
-    const Instant at = monotonicNow() + milliseconds(200);
-    master_.say(Present{{0}, (at + master_.clockAhead).count()});
+    ASSERT_TRUE(master_.hear<wire::Ready>());
+    const net::Instant at = net::monotonicNow() + milliseconds(200);
+    master_.say(wire::Present{{0}, (at + master_.clockAhead).count()});
     EXPECT_EQ(release.get(), Release::Present);
     // Never before; but the clock's offset is known to half a round trip, which a busy machine
     // stretches.
-    EXPECT_GE(monotonicNow(), at - milliseconds(150));
+    EXPECT_GE(net::monotonicNow(), at - milliseconds(150));
     master_.show(1);
     EXPECT_EQ(nextFrame(), 1U);
     release = readying(1);
-    const auto ready = master_.hear<Ready>();
+    const auto ready = master_.hear<wire::Ready>();
     ASSERT_TRUE(ready && ready->released);
     EXPECT_EQ(ready->released->frame, Frame{0});
-    EXPECT_GE(Instant{ready->released->atNs}, at + master_.clockAhead - milliseconds(300));
+    EXPECT_GE(net::Instant{ready->released->atNs}, at + master_.clockAhead - milliseconds(300));
     session_->stop();
     release.get();
 }
 
 TEST_F(SessionTest, aReleaseInAFarFutureIsTakenForAClockGoneWrong) {
-    becomeMember(Pace::Live, {0});
-    for (int ping = 0; ping < 3; ++ping) ASSERT_TRUE(master_.hear<Ping>());
+    becomeMember(wire::Pace::Live, {0});
+    for (int ping = 0; ping < 3; ++ping) ASSERT_TRUE(master_.hear<wire::Ping>());
     master_.show(0);
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
-    master_.say(Present{{0}, std::numeric_limits<std::int64_t>::max() / 2});
+    master_.say(wire::Present{{0}, std::numeric_limits<std::int64_t>::max() / 2});
     EXPECT_EQ(release.get(), Release::Present);  // the suite's budget would stop it
 }
 
 TEST_F(SessionTest, asksAgainForAReleaseThatDoesNotCome) {
-    becomeMember(Pace::Lockstep, {0});
+    becomeMember(wire::Pace::Lockstep, {0});
     master_.show(0);
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
-    EXPECT_TRUE(master_.hear<Ready>());
-    EXPECT_TRUE(master_.hear<Ready>());
-    master_.say(Present{{0}, 0});
+    EXPECT_TRUE(master_.hear<wire::Ready>());
+    EXPECT_TRUE(master_.hear<wire::Ready>());
+    master_.say(wire::Present{{0}, 0});
     release.get();
 }
 
 TEST_F(SessionTest, skipsAFrameThatTheWallHasOvertakenButNotTwoInARow) {
-    becomeMember(Pace::Live, {0});
+    becomeMember(wire::Pace::Live, {0});
     for (const auto& [frame, wallIsAt, expected] :
          {std::tuple{0, 4, Release::Skip}, {5, 9, Release::Present}, {10, 15, Release::Skip}}) {
         master_.show(static_cast<std::uint64_t>(frame));
         EXPECT_EQ(nextFrame(), static_cast<std::uint64_t>(frame));
-        master_.say(Present{{static_cast<std::uint64_t>(wallIsAt)}, 0});
+        master_.say(wire::Present{{static_cast<std::uint64_t>(wallIsAt)}, 0});
         EXPECT_EQ(readying(static_cast<std::uint64_t>(frame)).get(), expected);
     }
 }
 
 TEST_F(SessionTest, theLastFrameIsPresentedBeforeTheEnd) {
-    becomeMember(Pace::Lockstep, {0});
+    becomeMember(wire::Pace::Lockstep, {0});
     master_.show(0);
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
-    ASSERT_TRUE(master_.hear<Ready>());
-    master_.say(Present{{0}, 0});
-    master_.say(Farewell{});
+    ASSERT_TRUE(master_.hear<wire::Ready>());
+    master_.say(wire::Present{{0}, 0});
+    master_.say(wire::Farewell{});
     EXPECT_EQ(release.get(), Release::Present);
     EXPECT_FALSE(session_->nextFrame());
     EXPECT_EQ(session_->interruption(), Release::Quit);
@@ -307,18 +311,18 @@ TEST_F(SessionTest, theLastFrameIsPresentedBeforeTheEnd) {
 }
 
 TEST_F(SessionTest, joinsAgainWhenItIsDismissed) {
-    becomeMember(Pace::Live, {0});
-    master_.say(Dismissed{"you were silent for too long"});
+    becomeMember(wire::Pace::Live, {0});
+    master_.say(wire::Dismissed{"you were silent for too long"});
     EXPECT_FALSE(session_->nextFrame());
     EXPECT_EQ(session_->interruption(), Release::Rejoin);
     auto join = joining();
-    ASSERT_TRUE(master_.hear<Hello>());
-    master_.say(StageMaster::welcomeTo(StageMaster::deskRig()));
+    ASSERT_TRUE(master_.hear<wire::Hello>());
+    master_.say(test::StageMaster::welcomeTo(test::StageMaster::deskRig()));
     EXPECT_TRUE(join.get());
 }
 
 TEST_F(SessionTest, joinsAgainWhenTheMasterWasStartedAgain) {
-    becomeMember(Pace::Live, {0});
+    becomeMember(wire::Pace::Live, {0});
     master_.run = kRun + 2;
     master_.show(900);
     EXPECT_FALSE(session_->nextFrame());
@@ -326,14 +330,14 @@ TEST_F(SessionTest, joinsAgainWhenTheMasterWasStartedAgain) {
 }
 
 TEST_F(SessionTest, joinsAgainWhenTheMasterFallsSilent) {
-    becomeMember(Pace::Live, {0});
+    becomeMember(wire::Pace::Live, {0});
     EXPECT_FALSE(session_->nextFrame());  // nobody answers its pings any more
     EXPECT_EQ(session_->interruption(), Release::Rejoin);
 }
 
 TEST_F(SessionTest, stopEndsEveryWait) {
     auto join = joining();
-    ASSERT_TRUE(master_.hear<Hello>());
+    ASSERT_TRUE(master_.hear<wire::Hello>());
     session_->stop();
     EXPECT_FALSE(join.get());
     EXPECT_FALSE(session_->nextFrame());
@@ -342,40 +346,40 @@ TEST_F(SessionTest, stopEndsEveryWait) {
 }
 
 TEST_F(SessionTest, stopEndsTheWaitForARelease) {
-    becomeMember(Pace::Live, {0});
+    becomeMember(wire::Pace::Live, {0});
     master_.show(0);
     EXPECT_EQ(nextFrame(), 0U);
     auto release = readying(0);
-    ASSERT_TRUE(master_.hear<Ready>());
+    ASSERT_TRUE(master_.hear<wire::Ready>());
     session_->stop();
     EXPECT_EQ(release.get(), Release::Quit);
-    EXPECT_TRUE(master_.hear<Farewell>());
+    EXPECT_TRUE(master_.hear<wire::Farewell>());
 }
 
 TEST_F(SessionTest, passesOnWhatItsKeysSay) {
-    becomeMember(Pace::Live, {0});
+    becomeMember(wire::Pace::Live, {0});
     session_->send(NodeInput::TogglePause);
-    EXPECT_EQ(master_.hear<Input>()->kind, InputKind::TogglePause);
+    EXPECT_EQ(master_.hear<wire::Input>()->kind, wire::InputKind::TogglePause);
     session_->send(NodeInput::Quit);
-    EXPECT_EQ(master_.hear<Input>()->kind, InputKind::Quit);
+    EXPECT_EQ(master_.hear<wire::Input>()->kind, wire::InputKind::Quit);
 }
 
 TEST_F(SessionTest, passesOnWhereFoodIsDropped) {
-    becomeMember(Pace::Live, {0});
+    becomeMember(wire::Pace::Live, {0});
     session_->dropFood({1, -6, -2.5F});
-    const auto input = master_.hear<Input>();
+    const auto input = master_.hear<wire::Input>();
     ASSERT_TRUE(input);
-    EXPECT_EQ(input->kind, InputKind::DropFood);
+    EXPECT_EQ(input->kind, wire::InputKind::DropFood);
     EXPECT_EQ(input->positionMetres, glm::vec3(1, -6, -2.5F));
 }
 
 TEST_F(SessionTest, asksForAMindAndKeepsTheLatestAnswer) {
-    becomeMember(Pace::Live, {0});
+    becomeMember(wire::Pace::Live, {0});
     EXPECT_FALSE(session_->latestMind());
     session_->askMind(7);
-    EXPECT_EQ(master_.hear<ExplainRequest>()->fish, 7U);
-    master_.say(Explanation{7, 60, {12}, {"hungry"}});
-    master_.say(Explanation{7, 60, {27}, {"sated"}});
+    EXPECT_EQ(master_.hear<wire::ExplainRequest>()->fish, 7U);
+    master_.say(wire::Explanation{7, 60, {12}, {"hungry"}});
+    master_.say(wire::Explanation{7, 60, {27}, {"sated"}});
     const auto isLatest = [&] {
         const auto mind = session_->latestMind();
         return mind && mind->tick == Tick{27};
@@ -385,15 +389,15 @@ TEST_F(SessionTest, asksForAMindAndKeepsTheLatestAnswer) {
 }
 
 TEST_F(SessionTest, noiseOnBothChannelsChangesNothing) {
-    becomeMember(Pace::Lockstep, {0});
+    becomeMember(wire::Pace::Lockstep, {0});
     std::mt19937 random(9);
     for (int round = 0; round < 5; ++round) {
         for (int packet = 0; packet < 6; ++packet) {  // as many as the channels surely take
-            ByteVector noise(random() % 200);
+            net::ByteVector noise(random() % 200);
             for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
             master_.sayNoise(noise);
         }
-        ASSERT_TRUE(master_.hear<Ping>());
+        ASSERT_TRUE(master_.hear<wire::Ping>());
     }
     master_.show(0);
     EXPECT_EQ(nextFrame(), 0U);
@@ -404,4 +408,4 @@ TEST_F(SessionTest, aMalformedAddressIsRefusedAtOnce) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::session

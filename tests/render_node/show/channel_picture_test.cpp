@@ -16,28 +16,28 @@
 #include "render_node/show/pointing.h"
 #include "tests/render_node/show/fake_session.h"
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
-constexpr glm::vec3 kFishPlace = kEyePosition + glm::vec3(0.2F, 0.1F, -3);
+constexpr glm::vec3 kFishPlace = place::kEyePosition + glm::vec3(0.2F, 0.1F, -3);
 
-StateFrame emptySea() {
-    StateFrame frame = frameNumber(1);
-    frame.eye.positionMetres = kEyePosition;
+wire::StateFrame emptySea() {
+    wire::StateFrame frame = frameNumber(1);
+    frame.eye.positionMetres = place::kEyePosition;
     return frame;
 }
 
-StateFrame frameWithAFish(const BodyFrame& body = {.position = kFishPlace}) {
-    StateFrame frame = emptySea();
-    MotionStates states;
+wire::StateFrame frameWithAFish(const motion::BodyFrame& body = {.position = kFishPlace}) {
+    wire::StateFrame frame = emptySea();
+    motion::MotionStates states;
     states.resize(1);
-    setBodyFrame(states, 0, body);
-    frame.after = {recordOf(states, 0)};
+    motion::setBodyFrame(states, 0, body);
+    frame.after = {motion::recordOf(states, 0)};
     return frame;
 }
 
-Admission admissionToTheWorld() {
-    Admission admission = admissionTo(Pattern::World);
+session::Admission admissionToTheWorld() {
+    session::Admission admission = admissionTo(wire::Pattern::World);
     admission.welcome.school = {{.id = 17, .lengthMillimetres = 240}};
     admission.cast = {{.text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
                        .repertoire = test::swaying(test::scad(), 0.05F),
@@ -46,20 +46,22 @@ Admission admissionToTheWorld() {
 }
 
 // Where on the channel's picture a point of the world is seen, top left is (0, 0).
-glm::dvec2 pixelOf(const Rig& rig, std::size_t channel, glm::dvec3 world) {
-    const glm::dvec3 direction = world - glm::dvec3(kEyePosition);
+glm::dvec2 pixelOf(const config::Rig& rig, std::size_t channel, glm::dvec3 world) {
+    const glm::dvec3 direction = world - glm::dvec3(place::kEyePosition);
     const double level = glm::length(glm::dvec2(direction.x, direction.z));
-    return projectorPixel(rig.channels[channel], direction * (rig.screen.radiusMetres / level))
+    return wall::projectorPixel(rig.channels[channel],
+                                direction * (rig.screen.radiusMetres / level))
         .value_or(glm::dvec2(-1));
 }
 
 // Where both give half of the light, at the eye's height: u of the unrolled screen.
-double seamBetween(const Rig& rig, std::size_t left, std::size_t right) {
+double seamBetween(const config::Rig& rig, std::size_t left, std::size_t right) {
     double best = 0;
     double u = 0;
     for (int i = 0; i < 2000; ++i) {
-        const glm::dvec3 point = screenPointAt(rig.screen, {i / 2000.0, 0.5});
-        const double both = blendWeight(rig, left, point) * blendWeight(rig, right, point);
+        const glm::dvec3 point = wall::screenPointAt(rig.screen, {i / 2000.0, 0.5});
+        const double both =
+            wall::blendWeight(rig, left, point) * wall::blendWeight(rig, right, point);
         if (both <= best) continue;
         best = both;
         u = i / 2000.0;
@@ -73,42 +75,43 @@ class ChannelPictureTest : public testing::Test {
     static constexpr std::size_t kLeft = 0;
     static constexpr std::size_t kMiddle = 1;
     struct Stage {
-        std::unique_ptr<Context> context = makeOffscreenContext("auto", {480, 360});
-        Admission admission = admissionToTheWorld();
-        ChannelPicture picture{admission, kMiddle, QualityTier::Low};
-        ChannelPicture left{admission, kLeft, QualityTier::Low};
+        std::unique_ptr<context::Context> context =
+            context::makeOffscreenContext("auto", {480, 360});
+        session::Admission admission = admissionToTheWorld();
+        ChannelPicture picture{admission, kMiddle, config::QualityTier::Low};
+        ChannelPicture left{admission, kLeft, config::QualityTier::Low};
         gl::Target target{GL_RGBA8, picture.sizePixels()};
         gl::Target deep{GL_RGBA16, picture.sizePixels()};
     };
     static void SetUpTestSuite() { stage = std::make_unique<Stage>(); }
     static void TearDownTestSuite() { stage.reset(); }
 
-    static std::vector<std::uint8_t> shownOf(const StateFrame& frame) {
+    static std::vector<std::uint8_t> shownOf(const wire::StateFrame& frame) {
         stage->picture.drawScene(frame, {});
-        stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, {});
+        stage->picture.project(stage->target.framebuffer(), project::Encoding::Dithered8, {});
         return gl::readRgb<std::uint8_t>(stage->target);
     }
     static std::vector<std::uint8_t> shown(const Overlays& overlays,
                                            const std::optional<WatchedMind>& mind = {}) {
         stage->picture.drawScene(frameWithAFish(), overlays, mind);
-        stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, overlays);
+        stage->picture.project(stage->target.framebuffer(), project::Encoding::Dithered8, overlays);
         return gl::readRgb<std::uint8_t>(stage->target);
     }
-    static Light lightOfFrame(ChannelPicture& picture, const StateFrame& frame) {
+    static wall::Light lightOfFrame(ChannelPicture& picture, const wire::StateFrame& frame) {
         picture.drawScene(frame, {});
-        picture.project(stage->deep.framebuffer(), Encoding::Plain, {});
+        picture.project(stage->deep.framebuffer(), project::Encoding::Plain, {});
         const auto pixels = gl::readRgb<std::uint16_t>(stage->deep);
-        return lightOf(Picture{picture.sizePixels(), 16, pixels});
+        return wall::lightOf(wall::Picture{picture.sizePixels(), 16, pixels});
     }
     // Where on the unrolled wall a channel shows the fish, in pixels of the panorama: the mean of
     // what it changes there.
     static glm::dvec2 shownPlace(ChannelPicture& picture,
                                  std::size_t channel,
-                                 const StateFrame& fish) {
-        const Rig& rig = stage->admission.rig;
-        const WarpMap warp = warpMap(rig, channel);
-        const Light with = lightOfFrame(picture, fish);
-        const Light without = lightOfFrame(picture, emptySea());
+                                 const wire::StateFrame& fish) {
+        const config::Rig& rig = stage->admission.rig;
+        const wall::WarpMap warp = wall::warpMap(rig, channel);
+        const wall::Light with = lightOfFrame(picture, fish);
+        const wall::Light without = lightOfFrame(picture, emptySea());
         glm::dvec2 sum(0);
         double total = 0;
         for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
@@ -116,7 +119,8 @@ class ChannelPictureTest : public testing::Test {
             if (point.w < 0.02) continue;
             const glm::dvec3 change = glm::abs(with.rgb[i] - without.rgb[i]);
             const double share = (change.x + change.y + change.z) / point.w;
-            sum += share * unrolled(rig.screen, glm::dvec3(point)) * glm::dvec2(rig.panoramaPixels);
+            sum += share * wall::unrolled(rig.screen, glm::dvec3(point)) *
+                   glm::dvec2(rig.panoramaPixels);
             total += share;
         }
         EXPECT_GT(total, 1) << "channel " << channel << " does not show the fish";
@@ -130,7 +134,7 @@ class ChannelPictureTest : public testing::Test {
 TEST_F(ChannelPictureTest, theWorldIsAFunctionOfTheFrameAlone) {
     stage->picture.drawScene(frameWithAFish(), {});
     const auto first = shown({});
-    StateFrame other = frameWithAFish();
+    wire::StateFrame other = frameWithAFish();
     other.tick = {500};
     stage->picture.drawScene(other, {});
     EXPECT_EQ(shown({}), first);
@@ -142,10 +146,10 @@ TEST_F(ChannelPictureTest, foodThatIsDroppedUnderTheMouseIsSeenUnderTheMouse) {
     const Pointing pointing(stage->admission.rig, kMiddle);
     for (const glm::vec2 mouse : {glm::vec2(240, 180), glm::vec2(120, 80), glm::vec2(350, 250)}) {
         const auto plain = shownOf(emptySea());
-        StateFrame fed = emptySea();
+        wire::StateFrame fed = emptySea();
         const auto place = pointing.pinchAt(mouse, fed.eye);
         ASSERT_TRUE(place);
-        fed.foodAfter = {foodRecord(FoodRecord::Kind::Pellet, *place, 1)};
+        fed.foodAfter = {wire::foodRecord(wire::FoodRecord::Kind::Pellet, *place, 1)};
         const auto shown = shownOf(fed);
         glm::vec2 sum(0);
         float count = 0;
@@ -161,14 +165,15 @@ TEST_F(ChannelPictureTest, foodThatIsDroppedUnderTheMouseIsSeenUnderTheMouse) {
 }
 
 TEST_F(ChannelPictureTest, theFishNearestToThePointerIsTheOneThatIsSeenThere) {
-    StateFrame frame = frameWithAFish();
-    const StateFrame other = frameWithAFish({.position = kEyePosition + glm::vec3(-0.7F, 0, -3)});
+    wire::StateFrame frame = frameWithAFish();
+    const wire::StateFrame other =
+        frameWithAFish({.position = place::kEyePosition + glm::vec3(-0.7F, 0, -3)});
     frame.after.push_back(other.after.front());
-    Admission two = stage->admission;
+    session::Admission two = stage->admission;
     two.welcome.school.push_back({.id = 18, .lengthMillimetres = 240});
     two.cast.front().fish = 2;
-    two.welcome.pattern = Pattern::World;
-    ChannelPicture picture(two, kMiddle, QualityTier::Low);
+    two.welcome.pattern = wire::Pattern::World;
+    ChannelPicture picture(two, kMiddle, config::QualityTier::Low);
     EXPECT_EQ(picture.fishNearest(emptySea(), {240, 180}), std::nullopt);
     EXPECT_EQ(picture.fishNearest(frame, glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);
     EXPECT_EQ(picture.fishNearest(frame, {5, 180}), 1U);
@@ -219,16 +224,16 @@ TEST_F(ChannelPictureTest, gridMaskAndHelpAreSeen) {
 // whole pixels, hence the mean over several; what geometry alone does is held to a twentieth of a
 // pixel by the test of the projection map.
 TEST_F(ChannelPictureTest, neighboursShowAFishInTheirOverlapAtOnePlace) {
-    const Rig& rig = stage->admission.rig;
+    const config::Rig& rig = stage->admission.rig;
     const double seam = seamBetween(rig, kLeft, kMiddle);
     glm::dvec2 sum(0);
     constexpr int kFish = 8;
     for (int i = 0; i < kFish; ++i) {
-        const glm::dvec3 point = screenPointAt(rig.screen, {seam, 0.3 + 0.05 * i});
+        const glm::dvec3 point = wall::screenPointAt(rig.screen, {seam, 0.3 + 0.05 * i});
         const auto towardsTheWall = static_cast<float>(std::atan2(-point.z, point.x));
-        const StateFrame fish =
-            frameWithAFish({.position = kEyePosition + glm::vec3(glm::normalize(point) * 2.5),
-                            .rotation = glm::angleAxis(towardsTheWall, glm::vec3(0, 1, 0))});
+        const wire::StateFrame fish = frameWithAFish(
+            {.position = place::kEyePosition + glm::vec3(glm::normalize(point) * 2.5),
+             .rotation = glm::angleAxis(towardsTheWall, glm::vec3(0, 1, 0))});
         sum += shownPlace(stage->left, kLeft, fish) - shownPlace(stage->picture, kMiddle, fish);
     }
     EXPECT_LT(glm::length(sum / double{kFish}), 0.5);
@@ -256,18 +261,18 @@ std::vector<int> flatRuns(const std::vector<std::uint8_t>& rgb, glm::ivec2 size)
 // The lower half of open water is one dark gradient: without noise it would show steps of a code,
 // which an eye sees there. In the mean of 8 x 8 pixels the noise is gone.
 TEST_F(ChannelPictureTest, theGradientOfOpenWaterShowsNoBands) {
-    Admission open = stage->admission;
-    open.scene.place = PlaceKind::OpenSea;
-    ChannelPicture picture(open, kMiddle, QualityTier::Low);
-    StateFrame frame = emptySea();
+    session::Admission open = stage->admission;
+    open.scene.place = config::PlaceKind::OpenSea;
+    ChannelPicture picture(open, kMiddle, config::QualityTier::Low);
+    wire::StateFrame frame = emptySea();
     frame.eye.positionMetres.y = -20.0F;
     picture.drawScene(frame, {});
-    picture.project(stage->target.framebuffer(), Encoding::Dithered8, {});
+    picture.project(stage->target.framebuffer(), project::Encoding::Dithered8, {});
     const auto codes = gl::readRgb<std::uint8_t>(stage->target);
     const std::vector<int> runs = flatRuns(codes, picture.sizePixels());
     ASSERT_GT(runs.size(), 1000U);
     EXPECT_LE(runs[runs.size() * 95 / 100], 6);
-    picture.project(stage->deep.framebuffer(), Encoding::Plain, {});
+    picture.project(stage->deep.framebuffer(), project::Encoding::Plain, {});
     const auto exact = gl::readRgb<std::uint16_t>(stage->deep);
     const glm::ivec2 size = picture.sizePixels();
     int off = 0;
@@ -288,7 +293,7 @@ TEST_F(ChannelPictureTest, theGradientOfOpenWaterShowsNoBands) {
 }
 
 TEST(TextOverlay, drawsTheFontsDots) {
-    const auto context = makeOffscreenContext("auto", {64, 32});
+    const auto context = context::makeOffscreenContext("auto", {64, 32});
     const gl::Target target(GL_RGBA8, {64, 32});
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
     glClearColor(0.5F, 0.5F, 0.5F, 1);
@@ -312,4 +317,4 @@ TEST(TextOverlay, drawsTheFontsDots) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -23,7 +23,7 @@
 #include "tests/render_node/project/reference.h"
 #include "tests/render_node/show/fake_session.h"
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +43,9 @@ class ChannelShowTest : public testing::Test {
         chosen.deep = deep;
         return chosen;
     }
-    void show(FakeSession& session, const NodeOptions& chosen, Pattern pattern = Pattern::Grey) {
+    void show(FakeSession& session,
+              const NodeOptions& chosen,
+              wire::Pattern pattern = wire::Pattern::Grey) {
         Controls controls(session);
         ChannelShow(session, context_, controls, chosen).run(admissionTo(pattern));
     }
@@ -60,15 +62,17 @@ class ChannelShowTest : public testing::Test {
 };
 
 TEST_F(ChannelShowTest, everyFrameIsReadyBeforeItIsSwapped) {
-    FakeSession session(events_,
-                        {{frameNumber(0), Release::Present}, {frameNumber(1), Release::Present}});
+    FakeSession session(
+        events_,
+        {{frameNumber(0), session::Release::Present}, {frameNumber(1), session::Release::Present}});
     show(session, options());
     EXPECT_EQ(events_, (Events{"prepared", "ready 0", "swap", "ready 1", "swap"}));
 }
 
 TEST_F(ChannelShowTest, aFrameThatTheWallPassedOverIsNotShown) {
-    FakeSession session(events_,
-                        {{frameNumber(0), Release::Skip}, {frameNumber(1), Release::Present}});
+    FakeSession session(
+        events_,
+        {{frameNumber(0), session::Release::Skip}, {frameNumber(1), session::Release::Present}});
     show(session, options());
     EXPECT_EQ(events_, (Events{"prepared", "ready 0", "ready 1", "swap"}));
     ASSERT_EQ(traceLines().size(), 2U);
@@ -77,10 +81,10 @@ TEST_F(ChannelShowTest, aFrameThatTheWallPassedOverIsNotShown) {
 
 TEST_F(ChannelShowTest, aNodeThatWasDroppedJoinsAgain) {
     FakeSession session(events_,
-                        {{frameNumber(0), Release::Present},
-                         {frameNumber(1), Release::Rejoin},
-                         {frameNumber(7), Release::Present}});
-    session.rejoin_ = admissionTo(Pattern::Grey);
+                        {{frameNumber(0), session::Release::Present},
+                         {frameNumber(1), session::Release::Rejoin},
+                         {frameNumber(7), session::Release::Present}});
+    session.rejoin_ = admissionTo(wire::Pattern::Grey);
     show(session, options());
     EXPECT_EQ(
         events_,
@@ -88,14 +92,15 @@ TEST_F(ChannelShowTest, aNodeThatWasDroppedJoinsAgain) {
 }
 
 TEST_F(ChannelShowTest, aNodeThatIsStoppedWhileItJoinsAgainEnds) {
-    FakeSession session(events_, {{frameNumber(0), Release::Rejoin}});
+    FakeSession session(events_, {{frameNumber(0), session::Release::Rejoin}});
     show(session, options());
     EXPECT_EQ(events_, (Events{"prepared", "ready 0", "join"}));
 }
 
 TEST_F(ChannelShowTest, tracesEachFrameInTheOrderOfTime) {
-    FakeSession session(events_,
-                        {{frameNumber(3), Release::Present}, {frameNumber(4), Release::Present}});
+    FakeSession session(
+        events_,
+        {{frameNumber(3), session::Release::Present}, {frameNumber(4), session::Release::Present}});
     show(session, options());
     const auto lines = traceLines();
     ASSERT_EQ(lines.size(), 3U);
@@ -113,30 +118,31 @@ TEST_F(ChannelShowTest, tracesEachFrameInTheOrderOfTime) {
 }
 
 TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
-    FakeSession session(events_, {{frameNumber(0), Release::Present}});
+    FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
     show(session, options(/*deep=*/true));
-    const Picture picture = readPng(folder_ + "/channel-middle.png");
-    const Rig rig = shippedRig("desk");
-    const WarpMap warp = warpMap(rig, channelIndex(rig, "middle"));
+    const wall::Picture picture = wall::readPng(folder_ + "/channel-middle.png");
+    const config::Rig rig = wall::shippedRig("desk");
+    const wall::WarpMap warp = wall::warpMap(rig, channelIndex(rig, "middle"));
     ASSERT_EQ(picture.sizePixels, warp.sizePixels);
     ASSERT_EQ(picture.bits, 16);
     for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
         const double weight = static_cast<double>(warp.pointAndWeight[i].w);
         // Half floats hold 0.18 to one part in 4000.
-        ASSERT_NEAR(picture.rgb[3 * i], 65535 * srgbOf(kGrey * weight), 10) << "weight " << weight;
+        ASSERT_NEAR(picture.rgb[3 * i], 65535 * project::srgbOf(kGrey * weight), 10)
+            << "weight " << weight;
     }
 }
 
 // Straight ahead of the picture's middle; a click goes where the window is clicked.
 TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
-    StateFrame frame = frameNumber(0);
+    wire::StateFrame frame = frameNumber(0);
     frame.eye.positionMetres = {4, -6, 0};
-    FakeSession session(events_, {{frame, Release::Present}});
+    FakeSession session(events_, {{frame, session::Release::Present}});
     Controls controls(session);
     controls.press('c');
     controls.click({0, 180});
     controls.click({480, 180});  // just outside
-    ChannelShow(session, context_, controls, options()).run(admissionTo(Pattern::Grey));
+    ChannelShow(session, context_, controls, options()).run(admissionTo(wire::Pattern::Grey));
     ASSERT_EQ(session.drops_.size(), 2U);
     EXPECT_LT(glm::distance(session.drops_[0], {4, -6, -2.5F}), 0.5F);
     EXPECT_LT(session.drops_[1].x, session.drops_[0].x - 0.2F);
@@ -146,27 +152,27 @@ TEST_F(ChannelShowTest, dropsFoodAtAnArmsLengthBeforeTheEyeOfTheFrame) {
 
 // Without fish nobody is asked for, and the show goes on.
 TEST_F(ChannelShowTest, aSeaWithoutFishHasNoMinds) {
-    FakeSession session(events_, {{frameNumber(0), Release::Present}});
+    FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
     Controls controls(session);
     controls.press('e');
-    ChannelShow(session, context_, controls, options()).run(admissionTo(Pattern::Grey));
+    ChannelShow(session, context_, controls, options()).run(admissionTo(wire::Pattern::Grey));
     EXPECT_EQ(events_, (Events{"prepared", "ready 0", "swap"}));
 }
 
 // What a pixel of the middle channel should show of the grid, by closed forms alone; 0 off the
 // screen.
-double gridOfTheWall(const Rig& rig, glm::dvec2 pixel) {
-    const auto point = screenPoint(rig.screen, rig.channels[1], pixel);
-    return point ? gridLight(*point) * blendWeight(rig, 1, *point) : 0;
+double gridOfTheWall(const config::Rig& rig, glm::dvec2 pixel) {
+    const auto point = wall::screenPoint(rig.screen, rig.channels[1], pixel);
+    return point ? wall::gridLight(*point) * wall::blendWeight(rig, 1, *point) : 0;
 }
 
 // How far a picture is displaced from what it should be, by least squares: the reference's slope
 // times the displacement explains the difference.
 TEST_F(ChannelShowTest, theGridLiesOnTheWallToATenthOfAPixel) {
-    FakeSession session(events_, {{frameNumber(0), Release::Present}});
-    show(session, options(/*deep=*/true), Pattern::Grid);
-    const Light light = lightOf(readPng(folder_ + "/channel-middle.png"));
-    const Rig rig = shippedRig("desk");
+    FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
+    show(session, options(/*deep=*/true), wire::Pattern::Grid);
+    const wall::Light light = wall::lightOf(wall::readPng(folder_ + "/channel-middle.png"));
+    const config::Rig rig = wall::shippedRig("desk");
     glm::dvec2 slopeTimesDifference(0);
     glm::dvec2 slopeSquared(0);
     for (int y = 0; y < light.sizePixels.y; ++y)
@@ -188,7 +194,7 @@ TEST_F(ChannelShowTest, theGridLiesOnTheWallToATenthOfAPixel) {
 }
 
 TEST_F(ChannelShowTest, aSnapshotWithNoFrameShownIsNone) {
-    FakeSession session(events_, {{frameNumber(0), Release::Skip}});
+    FakeSession session(events_, {{frameNumber(0), session::Release::Skip}});
     show(session, options());
     EXPECT_FALSE(fs::exists(folder_ + "/channel-middle.png"));
 }
@@ -198,32 +204,32 @@ TEST_F(ChannelShowTest, theFramesOfAClipPassThroughAPipeAsTheSnapshotHasThem) {
     chosen.filmPipe = folder_ + "/pipe";
     chosen.filmEvery = 2;
     ASSERT_EQ(mkfifo(chosen.filmPipe.c_str(), 0600), 0);
-    std::vector<PipedFrame> frames;
-    FramePipeReader pipe(chosen.filmPipe);
+    std::vector<wall::PipedFrame> frames;
+    wall::FramePipeReader pipe(chosen.filmPipe);
     std::thread reader([&] {
         while (auto frame = pipe.read({480, 360})) frames.push_back(std::move(*frame));
     });
     FakeSession session(events_,
-                        {{frameNumber(1), Release::Present},
-                         {frameNumber(2), Release::Present},
-                         {frameNumber(3), Release::Present},
-                         {frameNumber(4), Release::Present}});
+                        {{frameNumber(1), session::Release::Present},
+                         {frameNumber(2), session::Release::Present},
+                         {frameNumber(3), session::Release::Present},
+                         {frameNumber(4), session::Release::Present}});
     show(session, chosen);
     reader.join();
     ASSERT_EQ(frames.size(), 2U);
     EXPECT_EQ(frames[0].frame, 2U);
     EXPECT_EQ(frames[1].frame, 4U);
-    EXPECT_EQ(frames[1].picture.rgb, readPng(folder_ + "/channel-middle.png").rgb);
+    EXPECT_EQ(frames[1].picture.rgb, wall::readPng(folder_ + "/channel-middle.png").rgb);
 }
 
 TEST_F(ChannelShowTest, aClipThatNobodyReadsAnyMoreEndsTheShowWithAnError) {
     NodeOptions chosen = options();
     chosen.filmPipe = folder_ + "/pipe";
     ASSERT_EQ(mkfifo(chosen.filmPipe.c_str(), 0600), 0);
-    std::optional<FramePipeReader> reader(std::in_place, chosen.filmPipe);
-    FramePipeWriter writer(chosen.filmPipe);
+    std::optional<wall::FramePipeReader> reader(std::in_place, chosen.filmPipe);
+    wall::FramePipeWriter writer(chosen.filmPipe);
     reader.reset();
-    EXPECT_THROW(writer.write(1, pictureOf(darkness({4, 4}), 8, 0)), Error);
+    EXPECT_THROW(writer.write(1, wall::pictureOf(wall::darkness({4, 4}), 8, 0)), Error);
 }
 
 TEST_F(ChannelShowTest, whatCannotBeWrittenIsSaidBeforeTheShow) {
@@ -235,8 +241,9 @@ TEST_F(ChannelShowTest, whatCannotBeWrittenIsSaidBeforeTheShow) {
 }
 
 TEST_F(ChannelShowTest, aLostContextEndsTheNodeBeforeItSaysThatItIsReady) {
-    FakeSession session(events_,
-                        {{frameNumber(0), Release::Present}, {frameNumber(1), Release::Present}});
+    FakeSession session(
+        events_,
+        {{frameNumber(0), session::Release::Present}, {frameNumber(1), session::Release::Present}});
     context_.lostAfterSwaps_ = 1;
     try {
         show(session, options());
@@ -262,4 +269,4 @@ TEST_F(ChannelShowTest, aChannelThatTheRigLacksIsNamed) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -11,7 +11,7 @@
 #include "render_node/show/font.h"
 #include "tests/render_node/show/fake_session.h"
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
 class ControlsTest : public testing::Test {
@@ -28,7 +28,7 @@ TEST_F(ControlsTest, quitGoesToTheWholeShow) {
 
 TEST_F(ControlsTest, quitTwiceEndsThisNodeAlone) {
     controls_.press('q');
-    controls_.press(kEscapeKey);
+    controls_.press(context::kEscapeKey);
     EXPECT_EQ(events_[1], "stop");
 }
 
@@ -92,10 +92,10 @@ TEST_F(ControlsTest, keysThatSteerSwitchNothing) {
 
 TEST_F(ControlsTest, whatHandsHoldGoesToTheSubmarine) {
     using std::chrono::milliseconds;
-    Hands hands;
+    context::Hands hands;
     controls_.hold(hands, milliseconds(0));
     EXPECT_TRUE(session_.steerings_.empty());
-    hands.hold(HeldKey::W);
+    hands.hold(context::HeldKey::W);
     controls_.hold(hands, milliseconds(20));
     controls_.hold(hands, milliseconds(40));
     controls_.hold({}, milliseconds(60));
@@ -119,4 +119,4 @@ TEST(Font, everyCharacterHasAShapeOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -19,49 +19,49 @@
 #include "tests/common/wall/rigs.h"
 #include "tests/render_node/surface/test_fish.h"
 
-namespace aquarama {
+namespace aquarama::show {
 
 using Events = std::vector<std::string>;
 
 // What the script answers when a frame is reported ready.
-using Script = std::deque<std::pair<StateFrame, Release>>;
+using Script = std::deque<std::pair<wire::StateFrame, session::Release>>;
 
-class FakeSession : public Session {
+class FakeSession : public session::Session {
   public:
     FakeSession(Events& events, Script script) : events_{events}, script_{std::move(script)} {}
 
-    std::optional<Admission> join() override {
+    std::optional<session::Admission> join() override {
         events_.emplace_back("join");
         return rejoin_;
     }
-    void prepared(QualityTier /*quality*/) override { events_.emplace_back("prepared"); }
-    std::optional<StateFrame> nextFrame() override {
+    void prepared(config::QualityTier /*quality*/) override { events_.emplace_back("prepared"); }
+    std::optional<wire::StateFrame> nextFrame() override {
         if (script_.empty()) return std::nullopt;
         return script_.front().first;
     }
     [[nodiscard]] std::chrono::nanoseconds stateArrival() const override {
         return std::chrono::nanoseconds(1);
     }
-    [[nodiscard]] Release interruption() const override { return Release::Quit; }
-    Release readyThenWait(Frame frame) override {
+    [[nodiscard]] session::Release interruption() const override { return session::Release::Quit; }
+    session::Release readyThenWait(Frame frame) override {
         events_.push_back("ready " + std::to_string(frame.value));
-        const Release answer = script_.front().second;
+        const session::Release answer = script_.front().second;
         script_.pop_front();
         return answer;
     }
-    void send(NodeInput input) override {
-        events_.emplace_back(input == NodeInput::Quit ? "send quit" : "send pause");
+    void send(session::NodeInput input) override {
+        events_.emplace_back(input == session::NodeInput::Quit ? "send quit" : "send pause");
     }
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
     void steer(const Steering& steering) override { steerings_.push_back(steering); }
     void askMind(std::uint32_t fish) override { events_.push_back("ask " + std::to_string(fish)); }
-    [[nodiscard]] std::optional<Explanation> latestMind() const override { return mind_; }
+    [[nodiscard]] std::optional<wire::Explanation> latestMind() const override { return mind_; }
     void stop() override { events_.emplace_back("stop"); }
 
-    std::optional<Admission> rejoin_;
+    std::optional<session::Admission> rejoin_;
     std::vector<glm::vec3> drops_;
     std::vector<Steering> steerings_;
-    std::optional<Explanation> mind_;
+    std::optional<wire::Explanation> mind_;
 
   private:
     Events& events_;
@@ -69,10 +69,10 @@ class FakeSession : public Session {
 };
 
 // EGL underneath; says when it swaps.
-class CountingContext : public Context {
+class CountingContext : public context::Context {
   public:
     CountingContext(Events& events, glm::ivec2 size)
-        : events_{events}, context_{makeOffscreenContext("auto", size)} {}
+        : events_{events}, context_{context::makeOffscreenContext("auto", size)} {}
     void makeCurrent() override { context_->makeCurrent(); }
     void release() override { context_->release(); }
     void swap() override { events_.emplace_back("swap"); }
@@ -90,13 +90,13 @@ class CountingContext : public Context {
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
-    [[nodiscard]] Hands hands() const override { return {}; }
+    [[nodiscard]] context::Hands hands() const override { return {}; }
 
     std::optional<long> lostAfterSwaps_;
 
   private:
     Events& events_;
-    std::unique_ptr<Context> context_;
+    std::unique_ptr<context::Context> context_;
 };
 
 inline std::string fileText(const std::string& path) {
@@ -105,22 +105,22 @@ inline std::string fileText(const std::string& path) {
 }
 
 // Welcomed to the desk.
-inline Admission admissionTo(Pattern pattern) {
-    Admission admission;
-    admission.rig = shippedRig("desk");
-    admission.welcome.rigText = writeRig(admission.rig);
-    admission.scene = readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
-    admission.welcome.sceneText = writeScene(admission.scene);
+inline session::Admission admissionTo(wire::Pattern pattern) {
+    session::Admission admission;
+    admission.rig = wall::shippedRig("desk");
+    admission.welcome.rigText = config::writeRig(admission.rig);
+    admission.scene = config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
+    admission.welcome.sceneText = config::writeScene(admission.scene);
     admission.welcome.seed = 1;
     admission.welcome.pattern = pattern;
     return admission;
 }
 
-inline StateFrame frameNumber(std::uint64_t number) {
-    StateFrame frame;
+inline wire::StateFrame frameNumber(std::uint64_t number) {
+    wire::StateFrame frame;
     frame.frame = {number};
     frame.tick = {number};
     return frame;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
 constexpr glm::ivec2 kPicture{480, 360};
@@ -68,4 +68,4 @@ TEST(MindLabels, whateverIsSaidStaysInsideThePicture) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -12,15 +12,15 @@
 #include "render_node/show/window_fit.h"
 #include "tests/common/wall/rigs.h"
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
 constexpr std::size_t kMiddle = 1;  // channel of the desk
-const Eye kEye{.positionMetres = {1, -6, 2}, .worldFromWall = {1, 0, 0, 0}};
+const wire::Eye kEye{.positionMetres = {1, -6, 2}, .worldFromWall = {1, 0, 0, 0}};
 
 // By closed forms alone: the screen is seen from its middle.
 TEST(Pointing, theMiddleOfTheMiddleChannelLooksStraightAhead) {
-    const Pointing pointing(shippedRig("desk"), kMiddle);
+    const Pointing pointing(wall::shippedRig("desk"), kMiddle);
     const auto direction = pointing.directionOf(pointing.middle(), kEye);
     ASSERT_TRUE(direction);
     EXPECT_NEAR(direction->x, 0, 1e-3);
@@ -30,12 +30,12 @@ TEST(Pointing, theMiddleOfTheMiddleChannelLooksStraightAhead) {
 
 // What a pixel lights and what is dropped there lie on one ray from the eye.
 TEST(Pointing, aPinchFallsBehindThePixelThatIsPointedAt) {
-    const Rig rig = shippedRig("theatre");
+    const config::Rig rig = wall::shippedRig("theatre");
     for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
         const Pointing pointing(rig, channel);
         for (const glm::dvec2 share : {glm::dvec2(0.5, 0.5), {0.2, 0.7}, {0.8, 0.3}}) {
             const glm::dvec2 pixel = share * glm::dvec2(rig.channels[channel].sizePixels);
-            const auto lit = screenPoint(rig.screen, rig.channels[channel], pixel);
+            const auto lit = wall::screenPoint(rig.screen, rig.channels[channel], pixel);
             ASSERT_TRUE(lit);
             const auto pinch = pointing.pinchAt(glm::vec2(pixel), kEye);
             ASSERT_TRUE(pinch);
@@ -47,17 +47,18 @@ TEST(Pointing, aPinchFallsBehindThePixelThatIsPointedAt) {
 }
 
 TEST(Pointing, turnsWithTheSubmarine) {
-    const Pointing pointing(shippedRig("desk"), kMiddle);
-    const Eye left{.positionMetres = {0, -6, 0},
-                   .worldFromWall = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0))};
+    const Pointing pointing(wall::shippedRig("desk"), kMiddle);
+    const wire::Eye left{
+        .positionMetres = {0, -6, 0},
+        .worldFromWall = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0))};
     const auto direction = pointing.directionOf(pointing.middle(), left);
     ASSERT_TRUE(direction);
     EXPECT_LT(direction->x, -0.95F);
 }
 
 TEST(Pointing, dropsNothingIntoTheAir) {
-    const Pointing pointing(shippedRig("desk"), kMiddle);
-    const Eye shallow{.positionMetres = {0, -0.1F, 0}, .worldFromWall = {1, 0, 0, 0}};
+    const Pointing pointing(wall::shippedRig("desk"), kMiddle);
+    const wire::Eye shallow{.positionMetres = {0, -0.1F, 0}, .worldFromWall = {1, 0, 0, 0}};
     const auto pinch = pointing.pinchAt({240, 60}, shallow);
     ASSERT_TRUE(pinch);
     EXPECT_GT(pointing.directionOf({240, 60}, shallow)->y, 0.1F);
@@ -92,4 +93,4 @@ TEST(WindowFit, rowsAreCountedFromTheTopAsTheWindowsAre) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -7,18 +7,18 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
-FishRecord recordAt(glm::vec3 metres) {
-    MotionStates states;
+motion::FishRecord recordAt(glm::vec3 metres) {
+    motion::MotionStates states;
     states.resize(1);
-    setBodyFrame(states, 0, {.position = metres, .rotation = {1, 0, 0, 0}});
-    return recordOf(states, 0);
+    motion::setBodyFrame(states, 0, {.position = metres, .rotation = {1, 0, 0, 0}});
+    return motion::recordOf(states, 0);
 }
 
-StateFrame halfWay() {
-    StateFrame frame;
+wire::StateFrame halfWay() {
+    wire::StateFrame frame;
     frame.tick = {61};
     frame.fraction = 0.5F;
     frame.before = {recordAt({1, 2, 3}), recordAt({0, 0, 0})};
@@ -26,8 +26,8 @@ StateFrame halfWay() {
     return frame;
 }
 
-const std::vector<FishTraits> kTwo{{.id = 4, .lengthMillimetres = 200},
-                                   {.id = 9, .lengthMillimetres = 250}};
+const std::vector<motion::FishTraits> kTwo{{.id = 4, .lengthMillimetres = 200},
+                                           {.id = 9, .lengthMillimetres = 250}};
 
 TEST(Presented, fishAreBetweenTheTicks) {
     const auto fish = presentedFish(halfWay(), kTwo);
@@ -38,7 +38,7 @@ TEST(Presented, fishAreBetweenTheTicks) {
 }
 
 TEST(Presented, withoutATickBeforeTheFrameIsTheTick) {
-    StateFrame frame = halfWay();
+    wire::StateFrame frame = halfWay();
     frame.before.clear();
     EXPECT_NEAR(glm::distance(presentedFish(frame, kTwo)[0].positionMetres, {3, 2, 3}), 0, 1e-4);
 }
@@ -47,18 +47,18 @@ TEST(Presented, recordsBeyondTheSchoolAreLeftOut) {
     EXPECT_EQ(presentedFish(halfWay(), std::span(kTwo).first(1)).size(), 1U);
 }
 
-FoodRecord pelletAt(glm::vec3 place, unsigned generation) {
-    return foodRecord(FoodRecord::Kind::Pellet, place, generation);
+wire::FoodRecord pelletAt(glm::vec3 place, unsigned generation) {
+    return wire::foodRecord(wire::FoodRecord::Kind::Pellet, place, generation);
 }
 
-std::vector<FoodParticle> foodOf(const StateFrame& frame) {
-    std::vector<FoodParticle> food;
+std::vector<scene::FoodParticle> foodOf(const wire::StateFrame& frame) {
+    std::vector<scene::FoodParticle> food;
     presentFood(frame, food);
     return food;
 }
 
 TEST(Presented, foodIsBetweenTheTicks) {
-    StateFrame frame = halfWay();
+    wire::StateFrame frame = halfWay();
     frame.foodOriginMetres = {0, -6, 0};
     frame.foodBefore = {{}, pelletAt({0, 1, 0}, 2)};
     frame.foodAfter = {{}, pelletAt({0, 2, 0}, 2)};
@@ -73,10 +73,11 @@ TEST(Presented, foodIsBetweenTheTicks) {
 
 // One is eaten here, another comes there in its place: nothing flies through the water.
 TEST(Presented, aParticleNeverGlidesToTheOneThatTakesItsPlace) {
-    StateFrame frame = halfWay();
+    wire::StateFrame frame = halfWay();
     frame.foodBefore = {pelletAt({0, 1, 0}, 1), pelletAt({5, 0, 0}, 1), {}};
-    frame.foodAfter = {
-        pelletAt({9, 9, 9}, 2), {}, foodRecord(FoodRecord::Kind::Plankton, {3, 0, 0}, 0)};
+    frame.foodAfter = {pelletAt({9, 9, 9}, 2),
+                       {},
+                       wire::foodRecord(wire::FoodRecord::Kind::Plankton, {3, 0, 0}, 0)};
     const auto food = foodOf(frame);
     ASSERT_EQ(food.size(), 2U);
     EXPECT_EQ(food[0].positionMetres, glm::vec3(9, 9, 9));
@@ -87,18 +88,18 @@ TEST(Presented, aParticleNeverGlidesToTheOneThatTakesItsPlace) {
 
 TEST(Presented, theClockRunsWithTheTicks) {
     EXPECT_DOUBLE_EQ(presentedSeconds(halfWay()), 60.5 / 60);
-    StateFrame first;
+    wire::StateFrame first;
     EXPECT_DOUBLE_EQ(presentedSeconds(first), 0);
 }
 
 TEST(Presented, theEyeIsTheWallsSweetSpot) {
     // Turned left by a quarter: what is ahead on the wall is -X in the world.
-    const Eye eye{.positionMetres = {5, -6, 7},
-                  .worldFromWall = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0))};
+    const wire::Eye eye{.positionMetres = {5, -6, 7},
+                        .worldFromWall = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0))};
     const glm::dmat4 wall = wallFromWorld(eye);
     EXPECT_NEAR(glm::length(glm::dvec3(wall * glm::dvec4(5, -6, 7, 1))), 0, 1e-6);
     EXPECT_NEAR(glm::distance(glm::dvec3(wall * glm::dvec4(3, -6, 7, 1)), {0, 0, -2}), 0, 1e-6);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

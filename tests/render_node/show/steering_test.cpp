@@ -7,43 +7,43 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
 using std::chrono::milliseconds;
 
-Steering holding(std::initializer_list<HeldKey> keys) {
-    Hands hands;
-    for (const HeldKey key : keys) hands.hold(key);
+Steering holding(std::initializer_list<context::HeldKey> keys) {
+    context::Hands hands;
+    for (const context::HeldKey key : keys) hands.hold(key);
     return steeringOf(hands);
 }
 
 TEST(Steering, eachKeyDoesItsOwnAndNothingElse) {
-    const std::vector<std::pair<HeldKey, Steering>> expected{
-        {HeldKey::W, {.ahead = 127}},
-        {HeldKey::S, {.ahead = -127}},
-        {HeldKey::Up, {.ahead = 127}},
-        {HeldKey::Down, {.ahead = -127}},
-        {HeldKey::A, {.aside = -127}},
-        {HeldKey::D, {.aside = 127}},
-        {HeldKey::Left, {.turn = 127}},
-        {HeldKey::Right, {.turn = -127}},
-        {HeldKey::PageUp, {.up = 127}},
-        {HeldKey::PageDown, {.up = -127}},
-        {HeldKey::Home, {.tilt = 127}},
-        {HeldKey::End, {.tilt = -127}},
+    const std::vector<std::pair<context::HeldKey, Steering>> expected{
+        {context::HeldKey::W, {.ahead = 127}},
+        {context::HeldKey::S, {.ahead = -127}},
+        {context::HeldKey::Up, {.ahead = 127}},
+        {context::HeldKey::Down, {.ahead = -127}},
+        {context::HeldKey::A, {.aside = -127}},
+        {context::HeldKey::D, {.aside = 127}},
+        {context::HeldKey::Left, {.turn = 127}},
+        {context::HeldKey::Right, {.turn = -127}},
+        {context::HeldKey::PageUp, {.up = 127}},
+        {context::HeldKey::PageDown, {.up = -127}},
+        {context::HeldKey::Home, {.tilt = 127}},
+        {context::HeldKey::End, {.tilt = -127}},
     };
-    ASSERT_EQ(expected.size(), static_cast<std::size_t>(HeldKey::kCount));
+    ASSERT_EQ(expected.size(), static_cast<std::size_t>(context::HeldKey::kCount));
     for (const auto& [key, steering] : expected) EXPECT_EQ(holding({key}), steering) << int(key);
     EXPECT_EQ(holding({}), Steering{});
-    EXPECT_EQ(holding({HeldKey::W, HeldKey::Up}).ahead, 127) << "full is full";
-    EXPECT_EQ(holding({HeldKey::Left, HeldKey::Right}), Steering{});
+    EXPECT_EQ(holding({context::HeldKey::W, context::HeldKey::Up}).ahead, 127) << "full is full";
+    EXPECT_EQ(holding({context::HeldKey::Left, context::HeldKey::Right}), Steering{});
 }
 
 // Dragged to the right it turns right, dragged up the nose goes up: as far as it is dragged.
 TEST(Steering, theMouseTurnsByHowFarItIsDragged) {
     const auto dragged = [](glm::vec2 drag) {
-        Hands hands;
+        context::Hands hands;
         hands.drag = drag;
         return steeringOf(hands);
     };
@@ -57,14 +57,14 @@ TEST(Steering, theMouseTurnsByHowFarItIsDragged) {
 }
 
 TEST(Steering, sticksRestWithinTheirDeadZone) {
-    Hands hands;
+    context::Hands hands;
     hands.pad = {{0.1F, -0.14F}, {-0.1F, 0.05F}, 0.1F, 0};
     EXPECT_EQ(steeringOf(hands), Steering{});
 }
 
 TEST(Steering, eachStickAndTriggerDoesItsOwn) {
-    const auto with = [](const Pad& pad) {
-        Hands hands;
+    const auto with = [](const context::Pad& pad) {
+        context::Hands hands;
         hands.pad = pad;
         return steeringOf(hands);
     };
@@ -104,4 +104,4 @@ TEST(SteeringPace, handsThatNeverRestSpeakThirtyTimesASecond) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -17,16 +17,18 @@
 #include "tests/render_node/show/fake_session.h"
 #include "tests/support/golden.h"
 
-namespace aquarama {
+namespace aquarama::show {
 namespace {
 
 constexpr std::size_t kLeft = 0;
 constexpr std::size_t kMiddle = 1;
 
 // The desk at half its size, which is as good and drawn four times as fast.
-Admission admissionInStereo(StereoMode mode, double separationMetres, PlaceKind place) {
-    Admission admission = admissionTo(Pattern::World);
-    for (Channel& channel : admission.rig.channels) {
+session::Admission admissionInStereo(config::StereoMode mode,
+                                     double separationMetres,
+                                     config::PlaceKind place) {
+    session::Admission admission = admissionTo(wire::Pattern::World);
+    for (config::Channel& channel : admission.rig.channels) {
         channel.sizePixels /= 2;
         channel.projector.focalPixels /= 2;
         channel.projector.principalPixels /= 2;
@@ -41,36 +43,38 @@ Admission admissionInStereo(StereoMode mode, double separationMetres, PlaceKind 
 }
 
 // In the wall's frame; nose towards the viewer, so that both eyes see the same outline.
-StateFrame frameWithAFish(glm::vec3 wallPlace) {
-    StateFrame frame = frameNumber(1);
-    frame.eye.positionMetres = kEyePosition;
-    MotionStates states;
+wire::StateFrame frameWithAFish(glm::vec3 wallPlace) {
+    wire::StateFrame frame = frameNumber(1);
+    frame.eye.positionMetres = place::kEyePosition;
+    motion::MotionStates states;
     states.resize(1);
-    setBodyFrame(states, 0, {.position = kEyePosition + wallPlace});
-    frame.after = {recordOf(states, 0)};
+    motion::setBodyFrame(states, 0, {.position = place::kEyePosition + wallPlace});
+    frame.after = {motion::recordOf(states, 0)};
     return frame;
 }
 
-StateFrame emptySea() {
-    StateFrame frame = frameNumber(1);
-    frame.eye.positionMetres = kEyePosition;
+wire::StateFrame emptySea() {
+    wire::StateFrame frame = frameNumber(1);
+    frame.eye.positionMetres = place::kEyePosition;
     return frame;
 }
 
 class StereoPictureTest : public testing::Test {
   protected:
-    std::unique_ptr<Context> context_ = makeOffscreenContext("mesa", {16, 16});
+    std::unique_ptr<context::Context> context_ = context::makeOffscreenContext("mesa", {16, 16});
 };
 
 TEST_F(StereoPictureTest, eyesWithoutSeparationSeeThePictureOfOneToTheBit) {
-    const auto taken = [](StereoMode mode) {
-        const Admission admission = admissionInStereo(mode, 0, PlaceKind::OpenSea);
-        auto picture = std::make_unique<ChannelPicture>(admission, kMiddle, QualityTier::Low);
+    const auto taken = [](config::StereoMode mode) {
+        const session::Admission admission = admissionInStereo(mode, 0, config::PlaceKind::OpenSea);
+        auto picture =
+            std::make_unique<ChannelPicture>(admission, kMiddle, config::QualityTier::Low);
         picture->drawScene(frameWithAFish({0.2F, 0.1F, -2}), {});
         return picture;
     };
-    const auto mono = takePicture(*taken(StereoMode::Mono), PictureBits::Dithered8, Shown::Display);
-    const auto two = taken(StereoMode::Interlaced);
+    const auto mono =
+        takePicture(*taken(config::StereoMode::Mono), PictureBits::Dithered8, Shown::Display);
+    const auto two = taken(config::StereoMode::Interlaced);
     for (const Shown shown : {Shown::Display, Shown::LeftEye, Shown::RightEye})
         EXPECT_EQ(takePicture(*two, PictureBits::Dithered8, shown).rgb, mono.rgb)
             << static_cast<int>(shown);
@@ -79,8 +83,9 @@ TEST_F(StereoPictureTest, eyesWithoutSeparationSeeThePictureOfOneToTheBit) {
 // With all that a reef culls and thins out: nothing of the first eye's drawing may reach the
 // second.
 TEST_F(StereoPictureTest, theSecondEyeIsDrawnAsIfItWereTheFirst) {
-    const Admission admission = admissionInStereo(StereoMode::Anaglyph, 0, PlaceKind::Reef);
-    ChannelPicture picture(admission, kMiddle, QualityTier::Low);
+    const session::Admission admission =
+        admissionInStereo(config::StereoMode::Anaglyph, 0, config::PlaceKind::Reef);
+    ChannelPicture picture(admission, kMiddle, config::QualityTier::Low);
     picture.drawScene(frameWithAFish({0.2F, 0.1F, -2}), {});
     EXPECT_EQ(takePicture(picture, PictureBits::Dithered8, Shown::LeftEye).rgb,
               takePicture(picture, PictureBits::Dithered8, Shown::RightEye).rgb);
@@ -98,11 +103,12 @@ std::vector<glm::dvec3> crumbsAt(double distance, double azimuth) {
     return crumbs;
 }
 
-StateFrame frameWith(const std::vector<glm::dvec3>& crumbs) {
-    StateFrame frame = emptySea();
-    frame.foodOriginMetres = kEyePosition;
+wire::StateFrame frameWith(const std::vector<glm::dvec3>& crumbs) {
+    wire::StateFrame frame = emptySea();
+    frame.foodOriginMetres = place::kEyePosition;
     for (const glm::dvec3& crumb : crumbs)
-        frame.foodAfter.push_back(foodRecord(FoodRecord::Kind::Pellet, glm::vec3(crumb), 1));
+        frame.foodAfter.push_back(
+            wire::foodRecord(wire::FoodRecord::Kind::Pellet, glm::vec3(crumb), 1));
     return frame;
 }
 
@@ -110,14 +116,15 @@ StateFrame frameWith(const std::vector<glm::dvec3>& crumbs) {
 class Watched {
   public:
     explicit Watched(std::size_t channel)
-        : admission_{admissionInStereo(StereoMode::SideBySide, 0.063, PlaceKind::OpenSea)},
+        : admission_{admissionInStereo(
+              config::StereoMode::SideBySide, 0.063, config::PlaceKind::OpenSea)},
           channel_{channel},
-          picture_{admission_, channel, QualityTier::Low} {}
+          picture_{admission_, channel, config::QualityTier::Low} {}
 
     // Column of an eye's picture: the mean of what the crumbs change.
     double columnOf(const std::vector<glm::dvec3>& crumbs, Shown shown) {
-        const Light with = seen(frameWith(crumbs), shown);
-        const Light without = seen(emptySea(), shown);
+        const wall::Light with = seen(frameWith(crumbs), shown);
+        const wall::Light without = seen(emptySea(), shown);
         double sum = 0;
         double total = 0;
         for (int y = 0; y < with.sizePixels.y; ++y)
@@ -131,24 +138,25 @@ class Watched {
         return sum / total;
     }
     // By geometry alone: where the eye's lines to them meet the screen.
-    [[nodiscard]] double askedColumn(const std::vector<glm::dvec3>& crumbs, EyeSide side) const {
-        const Rig& rig = admission_.rig;
-        const glm::dvec3 eye = eyePosition(rig, side);
+    [[nodiscard]] double askedColumn(const std::vector<glm::dvec3>& crumbs,
+                                     wall::EyeSide side) const {
+        const config::Rig& rig = admission_.rig;
+        const glm::dvec3 eye = wall::eyePosition(rig, side);
         double sum = 0;
         for (const glm::dvec3& crumb : crumbs) {
-            const auto lit = screenHit(rig.screen, {eye, crumb - eye}, 1).value();
-            sum += projectorPixel(rig.channels[channel_], lit).value().x;
+            const auto lit = wall::screenHit(rig.screen, {eye, crumb - eye}, 1).value();
+            sum += wall::projectorPixel(rig.channels[channel_], lit).value().x;
         }
         return sum / static_cast<double>(crumbs.size());
     }
-    [[nodiscard]] const Rig& rig() const { return admission_.rig; }
+    [[nodiscard]] const config::Rig& rig() const { return admission_.rig; }
 
   private:
-    Light seen(const StateFrame& frame, Shown shown) {
+    wall::Light seen(const wire::StateFrame& frame, Shown shown) {
         picture_.drawScene(frame, {});
-        return lightOf(takePicture(picture_, PictureBits::Deep16, shown));
+        return wall::lightOf(takePicture(picture_, PictureBits::Deep16, shown));
     }
-    Admission admission_;
+    session::Admission admission_;
     std::size_t channel_;
     ChannelPicture picture_;
 };
@@ -163,8 +171,8 @@ TEST_F(StereoPictureTest, whatIsSeenLiesAsFarApartAsItsDistanceAsks) {
             const auto crumbs = crumbsAt(distance, azimuth);
             const double shown = watched.columnOf(crumbs, Shown::RightEye) -
                                  watched.columnOf(crumbs, Shown::LeftEye);
-            const double asked = watched.askedColumn(crumbs, EyeSide::Right) -
-                                 watched.askedColumn(crumbs, EyeSide::Left);
+            const double asked = watched.askedColumn(crumbs, wall::EyeSide::Right) -
+                                 watched.askedColumn(crumbs, wall::EyeSide::Left);
             EXPECT_NEAR(shown, asked, 0.15) << "channel " << channel << ", " << distance << " m";
         }
     }
@@ -172,9 +180,10 @@ TEST_F(StereoPictureTest, whatIsSeenLiesAsFarApartAsItsDistanceAsks) {
 
 TEST_F(StereoPictureTest, swappedEyesChangePlacesOnTheDisplayAlone) {
     const auto taken = [](bool swapped) {
-        Admission admission = admissionInStereo(StereoMode::TopBottom, 0.063, PlaceKind::OpenSea);
+        session::Admission admission =
+            admissionInStereo(config::StereoMode::TopBottom, 0.063, config::PlaceKind::OpenSea);
         admission.rig.stereo.swapEyes = swapped;
-        ChannelPicture picture(admission, kMiddle, QualityTier::Low);
+        ChannelPicture picture(admission, kMiddle, config::QualityTier::Low);
         picture.drawScene(frameWithAFish({0, 0, -1.5}), {});
         return std::pair{takePicture(picture, PictureBits::Deep16, Shown::LeftEye).rgb,
                          takePicture(picture, PictureBits::Deep16, Shown::Display).rgb};
@@ -189,13 +198,18 @@ TEST_F(StereoPictureTest, swappedEyesChangePlacesOnTheDisplayAlone) {
 
 TEST_F(StereoPictureTest, aPairAndItsAnaglyphAreTheGoldenOnes) {
     ChannelPicture picture(
-        admissionInStereo(StereoMode::Anaglyph, 0.063, PlaceKind::Reef), kMiddle, QualityTier::Low);
+        admissionInStereo(config::StereoMode::Anaglyph, 0.063, config::PlaceKind::Reef),
+        kMiddle,
+        config::QualityTier::Low);
     picture.drawScene(frameWithAFish({0.15F, 0.05F, -1.2F}), {});
     using test::expectGolden;
-    expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::LeftEye), "stereo/left_eye");
-    expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::RightEye), "stereo/right_eye");
-    expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::Display), "stereo/anaglyph");
+    test::expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::LeftEye),
+                       "stereo/left_eye");
+    test::expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::RightEye),
+                       "stereo/right_eye");
+    test::expectGolden(takePicture(picture, PictureBits::Dithered8, Shown::Display),
+                       "stereo/anaglyph");
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::show

@@ -18,7 +18,7 @@
 #include "tests/support/flip.h"
 #include "tests/support/golden_stills.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 namespace {
 
 constexpr float kLength = 0.24F;
@@ -48,20 +48,20 @@ class Wall {
     Wall(const std::string& species, const test::Camera& camera, std::size_t fish)
         : camera_{camera} {
         camera_.eyeMetres = kEye;
-        const Species member = castMember(species);
-        const FishBody body = makeBody(member);
-        SchoolSpecies school{body, skinOf(member), test::swaying(body, 0.05F), {}};
+        const config::Species member = test::castMember(species);
+        const body::FishBody body = body::makeBody(member);
+        SchoolSpecies school{body, body::skinOf(member), test::swaying(body, 0.05F), {}};
         for (std::size_t i = 0; i < fish; ++i)
             school.fish.push_back({static_cast<std::uint32_t>(i), 240});
-        SceneOptions options;
-        options.place = PlaceKind::OpenSea;
+        scene::SceneOptions options;
+        options.place = config::PlaceKind::OpenSea;
         options.pixelRadians = test::pixelRadiansOf(camera_);
-        scene_ = std::make_unique<SceneRenderer>(options, std::span(&school, 1));
+        scene_ = std::make_unique<scene::SceneRenderer>(options, std::span(&school, 1));
     }
 
-    [[nodiscard]] Pixels shown(const std::vector<PresentedFish>& fish) {
+    [[nodiscard]] Pixels shown(const std::vector<motion::PresentedFish>& fish) {
         const test::RecordedSchool school{fish};
-        SceneFrame frame;
+        scene::SceneFrame frame;
         frame.timeSeconds = 12.0;
         frame.eyePositionMetres = kEye;
         frame.fish = school.moment();
@@ -85,7 +85,7 @@ class Wall {
 
   private:
     test::Camera camera_;
-    std::unique_ptr<SceneRenderer> scene_;
+    std::unique_ptr<scene::SceneRenderer> scene_;
 };
 
 // A picture that a fish of so many pixels fills at two metres.
@@ -101,17 +101,17 @@ test::Camera cameraFor(float pixels) {
 
 class DetailTest : public testing::Test {
   protected:
-    static void SetUpTestSuite() { context() = makeOffscreenContext("mesa", {64, 64}); }
+    static void SetUpTestSuite() { context() = context::makeOffscreenContext("mesa", {64, 64}); }
     static void TearDownTestSuite() { context().reset(); }
-    static std::unique_ptr<Context>& context() {
-        static std::unique_ptr<Context> one;
+    static std::unique_ptr<context::Context>& context() {
+        static std::unique_ptr<context::Context> one;
         return one;
     }
 };
 
-PresentedFish fishAway(float metres) {
+motion::PresentedFish fishAway(float metres) {
     const glm::quat turn = glm::angleAxis(glm::radians(200.0F), glm::vec3{0, 1, 0});
-    PresentedFish fish =
+    motion::PresentedFish fish =
         test::fishAt(kEye + glm::vec3{0.3F * kLength / 8, 0, -metres}, turn, kLength);
     fish.phase = 0.1F;
     return fish;
@@ -147,7 +147,7 @@ TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
     const Pixels water = wall.shown({});
     double last = 0;
     for (float pixels = 18.0F; pixels > 1.6F; pixels /= 1.1F) {
-        std::vector<PresentedFish> fish;
+        std::vector<motion::PresentedFish> fish;
         for (std::size_t i = 0; i < kFish; ++i) {
             const float k = static_cast<float>(i);
             const glm::vec2 slope{0.9F * std::sin(12.9898F * k), 0.5F * std::sin(78.233F * k)};
@@ -170,7 +170,7 @@ TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
 TEST_F(DetailTest, peopleDoNotSeeWhatIsSaved) {
     test::Still still;
     still.camera.sizePixels = {480, 270};
-    still.options.place = PlaceKind::OpenSea;
+    still.options.place = config::PlaceKind::OpenSea;
     for (int i = 0; i < 40; ++i) {
         const float k = static_cast<float>(i);
         test::Camera towards = still.camera;
@@ -180,9 +180,9 @@ TEST_F(DetailTest, peopleDoNotSeeWhatIsSaved) {
         still.fish.push_back(
             test::portraitOf(species, towards, 1.0F + 0.3F * k, 137.5F * k, 0.24F));
     }
-    const Picture on = test::pictureOf(still);
+    const wall::Picture on = test::pictureOf(still);
     still.options.levelsOfDetail = still.options.culling = false;
-    const Picture off = test::pictureOf(still);
+    const wall::Picture off = test::pictureOf(still);
     const double apart = test::meanFlip(off, on);
     RecordProperty("flip", std::to_string(apart));
     EXPECT_LE(apart, 0.02);
@@ -196,4 +196,4 @@ TEST_F(DetailTest, eachLevelIsAsItWas) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surface

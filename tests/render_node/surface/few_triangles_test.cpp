@@ -11,17 +11,17 @@
 #include "common/skin/coarser_level.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 namespace {
 
 TEST(FewTriangles, haveTwentyToFortyOfWhichEachIsReal) {
-    for (const std::string& name : kCast) {
-        const FishBody body = makeBody(castMember(name));
-        const FewTriangles few = makeFewTriangles(body, makeLimitTable(body, 0));
+    for (const std::string& name : test::kCast) {
+        const body::FishBody body = body::makeBody(test::castMember(name));
+        const FewTriangles few = makeFewTriangles(body, skin::makeLimitTable(body, 0));
         EXPECT_GE(few.indices.size() / 3, 20U) << name;
         EXPECT_LE(few.indices.size() / 3, 40U) << name;
         EXPECT_GT(few.bodyIndices, 0U);
-        ASSERT_GE(few.cage.size(), std::size_t{kControlPoints});
+        ASSERT_GE(few.cage.size(), std::size_t{body::kControlPoints});
         for (const FewTriangles::Place& place : few.cage) {
             const auto& w = place.weights;
             EXPECT_NEAR(w[0] + w[1] + w[2], 1.0F, 1e-5F) << name;
@@ -44,12 +44,12 @@ double sideArea(const std::vector<glm::vec3>& points, std::span<const std::uint3
 
 // Seen from the side their bodies cover what the fish's do.
 TEST(FewTriangles, coverAboutAsMuchAsTheFish) {
-    for (const std::string& name : kCast) {
-        const FishBody body = makeBody(castMember(name));
-        const FewTriangles few = makeFewTriangles(body, makeLimitTable(body, 0));
-        const LimitTable mesh = makeLimitTable(body, 1);
+    for (const std::string& name : test::kCast) {
+        const body::FishBody body = body::makeBody(test::castMember(name));
+        const FewTriangles few = makeFewTriangles(body, skin::makeLimitTable(body, 0));
+        const skin::LimitTable mesh = skin::makeLimitTable(body, 1);
         std::vector<glm::vec3> fine, coarse;
-        for (const SkinPlace& vertex : mesh.vertices) fine.emplace_back(vertex.rest);
+        for (const skin::SkinPlace& vertex : mesh.vertices) fine.emplace_back(vertex.rest);
         for (const FewTriangles::Vertex& vertex : few.vertices)
             coarse.emplace_back(vertex.place.rest);
         const double all = sideArea(fine, std::span(mesh.indices).first(mesh.bodyIndices));
@@ -61,11 +61,11 @@ TEST(FewTriangles, coverAboutAsMuchAsTheFish) {
 // The coarser level's triangles, cut where the finer one's vertices are, are the same surface: all
 // its vertices are there, and each new one is in the middle of two.
 TEST(CoarserLevel, parentsAreNeighboursOfTheCoarserMesh) {
-    const FishBody body = makeBody(castMember("bigeye_scad"));
-    LimitTable coarser = makeLimitTable(body, 0);
+    const body::FishBody body = body::makeBody(test::castMember("bigeye_scad"));
+    skin::LimitTable coarser = skin::makeLimitTable(body, 0);
     for (int level = 1; level <= 2; ++level) {
-        const LimitTable table = makeLimitTable(body, level);
-        const auto parents = coarserParents(body, level, coarser);
+        const skin::LimitTable table = skin::makeLimitTable(body, level);
+        const auto parents = skin::coarserParents(body, level, coarser);
         ASSERT_EQ(parents.size(), table.vertices.size());
         std::size_t kept = 0;
         for (std::size_t i = 0; i < table.skinVertices; ++i) {
@@ -87,4 +87,4 @@ TEST(CoarserLevel, parentsAreNeighboursOfTheCoarserMesh) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -5,13 +5,13 @@
 #include "tests/render_node/surface/surface_fixture.h"
 #include "tests/support/count_memory.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 namespace {
 
 class FrameMemory : public test::SurfaceTest {};
 
 TEST_F(FrameMemory, noFrameTakesAny) {
-    std::vector<PresentedFish> school;
+    std::vector<motion::PresentedFish> school;
     for (int i = 0; i < 3000; ++i) {
         const float k = static_cast<float>(i);
         const glm::vec3 place{std::sin(k), std::sin(2 * k), -0.4F - 0.01F * k};
@@ -26,10 +26,10 @@ TEST_F(FrameMemory, noFrameTakesAny) {
     };
     frame(0.1F);
     frame(0.2F);  // drivers keep what they make for the first
-    const std::size_t before = bytesTaken;
+    const std::size_t before = test::bytesTaken;
     for (int i = 0; i < 5; ++i) frame(0.3F + 0.1F * static_cast<float>(i));
-    EXPECT_EQ(bytesTaken - before, 0U);
+    EXPECT_EQ(test::bytesTaken - before, 0U);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -22,7 +22,7 @@
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 namespace {
 
 constexpr glm::ivec2 kSize{600, 300};
@@ -64,20 +64,21 @@ float luminance(glm::vec3 c) {
 const glm::quat kShowsLeftSide = glm::angleAxis(glm::pi<float>(), glm::vec3{0, 1, 0});
 
 struct Sitter {
-    Species species;
+    config::Species species;
     std::uint32_t id = 0;
     glm::quat worldFromBody = kShowsLeftSide;  // it swims to the left
     glm::vec3 fromEye{0, 0, -kAway};           // the camera looks there
-    PlaceKind place = PlaceKind::Reef;
+    config::PlaceKind place = config::PlaceKind::Reef;
     float lengthMetres = kLength;
-    QualityTier quality = QualityTier::High;
+    config::QualityTier quality = config::QualityTier::High;
 };
 
-View viewTowards(glm::vec3 direction) {
+scene::View viewTowards(glm::vec3 direction) {
     constexpr float kTangent = 0.2F, kNear = 0.05F;
-    View view;
+    scene::View view;
     view.sizePixels = kSize;
-    view.cameraFromWorld = glm::lookAt(kEyePosition, kEyePosition + direction, glm::vec3{0, 1, 0});
+    view.cameraFromWorld =
+        glm::lookAt(place::kEyePosition, place::kEyePosition + direction, glm::vec3{0, 1, 0});
     view.clipFromCamera = glm::mat4{0.0F};
     view.clipFromCamera[0][0] =
         static_cast<float>(kSize.y) / static_cast<float>(kSize.x) / kTangent;
@@ -88,18 +89,18 @@ View viewTowards(glm::vec3 direction) {
 }
 
 Picture portrait(const Sitter& sitter) {
-    const FishBody body = makeBody(sitter.species);
-    PresentedFish fish =
-        test::fishAt(kEyePosition + sitter.fromEye, sitter.worldFromBody, sitter.lengthMetres);
+    const body::FishBody body = body::makeBody(sitter.species);
+    motion::PresentedFish fish = test::fishAt(
+        place::kEyePosition + sitter.fromEye, sitter.worldFromBody, sitter.lengthMetres);
     fish.id = sitter.id;
     const test::RecordedSchool school{{&fish, 1}};
     const std::vector<SchoolSpecies> cast{{.body = body,
-                                           .skin = skinOf(sitter.species),
+                                           .skin = body::skinOf(sitter.species),
                                            .repertoire = test::swaying(body, 0.0F),
                                            .fish = school.traits}};
-    SceneRenderer scene{{.seed = 1, .place = sitter.place, .quality = sitter.quality}, cast};
-    SceneFrame frame;
-    frame.eyePositionMetres = kEyePosition;
+    scene::SceneRenderer scene{{.seed = 1, .place = sitter.place, .quality = sitter.quality}, cast};
+    scene::SceneFrame frame;
+    frame.eyePositionMetres = place::kEyePosition;
     frame.fish = school.moment();
     frame.timeSeconds = 12.0;
     scene.update(frame);
@@ -116,14 +117,16 @@ Picture portrait(const Sitter& sitter) {
 }
 
 // In the open sea, which is quickly made.
-Picture portrait(const Species& species, std::uint32_t id = 0) {
-    return portrait(Sitter{
-        .species = species, .id = id, .place = PlaceKind::OpenSea, .quality = QualityTier::Low});
+Picture portrait(const config::Species& species, std::uint32_t id = 0) {
+    return portrait(Sitter{.species = species,
+                           .id = id,
+                           .place = config::PlaceKind::OpenSea,
+                           .quality = config::QualityTier::Low});
 }
 
 TEST(PaintedFish, goldDarkAndBrightAreWhereTheyBelong) {
-    const auto context = makeOffscreenContext("mesa", kSize);
-    const Picture picture = portrait(castMember("bigeye_scad"));
+    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const Picture picture = portrait(test::castMember("bigeye_scad"));
     const glm::vec3 water = picture.onFish(0.5F, 0.3F);
     const glm::vec3 back = picture.onFish(0.40F, 0.095F), flank = picture.onFish(0.45F, -0.02F),
                     belly = picture.onFish(0.42F, -0.08F), line = picture.onFish(0.42F, 0.038F),
@@ -146,35 +149,35 @@ float warmth(glm::vec3 c) {
 
 // What tells the others from afar, each on the left side of the body.
 TEST(PaintedFish, everyFishOfTheReefWearsItsColours) {
-    const auto context = makeOffscreenContext("mesa", kSize);
-    const Picture clownfish = portrait(castMember("clownfish"));
+    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const Picture clownfish = portrait(test::castMember("clownfish"));
     EXPECT_GT(warmth(clownfish.onFish(0.34F, 0)), 3 * warmth(clownfish.onFish(0.462F, 0))) << "bar";
     EXPECT_GT(luminance(clownfish.onFish(0.462F, 0)), 1.5F * luminance(clownfish.onFish(0.34F, 0)));
 
-    const Picture idol = portrait(castMember("moorish_idol"));
+    const Picture idol = portrait(test::castMember("moorish_idol"));
     EXPECT_LT(luminance(idol.onFish(0.67F, 0)), 0.3F * luminance(idol.onFish(0.53F, 0)));
     EXPECT_GT(warmth(idol.onFish(0.56F, 0)), 1.5F * warmth(idol.onFish(0.37F, 0))) << "lemon";
 
-    const Picture tang = portrait(castMember("blue_tang"));
+    const Picture tang = portrait(test::castMember("blue_tang"));
     EXPECT_GT(warmth(tang.onFish(0.90F, 0)), 8 * warmth(tang.onFish(0.50F, -0.05F))) << "tail";
     EXPECT_LT(luminance(tang.onFish(0.62F, 0.06F)), 0.6F * luminance(tang.onFish(0.50F, -0.05F)));
 
-    const Picture parrotfish = portrait(castMember("parrotfish"));
+    const Picture parrotfish = portrait(test::castMember("parrotfish"));
     EXPECT_GT(warmth(parrotfish.onFish(0.150F, -0.03F)),
               1.5F * warmth(parrotfish.onFish(0.5F, -0.09F)))
         << "a peach cheek on a green fish";
 
-    const Picture trumpetfish = portrait(castMember("trumpetfish"));
+    const Picture trumpetfish = portrait(test::castMember("trumpetfish"));
     EXPECT_GT(warmth(trumpetfish.onFish(0.5F, 0)), 2.0F);
 
-    const Picture shark = portrait(castMember("blacktip_reef_shark"));
+    const Picture shark = portrait(test::castMember("blacktip_reef_shark"));
     EXPECT_LT(luminance(shark.onFish(0.40F, 0.04F)), 0.6F * luminance(shark.onFish(0.40F, -0.03F)));
 }
 
 // A species of which no painter knows is plain: its file's back, flank and belly.
 TEST(PaintedFish, aNewSpeciesWearsTheColoursOfItsFile) {
-    const auto context = makeOffscreenContext("mesa", kSize);
-    Species species = castMember("blue_tang");
+    const auto context = context::makeOffscreenContext("mesa", kSize);
+    config::Species species = test::castMember("blue_tang");
     species.name = "new_fish";
     species.palette = {{"back", {0.5F, 0.02F, 0.02F}},
                        {"flank", {0.02F, 0.5F, 0.02F}},
@@ -194,23 +197,23 @@ glm::vec3 meanOf(const Picture& picture) {
 
 // What an id changes is the fish alone, and always in the same way.
 TEST(PaintedFish, individualsDifferAndStayThemselves) {
-    const auto context = makeOffscreenContext("mesa", kSize);
+    const auto context = context::makeOffscreenContext("mesa", kSize);
     for (const char* name : kSpecies) {
-        const Species species = castMember(name);
+        const config::Species species = test::castMember(name);
         const Picture one = portrait(species, 3), other = portrait(species, 8);
         EXPECT_GT(glm::distance(meanOf(one), meanOf(other)), 2.0e-5F) << name;
     }
-    const Species scad = castMember("bigeye_scad");
+    const config::Species scad = test::castMember("bigeye_scad");
     EXPECT_EQ(portrait(scad, 3).pixels, portrait(scad, 3).pixels);
 }
 
 // A painted fish sends back no more light than a white one in the same place: matte ones, as a
 // mirror may show the sun.
 TEST(PaintedFish, noMatteFishIsBrighterThanAWhiteOne) {
-    const auto context = makeOffscreenContext("mesa", kSize);
+    const auto context = context::makeOffscreenContext("mesa", kSize);
     for (const char* name : {"clownfish", "moorish_idol", "blue_tang", "parrotfish"}) {
-        const Picture painted = portrait(castMember(name));
-        Species white = castMember(name);
+        const Picture painted = portrait(test::castMember(name));
+        config::Species white = test::castMember(name);
         white.name = "white_fish";
         white.palette = {{"back", glm::vec3(1)}, {"flank", glm::vec3(1)}, {"belly", glm::vec3(1)}};
         const Picture plain = portrait(white);
@@ -231,10 +234,10 @@ FlankAndWater acrossTheView(glm::vec3 direction, float rollRadians) {
     const glm::vec3 forwards = glm::normalize(glm::cross(glm::vec3{0, 1, 0}, direction));
     const glm::quat level = glm::rotation(glm::vec3{1, 0, 0}, forwards);
     const Picture picture =
-        portrait(Sitter{.species = castMember("bigeye_scad"),
+        portrait(Sitter{.species = test::castMember("bigeye_scad"),
                         .worldFromBody = glm::angleAxis(rollRadians, forwards) * level,
                         .fromEye = kBeyondTheLamp * direction,
-                        .place = PlaceKind::OpenSea,
+                        .place = config::PlaceKind::OpenSea,
                         .lengthMetres = 0.08F * kBeyondTheLamp});
     const glm::ivec2 middle = kSize / 2;
     const auto meanAbout = [&](glm::ivec2 centre) {
@@ -251,8 +254,8 @@ FlankAndWater acrossTheView(glm::vec3 direction, float rollRadians) {
 // of the sun; rolled towards the sun they mirror the surface. A quarter of the
 // radiance is 0.4 of the display's light, whose curve has a toe; shafts and the lamp are in it.
 TEST(PaintedFish, silverVanishesUprightAndFlashesWhenItRolls) {
-    const auto context = makeOffscreenContext("mesa", kSize);
-    const glm::vec3 sun = sunInWater();
+    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const glm::vec3 sun = scene::sunInWater();
     for (const float side : {-1.0F, 1.0F}) {
         const glm::vec3 across = side * glm::normalize(glm::vec3{-sun.z, 0, sun.x});
         const FlankAndWater upright = acrossTheView(across, 0);
@@ -264,4 +267,4 @@ TEST(PaintedFish, silverVanishesUprightAndFlashesWhenItRolls) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surface

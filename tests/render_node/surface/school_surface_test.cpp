@@ -15,18 +15,18 @@
 #include "tests/render_node/surface/surface_fixture.h"
 #include "tests/support/cast.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 namespace {
 
 class SchoolSurfaceTest : public test::SurfaceTest {
   protected:
     // On the CPU: eq. 13, then the stencils that limit_table_test holds against OpenSubdiv's
     // refinement.
-    [[nodiscard]] std::vector<glm::vec3> expectedPositions(const PresentedFish& fish,
+    [[nodiscard]] std::vector<glm::vec3> expectedPositions(const motion::PresentedFish& fish,
                                                            DetailLevel level) const {
-        std::vector<glm::vec3> cage(kControlPoints);
-        livingCage(body_, repertoire_, fish, test::kSeconds, cage);
-        const LimitTable table = makeLimitTable(
+        std::vector<glm::vec3> cage(body::kControlPoints);
+        motion::livingCage(body_, repertoire_, fish, test::kSeconds, cage);
+        const skin::LimitTable table = skin::makeLimitTable(
             body_, static_cast<int>(level) - static_cast<int>(DetailLevel::ControlMesh));
         std::vector<glm::vec3> positions(table.vertices.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -48,16 +48,16 @@ class SchoolSurfaceTest : public test::SurfaceTest {
 TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
     std::mt19937 random{7};
     std::uniform_int_distribution<unsigned> bits;
-    const std::vector<FishTraits> traits{{.id = 3, .lengthMillimetres = 240}};
+    const std::vector<motion::FishTraits> traits{{.id = 3, .lengthMillimetres = 240}};
     SchoolSurface surface = surfaceFor(traits, {.finest = DetailLevel::CloseUp});
     for (int trial = 0; trial < 32; ++trial) {
         const auto level = static_cast<DetailLevel>(3 + trial % 4);
         const float pixels = 1.5F * detailLimits(1.0F).at(std::size_t(level));
         const glm::vec3 place{0, 0, -0.24F / (0.0016F * std::max(pixels, 30.0F))};
-        FishRecord record = test::recordOf(test::fishAt(place, test::anyRotation(random)));
+        motion::FishRecord record = test::recordOf(test::fishAt(place, test::anyRotation(random)));
         record.phase = static_cast<std::uint16_t>(bits(random));
         record.fromPhase = static_cast<std::uint16_t>(bits(random));
-        record.segment = static_cast<std::uint8_t>(trial % kActions);
+        record.segment = static_cast<std::uint8_t>(trial % motion::kActions);
         record.speed = static_cast<std::int32_t>(bits(random) % 500000U);
         record.fromSegment = static_cast<std::uint8_t>(trial % 3);
         record.warpLength = trial % 2 == 0 ? 0 : 9;
@@ -66,7 +66,8 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
         surface.look(clip_, {});
         ASSERT_EQ(surface.counts().atLevel.at(std::size_t(level)), 1U) << trial;
         evaluate(surface);
-        const auto expected = expectedPositions(present(record, record, 1.0F, traits[0]), level);
+        const auto expected =
+            expectedPositions(motion::present(record, record, 1.0F, traits[0]), level);
         EXPECT_LT(largestDistance(surfacePositions(expected.size()), expected), 1e-4F * 0.24F)
             << "level " << static_cast<int>(level);
     }
@@ -75,10 +76,10 @@ TEST_F(SchoolSurfaceTest, everyLevelLiesWhereTheCpuPutsIt) {
 // Fins that row, flutter and ripple: of each species the GPU's are those of the reference.
 TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
     std::vector<SchoolSpecies> cast;
-    std::vector<PresentedFish> fish;
-    for (const std::string& name : kCast) {
-        const FishBody body = makeBody(castMember(name));
-        PresentedFish one = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
+    std::vector<motion::PresentedFish> fish;
+    for (const std::string& name : test::kCast) {
+        const body::FishBody body = body::makeBody(test::castMember(name));
+        motion::PresentedFish one = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
         one.id = static_cast<std::uint32_t>(fish.size());
         one.speed = 0.25F * static_cast<float>(fish.size());
         one.phase = 0.625F;
@@ -94,11 +95,11 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
     evaluate(surface);
     std::size_t first = 0;
     for (std::size_t i = 0; i < cast.size(); ++i) {
-        const LimitTable table = makeLimitTable(cast[i].body, 2);
-        const PresentedFish shown =
-            present(recorded.records[i], recorded.records[i], 1.0F, cast[i].fish[0]);
-        std::vector<glm::vec3> cage(kControlPoints), expected;
-        livingCage(cast[i].body, cast[i].repertoire, shown, test::kSeconds, cage);
+        const skin::LimitTable table = skin::makeLimitTable(cast[i].body, 2);
+        const motion::PresentedFish shown =
+            motion::present(recorded.records[i], recorded.records[i], 1.0F, cast[i].fish[0]);
+        std::vector<glm::vec3> cage(body::kControlPoints), expected;
+        motion::livingCage(cast[i].body, cast[i].repertoire, shown, test::kSeconds, cage);
         for (std::size_t v = 0; v < table.vertices.size(); ++v) {
             glm::vec3& place = expected.emplace_back(0.0F);
             for (std::uint32_t k = table.firstEntry[v]; k < table.firstEntry[v + 1]; ++k)
@@ -106,7 +107,7 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
         }
         EXPECT_LT(largestDistance(surfacePositions(expected.size(), first), expected),
                   2e-4F * shown.lengthMetres)
-            << kCast.at(i);
+            << test::kCast.at(i);
         first += expected.size();
     }
 }
@@ -114,12 +115,12 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
 TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
     std::mt19937 random{11};
     std::uniform_real_distribution<float> unit{-1.0F, 1.0F};
-    std::vector<PresentedFish> school;
+    std::vector<motion::PresentedFish> school;
     for (int i = 0; i < 2000; ++i) {
         const glm::vec3 place{2 * unit(random), 2 * unit(random), -1.2F + 1.5F * unit(random)};
-        PresentedFish fish = test::fishAt(place, test::anyRotation(random));
+        motion::PresentedFish fish = test::fishAt(place, test::anyRotation(random));
         fish.phase = 0.5F + 0.49F * unit(random);
-        fish.segment = static_cast<std::uint32_t>(i % kActions);
+        fish.segment = static_cast<std::uint32_t>(i % motion::kActions);
         fish.id = static_cast<std::uint32_t>(i);
         school.push_back(fish);
     }
@@ -129,10 +130,10 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
     surface.look(clip_, {});
     std::vector<bool> isDrawn(school.size());
     for (const DrawnFish& fish : drawn(surface)) isDrawn.at(fish.id) = true;
-    std::vector<glm::vec3> points(kControlPoints);
+    std::vector<glm::vec3> points(body::kControlPoints);
     std::size_t inSight = 0;
     for (std::size_t i = 0; i < school.size(); ++i) {
-        controlPoints(repertoire_, school[i], points);
+        motion::controlPoints(repertoire_, school[i], points);
         const bool isInSight = std::ranges::any_of(points, [&](glm::vec3 point) {
             const glm::vec4 clip = clip_ * glm::vec4(point, 1);
             return std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w && clip.z > 0 &&
@@ -147,9 +148,9 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
 
 // The surfaces of a school that does not fit in the buffer at once are evaluated in turns.
 TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
-    const std::size_t vertices = makeLimitTable(body_, 2).vertices.size();
+    const std::size_t vertices = skin::makeLimitTable(body_, 2).vertices.size();
     constexpr std::size_t kRoomFor = 5;
-    std::vector<PresentedFish> school;
+    std::vector<motion::PresentedFish> school;
     for (std::size_t i = 0; i < kRoomFor + 2; ++i) {
         school.push_back(
             test::fishAt({0, 0, -3.0F + 0.002F * static_cast<float>(i)}, {1, 0, 0, 0}));
@@ -176,7 +177,7 @@ TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
 }
 
 TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
-    const std::vector<FishTraits> traits{{.id = 3, .lengthMillimetres = 240}};
+    const std::vector<motion::FishTraits> traits{{.id = 3, .lengthMillimetres = 240}};
     SchoolSurface surface = surfaceFor(traits);
     surface.update({});
     surface.look(clip_, {});
@@ -190,9 +191,9 @@ TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
 
 // Its skin is computed from nodal points, which are rounded to 16 bits as the control points are.
 TEST_F(SchoolSurfaceTest, aSegmentWithoutControlPointsIsDrawnAllTheSame) {
-    Repertoire bare = repertoire_;
+    motion::Repertoire bare = repertoire_;
     bare.segments[2].controlPoints.clear();
-    PresentedFish fish = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
+    motion::PresentedFish fish = test::fishAt({0, 0, -1}, {1, 0, 0, 0});
     fish.segment = 2;
     fish.phase = 0.5F;
     const test::RecordedSchool recorded{{&fish, 1}};
@@ -207,4 +208,4 @@ TEST_F(SchoolSurfaceTest, aSegmentWithoutControlPointsIsDrawnAllTheSame) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -5,15 +5,15 @@
 #include "render_node/context/context.h"
 #include "tests/support/golden_stills.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 namespace {
 
 TEST(SpeciesPictures, everySpeciesLooksFromTheSideAndTheFrontAsItDid) {
-    const auto context = makeOffscreenContext("mesa", {16, 16});
+    const auto context = context::makeOffscreenContext("mesa", {16, 16});
     test::Photographer photographer;
     for (const test::GoldenStill& golden : test::goldenStills("species/"))
         test::expectGolden(photographer.pictureOf(golden.still), golden.name, golden.limits);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surface

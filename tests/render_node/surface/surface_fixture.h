@@ -52,19 +52,19 @@ class SurfaceTest : public testing::Test {
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());
     }
     static void SetUpTestSuite() {
-        context() = makeOffscreenContext("mesa", {64, 64});
-        programs() = makeSkinPrograms();
+        context() = context::makeOffscreenContext("mesa", {64, 64});
+        programs() = surface::makeSkinPrograms();
     }
     static void TearDownTestSuite() {
         programs().reset();
         context().reset();
     }
-    static std::unique_ptr<Context>& context() {
-        static std::unique_ptr<Context> one;
+    static std::unique_ptr<context::Context>& context() {
+        static std::unique_ptr<context::Context> one;
         return one;
     }
-    static std::shared_ptr<const SkinPrograms>& programs() {
-        static std::shared_ptr<const SkinPrograms> all;
+    static std::shared_ptr<const surface::SkinPrograms>& programs() {
+        static std::shared_ptr<const surface::SkinPrograms> all;
         return all;
     }
 
@@ -81,8 +81,8 @@ class SurfaceTest : public testing::Test {
         return values;
     }
     // The fish that the last look found, in the order in which they are drawn.
-    static std::vector<DrawnFish> drawn(const SchoolSurface& surface) {
-        return storage<DrawnFish>(0, surface.counts().visible);
+    static std::vector<surface::DrawnFish> drawn(const surface::SchoolSurface& surface) {
+        return storage<surface::DrawnFish>(0, surface.counts().visible);
     }
     // Positions of the first vertices in the surface buffer, once bodies have been drawn.
     static std::vector<glm::vec3> surfacePositions(std::size_t count, std::size_t first = 0) {
@@ -90,7 +90,7 @@ class SurfaceTest : public testing::Test {
         return {vertices.begin(), vertices.end()};
     }
     // Evaluates surfaces, and draws them to nowhere.
-    static void evaluate(const SchoolSurface& surface) {
+    static void evaluate(const surface::SchoolSurface& surface) {
         const gl::Framebuffer target;
         glNamedFramebufferParameteri(target.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 8);
         glNamedFramebufferParameteri(target.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 8);
@@ -103,16 +103,17 @@ class SurfaceTest : public testing::Test {
         EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     }
 
-    [[nodiscard]] SchoolSurface surfaceFor(std::span<const FishTraits> traits,
-                                           const SurfaceOptions& options = {}) const {
-        const std::vector<SchoolSpecies> cast{
+    [[nodiscard]] surface::SchoolSurface surfaceFor(
+        std::span<const motion::FishTraits> traits,
+        const surface::SurfaceOptions& options = {}) const {
+        const std::vector<surface::SchoolSpecies> cast{
             {body_, {}, repertoire_, {traits.begin(), traits.end()}}};
         return {cast, options, programs()};
     }
 
     const gl::Buffer frameBlock_;
-    const FishBody body_ = scad();
-    const Repertoire repertoire_ = swaying(body_, 0.12F);
+    const body::FishBody body_ = scad();
+    const motion::Repertoire repertoire_ = swaying(body_, 0.12F);
     const glm::mat4 clip_ = clipFromCamera(1.0F, 1.5F);
 };
 

@@ -21,16 +21,19 @@
 
 namespace aquarama::test {
 
-inline FishBody scad() {
-    return makeBody(
-        readSpecies(std::string(AQUARAMA_SOURCE_DIR) + "/config/species/bigeye_scad.txtpb"));
+inline body::FishBody scad() {
+    return body::makeBody(config::readSpecies(std::string(AQUARAMA_SOURCE_DIR) +
+                                              "/config/species/bigeye_scad.txtpb"));
 }
 
 // The body frame's origin is the body's centre, which lies so far behind the nose.
 inline constexpr float kCentreStation = 0.385F;
 
-inline NodalPoints sway(const FishBody& body, float amplitude, float bend, float phase) {
-    NodalPoints nodes = body.restNodes;
+inline body::NodalPoints sway(const body::FishBody& body,
+                              float amplitude,
+                              float bend,
+                              float phase) {
+    body::NodalPoints nodes = body.restNodes;
     for (glm::vec3& node : nodes) {
         const float s = -node.x;
         const float wave = std::sin(glm::two_pi<float>() * (s / 1.25F - phase));
@@ -43,35 +46,39 @@ inline NodalPoints sway(const FishBody& body, float amplitude, float bend, float
 inline std::array<std::int16_t, 3> quantised(glm::vec3 point) {
     std::array<std::int16_t, 3> result{};
     for (int k = 0; k < 3; ++k)
-        result.at(static_cast<std::size_t>(k)) =
-            static_cast<std::int16_t>(std::lround(glm::clamp(point[k], -1.0F, 1.0F) / kPoseUnit));
+        result.at(static_cast<std::size_t>(k)) = static_cast<std::int16_t>(
+            std::lround(glm::clamp(point[k], -1.0F, 1.0F) / motion::kPoseUnit));
     return result;
 }
 
 // amplitude 0 gives a repertoire of the rest pose.
-inline Repertoire swaying(const FishBody& body, float amplitude) {
-    Repertoire repertoire;
+inline motion::Repertoire swaying(const body::FishBody& body, float amplitude) {
+    motion::Repertoire repertoire;
     repertoire.species = body.species;
     repertoire.recordedLengthMetres = body.typicalLengthMetres;
-    std::vector<glm::vec3> points(kControlPoints);
-    for (std::size_t action = 0; action < kActions; ++action) {
-        ActionSegment& segment = repertoire.segments.at(action);
+    std::vector<glm::vec3> points(body::kControlPoints);
+    for (std::size_t action = 0; action < motion::kActions; ++action) {
+        motion::ActionSegment& segment = repertoire.segments.at(action);
         segment.periodSeconds = 0.4F;
-        for (std::size_t k = 0; k < kPhases; ++k) {
+        for (std::size_t k = 0; k < motion::kPhases; ++k) {
             const float bend = amplitude * (static_cast<float>(action) - 3.0F);
-            const NodalPoints nodes = sway(body, amplitude, bend, static_cast<float>(k) / kPhases);
-            for (std::size_t n = 0; n < kNodalPoints; ++n)
+            const body::NodalPoints nodes =
+                sway(body, amplitude, bend, static_cast<float>(k) / motion::kPhases);
+            for (std::size_t n = 0; n < body::kNodalPoints; ++n)
                 segment.nodes.at(k).at(n) = quantised(nodes.at(n));
-            poseCage(body, nodes, points);
-            ControlPointPose& pose = segment.controlPoints.emplace_back();
-            for (std::size_t n = 0; n < kControlPoints; ++n) pose.at(n) = quantised(points[n]);
+            body::poseCage(body, nodes, points);
+            motion::ControlPointPose& pose = segment.controlPoints.emplace_back();
+            for (std::size_t n = 0; n < body::kControlPoints; ++n)
+                pose.at(n) = quantised(points[n]);
         }
     }
     return repertoire;
 }
 
-inline PresentedFish fishAt(glm::vec3 place, const glm::quat& bodyToWorld, float length = 0.24F) {
-    PresentedFish fish;
+inline motion::PresentedFish fishAt(glm::vec3 place,
+                                    const glm::quat& bodyToWorld,
+                                    float length = 0.24F) {
+    motion::PresentedFish fish;
     fish.positionMetres = place;
     fish.lengthMetres = length;
     fish.rotation = {bodyToWorld.x, bodyToWorld.y, bodyToWorld.z, bodyToWorld.w};
@@ -79,12 +86,12 @@ inline PresentedFish fishAt(glm::vec3 place, const glm::quat& bodyToWorld, float
 }
 
 // The same as the wire has it: phases and weights are rounded to its units.
-inline FishRecord recordOf(const PresentedFish& fish) {
+inline motion::FishRecord recordOf(const motion::PresentedFish& fish) {
     const glm::vec4& q = fish.rotation;
-    MotionStates states;
+    motion::MotionStates states;
     states.resize(1);
-    setBodyFrame(states, 0, {fish.positionMetres, glm::quat(q.w, q.x, q.y, q.z)});
-    FishRecord record = aquarama::recordOf(states, 0);
+    motion::setBodyFrame(states, 0, {fish.positionMetres, glm::quat(q.w, q.x, q.y, q.z)});
+    motion::FishRecord record = motion::recordOf(states, 0);
     const auto cycle = [](float phase) {
         return static_cast<std::uint16_t>(std::lround(phase * 65536.0F));
     };
@@ -92,7 +99,8 @@ inline FishRecord recordOf(const PresentedFish& fish) {
     record.fromPhase = cycle(fish.fromPhase);
     record.segment = static_cast<std::uint8_t>(fish.segment);
     record.fromSegment = static_cast<std::uint8_t>(fish.fromSegment);
-    record.speed = static_cast<std::int32_t>(std::lround(fish.speed * kSpeedUnitsPerBodyLength));
+    record.speed =
+        static_cast<std::int32_t>(std::lround(fish.speed * motion::kSpeedUnitsPerBodyLength));
     if (fish.warpWeight >= 1.0F) return record;
     record.warpLength = 254;
     const long weight = std::lround(fish.warpWeight * 255.0F);
@@ -100,20 +108,20 @@ inline FishRecord recordOf(const PresentedFish& fish) {
     return record;
 }
 
-inline FishTraits traitsOf(const PresentedFish& fish) {
+inline motion::FishTraits traitsOf(const motion::PresentedFish& fish) {
     return {fish.id, static_cast<std::uint16_t>(std::lround(1000.0F * fish.lengthMetres))};
 }
 
 struct RecordedSchool {
-    explicit RecordedSchool(std::span<const PresentedFish> fish) {
-        for (const PresentedFish& one : fish) {
+    explicit RecordedSchool(std::span<const motion::PresentedFish> fish) {
+        for (const motion::PresentedFish& one : fish) {
             records.push_back(recordOf(one));
             traits.push_back(traitsOf(one));
         }
     }
-    [[nodiscard]] SchoolMoment moment() const { return {.before = {}, .after = records}; }
-    std::vector<FishRecord> records;
-    std::vector<FishTraits> traits;
+    [[nodiscard]] surface::SchoolMoment moment() const { return {.before = {}, .after = records}; }
+    std::vector<motion::FishRecord> records;
+    std::vector<motion::FishTraits> traits;
 };
 
 }  // namespace aquarama::test

@@ -11,7 +11,7 @@
 
 #include "tests/render_node/surface/surface_fixture.h"
 
-namespace aquarama {
+namespace aquarama::surface {
 namespace {
 
 constexpr SharedView kShared{{0.3F, -0.1F, 0.2F}, 0.0016F};
@@ -22,7 +22,7 @@ struct TwoTicks {
         std::mt19937 random{seed};
         std::uniform_real_distribution<float> unit{-1.0F, 1.0F};
         std::uniform_int_distribution<int> any{0, 65535};
-        MotionStates states;
+        motion::MotionStates states;
         states.resize(1);
         for (std::size_t i = 0; i < fish; ++i) {
             // As many far as near.
@@ -30,14 +30,14 @@ struct TwoTicks {
             const glm::vec3 place =
                 range * glm::normalize(glm::vec3{unit(random), unit(random), unit(random)});
             const glm::quat turn = test::anyRotation(random);
-            setBodyFrame(states, 0, {place, turn});
-            before.push_back(recordOf(states, 0));
+            motion::setBodyFrame(states, 0, {place, turn});
+            before.push_back(motion::recordOf(states, 0));
             const glm::vec3 step{unit(random), unit(random), unit(random)};
-            setBodyFrame(
+            motion::setBodyFrame(
                 states,
                 0,
                 {place + 0.05F * step, glm::normalize(turn + 0.1F * test::anyRotation(random))});
-            after.push_back(recordOf(states, 0));
+            after.push_back(motion::recordOf(states, 0));
             move(before.back(), after.back(), any, random);
             if (any(random) % 50 == 0) before.back().y = after.back().y = kAway;
             if (any(random) % 50 == 0) after.back().y = kAway;
@@ -48,17 +48,17 @@ struct TwoTicks {
 
     static constexpr std::int32_t kAway = -16384 * 65536;
 
-    static void move(FishRecord& from,
-                     FishRecord& to,
+    static void move(motion::FishRecord& from,
+                     motion::FishRecord& to,
                      std::uniform_int_distribution<int>& any,
                      std::mt19937& random) {
-        from.segment = static_cast<std::uint8_t>(any(random) % kActions);
-        from.fromSegment = static_cast<std::uint8_t>(any(random) % kActions);
+        from.segment = static_cast<std::uint8_t>(any(random) % motion::kActions);
+        from.fromSegment = static_cast<std::uint8_t>(any(random) % motion::kActions);
         from.phase = static_cast<std::uint16_t>(any(random));
         from.fromPhase = static_cast<std::uint16_t>(any(random));
         from.warpLength = static_cast<std::uint8_t>(any(random) % 9);
         from.warpFrame = static_cast<std::uint8_t>(any(random) % (from.warpLength + 1));
-        const FishRecord place = to;
+        const motion::FishRecord place = to;
         to = from;
         to.x = place.x, to.y = place.y, to.z = place.z;
         to.orientationLow = place.orientationLow, to.orientationHigh = place.orientationHigh;
@@ -69,15 +69,15 @@ struct TwoTicks {
         // It leaves its segment in this tick: mid-cycle, or from within a warp.
         to.fromSegment = from.segment;
         to.fromPhase = from.phase;
-        to.segment = static_cast<std::uint8_t>(any(random) % kActions);
+        to.segment = static_cast<std::uint8_t>(any(random) % motion::kActions);
         to.phase = static_cast<std::uint16_t>(any(random));
         to.warpLength = 8;
         to.warpFrame = 0;
         if (any(random) % 2 == 0) from.warpFrame = from.warpLength;
     }
 
-    std::vector<FishRecord> before, after;
-    std::vector<FishTraits> traits;
+    std::vector<motion::FishRecord> before, after;
+    std::vector<motion::FishTraits> traits;
 };
 
 class VisibilityTest : public test::SurfaceTest {
@@ -113,12 +113,12 @@ TEST_F(VisibilityTest, cullingAndLevelsAreThoseOfTheCpu) {
     const DetailLimits limits = detailLimits(1.0F);
     std::size_t seen = 0;
     for (std::size_t i = 0; i < school.traits.size(); ++i) {
-        const PresentedFish fish =
-            present(school.before[i], school.after[i], kFraction, school.traits[i]);
+        const motion::PresentedFish fish =
+            motion::present(school.before[i], school.after[i], kFraction, school.traits[i]);
         const float margin = marginOf(kShared, fish.positionMetres, fish.lengthMetres, reach);
         const auto shown = found.find(fish.id);
         const bool isShown = shown != found.end();
-        if (isAway(fish)) {
+        if (motion::isAway(fish)) {
             EXPECT_FALSE(isShown) << i;
             continue;
         }
@@ -155,8 +155,8 @@ TEST_F(VisibilityTest, aFishIsWhereTheReferencePresentsIt) {
         EXPECT_GT(all.size(), 2800U);
         for (const DrawnFish& fish : all) {
             const std::size_t i = fish.id / 7;
-            const PresentedFish expected =
-                present(school.before[i], school.after[i], fraction, school.traits[i]);
+            const motion::PresentedFish expected =
+                motion::present(school.before[i], school.after[i], fraction, school.traits[i]);
             const float bodyLength = expected.lengthMetres;
             ASSERT_LT(glm::distance(fish.positionMetres, expected.positionMetres),
                       1e-4F * bodyLength);
@@ -183,8 +183,8 @@ TEST_F(VisibilityTest, aQuarterOfAMillionFishAreSorted) {
     const float reach = reachOf(recordedPoints(body_, repertoire_));
     std::size_t expected = 0;
     for (std::size_t i = 0; i < school.traits.size(); ++i) {
-        if (isAway(school.before[i]) || isAway(school.after[i])) continue;
-        const glm::vec3 place = bodyFrameOf(school.after[i]).position;
+        if (motion::isAway(school.before[i]) || motion::isAway(school.after[i])) continue;
+        const glm::vec3 place = motion::bodyFrameOf(school.after[i]).position;
         const float length = 0.001F * static_cast<float>(school.traits[i].lengthMillimetres);
         expected += reaches(frustum, place, marginOf(kShared, place, length, reach)) ? 1 : 0;
     }
@@ -200,8 +200,8 @@ TEST_F(VisibilityTest, withoutATickBeforeFishAreAtTheTick) {
     surface.update({{}, school.after, 0.25F});
     surface.look(clip_, kShared);
     for (const DrawnFish& fish : drawn(surface)) {
-        const FishRecord& record = school.after[fish.id / 7];
-        EXPECT_LT(glm::distance(fish.positionMetres, bodyFrameOf(record).position), 1e-5F);
+        const motion::FishRecord& record = school.after[fish.id / 7];
+        EXPECT_LT(glm::distance(fish.positionMetres, motion::bodyFrameOf(record).position), 1e-5F);
     }
 }
 
@@ -232,7 +232,7 @@ TEST_F(VisibilityTest, recordsBeyondTheSchoolAreLeftOutAndMissingOnesAreNotDrawn
     surface.update({{}, std::span(school.after).first(120)});
     surface.look(clip_, kShared);
     for (const DrawnFish& fish : drawn(surface)) EXPECT_LT(fish.id, 7U * 120);
-    std::vector<FishRecord> more = school.after;
+    std::vector<motion::FishRecord> more = school.after;
     more.resize(400, school.after.front());
     surface.update({{}, more});
     surface.look(clip_, kShared);
@@ -268,4 +268,4 @@ TEST_F(VisibilityTest, neighbouringChannelsChooseTheSameLevels) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::surface

@@ -4,10 +4,10 @@
 #include "master/behaviour/act/home.h"
 #include "tests/master/behaviour/aquarium.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
-const Obstacles kOpenWater{{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
+const surroundings::Obstacles kOpenWater{{3}, {{0, -4, -5}, {6, 3, 4}}, {}};
 
 TEST(Wandering, everyPlaceIsInTheWaterAndAnotherFollowsIt) {
     for (std::size_t fish = 0; fish < 20; ++fish) {
@@ -29,7 +29,7 @@ TEST(Wandering, everyPlaceIsInTheWaterAndAnotherFollowsIt) {
 // Two fish that head along +x, side by side; what the first wants.
 glm::vec3 wishBeside(float rightMetres) {
     Aquarium water;
-    water.natures[0].role = Role::Pacifist;
+    water.natures[0].role = config::Role::Pacifist;
     water.addFish({}, 0, 0.3F);
     water.addFish({0, 0, rightMetres}, 0, 0.3F);
     return water.think()[0].direction;
@@ -41,4 +41,4 @@ TEST(Wandering, aFishGivesWayToOneBesideIt) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

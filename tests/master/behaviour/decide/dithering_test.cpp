@@ -7,7 +7,7 @@
 #include "common/place/noise.h"
 #include "tests/master/behaviour/decide/fish_in_mind.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 constexpr int kMinutes = 20;
@@ -16,8 +16,9 @@ constexpr int kThoughtsAMinute = 450;
 // About a mean, as wide as `swing`, slow waves with a tremor of every thought on them.
 float wavering(std::uint32_t stream, int thought, float mean, float swing) {
     const float seconds = static_cast<float>(thought) / 7.5F;
-    const float wave = valueNoise(stream, {seconds * 0.1F, 0.5F});
-    const float tremor = signedUnitOf(hashOf(stream, static_cast<std::uint32_t>(thought))) * 0.1F;
+    const float wave = place::valueNoise(stream, {seconds * 0.1F, 0.5F});
+    const float tremor =
+        place::signedUnitOf(place::hashOf(stream, static_cast<std::uint32_t>(thought))) * 0.1F;
     return std::max(0.0F, mean + swing * (wave + tremor));
 }
 
@@ -43,11 +44,11 @@ Count changesOf(FishInMind fish) {
     Count count;
     for (int thought = 0; thought < kMinutes * kThoughtsAMinute; ++thought) {
         waver(fish, thought);
-        const Intention before = fish.mind.intention;
-        const Intention about = aimOf(fish.mind).intention;
+        const fish::Intention before = fish.mind.intention;
+        const fish::Intention about = fish::aimOf(fish.mind).intention;
         fish.think();
         count.intentions += fish.mind.intention != before ? 1.0 / kMinutes : 0;
-        count.aims += aimOf(fish.mind).intention != about ? 1.0 / kMinutes : 0;
+        count.aims += fish::aimOf(fish.mind).intention != about ? 1.0 / kMinutes : 0;
     }
     return count;
 }
@@ -55,11 +56,12 @@ Count changesOf(FishInMind fish) {
 // What a mind without persistence would do: the first cause in the order of priorities.
 double changesWithoutPersistence(FishInMind fish) {
     double changes = 0;
-    Intention before = Intention::Wander;
+    fish::Intention before = fish::Intention::Wander;
     for (int thought = 0; thought < kMinutes * kThoughtsAMinute; ++thought) {
         waver(fish, thought);
-        const Mind fresh{.likes = fish.mind.likes};
-        const Intention now = decide(fish.nature, fresh, fish.senses, fish.feelings).intention;
+        const fish::Mind fresh{.likes = fish.mind.likes};
+        const fish::Intention now =
+            decide(fish.nature, fresh, fish.senses, fish.feelings).intention;
         changes += now != before ? 1.0 / kMinutes : 0;
         before = now;
     }
@@ -67,7 +69,7 @@ double changesWithoutPersistence(FishInMind fish) {
 }
 
 TEST(Dithering, noFishChangesItsMindMoreThanEveryFewSeconds) {
-    for (const Role role : {Role::Prey, Role::Pacifist}) {
+    for (const config::Role role : {config::Role::Prey, config::Role::Pacifist}) {
         const FishInMind fish(role);
         const Count count = changesOf(fish);
         const double bare = changesWithoutPersistence(fish);
@@ -84,4 +86,4 @@ TEST(Dithering, noFishChangesItsMindMoreThanEveryFewSeconds) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -7,17 +7,17 @@
 #include "master/behaviour/decide/intention_generator.h"
 #include "master/fish/drives.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 
 struct FishInMind {
-    explicit FishInMind(Role role = Role::Prey) {
+    explicit FishInMind(config::Role role = config::Role::Prey) {
         nature.role = role;
         nature.fearFrom = 0.25F;
         nature.fearAlone = 0.6F;
-        if (role == Role::Pacifist) nature.libido = 0.003F;
-        if (role == Role::Predator) nature.hunts = 1;
-        if (role == Role::Prey) {
-            mind.likes = kLikesSchooling;
+        if (role == config::Role::Pacifist) nature.libido = 0.003F;
+        if (role == config::Role::Predator) nature.hunts = 1;
+        if (role == config::Role::Prey) {
+            mind.likes = fish::kLikesSchooling;
             senses.schoolmates.count = 3;
         }
     }
@@ -46,13 +46,13 @@ struct FishInMind {
     }
 
     // One thought without perception, feeling and routine.
-    Intention think() {
-        passTime(nature, mind);
+    fish::Intention think() {
+        fish::passTime(nature, mind);
         const Decision decision = decide(nature, mind, senses, feelings);
         remember(mind, decision);
         return mind.intention;
     }
-    Intention thinkFor(float seconds) {
+    fish::Intention thinkFor(float seconds) {
         for (int thought = 0; thought < static_cast<int>(seconds * 7.5F); ++thought) think();
         return mind.intention;
     }
@@ -60,10 +60,10 @@ struct FishInMind {
         return reason(nature, mind, senses, feelings).rungs[static_cast<std::size_t>(which)];
     }
 
-    Nature nature;
-    Mind mind;
+    fish::Nature nature;
+    fish::Mind mind;
     Senses senses;
     Feelings feelings;
 };
 
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,52 +5,55 @@
 
 #include "tests/master/behaviour/aquarium.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 // A fish of 0.24 m in the open, with one intention.
 struct Moment {
-    explicit Moment(Intention intention) {
+    explicit Moment(fish::Intention intention) {
         mind.intention = intention;
         senses.length = 0.24F;
     }
     [[nodiscard]] bool accepts() const {
         return acceptsRecommendation(nature, mind, senses, feelings);
     }
-    Nature nature;
-    Mind mind;
+    fish::Nature nature;
+    fish::Mind mind;
     Senses senses;
     Feelings feelings;
 };
 
 TEST(Recommendation, isWelcomeAtEase) {
-    for (const Intention at : {Intention::Wander, Intention::School, Intention::Leave})
+    for (const fish::Intention at :
+         {fish::Intention::Wander, fish::Intention::School, fish::Intention::Leave})
         EXPECT_TRUE(Moment(at).accepts()) << static_cast<int>(at);
 }
 
 TEST(Recommendation, isRefusedWhereEveryStrokeCounts) {
-    for (const Intention at :
-         {Intention::Escape, Intention::AvoidFish, Intention::AvoidObstacle, Intention::Mate})
+    for (const fish::Intention at : {fish::Intention::Escape,
+                                     fish::Intention::AvoidFish,
+                                     fish::Intention::AvoidObstacle,
+                                     fish::Intention::Mate})
         EXPECT_FALSE(Moment(at).accepts()) << static_cast<int>(at);
 }
 
 TEST(Recommendation, isRefusedNearAnObstacle) {
-    Moment moment(Intention::School);
+    Moment moment(fish::Intention::School);
     moment.senses.urgency = 0.5F;
     EXPECT_FALSE(moment.accepts());
 }
 
 TEST(Recommendation, isRefusedByASchoolInFear) {
-    Moment moment(Intention::School);
+    Moment moment(fish::Intention::School);
     moment.feelings.fear = moment.nature.fearFrom + 0.1F;
     EXPECT_FALSE(moment.accepts());
 }
 
 TEST(Recommendation, isRefusedNearAMealButNotOnTheLongWayThere) {
-    for (const Role role : {Role::Pacifist, Role::Predator}) {
-        Moment moment(Intention::Eat);
+    for (const config::Role role : {config::Role::Pacifist, config::Role::Predator}) {
+        Moment moment(fish::Intention::Eat);
         moment.nature.role = role;
-        Sighting& meal = role == Role::Predator ? moment.senses.prey : moment.senses.food;
+        Sighting& meal = role == config::Role::Predator ? moment.senses.prey : moment.senses.food;
         meal = {0, {0.3F, 0, 0}, 0.3F};
         EXPECT_FALSE(moment.accepts());
         meal = {0, {3, 0, 0}, 3};
@@ -70,4 +73,4 @@ TEST(Recommendation, isHeededByNobodyWhereTheAdaptationIsOff) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -11,14 +11,14 @@
 #include "master/fish/courses.h"
 #include "master/fish/drives.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
-constexpr float kThoughtSeconds = static_cast<float>(kTicksBetweenThoughts) / 60;
+constexpr float kThoughtSeconds = static_cast<float>(fish::kTicksBetweenThoughts) / 60;
 
-Nature tang() {
-    Nature nature;
-    nature.role = Role::Pacifist;
+fish::Nature tang() {
+    fish::Nature nature;
+    nature.role = config::Role::Pacifist;
     nature.appetite = 3;
     nature.digestion = 0.0045F;
     nature.libido = 0.003F;
@@ -26,8 +26,8 @@ Nature tang() {
     return nature;
 }
 
-Mind fed(std::uint16_t particles) {
-    Mind mind;
+fish::Mind fed(std::uint16_t particles) {
+    fish::Mind mind;
     mind.eaten = particles;
     mind.sinceMeal = 0;
     mind.sinceSpawning = 0;
@@ -45,10 +45,10 @@ void see(Senses& senses, float predatorMetres, bool hunting = true) {
 }
 
 TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
-    const Nature nature = tang();
-    Mind mind = fed(3);
+    const fish::Nature nature = tang();
+    fish::Mind mind = fed(3);
     for (int thought = 1; thought < 2500; ++thought) {
-        passTime(nature, mind);
+        fish::passTime(nature, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
         const float expected = std::min(1.0F, nature.digestion * seconds);
         ASSERT_NEAR(feel(nature, mind, lonely()).hunger, expected, 2e-5F) << seconds << " s";
@@ -57,8 +57,8 @@ TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
 }
 
 TEST(Hunger, dropsByOneShareOfTheAppetiteWithEachParticle) {
-    const Nature nature = tang();
-    Mind mind = fed(0);
+    const fish::Nature nature = tang();
+    fish::Mind mind = fed(0);
     for (const float expected : {1.0F, 2.0F / 3, 1.0F / 3, 0.0F}) {
         EXPECT_NEAR(feel(nature, mind, lonely()).hunger, expected, 1e-6F);
         ++mind.eaten;
@@ -66,7 +66,7 @@ TEST(Hunger, dropsByOneShareOfTheAppetiteWithEachParticle) {
 }
 
 TEST(Hunger, isTemptedByFoodNearbyUntilGorged) {
-    const Nature nature = tang();
+    const fish::Nature nature = tang();
     Senses senses = lonely();
     senses.food = {5, {0.2F, 0, 0}, 2 * senses.length};
     EXPECT_NEAR(feel(nature, fed(6), senses).hunger, 0.8F, 1e-6F) << "a_h S_h alone";
@@ -76,8 +76,8 @@ TEST(Hunger, isTemptedByFoodNearbyUntilGorged) {
 }
 
 TEST(Hunger, aPredatorIsNotTempted) {
-    Nature nature = tang();
-    nature.role = Role::Predator;
+    fish::Nature nature = tang();
+    nature.role = config::Role::Predator;
     Senses senses = lonely();
     senses.food = {5, {0.2F, 0, 0}, senses.length};
     EXPECT_EQ(feel(nature, fed(3), senses).hunger, 0);
@@ -98,10 +98,10 @@ TEST(Stimulus, followsThePublishedRampAndItsInverse) {
 }
 
 TEST(Libido, growsToOneWithTimeAndIsSuppressedByHunger) {
-    const Nature nature = tang();
-    Mind mind = fed(3);
+    const fish::Nature nature = tang();
+    fish::Mind mind = fed(3);
     for (int thought = 1; thought <= 3000; ++thought) {
-        passTime(nature, mind);
+        fish::passTime(nature, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
         const Feelings feelings = feel(nature, mind, lonely());
         const float grown = std::min(1.0F, nature.libido * seconds);
@@ -112,24 +112,24 @@ TEST(Libido, growsToOneWithTimeAndIsSuppressedByHunger) {
 }
 
 TEST(Libido, isRaisedByAMateInSight) {
-    const Nature nature = tang();
+    const fish::Nature nature = tang();
     Senses senses = lonely();
     senses.mate = {5, {0.8F, 0, 0}, 4 * senses.length};
     EXPECT_NEAR(feel(nature, fed(3), senses).libido, 0.5F, 1e-6F) << "a_l S_l alone";
 }
 
 TEST(Libido, isAPacifistsAlone) {
-    for (const Role role : {Role::Prey, Role::Predator}) {
-        Nature nature = tang();
+    for (const config::Role role : {config::Role::Prey, config::Role::Predator}) {
+        fish::Nature nature = tang();
         nature.role = role;
-        Mind mind = fed(3);
-        mind.sinceSpawning = kLongAgo;
+        fish::Mind mind = fed(3);
+        mind.sinceSpawning = fish::kLongAgo;
         EXPECT_EQ(feel(nature, mind, lonely()).libido, 0);
     }
 }
 
 TEST(Fear, addsUpOverThePredatorsInSightAndIsCutAtOne) {
-    const Nature nature = tang();
+    const fish::Nature nature = tang();
     Senses senses = lonely();
     EXPECT_EQ(feel(nature, fed(3), senses).fear, 0);
     see(senses, 3.0F);
@@ -145,7 +145,7 @@ TEST(Fear, addsUpOverThePredatorsInSightAndIsCutAtOne) {
 }
 
 TEST(Fear, ofAPredatorThatHuntsNobodyIsHalf) {
-    const Nature nature = tang();
+    const fish::Nature nature = tang();
     Senses hunted = lonely();
     see(hunted, 1.5F, true);
     Senses watched = lonely();
@@ -154,4 +154,4 @@ TEST(Fear, ofAPredatorThatHuntsNobodyIsHalf) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -6,31 +6,31 @@
 
 #include "master/behaviour/decide/intention_generator.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 struct Shown {
     std::uint8_t signs = 0;
-    std::uint32_t partner = kNobody;
-    [[nodiscard]] bool shows(Sign sign) const { return (signs & sign) != 0; }
+    std::uint32_t partner = fish::kNobody;
+    [[nodiscard]] bool shows(fish::Sign sign) const { return (signs & sign) != 0; }
 };
 
-Shown shown(Role role, const Mind& mind, std::uint8_t before = 0) {
-    Nature nature;
+Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0) {
+    fish::Nature nature;
     nature.role = role;
     nature.libido = 0.003F;
-    FishView view;
+    fish::FishView view;
     view.resize(1);
     view.signs[0] = before;
-    Minds minds;
+    fish::Minds minds;
     minds.resize(1);
     minds[0] = mind;
-    showMood(nature, minds, 0, view);
+    fish::showMood(nature, minds, 0, view);
     return {view.signs[0], view.partner[0]};
 }
 
-Mind about(Intention intention, std::uint32_t target = kNobody) {
-    Mind mind;
+fish::Mind about(fish::Intention intention, std::uint32_t target = fish::kNobody) {
+    fish::Mind mind;
     mind.eaten = 4;
     mind.sinceMeal = 0;
     mind.sinceSpawning = 0;
@@ -40,54 +40,63 @@ Mind about(Intention intention, std::uint32_t target = kNobody) {
 }
 
 // The same, swerving from a fish.
-Mind interrupted(Mind mind) {
-    remember(mind, {Intention::AvoidFish, 77});
+fish::Mind interrupted(fish::Mind mind) {
+    remember(mind, {fish::Intention::AvoidFish, 77});
     return mind;
 }
 
 TEST(Signs, aSchoolingFishShowsItAlsoWhileItSwerves) {
-    EXPECT_TRUE(shown(Role::Prey, about(Intention::School)).shows(kSchooling));
-    EXPECT_TRUE(shown(Role::Prey, interrupted(about(Intention::School))).shows(kSchooling));
-    EXPECT_FALSE(shown(Role::Prey, about(Intention::Eat, 3)).shows(kSchooling));
+    EXPECT_TRUE(shown(config::Role::Prey, about(fish::Intention::School)).shows(fish::kSchooling));
+    EXPECT_TRUE(shown(config::Role::Prey, interrupted(about(fish::Intention::School)))
+                    .shows(fish::kSchooling));
+    EXPECT_FALSE(shown(config::Role::Prey, about(fish::Intention::Eat, 3)).shows(fish::kSchooling));
 }
 
 TEST(Signs, aPredatorShowsThatItHunts) {
-    EXPECT_TRUE(shown(Role::Predator, about(Intention::Eat, 3)).shows(kHunting));
-    EXPECT_TRUE(shown(Role::Predator, interrupted(about(Intention::Eat, 3))).shows(kHunting));
-    EXPECT_FALSE(shown(Role::Predator, about(Intention::Wander)).shows(kHunting));
-    EXPECT_FALSE(shown(Role::Pacifist, about(Intention::Eat, 3)).shows(kHunting));
+    EXPECT_TRUE(
+        shown(config::Role::Predator, about(fish::Intention::Eat, 3)).shows(fish::kHunting));
+    EXPECT_TRUE(shown(config::Role::Predator, interrupted(about(fish::Intention::Eat, 3)))
+                    .shows(fish::kHunting));
+    EXPECT_FALSE(
+        shown(config::Role::Predator, about(fish::Intention::Wander)).shows(fish::kHunting));
+    EXPECT_FALSE(
+        shown(config::Role::Pacifist, about(fish::Intention::Eat, 3)).shows(fish::kHunting));
 }
 
 TEST(Signs, whoCourtsShowsWhom) {
-    const Shown courting = shown(Role::Pacifist, about(Intention::Mate, 9));
+    const Shown courting = shown(config::Role::Pacifist, about(fish::Intention::Mate, 9));
     EXPECT_EQ(courting.partner, 9U);
-    EXPECT_TRUE(courting.shows(kWilling));
-    EXPECT_EQ(shown(Role::Pacifist, interrupted(about(Intention::Mate, 9))).partner, 9U);
-    EXPECT_EQ(shown(Role::Pacifist, about(Intention::Eat, 9)).partner, kNobody);
+    EXPECT_TRUE(courting.shows(fish::kWilling));
+    EXPECT_EQ(shown(config::Role::Pacifist, interrupted(about(fish::Intention::Mate, 9))).partner,
+              9U);
+    EXPECT_EQ(shown(config::Role::Pacifist, about(fish::Intention::Eat, 9)).partner, fish::kNobody);
 }
 
 TEST(Signs, libidoMakesAPacifistWillingAndNobodyElse) {
-    Mind mind = about(Intention::Wander);
-    EXPECT_FALSE(shown(Role::Pacifist, mind).shows(kWilling)) << "it has just spawned";
-    mind.sinceSpawning = kLongAgo;
-    EXPECT_TRUE(shown(Role::Pacifist, mind).shows(kWilling));
-    EXPECT_FALSE(shown(Role::Prey, mind).shows(kWilling));
-    EXPECT_FALSE(shown(Role::Predator, mind).shows(kWilling));
+    fish::Mind mind = about(fish::Intention::Wander);
+    EXPECT_FALSE(shown(config::Role::Pacifist, mind).shows(fish::kWilling))
+        << "it has just spawned";
+    mind.sinceSpawning = fish::kLongAgo;
+    EXPECT_TRUE(shown(config::Role::Pacifist, mind).shows(fish::kWilling));
+    EXPECT_FALSE(shown(config::Role::Prey, mind).shows(fish::kWilling));
+    EXPECT_FALSE(shown(config::Role::Predator, mind).shows(fish::kWilling));
     mind.eaten = 0;
-    EXPECT_FALSE(shown(Role::Pacifist, mind).shows(kWilling)) << "it hungers";
+    EXPECT_FALSE(shown(config::Role::Pacifist, mind).shows(fish::kWilling)) << "it hungers";
 }
 
 TEST(Signs, sexIsShownAndAnAbsentFishStaysAway) {
-    Mind mind = about(Intention::Wander);
-    EXPECT_FALSE(shown(Role::Prey, mind).shows(kFemale));
-    mind.likes = kIsFemale;
-    for (const Role role : {Role::Prey, Role::Pacifist, Role::Predator}) {
-        EXPECT_TRUE(shown(role, mind, kAway).shows(kFemale));
-        EXPECT_TRUE(shown(role, mind, kAway).shows(kAway));
-        EXPECT_FALSE(shown(role, mind, kHunting | kWilling).shows(kAway));
-        EXPECT_FALSE(shown(role, mind, kHunting | kWilling).shows(kHunting)) << "moods pass";
+    fish::Mind mind = about(fish::Intention::Wander);
+    EXPECT_FALSE(shown(config::Role::Prey, mind).shows(fish::kFemale));
+    mind.likes = fish::kIsFemale;
+    for (const config::Role role :
+         {config::Role::Prey, config::Role::Pacifist, config::Role::Predator}) {
+        EXPECT_TRUE(shown(role, mind, fish::kAway).shows(fish::kFemale));
+        EXPECT_TRUE(shown(role, mind, fish::kAway).shows(fish::kAway));
+        EXPECT_FALSE(shown(role, mind, fish::kHunting | fish::kWilling).shows(fish::kAway));
+        EXPECT_FALSE(shown(role, mind, fish::kHunting | fish::kWilling).shows(fish::kHunting))
+            << "moods pass";
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -7,12 +7,12 @@
 #include "master/behaviour/feel/mental_state.h"
 #include "master/fish/drives.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 constexpr std::uint32_t kFish = 20'000;
 
-double shareOf(const Nature& nature, std::uint8_t like) {
+double shareOf(const fish::Nature& nature, std::uint8_t like) {
     std::uint32_t have = 0;
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
         have += (likesOf(nature, 9, fish) & like) != 0 ? 1 : 0;
@@ -21,31 +21,31 @@ double shareOf(const Nature& nature, std::uint8_t like) {
 
 // Five standard errors of a share of so many fish are 0.018.
 TEST(Temperament, sharesOfHabitsAreThoseOfTheSpecies) {
-    Nature nature;
+    fish::Nature nature;
     nature.habits.shares = {.schooling = 0.9, .brightness = 0.5, .warmth = 0.25, .female = 0.6};
-    EXPECT_NEAR(shareOf(nature, kLikesSchooling), 0.9, 0.018);
-    EXPECT_NEAR(shareOf(nature, kLikesBrightness), 0.5, 0.018);
-    EXPECT_NEAR(shareOf(nature, kLikesWarmth), 0.25, 0.018);
-    EXPECT_NEAR(shareOf(nature, kIsFemale), 0.6, 0.018);
-    EXPECT_EQ(shareOf(nature, kLikesDarkness), 0);
-    EXPECT_EQ(shareOf(nature, kLikesCold), 0);
+    EXPECT_NEAR(shareOf(nature, fish::kLikesSchooling), 0.9, 0.018);
+    EXPECT_NEAR(shareOf(nature, fish::kLikesBrightness), 0.5, 0.018);
+    EXPECT_NEAR(shareOf(nature, fish::kLikesWarmth), 0.25, 0.018);
+    EXPECT_NEAR(shareOf(nature, fish::kIsFemale), 0.6, 0.018);
+    EXPECT_EQ(shareOf(nature, fish::kLikesDarkness), 0);
+    EXPECT_EQ(shareOf(nature, fish::kLikesCold), 0);
 }
 
 TEST(Temperament, whoWouldLikeBothOfAPairLikesNeither) {
-    Nature nature;
+    fish::Nature nature;
     nature.habits.shares = {.brightness = 0.5, .darkness = 0.5, .warmth = 1, .cold = 1};
     for (std::uint32_t fish = 0; fish < 1000; ++fish) {
         const unsigned likes = likesOf(nature, 4, fish);
-        constexpr unsigned kLight = kLikesBrightness | kLikesDarkness;
+        constexpr unsigned kLight = fish::kLikesBrightness | fish::kLikesDarkness;
         EXPECT_NE(likes & kLight, kLight);
-        EXPECT_EQ(likes & (kLikesWarmth | kLikesCold), 0U);
+        EXPECT_EQ(likes & (fish::kLikesWarmth | fish::kLikesCold), 0U);
     }
     // Of those who draw one half the other half draw the other too.
-    EXPECT_NEAR(shareOf(nature, kLikesBrightness), 0.25, 0.018);
+    EXPECT_NEAR(shareOf(nature, fish::kLikesBrightness), 0.25, 0.018);
 }
 
 TEST(Temperament, isTheSeedsAndTheFishsOwn) {
-    Nature nature;
+    fish::Nature nature;
     nature.habits.shares = {.schooling = 0.5, .brightness = 0.5, .warmth = 0.5, .female = 0.5};
     int same = 0;
     int sameOfAnotherSeed = 0;
@@ -59,13 +59,13 @@ TEST(Temperament, isTheSeedsAndTheFishsOwn) {
 }
 
 TEST(Temperament, notAllHungerAtOnce) {
-    const Nature nature;
+    const fish::Nature nature;
     int hungry = 0;
     for (std::uint32_t fish = 0; fish < 1000; ++fish) {
-        Mind mind = freshMind(nature, 3, fish);
+        fish::Mind mind = freshMind(nature, 3, fish);
         for (int second = 0; second < 60; ++second)
-            for (int thought = 0; thought < 7; ++thought) passTime(nature, mind);
-        hungry += feel(nature, mind, {}).hunger > kDesire ? 1 : 0;
+            for (int thought = 0; thought < 7; ++thought) fish::passTime(nature, mind);
+        hungry += feel(nature, mind, {}).hunger > fish::kDesire ? 1 : 0;
     }
     // A minute of the 250 s that a meal lasts.
     EXPECT_GT(hungry, 150);
@@ -73,13 +73,13 @@ TEST(Temperament, notAllHungerAtOnce) {
 }
 
 TEST(Mood, beginsAsTheSceneWantsIt) {
-    Nature nature;
-    nature.role = Role::Pacifist;
+    fish::Nature nature;
+    nature.role = config::Role::Pacifist;
     nature.libido = 0.003F;
     for (const float hunger : {0.0F, 0.2F, 0.7F, 1.0F}) {
         for (const float libido : {0.0F, 0.3F, 0.8F}) {
-            Mind mind;
-            setMood(nature, hunger, libido, mind);
+            fish::Mind mind;
+            fish::setMood(nature, hunger, libido, mind);
             const Feelings feelings = feel(nature, mind, {});
             EXPECT_NEAR(feelings.hunger, hunger, 0.01F);
             // Who hungers wholly has no libido, whatever the scene says.
@@ -91,13 +91,13 @@ TEST(Mood, beginsAsTheSceneWantsIt) {
 
 TEST(Mood, holdsForEveryAppetite) {
     for (const float appetite : {0.5F, 1.0F, 2.5F, 6.0F}) {
-        Nature nature;
+        fish::Nature nature;
         nature.appetite = appetite;
-        Mind mind;
-        setMood(nature, 0.4F, 0, mind);
+        fish::Mind mind;
+        fish::setMood(nature, 0.4F, 0, mind);
         EXPECT_NEAR(feel(nature, mind, {}).hunger, 0.4F, 0.01F) << appetite;
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -5,7 +5,7 @@
 
 #include "master/fish/minds.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 // Water from 2 to 10 m deep; light falls by 0.02 and warmth by 0.5 degrees a metre.
@@ -23,14 +23,14 @@ struct Deep {
         feelClimate(around, nature, static_cast<std::uint8_t>(likes), senses);
         return senses;
     }
-    Surroundings around;
-    Nature nature;
+    surroundings::Surroundings around;
+    fish::Nature nature;
 };
 
 TEST(Climate, aFishWithoutHabitsIsAtEaseAnywhere) {
     Deep deep;
     deep.around.daylight = 0.1F;
-    EXPECT_LT(deep.at(9, kIsFemale | kLikesSchooling).discomfort, 0);
+    EXPECT_LT(deep.at(9, fish::kIsFemale | fish::kLikesSchooling).discomfort, 0);
 }
 
 TEST(Climate, lightAndWarmthAreThoseOfItsDepth) {
@@ -42,27 +42,27 @@ TEST(Climate, lightAndWarmthAreThoseOfItsDepth) {
 TEST(Climate, whoLikesBrightnessOrWarmthWantsUpAndTheOthersDown) {
     Deep deep;
     deep.around.daylight = 0.55F;  // 0.44 at 10 m
-    EXPECT_GT(deep.at(10, kLikesBrightness).discomfort, 0.05F);
-    EXPECT_EQ(deep.at(10, kLikesBrightness).betterUp, 1);
-    EXPECT_GT(deep.at(9, kLikesWarmth).discomfort, 0.1F);
-    EXPECT_EQ(deep.at(9, kLikesWarmth).betterUp, 1);
-    EXPECT_GT(deep.at(2.5F, kLikesCold).discomfort, 0);
-    EXPECT_EQ(deep.at(2.5F, kLikesCold).betterUp, -1);
+    EXPECT_GT(deep.at(10, fish::kLikesBrightness).discomfort, 0.05F);
+    EXPECT_EQ(deep.at(10, fish::kLikesBrightness).betterUp, 1);
+    EXPECT_GT(deep.at(9, fish::kLikesWarmth).discomfort, 0.1F);
+    EXPECT_EQ(deep.at(9, fish::kLikesWarmth).betterUp, 1);
+    EXPECT_GT(deep.at(2.5F, fish::kLikesCold).discomfort, 0);
+    EXPECT_EQ(deep.at(2.5F, fish::kLikesCold).betterUp, -1);
     deep.around.daylight = 0.8F;
-    EXPECT_GT(deep.at(2, kLikesDarkness).discomfort, 0);
-    EXPECT_EQ(deep.at(2, kLikesDarkness).betterUp, -1);
+    EXPECT_GT(deep.at(2, fish::kLikesDarkness).discomfort, 0);
+    EXPECT_EQ(deep.at(2, fish::kLikesDarkness).betterUp, -1);
 }
 
 TEST(Climate, withinItsRangeAFishIsAtEase) {
     Deep deep;
-    EXPECT_LT(deep.at(5, kLikesBrightness | kLikesWarmth).discomfort, 0);
-    EXPECT_EQ(deep.at(5, kLikesBrightness | kLikesWarmth).betterUp, 0);
+    EXPECT_LT(deep.at(5, fish::kLikesBrightness | fish::kLikesWarmth).discomfort, 0);
+    EXPECT_EQ(deep.at(5, fish::kLikesBrightness | fish::kLikesWarmth).betterUp, 0);
 }
 
 TEST(Climate, atNightNowhereIsBetterForWhoIsAtTheTop) {
     Deep deep;
     deep.around.daylight = 0.2F;
-    const Senses senses = deep.at(2, kLikesBrightness);
+    const Senses senses = deep.at(2, fish::kLikesBrightness);
     EXPECT_GT(senses.discomfort, 0.2F);
     EXPECT_EQ(senses.betterUp, 0);
 }
@@ -70,9 +70,9 @@ TEST(Climate, atNightNowhereIsBetterForWhoIsAtTheTop) {
 TEST(Climate, ofTwoThingsAmissTheWorseDecides) {
     Deep deep;
     deep.around.daylight = 0.75F;  // 0.72 at 2 m: a little bright
-    const Senses senses = deep.at(9, kLikesDarkness | kLikesWarmth);
+    const Senses senses = deep.at(9, fish::kLikesDarkness | fish::kLikesWarmth);
     EXPECT_EQ(senses.betterUp, 1) << "too cold";
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -7,12 +7,14 @@
 #include "master/behaviour/perceive/perceive.h"
 #include "tests/master/behaviour/aquarium.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 constexpr float kLength = 0.24F;
 
-Senses perceived(const Aquarium& scene, std::uint32_t fish, const Adaptation& adaptation = {}) {
+Senses perceived(const Aquarium& scene,
+                 std::uint32_t fish,
+                 const fish::Adaptation& adaptation = {}) {
     Grids grids = scene.freshGrids();
     Environment environment = scene.environment(grids);
     environment.adaptation = adaptation;
@@ -22,8 +24,8 @@ Senses perceived(const Aquarium& scene, std::uint32_t fish, const Adaptation& ad
 // Two kinds that keep to themselves, in body lengths of the first.
 Aquarium strangers(glm::vec3 offsetLengths) {
     Aquarium scene;
-    scene.natures[0].role = Role::Pacifist;
-    Nature other;
+    scene.natures[0].role = config::Role::Pacifist;
+    fish::Nature other;
     other.kind = 1;
     scene.natures.push_back(other);
     scene.addFish({});
@@ -66,8 +68,8 @@ TEST(Collision, whoSwimsAwayIsNoThreat) {
 TEST(Collision, whoIsAvoidedIsHeededForLonger) {
     Aquarium scene = strangers({2.6F, 0, 0});
     EXPECT_FALSE(perceived(scene, 0).collision.seen());
-    Mind avoiding = scene.minds[0];
-    avoiding.intention = Intention::AvoidFish;
+    fish::Mind avoiding = scene.minds[0];
+    avoiding.intention = fish::Intention::AvoidFish;
     avoiding.target = 1;
     scene.minds[0] = avoiding;
     EXPECT_TRUE(perceived(scene, 0).collision.seen());
@@ -87,7 +89,7 @@ TEST(Collision, aLargeBodyThreatensThoughItsMiddleIsFar) {
 
 TEST(Collision, preyHuntersAndThoseItFollowsAreHeededOtherwise) {
     Aquarium scene = strangers({1.0F, 0, 0});
-    for (std::uint64_t Nature::*relation : {&Nature::hunts, &Nature::shadows}) {
+    for (std::uint64_t fish::Nature::*relation : {&fish::Nature::hunts, &fish::Nature::shadows}) {
         scene.natures[0].*relation = 2;  // kind 1
         EXPECT_FALSE(perceived(scene, 0).collision.seen());
         scene.natures[0].*relation = 0;
@@ -95,7 +97,7 @@ TEST(Collision, preyHuntersAndThoseItFollowsAreHeededOtherwise) {
     EXPECT_TRUE(perceived(scene, 0).collision.seen());
     scene.natures[0].huntedBy = 2;
     EXPECT_TRUE(perceived(scene, 0).collision.seen()) << "a pacifist does not flee";
-    scene.natures[0].role = Role::Prey;
+    scene.natures[0].role = config::Role::Prey;
     EXPECT_FALSE(perceived(scene, 0).collision.seen()) << "prey does";
 }
 
@@ -120,4 +122,4 @@ TEST(Collision, inFormationASchoolmateOnACollisionCourseIs) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

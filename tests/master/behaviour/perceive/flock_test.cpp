@@ -10,33 +10,34 @@
 
 #include "tests/master/world/instruction_sets.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 // Largest difference of anything of one boid.
-float differenceOf(const Flock& flock,
+float differenceOf(const bench::Flock& flock,
                    std::size_t boid,
-                   const std::array<float, Flock::kColumns>& expected) {
+                   const std::array<float, bench::Flock::kColumns>& expected) {
     float most = 0;
-    for (std::size_t column = 0; column < Flock::kColumns; ++column)
+    for (std::size_t column = 0; column < bench::Flock::kColumns; ++column)
         most = std::max(most, std::abs(flock.columns[column][boid] - expected[column]));
     return most;
 }
 
 TEST(Flock, everyInstructionSetStepsAsPlainCodeDoes) {
     constexpr std::size_t kBoids = 600;
-    const float radius = flockRadius(kBoids, 20);
+    const float radius = bench::flockRadius(kBoids, 20);
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         SCOPED_TRACE(hwy::TargetName(target));
-        useOnly(target);
-        Flock flock = makeFlock(kBoids, radius);
-        FlockStep step(kBoids, radius);
+        world::useOnly(target);
+        bench::Flock flock = bench::makeFlock(kBoids, radius);
+        bench::FlockStep step(kBoids, radius);
         for (int i = 0; i < 3; ++i) {
-            const Flock before = flock;
+            const bench::Flock before = flock;
             step.run(flock);
             int different = 0;
             for (std::size_t boid = 0; boid < kBoids; ++boid) {
-                const auto expected = flockReference(before, step.formerPlaceOf(boid), radius);
+                const auto expected =
+                    bench::flockReference(before, step.formerPlaceOf(boid), radius);
                 different += differenceOf(flock, boid, expected) > 1e-3F ? 1 : 0;
             }
             // The processors' guesses at 1 / sqrt put a neighbour at the very border of the view
@@ -44,8 +45,8 @@ TEST(Flock, everyInstructionSetStepsAsPlainCodeDoes) {
             EXPECT_LE(different, 6);
         }
     }
-    useOnly(0);
+    world::useOnly(0);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

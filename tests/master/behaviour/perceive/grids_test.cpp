@@ -10,22 +10,23 @@
 #include "master/behaviour/perceive/neighbours.h"
 #include "tests/master/behaviour/scattered_school.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
-const Region kWater{{1, -6, -5}, {9, 3, 7}};
+const place::Region kWater{{1, -6, -5}, {9, 3, 7}};
 constexpr std::size_t kFish = 20000;
 
 struct Sea {
-    FishView view = scatteredSchool(2, kFish, kWater);
-    Food food = makeFood(3, obstaclesOf({3, PlaceKind::OpenSea}, kWater), 700);
-    std::vector<Nature> natures = std::vector<Nature>(2);
+    fish::FishView view = scatteredSchool(2, kFish, kWater);
+    surroundings::Food food = surroundings::makeFood(
+        3, surroundings::obstaclesOf({3, config::PlaceKind::OpenSea}, kWater), 700);
+    std::vector<fish::Nature> natures = std::vector<fish::Nature>(2);
 
     Sea() {
-        natures[1].role = Role::Predator;
+        natures[1].role = config::Role::Predator;
         for (std::size_t fish = 0; fish < kFish; ++fish) {
-            if (fish % 5 == 0) view.signs[fish] = kAway;
-            if (fish % 7 == 0) view.signs[fish] |= kWilling;
+            if (fish % 5 == 0) view.signs[fish] = fish::kAway;
+            if (fish % 7 == 0) view.signs[fish] |= fish::kWilling;
             if (fish % 97 == 0) view.fish[fish].length = 1.4F;
             view.kind[fish] = fish >= kFish - 60 ? 1 : 0;
         }
@@ -104,7 +105,7 @@ TEST(Grids, theSparseOnesHoldThoseTheyAreOf) {
     const auto expectHolds = [&](const SpatialGrid& grid, const auto& isOne) {
         std::vector<std::uint32_t> those;
         for (std::uint32_t fish = 0; fish < kFish; ++fish)
-            if (!sea.view.shows(fish, kAway) && isOne(fish)) those.push_back(fish);
+            if (!sea.view.shows(fish, fish::kAway) && isOne(fish)) those.push_back(fish);
         std::vector<std::uint32_t> held = indicesIn(grid);
         std::sort(held.begin(), held.end());
         EXPECT_EQ(held, those);
@@ -112,16 +113,17 @@ TEST(Grids, theSparseOnesHoldThoseTheyAreOf) {
     expectHolds(grids.predators, [&](std::uint32_t fish) { return sea.view.kind[fish] == 1; });
     expectHolds(grids.large,
                 [&](std::uint32_t fish) { return sea.view.fish[fish].length >= kLargeBodyMetres; });
-    expectHolds(grids.mates, [&](std::uint32_t fish) { return sea.view.shows(fish, kWilling); });
+    expectHolds(grids.mates,
+                [&](std::uint32_t fish) { return sea.view.shows(fish, fish::kWilling); });
     EXPECT_EQ(grids.food.size(), 700U);
 }
 
 TEST(Grids, aLargeOpenSeaTakesNoMoreMemoryThanItsFishWarrant) {
-    const Region sea{{0, -10, 0}, {500, 10, 500}};
+    const place::Region sea{{0, -10, 0}, {500, 10, 500}};
     EXPECT_LT(Grids(sea, 1000, 0).bytes(), 400'000U);
     EXPECT_FLOAT_EQ(Grids(kWater, kFish, 0).fish.cellMetres(), kCellMetres)
         << "where there are fish enough";
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -13,22 +13,23 @@
 #include "tests/master/behaviour/scattered_school.h"
 #include "tests/master/world/instruction_sets.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 using Seen = std::pair<float, std::uint32_t>;  // squared distance, fish
 
 // A school of three kinds: most of the first, the rest by halves.
 struct School {
-    FishView view;
-    std::vector<Nature> natures;
-    Region water;
+    fish::FishView view;
+    std::vector<fish::Nature> natures;
+    place::Region water;
 
-    School(FishView fish, const Region& region) : view(std::move(fish)), water(region) {
+    School(fish::FishView fish, const place::Region& region)
+        : view(std::move(fish)), water(region) {
         const auto size = static_cast<std::uint32_t>(view.size());
         const std::array<std::uint32_t, 4> borders{0, size - size / 4, size - size / 8, size};
         for (std::uint8_t kind = 0; kind < 3; ++kind) {
-            Nature nature;
+            fish::Nature nature;
             nature.kind = kind;
             nature.first = borders[kind];
             nature.last = borders[kind + 1U];
@@ -36,10 +37,10 @@ struct School {
             std::fill(&view.kind[0] + nature.first, &view.kind[0] + nature.last, kind);
         }
     }
-    School(std::uint32_t seed, std::size_t fish, const Region& region)
+    School(std::uint32_t seed, std::size_t fish, const place::Region& region)
         : School(scatteredSchool(seed, fish, region), region) {}
 
-    [[nodiscard]] const Nature& natureOf(std::size_t fish) const {
+    [[nodiscard]] const fish::Nature& natureOf(std::size_t fish) const {
         return natures[view.kind[fish]];
     }
     [[nodiscard]] Grids grids() const {
@@ -57,13 +58,13 @@ std::vector<Seen> seenOf(const Neighbours& found) {
 }
 
 std::vector<Seen> nearestByBruteForce(const School& school, std::uint32_t fish, bool ownKind) {
-    const FishView& view = school.view;
+    const fish::FishView& view = school.view;
     std::vector<Seen> seen;
     for (std::uint32_t other = 0; other < view.size(); ++other) {
         const glm::vec3 offset = view.position(other) - view.position(fish);
-        const float distanceSquared = dot(offset, offset);
+        const float distanceSquared = place::dot(offset, offset);
         if (other != fish && (view.kind[other] == view.kind[fish]) == ownKind &&
-            !view.shows(other, kAway) && distanceSquared <= kSightMetres * kSightMetres &&
+            !view.shows(other, fish::kAway) && distanceSquared <= kSightMetres * kSightMetres &&
             inFieldOfView(view.heading(fish), offset))
             seen.emplace_back(distanceSquared, other);
     }
@@ -88,7 +89,7 @@ void expectVectorsEqualBruteForce(const School& school, std::uint32_t step = 1) 
 void expectVectorsEqualPlainCode(const School& school) {
     const Grids grids = school.grids();
     for (std::uint32_t fish = 0; fish < school.view.size(); ++fish) {
-        const Nature& nature = school.natureOf(fish);
+        const fish::Nature& nature = school.natureOf(fish);
         const NearestFish vectors = nearestVisible(school.view, grids, nature, fish);
         const NearestFish plain = nearestVisibleReference(school.view, grids.fish, nature, fish);
         ASSERT_EQ(seenOf(vectors.schoolmates), seenOf(plain.schoolmates)) << "fish " << fish;
@@ -96,7 +97,7 @@ void expectVectorsEqualPlainCode(const School& school) {
     }
 }
 
-const Region kWater{{1, -6, -5}, {3, 1.5F, 2}};
+const place::Region kWater{{1, -6, -5}, {3, 1.5F, 2}};
 
 TEST(Neighbours, theSearchFindsWhatBruteForceFinds) {
     for (const std::size_t fish : {1U, 2U, 9U, 51U, 700U, 3000U}) {
@@ -106,20 +107,20 @@ TEST(Neighbours, theSearchFindsWhatBruteForceFinds) {
 }
 
 TEST(Neighbours, theSearchFindsThemInABaitBall) {
-    const Region ball{kWater.centre, glm::vec3{0.35F}};  // some 14 000 fish a cubic metre
+    const place::Region ball{kWater.centre, glm::vec3{0.35F}};  // some 14 000 fish a cubic metre
     expectVectorsEqualBruteForce(School(scatteredSchool(3, 4800, ball), kWater), 7);
 }
 
 TEST(Neighbours, theSearchFindsFishThatStrayedOutOfTheWater) {
-    const Region wider{kWater.centre, kWater.halfExtent * 1.6F};
+    const place::Region wider{kWater.centre, kWater.halfExtent * 1.6F};
     expectVectorsEqualBruteForce(School(scatteredSchool(8, 900, wider), kWater));
-    const Region far{kWater.centre, kWater.halfExtent * 20.0F};
+    const place::Region far{kWater.centre, kWater.halfExtent * 20.0F};
     expectVectorsEqualBruteForce(School(scatteredSchool(8, 900, far), kWater));
 }
 
 TEST(Neighbours, theSearchPassesOverFishThatAreAway) {
     School school(11, 800, kWater);
-    for (std::size_t fish = 0; fish < 800; fish += 3) school.view.signs[fish] = kAway;
+    for (std::size_t fish = 0; fish < 800; fish += 3) school.view.signs[fish] = fish::kAway;
     expectVectorsEqualBruteForce(school);
 }
 
@@ -128,33 +129,33 @@ TEST(Neighbours, withoutFishTheGridIsMadeAllTheSame) {
 }
 
 TEST(Neighbours, everyInstructionSetFindsWhatPlainCodeFinds) {
-    const Region ball{kWater.centre, glm::vec3{0.5F}};
+    const place::Region ball{kWater.centre, glm::vec3{0.5F}};
     const std::array schools{School(5, 1500, kWater),
                              School(scatteredSchool(6, 1500, ball), kWater)};
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         SCOPED_TRACE(hwy::TargetName(target));
-        useOnly(target);
+        world::useOnly(target);
         for (const School& school : schools) expectVectorsEqualPlainCode(school);
     }
-    useOnly(0);
+    world::useOnly(0);
 }
 
 // How many fish are looked at together is said by the code that looks, as it was compiled.
 TEST(Neighbours, theSearchUsesTheProcessorsVectors) {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         SCOPED_TRACE(hwy::TargetName(target));
-        useOnly(target);
+        world::useOnly(target);
         const bool isPlain = target == HWY_SCALAR || target == HWY_EMU128;
         const bool isWide = target <= HWY_AVX3 && target >= HWY_AVX3_DL;
         const std::size_t lanes = isPlain ? 1 : isWide ? 16 : target == HWY_AVX2 ? 8 : 4;
         EXPECT_EQ(nearestVisibleLanes(), lanes);
     }
-    useOnly(0);
+    world::useOnly(0);
     EXPECT_GE(nearestVisibleLanes(), 4U) << "what is used where nothing is forbidden";
 }
 
 TEST(Neighbours, ofEquallyNearFishTheLowerIndexComesFirst) {
-    FishView view = scatteredSchool(9, 12, kWater);
+    fish::FishView view = scatteredSchool(9, 12, kWater);
     for (std::size_t i = 0; i < 12; ++i) {
         // Eleven at one point, ahead of fish 5.
         view.fish[i].position = {i == 5 ? 0.0F : 0.5F, -6, -5};
@@ -170,12 +171,12 @@ TEST(Neighbours, ofEquallyNearFishTheLowerIndexComesFirst) {
 }
 
 TEST(Neighbours, allFishAtOnePointFindTheLowestIndices) {
-    const Region point{kWater.centre, {0, 0, 0}};
+    const place::Region point{kWater.centre, {0, 0, 0}};
     expectVectorsEqualBruteForce(School(scatteredSchool(4, 1000, point), kWater), 11);
 }
 
 TEST(Neighbours, equalDistancesOnALatticeAreSettledByIndex) {
-    FishView view = scatteredSchool(4, 1000, kWater);
+    fish::FishView view = scatteredSchool(4, 1000, kWater);
     for (std::size_t i = 0; i < 1000; ++i) {
         view.fish[i].position =
             kWater.centre + glm::vec3{0.25F * static_cast<float>(i % 10),
@@ -195,4 +196,4 @@ TEST(Neighbours, aFishIsBlindThirtyDegreesAboutStraightBehind) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

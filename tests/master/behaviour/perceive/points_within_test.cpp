@@ -12,19 +12,19 @@
 #include "master/behaviour/perceive/grids.h"
 #include "tests/master/behaviour/scattered_school.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
-const Region kWater{{1, -6, -5}, {4, 3, 5}};
+const place::Region kWater{{1, -6, -5}, {4, 3, 5}};
 using Found = std::vector<std::tuple<std::uint32_t, std::uint32_t>>;  // who, how far to the bit
 
 Found byPlainCode(const SpatialGrid& grid, glm::vec3 place, float reachSquared) {
     Found found;
     for (std::size_t slot = 0; slot < grid.size(); ++slot) {
         const glm::vec3 offset = glm::vec3{grid.x()[slot], grid.y()[slot], grid.z()[slot]} - place;
-        if (dot(offset, offset) <= reachSquared)
+        if (place::dot(offset, offset) <= reachSquared)
             found.emplace_back(grid.index()[slot],
-                               std::bit_cast<std::uint32_t>(dot(offset, offset)));
+                               std::bit_cast<std::uint32_t>(place::dot(offset, offset)));
     }
     return found;
 }
@@ -33,7 +33,7 @@ Found byVectors(const SpatialGrid& grid, glm::vec3 place, float reachSquared) {
     Found found;
     visitPointsWithin(
         grid, place, reachSquared, [&](std::uint32_t index, glm::vec3 offset, float squared) {
-            EXPECT_EQ(squared, dot(offset, offset));
+            EXPECT_EQ(squared, place::dot(offset, offset));
             found.emplace_back(index, std::bit_cast<std::uint32_t>(squared));
         });
     return found;
@@ -41,9 +41,9 @@ Found byVectors(const SpatialGrid& grid, glm::vec3 place, float reachSquared) {
 
 // From within the water, at its border and out of it; from nobody to more than are taken at once.
 TEST(PointsWithin, areThoseOfPlainCodeToTheBit) {
-    const FishView view = scatteredSchool(4, 3000, kWater);
+    const fish::FishView view = scatteredSchool(4, 3000, kWater);
     Grids grids(kWater, view.size(), 0);
-    const std::vector<Nature> natures(1);
+    const std::vector<fish::Nature> natures(1);
     grids.rebuild(view, {}, natures);
     std::size_t most = 0;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -65,4 +65,4 @@ TEST(PointsWithin, areThoseOfPlainCodeToTheBit) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

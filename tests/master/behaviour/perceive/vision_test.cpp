@@ -8,7 +8,7 @@
 #include "master/behaviour/perceive/perceive.h"
 #include "tests/master/behaviour/aquarium.h"
 
-namespace aquarama {
+namespace aquarama::behaviour {
 namespace {
 
 constexpr std::uint8_t kScad = 0;
@@ -19,8 +19,8 @@ constexpr float kSharkLength = 1.3F;
 struct Sea : Aquarium {
     Sea() {
         natures[kScad].huntedBy = 1U << kShark;
-        Nature shark;
-        shark.role = Role::Predator;
+        fish::Nature shark;
+        shark.role = config::Role::Predator;
         shark.kind = kShark;
         shark.hunts = 1U << kScad;
         shark.visionBodyLengths = 10;
@@ -29,25 +29,25 @@ struct Sea : Aquarium {
     }
     std::uint32_t addShark(glm::vec3 offset) {
         const std::uint32_t shark = addFish(offset, kShark, kSharkLength);
-        Mind hungry;
+        fish::Mind hungry;
         minds[shark] = hungry;
         return shark;
     }
     void feed(std::initializer_list<glm::vec3> offsets) {
         for (const glm::vec3 offset : offsets) {
-            Food& food = surroundings.food;
+            surroundings::Food& food = surroundings.food;
             food.x.push_back(kCentre.x + offset.x);
             food.y.push_back(kCentre.y + offset.y);
             food.z.push_back(kCentre.z + offset.z);
             food.lowest.push_back(-100);
-            food.kind.push_back(FoodKind::Plankton);
+            food.kind.push_back(surroundings::FoodKind::Plankton);
             food.taken.push_back(0);
             food.generation.push_back(0);
             food.absentUntil.push_back(0);
         }
     }
     void alter(std::uint32_t fish, auto change) {
-        Mind mind = minds[fish];
+        fish::Mind mind = minds[fish];
         change(mind);
         minds[fish] = mind;
     }
@@ -58,7 +58,7 @@ struct Sea : Aquarium {
 };
 
 TEST(Sight, endsWhereTheWaterOrTheEyeDoes) {
-    const Nature nature;  // 14 body lengths
+    const fish::Nature nature;  // 14 body lengths
     EXPECT_FLOAT_EQ(sightMetres(nature, 0.24F, 1, 12), 14 * 0.24F);
     EXPECT_FLOAT_EQ(sightMetres(nature, 0.24F, 1, 2), 2);
     EXPECT_FLOAT_EQ(sightMetres(nature, 0.24F, conspicuousness(kSharkLength), 12),
@@ -86,7 +86,7 @@ TEST(Sight, isBlindStraightBehindUnlessAlarmed) {
     Sea sea;
     sea.addShark({-3, 0, 0.5F});
     EXPECT_EQ(sea.perceived(0).predatorCount, 0U);
-    sea.alter(0, [](Mind& mind) { mind.alarm = Alarm::Alone; });
+    sea.alter(0, [](fish::Mind& mind) { mind.alarm = fish::Alarm::Alone; });
     EXPECT_EQ(sea.perceived(0).predatorCount, 1U) << "who flees looks back";
 }
 
@@ -100,7 +100,7 @@ TEST(Sight, keepsTheFourNearestPredatorsNearestFirst) {
     EXPECT_EQ(senses.predators[1].object, 2U);
     EXPECT_EQ(senses.predators[2].object, 3U);
     EXPECT_EQ(senses.predators[3].object, 1U);
-    EXPECT_NEAR(senses.predators[0].distance, lengthOf(senses.predators[0].offset), 1e-5F);
+    EXPECT_NEAR(senses.predators[0].distance, place::lengthOf(senses.predators[0].offset), 1e-5F);
 }
 
 TEST(Sight, rocksHide) {
@@ -131,12 +131,12 @@ TEST(Sight, aDuneHides) {
     Grids grids = sea.freshGrids();
     environment = sea.environment(grids);
     // Between two points just over the sand, with the sand higher in between.
-    const PlaceKey& place = sea.surroundings.obstacles.place;
+    const place::PlaceKey& place = sea.surroundings.obstacles.place;
     bool hidden = false;
     bool open = true;
     for (float x = -6; x < 6; x += 0.5F) {
-        const glm::vec3 from{x, floorHeight(place, {x, -5}) + 0.02F, -5};
-        const glm::vec3 to{x + 4, floorHeight(place, {x + 4, -5}) + 0.02F, -5};
+        const glm::vec3 from{x, place::floorHeight(place, {x, -5}) + 0.02F, -5};
+        const glm::vec3 to{x + 4, place::floorHeight(place, {x + 4, -5}) + 0.02F, -5};
         hidden = hidden || isHidden(environment, 0, 1, {from, to - from});
         const glm::vec3 above{0, 1.5F, 0};
         open = open && !isHidden(environment, 0, 1, {from + above, to - from});
@@ -154,9 +154,9 @@ TEST(Prey, isTheOneOfLeastCost) {
     sea.natures[kScad].last = aside + 1;
     // d (1 + b2 E / pi): 2.9 (1 + 0.2 / 2) = 3.19 against 3.
     EXPECT_EQ(sea.perceived(shark).prey.object, 0U);
-    sea.view.signs[0] = kSchooling;  // 3 (1 + 0.5)
+    sea.view.signs[0] = fish::kSchooling;  // 3 (1 + 0.5)
     EXPECT_EQ(sea.perceived(shark).prey.object, aside);
-    sea.view.signs[aside] = kAway;
+    sea.view.signs[aside] = fish::kAway;
     EXPECT_EQ(sea.perceived(shark).prey.object, 0U);
 }
 
@@ -167,8 +167,8 @@ TEST(Prey, isKeptUnlessAnotherIsBetterByThePersistence) {
     const std::uint32_t other = sea.addFish({0.6F, 0, 0});
     sea.natures[kShark].persistence = 0.3F;
     EXPECT_EQ(sea.perceived(shark).prey.object, other);
-    sea.alter(shark, [](Mind& mind) {
-        mind.intention = Intention::Eat;
+    sea.alter(shark, [](fish::Mind& mind) {
+        mind.intention = fish::Intention::Eat;
         mind.target = 0;
     });
     EXPECT_EQ(sea.perceived(shark).prey.object, 0U) << "2.4 is not 0.3 better than 3";
@@ -184,7 +184,7 @@ TEST(Prey, isNotSoughtByTheSatedNorBeyondTheDistanceOfGivingUp) {
     sea.natures[kShark].habits.hunt.giveUpMetres = 2.5;
     EXPECT_FALSE(sea.perceived(shark).prey.seen());
     sea.natures[kShark].habits.hunt.giveUpMetres = 6;
-    sea.alter(shark, [](Mind& mind) {
+    sea.alter(shark, [](fish::Mind& mind) {
         mind.eaten = 4;
         mind.sinceMeal = 0;
     });
@@ -195,7 +195,7 @@ TEST(Food, isSmeltInEveryDirectionByTheHungry) {
     Sea sea;
     sea.feed({{-2, 0, 0}, {2.5F, 0, 0}});
     EXPECT_FALSE(sea.perceived(0).food.seen()) << "gorged";
-    sea.alter(0, [](Mind& mind) { mind.eaten = 0; });
+    sea.alter(0, [](fish::Mind& mind) { mind.eaten = 0; });
     const Senses senses = sea.perceived(0);
     EXPECT_EQ(senses.food.object, 0U) << "behind it, but nearer";
     EXPECT_NEAR(senses.food.distance, 2, 1e-5F);
@@ -204,7 +204,7 @@ TEST(Food, isSmeltInEveryDirectionByTheHungry) {
 // What is too far off to make a fed fish hungry is not looked for.
 TEST(Food, temptsTheFedFromNearbyAlone) {
     Sea sea;
-    sea.alter(0, [](Mind& mind) { mind.eaten = 4; });
+    sea.alter(0, [](fish::Mind& mind) { mind.eaten = 4; });
     sea.feed({{1.5F, 0, 0}});
     EXPECT_FALSE(sea.perceived(0).food.seen());
     sea.feed({{0.5F, 0, 0}});
@@ -213,14 +213,14 @@ TEST(Food, temptsTheFedFromNearbyAlone) {
 
 TEST(Food, thatIsPursuedIsKeptWhileItIsThere) {
     Sea sea;
-    sea.alter(0, [](Mind& mind) {
+    sea.alter(0, [](fish::Mind& mind) {
         mind.eaten = 0;
-        mind.intention = Intention::Eat;
+        mind.intention = fish::Intention::Eat;
         mind.target = 0;
     });
     sea.feed({{1.0F, 0, 0}, {0, 0, 0.8F}});
     EXPECT_EQ(sea.perceived(0).food.object, 0U);
-    sea.surroundings.food.kind[0] = FoodKind::None;
+    sea.surroundings.food.kind[0] = surroundings::FoodKind::None;
     EXPECT_EQ(sea.perceived(0).food.object, 1U);
 }
 
@@ -233,16 +233,16 @@ TEST(Submarine, isFelt) {
 // Two and a half metres off no fish minds one that stands; one that comes on it does, from behind.
 TEST(Submarine, isFeltFromFartherWhereItComesOn) {
     Sea sea;
-    Submarine& submarine = sea.surroundings.submarine;
+    surroundings::Submarine& submarine = sea.surroundings.submarine;
     const glm::vec3 heading = sea.perceived(0).heading;
     submarine.position = sea.perceived(0).position - heading * 2.5F;
     EXPECT_EQ(sea.perceived(0).urgency, 0);
     submarine.velocityMetresPerSecond = heading * 1.2F;
     EXPECT_GT(sea.perceived(0).urgency, 0);
-    EXPECT_GT(dot(sea.perceived(0).push, heading), 0) << "ahead of it";
+    EXPECT_GT(place::dot(sea.perceived(0).push, heading), 0) << "ahead of it";
     submarine.velocityMetresPerSecond = heading * -1.2F;
     EXPECT_EQ(sea.perceived(0).urgency, 0) << "it goes away";
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::behaviour

@@ -11,22 +11,22 @@
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
-inline const std::vector<Species>& allSpecies() {
+inline const std::vector<config::Species>& allSpecies() {
     static const auto kAll = [] {
-        std::vector<Species> all;
+        std::vector<config::Species> all;
         for (const auto& file : speciesFiles({}, AQUARAMA_SOURCE_DIR "/config"))
-            all.push_back(readSpecies(file.string()));
+            all.push_back(config::readSpecies(file.string()));
         return all;
     }();
     return kAll;
 }
 
 // In the order of allSpecies().
-inline const std::vector<Repertoire>& allRepertoires() {
+inline const std::vector<motion::Repertoire>& allRepertoires() {
     static const auto kAll = [] {
-        std::vector<Repertoire> all;
+        std::vector<motion::Repertoire> all;
         for (CaptureOutcome& outcome : captureRepertoires(allSpecies(), {})) {
             if (!outcome.repertoire) throw Error(outcome.error);
             all.push_back(*std::move(outcome.repertoire));
@@ -39,9 +39,11 @@ inline const std::vector<Repertoire>& allRepertoires() {
 // Tests named after their species.
 class EachSpecies : public testing::TestWithParam<std::size_t> {
   protected:
-    [[nodiscard]] static const Species& species() { return allSpecies().at(GetParam()); }
-    [[nodiscard]] static const Repertoire& repertoire() { return allRepertoires().at(GetParam()); }
-    [[nodiscard]] static const ActionSegment& segment(Action action) {
+    [[nodiscard]] static const config::Species& species() { return allSpecies().at(GetParam()); }
+    [[nodiscard]] static const motion::Repertoire& repertoire() {
+        return allRepertoires().at(GetParam());
+    }
+    [[nodiscard]] static const motion::ActionSegment& segment(motion::Action action) {
         return repertoire().segments.at(static_cast<std::size_t>(action));
     }
 };
@@ -49,4 +51,4 @@ inline std::string nameOfSpecies(const testing::TestParamInfo<std::size_t>& info
     return allSpecies().at(info.param).name;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

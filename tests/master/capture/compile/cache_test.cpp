@@ -13,7 +13,7 @@
 #include "master/capture/report/inspect.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ class RepertoireCache : public testing::Test {
     void SetUp() override {
         fs::remove_all(folder_);
         std::ostringstream text;
-        text << std::ifstream(kScadFile).rdbuf();
+        text << std::ifstream(test::kScadFile).rdbuf();
         text_ = text.str();
     }
     void TearDown() override { fs::remove_all(folder_); }
@@ -85,22 +85,22 @@ TEST_F(RepertoireCache, aFolderThatCannotBeWrittenIsRefusedByName) {
 }
 
 TEST(Inspection, namesSpeciesDigestAndSegments) {
-    std::vector<std::byte> bytes = encodeRepertoire(scadRepertoire());
-    const std::string text = inspectRepertoire(bytes, "scad.aqrep");
+    std::vector<std::byte> bytes = motion::encodeRepertoire(test::scadRepertoire());
+    const std::string text = report::inspectRepertoire(bytes, "scad.aqrep");
     for (const char* word : {"bigeye_scad", "sha256", "forward_fast", "turn_right_sharp"})
         EXPECT_NE(text.find(word), std::string::npos) << word;
     bytes[bytes.size() / 2] ^= std::byte{1};
-    EXPECT_THROW(static_cast<void>(inspectRepertoire(bytes, "scad.aqrep")), Error);
+    EXPECT_THROW(static_cast<void>(report::inspectRepertoire(bytes, "scad.aqrep")), Error);
 }
 
 TEST(SpeciesFiles, areFoundByNameByPathOrAll) {
     const fs::path config = AQUARAMA_SOURCE_DIR "/config";
-    EXPECT_EQ(speciesFiles({"bigeye_scad"}, config).front(), fs::path(kScadFile));
-    EXPECT_EQ(speciesFiles({kScadFile}, config).front(), fs::path(kScadFile));
+    EXPECT_EQ(speciesFiles({"bigeye_scad"}, config).front(), fs::path(test::kScadFile));
+    EXPECT_EQ(speciesFiles({test::kScadFile}, config).front(), fs::path(test::kScadFile));
     EXPECT_FALSE(speciesFiles({}, config).empty());
     EXPECT_THROW(static_cast<void>(speciesFiles({"mermaid"}, config)), Error);
     EXPECT_THROW(static_cast<void>(speciesFiles({}, "/nowhere")), Error);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

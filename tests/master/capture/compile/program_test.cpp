@@ -15,7 +15,7 @@
 #include "master/capture/compile/repertoire_cache.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,7 +61,7 @@ class Program : public testing::Test {
     }
     // A species file, with one text put in another's place.
     [[nodiscard]] std::string edited(const std::string& good, const std::string& bad) const {
-        std::string text = readSpeciesText(kScadFile).text;
+        std::string text = readSpeciesText(test::kScadFile).text;
         text.replace(text.find(good), good.size(), bad);
         const fs::path path = root_ / "edited.txtpb";
         std::ofstream(path) << text;
@@ -79,7 +79,7 @@ TEST_F(Program, leavesOneFileForEachSpeciesAndNothingElse) {
     const fs::path config = out().parent_path() / "config";
     fs::create_directories(config / "species");
     for (const char* name : {"clownfish.txtpb", "moorish_idol.txtpb"})
-        fs::copy_file(fs::path(kScadFile).parent_path() / name, config / "species" / name);
+        fs::copy_file(fs::path(test::kScadFile).parent_path() / name, config / "species" / name);
     const Outcome outcome = capture("--config " + config.string());
     EXPECT_EQ(outcome.status, 0) << outcome.said;
     EXPECT_EQ(left(), (std::set<std::string>{"clownfish.aqrep", "moorish_idol.aqrep"}));
@@ -91,7 +91,7 @@ TEST_F(Program, putsAFileInTheOldOnesPlaceAndSimulatesNothingTwice) {
     EXPECT_EQ(capture("--species bigeye_scad").status, 0);
     const auto captured = cachedAt();
     const auto fresh = readRepertoireFile(out() / "bigeye_scad.aqrep");
-    EXPECT_EQ(decodeRepertoire(fresh, "fresh").species, "bigeye_scad");
+    EXPECT_EQ(motion::decodeRepertoire(fresh, "fresh").species, "bigeye_scad");
     EXPECT_EQ(capture("--species bigeye_scad").status, 0);
     EXPECT_EQ(cachedAt(), captured) << "it was captured anew";
     EXPECT_EQ(readRepertoireFile(out() / "bigeye_scad.aqrep"), fresh);
@@ -111,7 +111,7 @@ TEST_F(Program, leavesNothingWhenItIsInterrupted) {
     EXPECT_NE(outcome.status, 0);
     for (const std::string& name : left())
         static_cast<void>(
-            decodeRepertoire(readRepertoireFile(out() / name), name));  // whole, if any
+            motion::decodeRepertoire(readRepertoireFile(out() / name), name));  // whole, if any
 }
 
 TEST_F(Program, refusesAFolderThatIsAFile) {
@@ -123,4 +123,4 @@ TEST_F(Program, refusesAFolderThatIsAFile) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

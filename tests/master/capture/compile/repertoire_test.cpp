@@ -13,15 +13,16 @@
 #include "master/capture/measure/measure.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
-constexpr std::array kForward{Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast};
+constexpr std::array kForward{
+    motion::Action::ForwardSlow, motion::Action::ForwardMedium, motion::Action::ForwardFast};
 
 // An independent prototype of this model swam a scad of these figures at these speeds.
 TEST(Capture, swimsAsFastAsThePrototype) {
-    Species fish = scad();
-    fish.skeleton = {.rings = {SkeletonRing{0.190, 0.072, 0.042, 6.6},
+    config::Species fish = test::scad();
+    fish.skeleton = {.rings = {config::SkeletonRing{0.190, 0.072, 0.042, 6.6},
                                {0.385, 0.093, 0.051, 11},
                                {0.580, 0.071, 0.040, 6.6},
                                {0.770, 0.048, 0.019, 1.1},
@@ -41,9 +42,10 @@ TEST(Capture, swimsAsFastAsThePrototype) {
     fish.swim.middleDrive = 0.578;
     fish.swim.backDrive = 0.976;
     fish.swim.backLagRadians = 2.02;
-    const std::array<std::pair<Gait, double>, 3> expected{{{{.beatHertz = 2, .gain = 0.55}, 1.007},
-                                                           {{.beatHertz = 3, .gain = 1}, 1.958},
-                                                           {{.beatHertz = 5, .gain = 1}, 2.624}}};
+    const std::array<std::pair<config::Gait, double>, 3> expected{
+        {{{.beatHertz = 2, .gain = 0.55}, 1.007},
+         {{.beatHertz = 3, .gain = 1}, 1.958},
+         {{.beatHertz = 5, .gain = 1}, 2.624}}};
     for (const auto& [gait, speed] : expected) {
         const SegmentMeasures m = measure(compileForward(swimUntilSteady(fish, gait).beat));
         EXPECT_NEAR(m.speedBodyLengths / speed, 1, 0.05) << gait.beatHertz << " Hz";
@@ -52,8 +54,8 @@ TEST(Capture, swimsAsFastAsThePrototype) {
 }
 
 TEST(Capture, swimsLikeAFish) {
-    for (const Action action : kForward) {
-        const SegmentMeasures m = measure(segmentOf(action));
+    for (const motion::Action action : kForward) {
+        const SegmentMeasures m = measure(test::segmentOf(action));
         // Taylor, Nudds & Thomas 2003; Videler & Wardle 1991 (the slow gait has less amplitude,
         // hence less stride); Bainbridge 1958.
         EXPECT_GT(m.strouhal, 0.2);
@@ -67,10 +69,11 @@ TEST(Capture, swimsLikeAFish) {
 }
 
 TEST(Capture, rightTurnsMirrorLeftOnes) {
-    for (const auto& [left, right] : {std::pair{Action::TurnLeftGradual, Action::TurnRightGradual},
-                                      std::pair{Action::TurnLeftSharp, Action::TurnRightSharp}}) {
-        const SegmentMeasures l = measure(segmentOf(left));
-        const SegmentMeasures r = measure(segmentOf(right));
+    for (const auto& [left, right] :
+         {std::pair{motion::Action::TurnLeftGradual, motion::Action::TurnRightGradual},
+          std::pair{motion::Action::TurnLeftSharp, motion::Action::TurnRightSharp}}) {
+        const SegmentMeasures l = measure(test::segmentOf(left));
+        const SegmentMeasures r = measure(test::segmentOf(right));
         EXPECT_NEAR(l.turnRadians, -r.turnRadians, 1e-5);
         EXPECT_NEAR(l.strideBodyLengths, r.strideBodyLengths, 1e-4);
         EXPECT_NEAR(l.largestStep, r.largestStep, 1e-6);
@@ -79,8 +82,8 @@ TEST(Capture, rightTurnsMirrorLeftOnes) {
 
 // The constraints that eq. 1 to 4, with their remedies, put on a pose in its own frame.
 TEST(Capture, posesAreInTheirOwnBodyFrame) {
-    for (const ActionSegment& segment : scadRepertoire().segments) {
-        for (const NodalPose& pose : segment.nodes) {
+    for (const motion::ActionSegment& segment : test::scadRepertoire().segments) {
+        for (const motion::NodalPose& pose : segment.nodes) {
             for (std::size_t c = 0; c < 3; ++c)
                 EXPECT_NEAR(pose[5][c] + pose[6][c] + pose[7][c] + pose[8][c], 0, 4);
             EXPECT_GT(pose[0][0], 0);
@@ -92,25 +95,25 @@ TEST(Capture, posesAreInTheirOwnBodyFrame) {
 }
 
 TEST(Capture, controlPointsAreThoseOfThePosedCage) {
-    const FishBody body = makeBody(scad());
-    const ActionSegment& segment = segmentOf(Action::ForwardMedium);
-    ASSERT_EQ(segment.controlPoints.size(), std::size_t{kPhases});
-    std::vector<glm::vec3> cage(kControlPoints);
-    for (std::size_t k = 0; k < kPhases; k += 9) {
-        NodalPoints nodes{};
+    const body::FishBody body = body::makeBody(test::scad());
+    const motion::ActionSegment& segment = test::segmentOf(motion::Action::ForwardMedium);
+    ASSERT_EQ(segment.controlPoints.size(), std::size_t{motion::kPhases});
+    std::vector<glm::vec3> cage(body::kControlPoints);
+    for (std::size_t k = 0; k < motion::kPhases; k += 9) {
+        body::NodalPoints nodes{};
         for (std::size_t i = 0; i < nodes.size(); ++i)
             for (int c = 0; c < 3; ++c)
                 nodes.at(i)[c] =
-                    segment.nodes.at(k).at(i).at(static_cast<std::size_t>(c)) * kPoseUnit;
-        poseCage(body, nodes, cage);
+                    segment.nodes.at(k).at(i).at(static_cast<std::size_t>(c)) * motion::kPoseUnit;
+        body::poseCage(body, nodes, cage);
         for (std::size_t i = 0; i < cage.size(); ++i)
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(
-                    cage[i][c],
-                    segment.controlPoints[k].at(i).at(static_cast<std::size_t>(c)) * kPoseUnit,
-                    3e-4);
+                EXPECT_NEAR(cage[i][c],
+                            segment.controlPoints[k].at(i).at(static_cast<std::size_t>(c)) *
+                                motion::kPoseUnit,
+                            3e-4);
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

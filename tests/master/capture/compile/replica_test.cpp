@@ -11,60 +11,64 @@
 #include "common/motion/reconstruct.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
 
-const MotorTables& scadTables() {
-    static const auto tables = makeMotorTables(scadRepertoire());
+const motion::MotorTables& scadTables() {
+    static const auto tables = motion::makeMotorTables(test::scadRepertoire());
     return *tables;
 }
 
 // One fish that plays captured segments.
 class Replica {
   public:
-    explicit Replica(Action action) {
+    explicit Replica(motion::Action action) {
         states_.resize(1);
         commands_.resize(1);
-        setBodyFrame(states_, 0, {});
+        motion::setBodyFrame(states_, 0, {});
         states_.segment[0] = static_cast<std::uint8_t>(action);
         command(action);
     }
-    void command(Action action) {
+    void command(motion::Action action) {
         commands_.segment[0] = static_cast<std::uint8_t>(action);
-        commands_.phaseRate[0] = recordedPhaseRate(scadTables(), action);
+        commands_.phaseRate[0] = motion::recordedPhaseRate(scadTables(), action);
     }
     void enterAt(int phase) { states_.phase[0] = static_cast<std::uint16_t>(phase); }
     void tick() {
-        MotorStep{.tables = &scadTables(),
-                  .traits = traits_,
-                  .commands = &commands_,
-                  .states = &states_,
-                  .first = 0,
-                  .last = 1}
+        motion::MotorStep{.tables = &scadTables(),
+                          .traits = traits_,
+                          .commands = &commands_,
+                          .states = &states_,
+                          .first = 0,
+                          .last = 1}
             .run();
     }
-    [[nodiscard]] glm::quat meanFrame() const { return meanRotation(scadTables(), states_, 0); }
-    [[nodiscard]] glm::dvec3 place() const { return bodyFrameOf(states_, 0).position; }
+    [[nodiscard]] glm::quat meanFrame() const {
+        return motion::meanRotation(scadTables(), states_, 0);
+    }
+    [[nodiscard]] glm::dvec3 place() const { return motion::bodyFrameOf(states_, 0).position; }
     [[nodiscard]] int ticksOf(int cycles) const { return cycles * 65536 / commands_.phaseRate[0]; }
     [[nodiscard]] int segment() const { return states_.segment[0]; }
-    [[nodiscard]] NodalPoints pose() const {
-        const FishRecord record = recordOf(states_, 0);
-        NodalPoints nodes;
-        nodalPose(scadRepertoire(), present(record, record, 1.0F, traits_[0]), nodes);
+    [[nodiscard]] body::NodalPoints pose() const {
+        const motion::FishRecord record = motion::recordOf(states_, 0);
+        body::NodalPoints nodes;
+        motion::nodalPose(
+            test::scadRepertoire(), motion::present(record, record, 1.0F, traits_[0]), nodes);
         return nodes;
     }
 
   private:
-    MotionStates states_;
-    MotorCommands commands_;
-    std::array<FishTraits, 1> traits_{FishTraits{.id = 0, .lengthMillimetres = 240}};
+    motion::MotionStates states_;
+    motion::MotorCommands commands_;
+    std::array<motion::FishTraits, 1> traits_{
+        motion::FishTraits{.id = 0, .lengthMillimetres = 240}};
 };
 
-double furthest(const NodalPoints& from, const NodalPoints& to) {
+double furthest(const body::NodalPoints& from, const body::NodalPoints& to) {
     double most = 0;
-    for (std::size_t i = 0; i < kNodalPoints; ++i)
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i)
         most = std::max(most, static_cast<double>(glm::distance(from[i], to[i])));
     return most;
 }
@@ -72,12 +76,12 @@ double furthest(const NodalPoints& from, const NodalPoints& to) {
 // The furthest that any nodal point moves in a tick of any segment as recorded, in the body frame.
 double largestRecordedStep() {
     double most = 0;
-    for (int action = 0; action < kActions; ++action) {
-        Replica replica(static_cast<Action>(action));
-        NodalPoints last = replica.pose();
+    for (int action = 0; action < motion::kActions; ++action) {
+        Replica replica(static_cast<motion::Action>(action));
+        body::NodalPoints last = replica.pose();
         for (int tick = 0; tick < 120; ++tick) {
             replica.tick();
-            const NodalPoints now = replica.pose();
+            const body::NodalPoints now = replica.pose();
             most = std::max(most, furthest(last, now));
             last = now;
         }
@@ -86,7 +90,9 @@ double largestRecordedStep() {
 }
 
 TEST(Replica, swimsAHundredCyclesStraightAndLevel) {
-    for (const Action action : {Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast}) {
+    for (const motion::Action action : {motion::Action::ForwardSlow,
+                                        motion::Action::ForwardMedium,
+                                        motion::Action::ForwardFast}) {
         Replica replica(action);
         const glm::vec3 course = replica.meanFrame() * glm::vec3(1, 0, 0);
         for (int tick = replica.ticksOf(100); tick > 0; --tick) {
@@ -95,30 +101,30 @@ TEST(Replica, swimsAHundredCyclesStraightAndLevel) {
             ASSERT_LT(
                 std::asin(std::abs(static_cast<double>((mean * glm::vec3(0, 0, 1)).y))) * kDegrees,
                 0.1)
-                << "roll, " << nameOf(action);
+                << "roll, " << motion::nameOf(action);
         }
         const glm::dvec3 way = glm::normalize(replica.place());
         EXPECT_LT(std::acos(std::min(1.0, glm::dot(way, glm::dvec3(course)))) * kDegrees, 0.3)
-            << nameOf(action);
-        EXPECT_GT(glm::length(replica.place()), 10.0) << nameOf(action);
+            << motion::nameOf(action);
+        EXPECT_GT(glm::length(replica.place()), 10.0) << motion::nameOf(action);
     }
 }
 
 TEST(Replica, noChangeOfSegmentMovesAPointFurtherThanTheRecordingsDo) {
     const double allowed = 1.25 * largestRecordedStep();
-    for (int from = 0; from < kActions; ++from) {
-        for (int to = 0; to < kActions; ++to) {
+    for (int from = 0; from < motion::kActions; ++from) {
+        for (int to = 0; to < motion::kActions; ++to) {
             for (int phase = 0; phase < 65536; phase += 5003) {
-                Replica replica(static_cast<Action>(from));
+                Replica replica(static_cast<motion::Action>(from));
                 replica.enterAt(phase);
-                replica.command(static_cast<Action>(to));
-                NodalPoints last = replica.pose();
+                replica.command(static_cast<motion::Action>(to));
+                body::NodalPoints last = replica.pose();
                 for (int tick = 0; tick < 80; ++tick) {
                     replica.tick();
-                    const NodalPoints now = replica.pose();
+                    const body::NodalPoints now = replica.pose();
                     ASSERT_LE(furthest(last, now), allowed)
-                        << nameOf(static_cast<Action>(from)) << " at " << phase << " to "
-                        << nameOf(static_cast<Action>(to));
+                        << motion::nameOf(static_cast<motion::Action>(from)) << " at " << phase
+                        << " to " << motion::nameOf(static_cast<motion::Action>(to));
                     last = now;
                 }
                 ASSERT_EQ(replica.segment(), to);
@@ -128,4 +134,4 @@ TEST(Replica, noChangeOfSegmentMovesAPointFurtherThanTheRecordingsDo) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

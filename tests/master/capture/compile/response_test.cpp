@@ -6,7 +6,7 @@
 #include "master/capture/compile/speed_response.h"
 #include "tests/master/capture/compile/all_species.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 using Response = EachSpecies;
@@ -15,11 +15,11 @@ INSTANTIATE_TEST_SUITE_P(Of,
                          testing::Range(std::size_t{0}, allSpecies().size()),
                          nameOfSpecies);
 
-SpeedLaw swimOf(const SpeedResponse& response, std::size_t gait) {
+SpeedLaw swimOf(const motion::SpeedResponse& response, std::size_t gait) {
     return {.swimDrag = static_cast<double>(response.swimDrag.at(gait))};
 }
 
-SpeedLaw brakeOf(const SpeedResponse& response) {
+SpeedLaw brakeOf(const motion::SpeedResponse& response) {
     return {.glideDrag = static_cast<double>(response.glideDrag),
             .brakeRate = static_cast<double>(response.brakeRate)};
 }
@@ -43,12 +43,12 @@ double wayErrorOf(const Transition& transition, const SpeedLaw& law) {
 }
 
 TEST_P(Response, theLawReplaysEveryChangeOfSpeed) {
-    const Swim& gaits = species().swim;
+    const config::Swim& gaits = species().swim;
     const SteadySwimming slow = swimUntilSteady(species(), gaits.slow);
     const SteadySwimming medium = swimUntilSteady(species(), gaits.medium);
     const SteadySwimming fast = swimUntilSteady(species(), gaits.fast);
     const Transitions swum = swimTransitions(species(), {&slow, &medium, &fast});
-    const SpeedResponse response = fitResponse(swum);
+    const motion::SpeedResponse response = fitResponse(swum);
     for (std::size_t gait = 0; gait < swum.swim.size(); ++gait)
         for (const Transition& change : swum.swim.at(gait)) {
             EXPECT_LT(errorOf(change, swimOf(response, gait)), 0.04) << "to gait " << gait;
@@ -64,7 +64,7 @@ TEST_P(Response, isKeptInTheRepertoire) {
     for (const float drag : swim)
         EXPECT_GT(drag, 0) << "a beating tail holds the fish to its speed";
     EXPECT_GT(glide, 0);
-    const auto medium = segment(Action::ForwardMedium);
+    const auto medium = segment(motion::Action::ForwardMedium);
     EXPECT_GT(brake * medium.periodSeconds, 0.5F) << "fins stop a fish within some beats";
 }
 
@@ -115,4 +115,4 @@ TEST(SpeedResponse, aFishThatDoesNotSlowDownHasNoDrag) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -10,7 +10,7 @@
 #include "master/capture/dynamics/body_frame.h"
 #include "tests/master/capture/compile/all_species.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 using Steady = EachSpecies;
@@ -19,14 +19,14 @@ INSTANTIATE_TEST_SUITE_P(Of,
                          testing::Range(std::size_t{0}, allSpecies().size()),
                          nameOfSpecies);
 
-std::array<Gait, 3> gaitsOf(const Species& species) {
+std::array<config::Gait, 3> gaitsOf(const config::Species& species) {
     return {species.swim.slow, species.swim.medium, species.swim.fast};
 }
 
 double meanDistance(const NodeVectors& a, const NodeVectors& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += glm::distance(a.at(i), b.at(i));
-    return sum / kNodalPoints;
+    return sum / body::kNodalPoints;
 }
 
 // The period of a motion, in samples, from nothing but its poses: the lag, up to a third of what
@@ -48,15 +48,15 @@ std::size_t periodOf(const std::vector<NodeVectors>& poses) {
 }
 
 TEST_P(Steady, theMotionsOwnPeriodIsThatOfTheDrive) {
-    for (const Gait& gait : gaitsOf(species())) {
+    for (const config::Gait& gait : gaitsOf(species())) {
         SteadySwimming steady = swimUntilSteady(species(), gait);
         std::vector<NodeVectors> poses;
-        for (int sample = 0; sample < 5 * kPhases; ++sample) {
+        for (int sample = 0; sample < 5 * motion::kPhases; ++sample) {
             poses.push_back(inBodyFrame(steady.swimmer.state().positions));
             steady.swimmer.advance(steady.stepsPerPhase);
         }
-        EXPECT_EQ(periodOf(poses), std::size_t{kPhases}) << gait.beatHertz << " Hz";
-        EXPECT_NEAR(steady.swimmer.stepSeconds() * steady.stepsPerPhase * kPhases,
+        EXPECT_EQ(periodOf(poses), std::size_t{motion::kPhases}) << gait.beatHertz << " Hz";
+        EXPECT_NEAR(steady.swimmer.stepSeconds() * steady.stepsPerPhase * motion::kPhases,
                     1 / gait.beatHertz,
                     1e-12);
     }
@@ -64,9 +64,9 @@ TEST_P(Steady, theMotionsOwnPeriodIsThatOfTheDrive) {
 
 TEST_P(Steady, theRecordedBeatIsRepeatedTenBeatsLater) {
     SteadySwimming steady = swimUntilSteady(species(), species().swim.medium);
-    steady.swimmer.advance(9 * kPhases * steady.stepsPerPhase);
-    Recording later{.poses = {steady.swimmer.state().positions}};
-    for (int phase = 0; phase < kPhases; ++phase) {
+    steady.swimmer.advance(9 * motion::kPhases * steady.stepsPerPhase);
+    RecordedCycle later{.poses = {steady.swimmer.state().positions}};
+    for (int phase = 0; phase < motion::kPhases; ++phase) {
         steady.swimmer.advance(steady.stepsPerPhase);
         later.poses.push_back(steady.swimmer.state().positions);
     }
@@ -74,7 +74,7 @@ TEST_P(Steady, theRecordedBeatIsRepeatedTenBeatsLater) {
 }
 
 TEST(SteadySwimming, aGaitThatNeverRepeatsIsRefusedBySpeciesAndGait) {
-    Species wild = allSpecies().front();
+    config::Species wild = allSpecies().front();
     wild.name = "wild_fish";
     wild.swim.medium = {.beatHertz = 0.37, .gain = std::nan("")};
     try {
@@ -87,4 +87,4 @@ TEST(SteadySwimming, aGaitThatNeverRepeatsIsRefusedBySpeciesAndGait) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -12,7 +12,7 @@
 #include "master/capture/measure/measure.h"
 #include "tests/master/capture/compile/all_species.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 constexpr double kDegree = 3.14159265358979 / 180;
@@ -24,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Of,
                          nameOfSpecies);
 
 // Surveyed once for all tests.
-const std::vector<TurnSpread>& surveyOf(const Species& species) {
+const std::vector<TurnSpread>& surveyOf(const config::Species& species) {
     static std::map<std::string, std::vector<TurnSpread>> surveys;
     auto& survey = surveys[species.name];
     if (survey.empty()) survey = surveyTurns(species);
@@ -32,21 +32,23 @@ const std::vector<TurnSpread>& surveyOf(const Species& species) {
 }
 
 TEST_P(Turn, gradualIsTwentyToFortyDegreesAndSharpFortyToEighty) {
-    for (const Action action : {Action::TurnLeftGradual, Action::TurnRightGradual}) {
+    for (const motion::Action action :
+         {motion::Action::TurnLeftGradual, motion::Action::TurnRightGradual}) {
         const double turned = std::abs(measure(segment(action)).turnRadians) / kDegree;
-        EXPECT_GE(turned, 20) << nameOf(action);
-        EXPECT_LE(turned, 40) << nameOf(action);
+        EXPECT_GE(turned, 20) << motion::nameOf(action);
+        EXPECT_LE(turned, 40) << motion::nameOf(action);
     }
-    for (const Action action : {Action::TurnLeftSharp, Action::TurnRightSharp}) {
+    for (const motion::Action action :
+         {motion::Action::TurnLeftSharp, motion::Action::TurnRightSharp}) {
         const double turned = std::abs(measure(segment(action)).turnRadians) / kDegree;
-        EXPECT_GE(turned, 40) << nameOf(action);
-        EXPECT_LE(turned, 80) << nameOf(action);
+        EXPECT_GE(turned, 40) << motion::nameOf(action);
+        EXPECT_LE(turned, 80) << motion::nameOf(action);
     }
 }
 
 TEST_P(Turn, theCapturedOneIsTheTypicalOneOfItsSpread) {
     for (const TurnSpread& row : surveyOf(species())) {
-        if (row.entry != Action::ForwardMedium) continue;
+        if (row.entry != motion::Action::ForwardMedium) continue;
         const auto off = [&](double angle) { return std::abs(angle - row.mean()); };
         const double nearest = off(std::ranges::min(row.radians, {}, off));
         EXPECT_NEAR(off(measure(segment(row.turn)).turnRadians), nearest, 0.01 * kDegree);
@@ -59,7 +61,7 @@ struct Path {
     std::vector<NodeVectors> poses;
     double turned = 0;
 };
-Path pathOf(const Recording& turn, double side) {
+Path pathOf(const RecordedCycle& turn, double side) {
     const PoseFrame first = frameOf(turn.poses.front());
     const glm::dvec3 up{0, 1, 0};
     const glm::dvec3 right = glm::cross(turn.course, up);
@@ -76,15 +78,16 @@ Path pathOf(const Recording& turn, double side) {
 // tail is where it was on the other side.
 TEST_P(Turn, aMirroredDriveSwimsTheMirroredPath) {
     const SteadySwimming medium = swimUntilSteady(species(), species().swim.medium);
-    for (const Bend& bend : {species().turn.gradual, species().turn.sharp}) {
+    for (const config::Bend& bend : {species().turn.gradual, species().turn.sharp}) {
         const Path left = pathOf(recordTurn(species(), medium, Controller::LeftTurn, bend, 8), 1);
-        const Path right =
-            pathOf(recordTurn(species(), medium, Controller::RightTurn, bend, 8 + kPhases / 2), -1);
+        const Path right = pathOf(
+            recordTurn(species(), medium, Controller::RightTurn, bend, 8 + motion::kPhases / 2),
+            -1);
         EXPECT_NEAR(left.turned, right.turned, 0.05 * kDegree);
         ASSERT_EQ(left.poses.size(), right.poses.size());
         double furthest = 0;
         for (std::size_t k = 0; k < left.poses.size(); ++k)
-            for (int i = 0; i < kNodalPoints; ++i)
+            for (int i = 0; i < body::kNodalPoints; ++i)
                 furthest = std::max(
                     furthest,
                     glm::distance(
@@ -109,4 +112,4 @@ TEST_P(Turn, goesFurtherTheFasterItIsEntered) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -8,11 +8,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "master/capture/control/attitude.h"
+#include "master/capture/control/body_angles.h"
 #include "master/capture/control/swimmer.h"
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
 
@@ -43,7 +43,7 @@ inline Course courseOver(Swimmer& swimmer, double seconds) {
     for (int i = 0; i < kSamples; ++i) {
         const double until = start + seconds * (i + 1) / kSamples;
         advanceSeconds(swimmer, until - swimmer.seconds());
-        const Attitude attitude = attitudeOf(swimmer.state());
+        const BodyAngles attitude = bodyAnglesOf(swimmer.state());
         course.meanPitchRadians += attitude.pitchRadians / kSamples;
         course.meanHeadingRadians += attitude.headingRadians / kSamples;
         course.mostRollRadians = std::max(course.mostRollRadians, std::abs(attitude.rollRadians));
@@ -55,16 +55,16 @@ inline Course courseOver(Swimmer& swimmer, double seconds) {
     return course;
 }
 
-inline Order forward(const Gait& gait) {
+inline Order forward(const config::Gait& gait) {
     return {.controller = Controller::ForwardSwim, .gait = gait};
 }
 
 // In its stride: after so many beats of medium swimming.
-inline Swimmer swimming(const Species& species, double beats) {
+inline Swimmer swimming(const config::Species& species, double beats) {
     Swimmer swimmer(species);
     swimmer.give(forward(species.swim.medium));
     advanceSeconds(swimmer, beats / species.swim.medium.beatHertz);
     return swimmer;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

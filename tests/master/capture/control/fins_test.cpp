@@ -10,22 +10,22 @@
 #include "tests/support/all_species.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 constexpr double kRunUpBeats = 16;
 constexpr double kSettleBeats = 30;
 
-Order with(Controller controller, const Species& species, double pitchRadians = 0) {
+Order with(Controller controller, const config::Species& species, double pitchRadians = 0) {
     return {.controller = controller, .gait = species.swim.medium, .pitchRadians = pitchRadians};
 }
 
-Course overBeats(Swimmer& swimmer, const Species& species, int beats) {
+Course overBeats(Swimmer& swimmer, const config::Species& species, int beats) {
     return courseOver(swimmer, beats / species.swim.medium.beatHertz);
 }
 
 // The same fish, rolled about its axis; positive: right side up.
-Swimmer rolled(const Species& species, double radians) {
+Swimmer rolled(const config::Species& species, double radians) {
     BiomechanicalFish fish = makeBiomechanicalFish(species);
     for (glm::dvec3& x : fish.restPositions)
         x = {x.x,
@@ -36,7 +36,7 @@ Swimmer rolled(const Species& species, double radians) {
 
 TEST(AscendAndDescend, holdThePitchThatIsAskedForAndRiseOrFallInEverySpecies) {
     const double pitch = 30 * kDegree;
-    for (const Species& species : allSpecies()) {
+    for (const config::Species& species : test::allSpecies()) {
         Swimmer up = swimming(species, kRunUpBeats);
         up.give(with(Controller::Ascend, species, pitch));
         overBeats(up, species, kSettleBeats);
@@ -55,7 +55,7 @@ TEST(AscendAndDescend, holdThePitchThatIsAskedForAndRiseOrFallInEverySpecies) {
 }
 
 TEST(Balance, levelsAFishThatWasClimbingInEverySpecies) {
-    for (const Species& species : allSpecies()) {
+    for (const config::Species& species : test::allSpecies()) {
         Swimmer swimmer = swimming(species, kRunUpBeats);
         swimmer.give(with(Controller::Ascend, species, 30 * kDegree));
         overBeats(swimmer, species, 10);
@@ -68,10 +68,10 @@ TEST(Balance, levelsAFishThatWasClimbingInEverySpecies) {
 }
 
 TEST(Balance, rightsAFishThatLeansToEitherSideInEverySpecies) {
-    for (const Species& species : allSpecies())
+    for (const config::Species& species : test::allSpecies())
         for (const double roll : {40 * kDegree, -40 * kDegree}) {
             Swimmer swimmer = rolled(species, roll);
-            EXPECT_NEAR(attitudeOf(swimmer.state()).rollRadians, roll, 1e-9);
+            EXPECT_NEAR(bodyAnglesOf(swimmer.state()).rollRadians, roll, 1e-9);
             swimmer.give(with(Controller::Balance, species));
             overBeats(swimmer, species, kSettleBeats);
             EXPECT_LT(overBeats(swimmer, species, 4).mostRollRadians, 5 * kDegree) << species.name;
@@ -79,14 +79,14 @@ TEST(Balance, rightsAFishThatLeansToEitherSideInEverySpecies) {
 }
 
 TEST(Balance, isWhatRightsIt) {
-    Swimmer swimmer = rolled(scad(), 40 * kDegree);
-    swimmer.give(forward(scad().swim.medium));
-    overBeats(swimmer, scad(), kSettleBeats);
-    EXPECT_GT(attitudeOf(swimmer.state()).rollRadians, 35 * kDegree);
+    Swimmer swimmer = rolled(test::scad(), 40 * kDegree);
+    swimmer.give(forward(test::scad().swim.medium));
+    overBeats(swimmer, test::scad(), kSettleBeats);
+    EXPECT_GT(bodyAnglesOf(swimmer.state()).rollRadians, 35 * kDegree);
 }
 
 TEST(Brake, stopsAFishWithoutASwerveWhereAGlideGoesOnInEverySpecies) {
-    for (const Species& species : allSpecies()) {
+    for (const config::Species& species : test::allSpecies()) {
         Swimmer braking = swimming(species, kRunUpBeats);
         Swimmer gliding = swimming(species, kRunUpBeats);
         const double before = overBeats(braking, species, 1).velocity.x;
@@ -102,12 +102,12 @@ TEST(Brake, stopsAFishWithoutASwerveWhereAGlideGoesOnInEverySpecies) {
             speed = now;
         }
         EXPECT_LT(speed, 0.25 * before) << species.name;
-        EXPECT_NEAR(attitudeOf(braking.state()).headingRadians, 0, 10 * kDegree) << species.name;
+        EXPECT_NEAR(bodyAnglesOf(braking.state()).headingRadians, 0, 10 * kDegree) << species.name;
     }
 }
 
 TEST(Retreat, swimsBackwardInEverySpecies) {
-    for (const Species& species : allSpecies()) {
+    for (const config::Species& species : test::allSpecies()) {
         Swimmer swimmer(species);
         swimmer.give(with(Controller::Retreat, species));
         overBeats(swimmer, species, kSettleBeats);
@@ -119,16 +119,16 @@ TEST(Retreat, swimsBackwardInEverySpecies) {
 
 // Tail first a fish is a weathercock the wrong way round.
 TEST(Retreat, holdsItsHeadingThoughTheFishIsNotSymmetric) {
-    BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     for (WettedFace& face : fish.faces)
         if (face.nodes[0] % 4 == 0) face.drag *= 1.1;
-    Swimmer swimmer(fish, scad().swim, longestStepSeconds(fish));
-    swimmer.give(with(Controller::Retreat, scad()));
-    const Course course = overBeats(swimmer, scad(), 60);
+    Swimmer swimmer(fish, test::scad().swim, longestStepSeconds(fish));
+    swimmer.give(with(Controller::Retreat, test::scad()));
+    const Course course = overBeats(swimmer, test::scad(), 60);
     EXPECT_LT(course.velocity.x, -0.3);
     EXPECT_NEAR(course.meanHeadingRadians, 0, 10 * kDegree);
     EXPECT_LT(course.mostRollRadians, 10 * kDegree);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

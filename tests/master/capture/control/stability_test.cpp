@@ -14,7 +14,7 @@
 #include "tests/master/capture/control/course.h"
 #include "tests/support/all_species.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 // By then the slowest of them, the trumpetfish, swims at its speed.
@@ -29,7 +29,7 @@ int stretchesOf(const BiomechanicalFish& fish) {
 }
 
 // A fish as none was drawn: each coordinate of each node out of place, by 1e-3 body lengths RMS.
-BiomechanicalFish crooked(const Species& species) {
+BiomechanicalFish crooked(const config::Species& species) {
     BiomechanicalFish fish = makeBiomechanicalFish(species);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> shift(-1.7e-3, 1.7e-3);
@@ -48,11 +48,13 @@ double largestDistance(const NodeVectors& a, const NodeVectors& b) {
     return most;
 }
 
-using SpeciesAndGait = std::tuple<std::size_t, Gait Swim::*>;
+using SpeciesAndGait = std::tuple<std::size_t, config::Gait config::Swim::*>;
 class EveryGait : public testing::TestWithParam<SpeciesAndGait> {
   protected:
     // Steps that divide the beat, so that poses of one phase can be compared.
-    static Swimmer balancing(const BiomechanicalFish& fish, const Swim& swim, const Gait& gait) {
+    static Swimmer balancing(const BiomechanicalFish& fish,
+                             const config::Swim& swim,
+                             const config::Gait& gait) {
         const double steps = std::ceil(1 / (gait.beatHertz * longestStepSeconds(fish)));
         Swimmer swimmer(fish, swim, 1 / (gait.beatHertz * steps));
         swimmer.give({.controller = Controller::Balance, .gait = gait});
@@ -62,8 +64,8 @@ class EveryGait : public testing::TestWithParam<SpeciesAndGait> {
 
 TEST_P(EveryGait, isSwumOnAndOnUprightAtOneSpeedInOnePose) {
     const auto [index, which] = GetParam();
-    const Species& species = allSpecies().at(index);
-    const Gait& gait = species.swim.*which;
+    const config::Species& species = test::allSpecies().at(index);
+    const config::Gait& gait = species.swim.*which;
     const BiomechanicalFish fish = crooked(species);
     Swimmer swimmer = balancing(fish, species.swim, gait);
     const double ownSecond = 1 / fish.timeScale;
@@ -85,17 +87,19 @@ TEST_P(EveryGait, isSwumOnAndOnUprightAtOneSpeedInOnePose) {
 
 std::string nameOf(const testing::TestParamInfo<SpeciesAndGait>& info) {
     const auto [index, which] = info.param;
-    const std::string gait = which == &Swim::slow     ? "slow"
-                             : which == &Swim::medium ? "medium"
-                                                      : "fast";
-    return allSpecies().at(index).name + "_" + gait;
+    const std::string gait = which == &config::Swim::slow     ? "slow"
+                             : which == &config::Swim::medium ? "medium"
+                                                              : "fast";
+    return test::allSpecies().at(index).name + "_" + gait;
 }
 
 INSTANTIATE_TEST_SUITE_P(InEverySpecies,
                          EveryGait,
-                         testing::Combine(testing::Range(std::size_t{0}, allSpecies().size()),
-                                          testing::Values(&Swim::slow, &Swim::medium, &Swim::fast)),
+                         testing::Combine(testing::Range(std::size_t{0}, test::allSpecies().size()),
+                                          testing::Values(&config::Swim::slow,
+                                                          &config::Swim::medium,
+                                                          &config::Swim::fast)),
                          nameOf);
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -11,21 +11,22 @@
 #include "tests/support/all_species.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 // As the species' fish is in the middle of a beat: the longest it goes before a test looks at it.
 constexpr double kRunUpBeats = 16;
 
-double oneBeat(const Species& species) {
+double oneBeat(const config::Species& species) {
     return 1 / species.swim.medium.beatHertz;
 }
 
 TEST(ForwardSwim, goesStraightOnAndFasterFromGaitToGaitInEverySpecies) {
-    for (const Species& species : allSpecies()) {
+    for (const config::Species& species : test::allSpecies()) {
         Swimmer swimmer(species);
         double before = 0.1;
-        for (const Gait& gait : {species.swim.slow, species.swim.medium, species.swim.fast}) {
+        for (const config::Gait& gait :
+             {species.swim.slow, species.swim.medium, species.swim.fast}) {
             swimmer.give(forward(gait));
             advanceSeconds(swimmer, kRunUpBeats / gait.beatHertz);
             const Course course = courseOver(swimmer, 1 / gait.beatHertz);
@@ -38,10 +39,10 @@ TEST(ForwardSwim, goesStraightOnAndFasterFromGaitToGaitInEverySpecies) {
 }
 
 TEST(ForwardSwim, keepsTimeOverAChangeOfGait) {
-    const Gait brisk{.beatHertz = 3, .gain = 1};
-    const Gait lazy{.beatHertz = 3, .gain = 0.3};
-    Swimmer steady(scad());
-    Swimmer changing(scad());
+    const config::Gait brisk{.beatHertz = 3, .gain = 1};
+    const config::Gait lazy{.beatHertz = 3, .gain = 0.3};
+    Swimmer steady(test::scad());
+    Swimmer changing(test::scad());
     steady.give(forward(brisk));
     changing.give(forward(brisk));
     for (int beat = 0; beat < 8; ++beat) {
@@ -57,17 +58,20 @@ TEST(ForwardSwim, keepsTimeOverAChangeOfGait) {
 }
 
 // From the mean heading of one beat to that after the turn, left positive.
-double turnedBy(const Species& species, Controller controller, const Bend& bend, double beats) {
+double turnedBy(const config::Species& species,
+                Controller controller,
+                const config::Bend& bend,
+                double beats) {
     Swimmer swimmer = swimming(species, beats);
     const double before = courseOver(swimmer, oneBeat(species)).meanHeadingRadians;
     swimmer.give({.controller = controller, .bend = bend});
     advanceSeconds(swimmer, secondsOf(bend, species));
-    return attitudeOf(swimmer.state()).headingRadians - before;
+    return bodyAnglesOf(swimmer.state()).headingRadians - before;
 }
 
 TEST(LeftTurn, turnsLeftAndSharperWithTheSharpBendInEverySpecies) {
-    for (const Species& species : allSpecies()) {
-        const auto turned = [&](const Bend& bend) {
+    for (const config::Species& species : test::allSpecies()) {
+        const auto turned = [&](const config::Bend& bend) {
             return turnedBy(species, Controller::LeftTurn, bend, kRunUpBeats);
         };
         const double gradual = turned(species.turn.gradual);
@@ -77,8 +81,8 @@ TEST(LeftTurn, turnsLeftAndSharperWithTheSharpBendInEverySpecies) {
 }
 
 TEST(RightTurn, isTheLeftTurnsMirrorImageHalfABeatLater) {
-    for (const Species& species : allSpecies()) {
-        const Bend& bend = species.turn.sharp;
+    for (const config::Species& species : test::allSpecies()) {
+        const config::Bend& bend = species.turn.sharp;
         const double left = turnedBy(species, Controller::LeftTurn, bend, kRunUpBeats);
         const double right = turnedBy(species, Controller::RightTurn, bend, kRunUpBeats + 0.5);
         // The first beat of all goes left, so that the two paths lie a little askew.
@@ -88,17 +92,17 @@ TEST(RightTurn, isTheLeftTurnsMirrorImageHalfABeatLater) {
 }
 
 TEST(Turns, endWithTheMusclesRelaxed) {
-    Swimmer swimmer = swimming(scad(), kRunUpBeats);
-    swimmer.give({.controller = Controller::RightTurn, .bend = scad().turn.sharp});
-    advanceSeconds(swimmer, secondsOf(scad().turn.sharp, scad()) + 2);
-    const NodeVectors straight = inBodyFrame(makeBiomechanicalFish(scad()).restPositions);
+    Swimmer swimmer = swimming(test::scad(), kRunUpBeats);
+    swimmer.give({.controller = Controller::RightTurn, .bend = test::scad().turn.sharp});
+    advanceSeconds(swimmer, secondsOf(test::scad().turn.sharp, test::scad()) + 2);
+    const NodeVectors straight = inBodyFrame(makeBiomechanicalFish(test::scad()).restPositions);
     const NodeVectors pose = inBodyFrame(swimmer.state().positions);
     for (std::size_t i = 0; i < pose.size(); ++i)
         EXPECT_LT(glm::distance(pose.at(i), straight.at(i)), 0.01);
 }
 
 TEST(Glide, slowsWithoutEndAndWithoutTurningBackInEverySpecies) {
-    for (const Species& species : allSpecies()) {
+    for (const config::Species& species : test::allSpecies()) {
         Swimmer swimmer = swimming(species, kRunUpBeats);
         swimmer.give({.controller = Controller::Glide});
         double speed = courseOver(swimmer, oneBeat(species)).velocity.x;
@@ -113,7 +117,7 @@ TEST(Glide, slowsWithoutEndAndWithoutTurningBackInEverySpecies) {
 }
 
 TEST(Orders, neverMakeTheBodyJump) {
-    Swimmer swimmer = swimming(scad(), kRunUpBeats);
+    Swimmer swimmer = swimming(test::scad(), kRunUpBeats);
     const double swum = [&] {
         double most = 0;
         for (int i = 0; i < 240; ++i) {
@@ -125,11 +129,11 @@ TEST(Orders, neverMakeTheBodyJump) {
         }
         return most;
     }();
-    const Gait& medium = scad().swim.medium;
+    const config::Gait& medium = test::scad().swim.medium;
     for (const Order& order :
-         {Order{.controller = Controller::LeftTurn, .bend = scad().turn.sharp},
-          Order{.controller = Controller::RightTurn, .bend = scad().turn.sharp},
-          forward(scad().swim.slow),
+         {Order{.controller = Controller::LeftTurn, .bend = test::scad().turn.sharp},
+          Order{.controller = Controller::RightTurn, .bend = test::scad().turn.sharp},
+          forward(test::scad().swim.slow),
           Order{.controller = Controller::Brake},
           Order{.controller = Controller::Retreat, .gait = medium},
           forward(medium)}) {
@@ -145,4 +149,4 @@ TEST(Orders, neverMakeTheBodyJump) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

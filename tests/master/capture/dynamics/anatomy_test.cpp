@@ -17,14 +17,14 @@
 #include "master/capture/dynamics/rigidity.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 template <class Passes>
 int freeWithOnly(Passes passes) {
     std::vector<Unit> units;
     std::ranges::copy_if(anatomy().units, std::back_inserter(units), passes);
-    return freeShapeChanges(makeBiomechanicalFish(scad()).restPositions, units);
+    return freeShapeChanges(makeBiomechanicalFish(test::scad()).restPositions, units);
 }
 
 TEST(Anatomy, hasThePapersNumbers) {
@@ -66,8 +66,8 @@ TEST(Anatomy, losesAWayToHoldItsShapeWithEachUnitThatOneNeeds) {
 }
 
 TEST(Anatomy, refusesASkeletonThatIsNotRigid) {
-    Species flat = scad();
-    for (SkeletonRing& ring : flat.skeleton.rings) ring.halfWidth = 0;
+    config::Species flat = test::scad();
+    for (config::SkeletonRing& ring : flat.skeleton.rings) ring.halfWidth = 0;
     const auto make = [&] { return makeBiomechanicalFish(flat); };
     EXPECT_THAT(make,
                 testing::ThrowsMessage<Error>(testing::AllOf(testing::HasSubstr("bigeye_scad"),
@@ -92,7 +92,7 @@ TEST(Anatomy, isItsOwnMirrorImageBothWays) {
 }
 
 TEST(Anatomy, facesCloseTheFishAndLookOutward) {
-    const NodeVectors x = makeBiomechanicalFish(scad()).restPositions;
+    const NodeVectors x = makeBiomechanicalFish(test::scad()).restPositions;
     glm::dvec3 sum{};
     double volume = 0;
     for (const DragFace& face : anatomy().faces) {
@@ -105,4 +105,4 @@ TEST(Anatomy, facesCloseTheFishAndLookOutward) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

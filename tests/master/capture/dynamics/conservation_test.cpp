@@ -10,7 +10,7 @@
 #include "tests/master/capture/dynamics/disturbed.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 glm::dvec3 momentumOf(const BiomechanicalFish& fish, const FishState& state) {
@@ -41,7 +41,8 @@ double energyOf(const BiomechanicalFish& fish, const FishState& state) {
 }
 
 MotorControl swimming(double seconds) {
-    return {.muscles = beatAt(scad().swim, 1, scad().swim.medium.beatHertz * seconds), .fins = {}};
+    return {.muscles = beatAt(test::scad().swim, 1, test::scad().swim.medium.beatHertz * seconds),
+            .fins = {}};
 }
 
 void expectEnergyNeverGrows(const BiomechanicalFish& fish, const MotorControl& control) {
@@ -91,7 +92,7 @@ TEST(Energy, neverGrowsWithoutMusclesEvenWhereNothingDamps) {
 }
 
 TEST(Energy, neverGrowsInWaterHoweverTheFinsStand) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     expectEnergyNeverGrows(fish, {});
     expectEnergyNeverGrows(
         fish,
@@ -99,7 +100,7 @@ TEST(Energy, neverGrowsInWaterHoweverTheFinsStand) {
 }
 
 TEST(Energy, goesToTheWater) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     FishState state = disturbed(fish);
     const double before = energyOf(fish, state);
     for (int i = 0; i < 1000; ++i) step(fish, {}, longestStepSeconds(fish), state);
@@ -107,4 +108,4 @@ TEST(Energy, goesToTheWater) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

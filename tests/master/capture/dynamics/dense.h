@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace aquarama {
+namespace aquarama::capture {
 
 using DenseMatrix = std::vector<std::vector<double>>;  // rows
 
@@ -44,4 +44,4 @@ inline std::vector<double> solveDense(DenseMatrix matrix, const std::vector<doub
     return solution;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -7,10 +7,10 @@
 #include "master/capture/dynamics/biomechanical_fish.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 inline BiomechanicalFish inVacuum() {
-    BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     for (WettedFace& face : fish.faces) face.drag = 0;
     fish.finDrag = 0;
     return fish;
@@ -27,4 +27,4 @@ inline FishState disturbed(const BiomechanicalFish& fish) {
     return state;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

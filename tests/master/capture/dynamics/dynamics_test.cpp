@@ -15,7 +15,7 @@
 #include "tests/support/all_species.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 glm::dvec3 momentumOf(const BiomechanicalFish& fish, const FishState& state) {
@@ -38,7 +38,7 @@ TEST(EnvelopeSystem, solvesWhatADenseSolverSolves) {
     EnvelopeSystem system;
     DenseMatrix dense(kSize, std::vector<double>(kSize));
     std::vector<double> right;
-    for (int i = 0; i < kNodalPoints; ++i) {
+    for (int i = 0; i < body::kNodalPoints; ++i) {
         system.addToDiagonal(i, 1 + 0.1 * i);
         addBlock(dense, i, i, glm::dmat3(1 + 0.1 * i));
         const glm::dvec3 value{std::sin(i), std::cos(i), 0.5};
@@ -59,7 +59,7 @@ TEST(EnvelopeSystem, solvesWhatADenseSolverSolves) {
     }
     system.solve();
     const std::vector<double> expected = solveDense(dense, right);
-    for (int i = 0; i < kNodalPoints; ++i)
+    for (int i = 0; i < body::kNodalPoints; ++i)
         for (int p = 0; p < 3; ++p)
             EXPECT_NEAR(system.solution(i)[p],
                         expected.at(3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(p)),
@@ -67,7 +67,7 @@ TEST(EnvelopeSystem, solvesWhatADenseSolverSolves) {
 }
 
 TEST(Dynamics, aFishAtRestStaysAtRest) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     FishState state = stateAtRest(fish);
     for (int i = 0; i < 100; ++i) step(fish, {}, longestStepSeconds(fish), state);
     for (std::size_t i = 0; i < state.positions.size(); ++i)
@@ -75,7 +75,7 @@ TEST(Dynamics, aFishAtRestStaysAtRest) {
 }
 
 TEST(Dynamics, waterOnlyEverSlowsAStiffFish) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     FishState state = stateAtRest(fish);
     for (glm::dvec3& velocity : state.velocities) velocity = {2, 0, 0};
     double speed = momentumOf(fish, state).x;
@@ -89,7 +89,7 @@ TEST(Dynamics, waterOnlyEverSlowsAStiffFish) {
 }
 
 TEST(Dynamics, exchangedMusclesSwimTheMirroredPathInEverySpecies) {
-    for (const Species& species : allSpecies()) {
+    for (const config::Species& species : test::allSpecies()) {
         const BiomechanicalFish fish = makeBiomechanicalFish(species);
         FishState left = stateAtRest(fish);
         FishState right = stateAtRest(fish);
@@ -102,7 +102,7 @@ TEST(Dynamics, exchangedMusclesSwimTheMirroredPathInEverySpecies) {
             step(fish, {.muscles = muscles, .fins = {}}, longestStepSeconds(fish), left);
             step(fish, {.muscles = mirrored(muscles), .fins = {}}, longestStepSeconds(fish), right);
         }
-        for (int i = 0; i < kNodalPoints; ++i) {
+        for (int i = 0; i < body::kNodalPoints; ++i) {
             const glm::dvec3 image =
                 glm::dvec3(1, 1, -1) *
                 right.positions.at(static_cast<std::size_t>(mirroredLeftRight(i)));
@@ -113,16 +113,17 @@ TEST(Dynamics, exchangedMusclesSwimTheMirroredPathInEverySpecies) {
 }
 
 TEST(Dynamics, swimsInAPlane) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     FishState state = stateAtRest(fish);
     for (int i = 0; i < 5000; ++i)
         step(fish,
-             {.muscles =
-                  beatAt(scad().swim, 1, scad().swim.fast.beatHertz * i * longestStepSeconds(fish)),
+             {.muscles = beatAt(test::scad().swim,
+                                1,
+                                test::scad().swim.fast.beatHertz * i * longestStepSeconds(fish)),
               .fins = {}},
              longestStepSeconds(fish),
              state);
-    for (int i = 0; i < kNodalPoints; ++i) {
+    for (int i = 0; i < body::kNodalPoints; ++i) {
         const double height = state.positions.at(static_cast<std::size_t>(i)).y;
         const double image = state.positions.at(static_cast<std::size_t>(mirroredTopBottom(i))).y;
         EXPECT_NEAR(height, -image, 1e-9);
@@ -130,7 +131,7 @@ TEST(Dynamics, swimsInAPlane) {
 }
 
 TEST(BodyFrame, isOrthonormalAndPointsForwardUpAndRight) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     const PoseFrame rest = frameOf(fish.restPositions);
     EXPECT_LT(glm::distance(rest.worldFromBody[0], glm::dvec3(1, 0, 0)), 1e-12);
     EXPECT_LT(glm::distance(rest.worldFromBody[1], glm::dvec3(0, 1, 0)), 1e-12);
@@ -143,4 +144,4 @@ TEST(BodyFrame, isOrthonormalAndPointsForwardUpAndRight) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -11,7 +11,7 @@
 #include "tests/master/capture/dynamics/disturbed.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 namespace {
 
 // Short enough that the velocity at its end is that at its start.
@@ -19,7 +19,7 @@ constexpr double kInstant = 1e-6;
 
 BiomechanicalFish finsAlone() {
     BiomechanicalFish fish = inVacuum();
-    fish.finDrag = makeBiomechanicalFish(scad()).finDrag;
+    fish.finDrag = makeBiomechanicalFish(test::scad()).finDrag;
     return fish;
 }
 
@@ -61,7 +61,7 @@ TEST(PectoralFins, pushAFishThatRestsByHowTheySweep) {
 }
 
 TEST(PectoralFins, rollTheFishTowardsTheFinThatStandsLower) {
-    const BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     FishState state = stateAtRest(fish);
     for (glm::dvec3& velocity : state.velocities) velocity = {2, 0, 0};
     const PectoralFins leftUp{.left = {.angleRadians = 2}, .right = {.angleRadians = 1.14}};
@@ -80,7 +80,7 @@ TEST(Lift, bearsTheWholeFishUp) {
 }
 
 TEST(Lift, rightsAFishThatFloatsBackUp) {
-    BiomechanicalFish fish = makeBiomechanicalFish(scad());
+    BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
     for (const std::size_t dorsal : {5U, 6U}) fish.lifts.at(dorsal) = 0.1;
     for (const std::size_t ventral : {7U, 8U}) fish.lifts.at(ventral) = -0.1;
     FishState state = stateAtRest(fish);
@@ -96,4 +96,4 @@ TEST(Lift, rightsAFishThatFloatsBackUp) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -7,15 +7,16 @@
 #include "tests/master/capture/exchange/c3d_reader.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 namespace {
 
 TEST(C3d, givesBackEveryFloatOfTheTake) {
-    for (int action = 0; action < kCapturedActions; ++action) {
-        const Take take = takeAtTicks(scadRepertoire(), static_cast<Action>(action), 2);
+    for (int action = 0; action < motion::kCapturedActions; ++action) {
+        const Take take =
+            takeAtTicks(test::scadRepertoire(), static_cast<motion::Action>(action), 2);
         const test::C3dFile file(c3dOf(take));
         for (std::size_t f = 0; f < take.frames.size(); ++f) {
-            for (std::size_t i = 0; i < kNodalPoints; ++i) {
+            for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
                 const glm::dvec3 node = take.frames[f].nodes.at(i);
                 EXPECT_EQ(file.data(f, i, 0), static_cast<float>(node.x));
                 EXPECT_EQ(file.data(f, i, 1), static_cast<float>(node.y));
@@ -27,11 +28,11 @@ TEST(C3d, givesBackEveryFloatOfTheTake) {
 }
 
 TEST(C3d, headerAndParametersAgree) {
-    const Take take = takeAtTicks(scadRepertoire(), Action::ForwardSlow, 4);
+    const Take take = takeAtTicks(test::scadRepertoire(), motion::Action::ForwardSlow, 4);
     const test::C3dFile file(c3dOf(take));
     EXPECT_EQ(file.size() % 512, 0U);
-    EXPECT_EQ(file.at<std::uint16_t>(2), kNodalPoints);
-    EXPECT_EQ(file.number<std::uint16_t>("POINT:USED"), kNodalPoints);
+    EXPECT_EQ(file.at<std::uint16_t>(2), body::kNodalPoints);
+    EXPECT_EQ(file.number<std::uint16_t>("POINT:USED"), body::kNodalPoints);
     EXPECT_EQ(file.at<std::uint16_t>(8), take.frames.size());
     EXPECT_EQ(file.number<std::uint16_t>("POINT:FRAMES"), take.frames.size());
     EXPECT_EQ(file.at<std::uint16_t>(16), file.number<std::uint16_t>("POINT:DATA_START"));
@@ -43,11 +44,11 @@ TEST(C3d, headerAndParametersAgree) {
     EXPECT_EQ(file.strings("POINT:X_SCREEN"), std::vector<std::string>{"+X"});
     EXPECT_EQ(file.strings("POINT:Y_SCREEN"), std::vector<std::string>{"+Y"});
     EXPECT_EQ(file.strings("AQUARAMA:SEGMENT"), std::vector<std::string>{"forward_slow"});
-    for (std::size_t i = 0; i < kNodalPoints; ++i) {
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
         EXPECT_EQ(file.strings("POINT:LABELS").at(i), markerLabel(i));
         EXPECT_EQ(file.strings("POINT:DESCRIPTIONS").at(i), markerDescription(i));
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::exchange

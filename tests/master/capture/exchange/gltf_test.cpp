@@ -12,13 +12,13 @@
 #include "master/capture/exchange/take.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::exchange {
 namespace {
 
 class GltfFile : public testing::TestWithParam<GltfContainer> {
   protected:
-    const aiScene& load(Action action, int cycles) {
-        const auto bytes = gltfOf(scadRepertoire(), body_, action, cycles, GetParam());
+    const aiScene& load(motion::Action action, int cycles) {
+        const auto bytes = gltfOf(test::scadRepertoire(), body_, action, cycles, GetParam());
         const bool isBinary = GetParam() == GltfContainer::Binary;
         const aiScene* scene = importer_.ReadFileFromMemory(
             bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, isBinary ? "glb" : "gltf");
@@ -26,7 +26,7 @@ class GltfFile : public testing::TestWithParam<GltfContainer> {
         return *scene;
     }
 
-    FishBody body_ = makeBody(scad());
+    body::FishBody body_ = body::makeBody(test::scad());
     Assimp::Importer importer_;
 };
 INSTANTIATE_TEST_SUITE_P(As,
@@ -41,12 +41,13 @@ glm::vec3 vectorOf(const aiVector3D& v) {
 }
 
 TEST_P(GltfFile, theMeshIsTheSkinAtEachOfTheShapes) {
-    const Action action = Action::TurnRightSharp;
+    const motion::Action action = motion::Action::TurnRightSharp;
     const aiScene& scene = load(action, 1);
-    const SwimmingSkin skin = skinOf(body_,
-                                     segmentOf(action),
-                                     static_cast<double>(scadRepertoire().recordedLengthMetres),
-                                     gltfShapes(segmentOf(action)));
+    const SwimmingSkin skin =
+        skinOf(body_,
+               test::segmentOf(action),
+               static_cast<double>(test::scadRepertoire().recordedLengthMetres),
+               gltfShapes(test::segmentOf(action)));
     ASSERT_EQ(scene.mNumMeshes, 1U);
     const aiMesh& mesh = *scene.mMeshes[0];
     ASSERT_EQ(mesh.mNumFaces * 3, skin.triangles.size());
@@ -70,16 +71,16 @@ TEST_P(GltfFile, theMeshIsTheSkinAtEachOfTheShapes) {
 }
 
 TEST_P(GltfFile, theAnimationMovesTheFishAsTheTakeDoes) {
-    const Action action = Action::ForwardMedium;
+    const motion::Action action = motion::Action::ForwardMedium;
     constexpr int kCycles = 3;
     const aiScene& scene = load(action, kCycles);
     const Take take =
-        takeAtPhases(scadRepertoire(), action, kCycles, gltfShapes(segmentOf(action)));
+        takeAtPhases(test::scadRepertoire(), action, kCycles, gltfShapes(test::segmentOf(action)));
     ASSERT_EQ(scene.mNumAnimations, 1U);
     const aiAnimation& animation = *scene.mAnimations[0];
     EXPECT_STREQ(animation.mName.C_Str(), "forward_medium");
     EXPECT_NEAR(animation.mDuration / animation.mTicksPerSecond,
-                kCycles * static_cast<double>(segmentOf(action).periodSeconds),
+                kCycles * static_cast<double>(test::segmentOf(action).periodSeconds),
                 1e-5);
     ASSERT_EQ(animation.mNumChannels, 1U);
     const aiNodeAnim& channel = *animation.mChannels[0];
@@ -97,8 +98,8 @@ TEST_P(GltfFile, theAnimationMovesTheFishAsTheTakeDoes) {
 }
 
 TEST_P(GltfFile, eachKeyShowsOneShapeInTurn) {
-    const Action action = Action::ForwardFast;
-    const auto shapes = static_cast<unsigned>(gltfShapes(segmentOf(action)));
+    const motion::Action action = motion::Action::ForwardFast;
+    const auto shapes = static_cast<unsigned>(gltfShapes(test::segmentOf(action)));
     const aiScene& scene = load(action, 2);
     const aiAnimation& animation = *scene.mAnimations[0];
     ASSERT_EQ(animation.mNumMorphMeshChannels, 1U);
@@ -115,19 +116,22 @@ TEST_P(GltfFile, eachKeyShowsOneShapeInTurn) {
 
 // What a viewer shows between two keys.
 TEST(Gltf, straightLinesBetweenTheShapesOfABeatStayCloseToTheRecordedOnes) {
-    for (const Action action : {Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast}) {
-        const SwimmingSkin skin = skinOf(makeBody(scad()), segmentOf(action), 1, kPhases);
-        ASSERT_EQ(gltfShapes(segmentOf(action)), kPhases / 2);
-        for (std::size_t k = 1; k < kPhases; k += 2) {
+    for (const motion::Action action : {motion::Action::ForwardSlow,
+                                        motion::Action::ForwardMedium,
+                                        motion::Action::ForwardFast}) {
+        const SwimmingSkin skin =
+            skinOf(body::makeBody(test::scad()), test::segmentOf(action), 1, motion::kPhases);
+        ASSERT_EQ(gltfShapes(test::segmentOf(action)), motion::kPhases / 2);
+        for (std::size_t k = 1; k < motion::kPhases; k += 2) {
             const auto& before = skin.shapes[k - 1].positions;
             const auto& now = skin.shapes[k].positions;
-            const auto& after = skin.shapes[(k + 1) % kPhases].positions;
+            const auto& after = skin.shapes[(k + 1) % motion::kPhases].positions;
             for (std::size_t i = 0; i < now.size(); ++i)
                 EXPECT_LT(glm::distance(now[i], (before[i] + after[i]) / 2.0F), 0.002F)
-                    << nameOf(action) << ' ' << k;
+                    << motion::nameOf(action) << ' ' << k;
         }
     }
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::exchange

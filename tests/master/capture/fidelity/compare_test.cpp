@@ -9,7 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-namespace aquarama {
+namespace aquarama::fidelity {
 namespace {
 
 constexpr double kSpeed = 0.03;  // body lengths a tick
@@ -26,7 +26,7 @@ struct Difference {
 };
 
 Script twoCommands() {
-    const Command swim{Manoeuvre::ForwardMedium, kTicks, kBeatTicks};
+    const ScriptCommand swim{Manoeuvre::ForwardMedium, kTicks, kBeatTicks};
     return {swim, swim};
 }
 
@@ -137,4 +137,4 @@ TEST(Compare, summarisesShapesByTimeAndPathsByCommand) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -7,11 +7,12 @@
 
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 namespace {
 
 const std::vector<Fidelity>& fidelities() {
-    static const std::vector<Fidelity> all{measureFidelity(scad(), scadRepertoire(), 5, 10)};
+    static const std::vector<Fidelity> all{
+        measureFidelity(test::scad(), test::scadRepertoire(), 5, 10)};
     return all;
 }
 
@@ -44,9 +45,9 @@ TEST(FidelityReport, pageHoldsItsPicturesAndTables) {
 TEST(FidelityReport, tablesInMarkdownHaveARowForEachSpeciesAndManoeuvre) {
     const std::string tables = fidelityMarkdown(fidelities());
     EXPECT_EQ(count(tables, "| bigeye_scad |"), 1U);
-    for (const Command& command : fidelities().front().script)
+    for (const ScriptCommand& command : fidelities().front().script)
         EXPECT_EQ(count(tables, std::string("| ") + nameOf(command.manoeuvre) + " |"), 1U);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -10,16 +10,16 @@
 #include "common/units/ids.h"
 #include "tests/support/synthetic_repertoire.h"
 
-namespace aquarama {
+namespace aquarama::fidelity {
 namespace {
 
 Script scriptOf(std::uint64_t seed, double seconds = 60) {
-    static const Repertoire repertoire = syntheticRepertoire(false);
+    static const motion::Repertoire repertoire = test::syntheticRepertoire(false);
     return makeScript(repertoire, seed, seconds);
 }
 
 bool same(const Script& a, const Script& b) {
-    return std::ranges::equal(a, b, [](const Command& one, const Command& other) {
+    return std::ranges::equal(a, b, [](const ScriptCommand& one, const ScriptCommand& other) {
         return one.manoeuvre == other.manoeuvre && one.ticks == other.ticks;
     });
 }
@@ -61,7 +61,7 @@ TEST(FidelityScript, turnsOutOfMediumSwimmingAndForAWholeSegment) {
 TEST(FidelityScript, holdsAGaitForSomeOfItsBeats) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const Script script = scriptOf(seed);
-        for (const Command& command : script) {
+        for (const ScriptCommand& command : script) {
             if (command.manoeuvre > Manoeuvre::ForwardFast) continue;
             EXPECT_GE(command.ticks, 3 * command.beatTicks);
         }
@@ -71,9 +71,9 @@ TEST(FidelityScript, holdsAGaitForSomeOfItsBeats) {
 TEST(FidelityScript, knowsEveryManoeuvre) {
     std::set<Manoeuvre> seen;
     for (std::uint64_t seed = 0; seed < 20; ++seed)
-        for (const Command& command : scriptOf(seed)) seen.insert(command.manoeuvre);
+        for (const ScriptCommand& command : scriptOf(seed)) seen.insert(command.manoeuvre);
     EXPECT_EQ(seen.size(), static_cast<std::size_t>(kManoeuvres));
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::fidelity

@@ -15,13 +15,13 @@
 #include "master/capture/compile/turn.h"
 #include "master/capture/search/gait_trial.h"
 
-namespace aquarama {
+namespace aquarama::search {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr double kDegree = 3.14159265358979 / 180;
-constexpr std::size_t kTail = kWaveStations - 1;
+constexpr std::size_t kTail = capture::kWaveStations - 1;
 
 std::vector<std::string> allSpecies() {
     std::vector<std::string> names;
@@ -32,7 +32,7 @@ std::vector<std::string> allSpecies() {
 }
 
 // Swum once for all tests.
-const GaitFigures& figuresOf(const Species& species, const Gait& gait) {
+const GaitFigures& figuresOf(const config::Species& species, const config::Gait& gait) {
     static std::map<std::tuple<std::string, double, double>, GaitFigures> swum;
     const auto key = std::tuple{species.name, gait.beatHertz, gait.gain};
     auto found = swum.find(key);
@@ -42,8 +42,10 @@ const GaitFigures& figuresOf(const Species& species, const Gait& gait) {
 
 class Gaits : public testing::TestWithParam<std::string> {
   protected:
-    Species species_ = readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + GetParam() + ".txtpb");
-    std::array<Gait, 3> gaits_{species_.swim.slow, species_.swim.medium, species_.swim.fast};
+    config::Species species_ =
+        config::readSpecies(AQUARAMA_SOURCE_DIR "/config/species/" + GetParam() + ".txtpb");
+    std::array<config::Gait, 3> gaits_{
+        species_.swim.slow, species_.swim.medium, species_.swim.fast};
 };
 
 INSTANTIATE_TEST_SUITE_P(Species, Gaits, testing::ValuesIn(allSpecies()), [](const auto& species) {
@@ -52,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Species, Gaits, testing::ValuesIn(allSpecies()), [](con
 
 // Taylor, Nudds & Thomas 2003; Videler & Wardle 1991; Bainbridge 1958.
 TEST_P(Gaits, haveStrouhalNumberStrideAndAmplitudeOfFish) {
-    for (const Gait& gait : gaits_) {
+    for (const config::Gait& gait : gaits_) {
         const GaitFigures& figures = figuresOf(species_, gait);
         EXPECT_GT(figures.swum.strouhal, 0.22) << gait.beatHertz;
         EXPECT_LT(figures.swum.strouhal, 0.38) << gait.beatHertz;
@@ -66,8 +68,8 @@ TEST_P(Gaits, haveStrouhalNumberStrideAndAmplitudeOfFish) {
 
 // Videler & Hess 1984: about one wave on the body, swinging further the nearer to the tail.
 TEST_P(Gaits, sendOneGrowingWaveDownTheBody) {
-    for (const Gait& gait : gaits_) {
-        const BodyWave& wave = figuresOf(species_, gait).wave;
+    for (const config::Gait& gait : gaits_) {
+        const capture::BodyWave& wave = figuresOf(species_, gait).wave;
         EXPECT_GT(wave.leastPhaseFall(), 10 * kDegree) << gait.beatHertz;
         EXPECT_GT(wave.wavelength, 0.75) << gait.beatHertz;
         EXPECT_LT(wave.wavelength, 1.4) << gait.beatHertz;
@@ -79,7 +81,7 @@ TEST_P(Gaits, sendOneGrowingWaveDownTheBody) {
 // Bainbridge 1958: speed goes with the beat. In between, gain goes with frequency in straight
 // lines.
 TEST_P(Gaits, speedRisesLinearlyWithTheBeat) {
-    std::vector<Gait> gaits;
+    std::vector<config::Gait> gaits;
     for (const auto& [from, to] : {std::pair{gaits_[0], gaits_[1]}, {gaits_[1], gaits_[2]}})
         for (const double share : {0.0, 0.5})
             gaits.push_back({.beatHertz = std::lerp(from.beatHertz, to.beatHertz, share),
@@ -90,7 +92,7 @@ TEST_P(Gaits, speedRisesLinearlyWithTheBeat) {
     std::vector<double> speeds;
     double meanBeat = 0;
     double meanSpeed = 0;
-    for (const Gait& gait : gaits) {
+    for (const config::Gait& gait : gaits) {
         speeds.push_back(figuresOf(species_, gait).swum.speedBodyLengths);
         meanBeat += gait.beatHertz / count;
         meanSpeed += speeds.back() / count;
@@ -108,17 +110,18 @@ TEST_P(Gaits, speedRisesLinearlyWithTheBeat) {
 }
 
 TEST_P(Gaits, takeAnEvenNumberOfTicks) {
-    for (const Gait& gait : gaits_) {
+    for (const config::Gait& gait : gaits_) {
         const double ticks = kTicksPerSecond / gait.beatHertz;
         EXPECT_NEAR(ticks / 2, std::round(ticks / 2), 1e-3) << gait.beatHertz;
     }
 }
 
 TEST_P(Gaits, turnAsFarAsAskedFromAnyPointOfTheBeat) {
-    const SteadySwimming entry = swimUntilSteady(species_, species_.swim.medium);
-    for (int onset = 0; onset < kPhases; onset += kPhases / 4) {
-        const auto degrees = [&](const Bend& bend) {
-            return turnRadians(recordTurn(species_, entry, Controller::LeftTurn, bend, onset)) /
+    const capture::SteadySwimming entry = capture::swimUntilSteady(species_, species_.swim.medium);
+    for (int onset = 0; onset < motion::kPhases; onset += motion::kPhases / 4) {
+        const auto degrees = [&](const config::Bend& bend) {
+            return capture::turnRadians(capture::recordTurn(
+                       species_, entry, capture::Controller::LeftTurn, bend, onset)) /
                    kDegree;
         };
         EXPECT_GT(degrees(species_.turn.gradual), 22) << onset;
@@ -129,4 +132,4 @@ TEST_P(Gaits, turnAsFarAsAskedFromAnyPointOfTheBeat) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::search

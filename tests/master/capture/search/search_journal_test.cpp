@@ -9,7 +9,7 @@
 
 #include "common/units/error.h"
 
-namespace aquarama {
+namespace aquarama::search {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,7 +19,7 @@ class Journal : public testing::Test {
     void SetUp() override { fs::remove(path_); }
     void TearDown() override { fs::remove(path_); }
 
-    static Trial trial(double miss) {
+    static SearchTrial trial(double miss) {
         return {.point = {0.1, 1.0 / 3, 1},
                 .miss = miss,
                 .leastStrouhal = 0.2,
@@ -92,4 +92,4 @@ TEST_F(Journal, saysWhereItCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::search

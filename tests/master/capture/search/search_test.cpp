@@ -12,7 +12,7 @@
 #include "master/capture/search/gait_trial.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::search {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,15 +22,17 @@ class Search : public testing::Test {
     void SetUp() override { fs::remove(path_); }
     void TearDown() override { fs::remove(path_); }
 
-    [[nodiscard]] Trial search(
-        std::size_t mostTrials, const SearchProgress& progress = [](std::size_t, const Trial&) {}) {
+    [[nodiscard]] SearchTrial search(
+        std::size_t mostTrials,
+        const SearchProgress& progress = [](std::size_t, const SearchTrial&) {}) {
         SearchJournal journal(path_, "scad");
         return searchGaits(start_, mostTrials, journal, progress);
     }
 
     fs::path path_ = testing::TempDir() + "aquarama_search_test.journal";
-    Species start_ = [] {
-        Species weak = scad();  // Tu's lag of half a beat, and a head that stands in the way
+    config::Species start_ = [] {
+        config::Species weak =
+            test::scad();  // Tu's lag of half a beat, and a head that stands in the way
         weak.water.frontFactor = 0.7;
         weak.swim.middleDrive = 0.5;
         weak.swim.backLagRadians = 3.05;
@@ -40,7 +42,7 @@ class Search : public testing::Test {
 
 TEST_F(Search, findsFishLikeStrouhalNumbersFromABadStart) {
     double worstAtStart = 0;
-    const Trial best = search(60, [&](std::size_t trials, const Trial& soFar) {
+    const SearchTrial best = search(60, [&](std::size_t trials, const SearchTrial& soFar) {
         if (trials == 1) worstAtStart = soFar.mostStrouhal;
     });
     EXPECT_GT(worstAtStart, 0.4);
@@ -50,12 +52,12 @@ TEST_F(Search, findsFishLikeStrouhalNumbersFromABadStart) {
 
 TEST_F(Search, endsAsIfItHadNeverBeenKilled) {
     constexpr std::size_t kTrials = 16;
-    const Trial uninterrupted = search(kTrials);
+    const SearchTrial uninterrupted = search(kTrials);
     fs::remove(path_);
 
     const pid_t child = fork();
     if (child == 0) {
-        static_cast<void>(search(kTrials, [](std::size_t trials, const Trial&) {
+        static_cast<void>(search(kTrials, [](std::size_t trials, const SearchTrial&) {
             if (trials == 7) std::raise(SIGKILL);
         }));
         _exit(1);
@@ -76,10 +78,10 @@ TEST_F(Search, doesNotTakeTheTrialsOfAnotherProgram) {
 }
 
 TEST_F(Search, aSpeciesThatSwimsWellIsLeftAsItIs) {
-    start_ = scad();
+    start_ = test::scad();
     EXPECT_LT(search(50).miss, 0.01);
     EXPECT_EQ(SearchJournal(path_, "scad").trials().size(), 1U);
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::search

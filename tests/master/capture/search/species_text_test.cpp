@@ -10,7 +10,7 @@
 #include "master/capture/search/search_space.h"
 #include "tests/support/scad.h"
 
-namespace aquarama {
+namespace aquarama::search {
 namespace {
 
 TEST(SpeciesText, changesOneNumberAndNothingElse) {
@@ -35,15 +35,15 @@ TEST(SpeciesText, namesAFieldThatIsNotThere) {
 }
 
 TEST(SpeciesText, readsBackAsTheSpeciesThatWasWritten) {
-    SearchPoint point = pointOf(scad());
+    SearchPoint point = pointOf(test::scad());
     for (double& coordinate : point) coordinate = 0.9 * coordinate + 0.04;
-    const Species wanted = speciesAt(point, scad());
-    std::ifstream file(kScadFile);
+    const config::Species wanted = speciesAt(point, test::scad());
+    std::ifstream file(test::kScadFile);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    const SearchPoint read = pointOf(parseSpecies(withGaitsOf(wanted, text), "written"));
+    const SearchPoint read = pointOf(config::parseSpecies(withGaitsOf(wanted, text), "written"));
     ASSERT_EQ(read.size(), point.size());
     for (std::size_t i = 0; i < point.size(); ++i) EXPECT_NEAR(read[i], point[i], 1e-3) << i;
 }
 
 }  // namespace
-}  // namespace aquarama
+}  // namespace aquarama::search

@@ -4,19 +4,19 @@
 
 #include "master/capture/dynamics/biomechanical_fish.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
-struct Attitude {
+struct BodyAngles {
     double headingRadians = 0;  // of the body's axis over the horizon, left of +x positive
     double pitchRadians = 0;    // nose up positive
     double rollRadians = 0;     // right side up positive
 };
 
-[[nodiscard]] Attitude attitudeOf(const FishState& state);
+[[nodiscard]] BodyAngles bodyAnglesOf(const FishState& state);
 
 // What is sensed now, after what was sensed before: heading and pitch by a low pass, which goes a
 // share of the way, for the tail beat sways them. It does not roll the fish, and roll that is
 // sensed late would rock it.
-[[nodiscard]] Attitude sense(const Attitude& before, const FishState& state, double share);
+[[nodiscard]] BodyAngles sense(const BodyAngles& before, const FishState& state, double share);
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/control/attitude.h"
+#include "master/capture/control/body_angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "master/capture/dynamics/body_frame.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
 namespace {
 
@@ -17,7 +17,7 @@ double mixAngles(double from, double to, double share) {
 
 }  // namespace
 
-Attitude attitudeOf(const FishState& state) {
+BodyAngles bodyAnglesOf(const FishState& state) {
     const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
     const glm::dvec3& x = worldFromBody[0];
     return {.headingRadians = std::atan2(-x.z, x.x),
@@ -25,11 +25,11 @@ Attitude attitudeOf(const FishState& state) {
             .rollRadians = std::atan2(worldFromBody[2].y, worldFromBody[1].y)};
 }
 
-Attitude sense(const Attitude& before, const FishState& state, double share) {
-    const Attitude now = attitudeOf(state);
+BodyAngles sense(const BodyAngles& before, const FishState& state, double share) {
+    const BodyAngles now = bodyAnglesOf(state);
     return {.headingRadians = mixAngles(before.headingRadians, now.headingRadians, share),
             .pitchRadians = std::lerp(before.pitchRadians, now.pitchRadians, share),
             .rollRadians = now.rollRadians};
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture

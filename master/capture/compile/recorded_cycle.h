@@ -10,9 +10,9 @@
 #include "common/motion/repertoire.h"
 #include "master/capture/dynamics/biomechanical_fish.h"
 
-namespace aquarama {
+namespace aquarama::capture {
 
-struct Recording {
+struct RecordedCycle {
     double periodSeconds = 0;
     bool playsToEnd = false;
     glm::dvec3 course{1, 0, 0};  // where it swam: over the beat, or over the last one before a turn
@@ -25,4 +25,4 @@ struct Recording {
     return std::atan2(glm::cross(from, to).y, glm::dot(from, to));
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::capture
