@@ -19,33 +19,6 @@ glm::vec3 pointAt(const Poses& poses, const PhaseSample& sample, std::size_t i) 
         lengthsOf(poses[sample.before][i]), lengthsOf(poses[sample.after][i]), sample.share);
 }
 
-// The deformation of eq. 12 or 13: of the segment, or on the way to it from the one before.
-// posesOf(segment) picks nodes or control points.
-template <class PosesOf>
-void deform(const Repertoire& repertoire,
-            const PresentedFish& fish,
-            PosesOf posesOf,
-            std::span<glm::vec3> points) {
-    const auto& to = posesOf(segmentOf(repertoire, fish.segment));
-    const auto& from = posesOf(segmentOf(repertoire, fish.fromSegment));
-    const PhaseSample toSample = sampleAt(fish.phase);
-    const PhaseSample fromSample = sampleAt(fish.fromPhase);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        points[i] = pointAt(to, toSample, i);
-        if (fish.warpWeight < 1.0F) {
-            points[i] = glm::mix(pointAt(from, fromSample, i), points[i], fish.warpWeight);
-        }
-    }
-}
-
-// n = o + R (alpha d).
-void placeInWorld(const PresentedFish& fish, std::span<glm::vec3> points) {
-    const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
-    for (glm::vec3& point : points) {
-        point = fish.positionMetres + rotation * (fish.lengthMetres * point);
-    }
-}
-
 float weightOf(const FishRecord& record) {
     return static_cast<float>(record.warpFrame + 1) / static_cast<float>(record.warpLength + 1);
 }
@@ -117,27 +90,15 @@ PresentedFish present(const FishRecord& before,
 }
 
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes) {
-    const auto nodesOf = [](const ActionSegment& s) -> const auto& {
-        return s.nodes;
-    };
-    deform(repertoire, fish, nodesOf, nodes);
-}
-
-void nodalPoints(const Repertoire& repertoire,
-                 const PresentedFish& fish,
-                 body::NodalPoints& nodes) {
-    nodalPose(repertoire, fish, nodes);
-    placeInWorld(fish, nodes);
-}
-
-void controlPoints(const Repertoire& repertoire,
-                   const PresentedFish& fish,
-                   std::span<glm::vec3> points) {
-    const auto controlPointsOf = [](const ActionSegment& s) -> const auto& {
-        return s.controlPoints;
-    };
-    deform(repertoire, fish, controlPointsOf, points.first(body::kControlPoints));
-    placeInWorld(fish, points.first(body::kControlPoints));
+    const ActionSegment& to = segmentOf(repertoire, fish.segment);
+    const ActionSegment& from = segmentOf(repertoire, fish.fromSegment);
+    const PhaseSample toSample = sampleAt(fish.phase);
+    const PhaseSample fromSample = sampleAt(fish.fromPhase);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        nodes[i] = pointAt(to.nodes, toSample, i);
+        if (fish.warpWeight < 1.0F)
+            nodes[i] = glm::mix(pointAt(from.nodes, fromSample, i), nodes[i], fish.warpWeight);
+    }
 }
 
 }  // namespace aquarama::motion

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// From motion state to nodal points and control points (eq. 12 and 13): the CPU reference of what
-// the GPU does.
+// What a frame shows of a fish between two ticks, and its nodal points (eq. 12).
 #pragma once
-
-#include <span>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include "common/motion/motion_state.h"
-#include "common/motion/pose_tables.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama::motion {
@@ -45,22 +41,7 @@ static_assert(sizeof(PresentedFish) == 64);
     return fish.positionMetres.y < 0.5F * kAwayHeightMetres;
 }
 
-// Body frame, body lengths (eq. 12 and 13 before R and o).
+// Body frame, body lengths (eq. 12 before R and o).
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes);
-// World frame, metres.
-void nodalPoints(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes);
-// Only of segments that were captured with control points.
-void controlPoints(const Repertoire& repertoire,
-                   const PresentedFish& fish,
-                   std::span<glm::vec3> points);
-
-// The same for many fish at once, vectorised: world frame, metres; nodes[fish], and
-// points[fish * kControlPoints + i].
-void nodalPoints(const ReconstructTables& tables,
-                 std::span<const PresentedFish> fish,
-                 std::span<body::NodalPoints> nodes);
-void controlPoints(const ReconstructTables& tables,
-                   std::span<const PresentedFish> fish,
-                   std::span<glm::vec3> points);
 
 }  // namespace aquarama::motion

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two ends of a cluster's network, as bytes: control in both directions, states one way. Over
-// ZeroMQ (zmq_channels.cpp) or in memory (memory_channels.h).
+// ZeroMQ (zmq_channels.cpp), or in memory in tests.
 #pragma once
 
 #include <cstddef>

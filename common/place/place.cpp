@@ -294,8 +294,4 @@ std::vector<Plant> plantsOf(const PlaceKey& place) {
     return plants;
 }
 
-Region schoolRegion() {
-    return {glm::vec3{0.0F, -5.8F, -5.5F}, glm::vec3{5.0F, 1.8F, 3.5F}};
-}
-
 }  // namespace aquarama::place

@@ -52,6 +52,5 @@ struct Region {
     glm::vec3 centre{};
     glm::vec3 halfExtent{};
 };
-[[nodiscard]] Region schoolRegion();
 
 }  // namespace aquarama::place

@@ -1,5 +1,5 @@
 // A fish's control points from the recorded ones (eq. 13), and its fins moved beside them; in its body
-// frame, body lengths. common/motion/living_cage.h is the reference.
+// frame, body lengths. The reference is tests/render_node/surface/living_cage.h.
 #ifndef FISH_POSE_GLSL
 #define FISH_POSE_GLSL
 #include "frame_uniforms.h"

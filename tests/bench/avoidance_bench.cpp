@@ -7,6 +7,7 @@
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 #include "master/surroundings/obstacles.h"
+#include "tests/support/school_region.h"
 
 namespace aquarama::bench {
 namespace {
@@ -32,7 +33,7 @@ std::vector<Swimmer> swimmers(const place::Region& water) {
 
 template <glm::vec3 (*avoid)(const surroundings::Obstacles&, glm::vec3, glm::vec3, float)>
 void avoidanceCost(benchmark::State& state) {
-    const surroundings::Obstacles obstacles = surroundings::obstaclesOf({1}, place::schoolRegion());
+    const surroundings::Obstacles obstacles = surroundings::obstaclesOf({1}, test::schoolRegion());
     const std::vector<Swimmer> fish = swimmers(obstacles.water);
     for (auto _ : state)
         for (const Swimmer& one : fish)

@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES motion_bench.cpp LINK aquarama_motion aquarama_body)
+aquarama_bench(SOURCES motion_bench.cpp LINK aquarama_compile aquarama_motion aquarama_body)

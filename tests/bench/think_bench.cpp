@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a thought about neighbours costs: OpenSteer's rules on the product's search, and the
-// product's own question. In the time of one thread, so that what else the machine does is not
-// counted; best and median of the steps.
+// What a thought about neighbours costs. In the time of one thread, so that what else the machine
+// does is not counted; best and median of the ticks.
 #include <algorithm>
 #include <ctime>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "common/place/noise.h"
 #include "master/behaviour/perceive/grids.h"
 #include "master/behaviour/perceive/neighbours.h"
-#include "tests/bench/flock.h"
 #include "tests/master/behaviour/scattered_school.h"
 
 namespace aquarama::bench {
@@ -35,30 +33,6 @@ void report(benchmark::State& state, std::vector<double> nanoseconds, double tho
     state.counters["ns_best"] = nanoseconds.front() / thoughts;
     state.counters["ns_per_fish"] = nanoseconds[nanoseconds.size() / 2] / thoughts;
 }
-
-// A step of a flock, all of whom think: sort, search, steer, move.
-void think(benchmark::State& state) {
-    const auto boids = static_cast<std::size_t>(state.range(0));
-    const float radius = flockRadius(boids, static_cast<double>(state.range(1)));
-    Flock flock = makeFlock(boids, radius);
-    FlockStep step(boids, radius);
-    std::vector<double> steps;
-    std::vector<double> sorts;
-    for ([[maybe_unused]] auto _ : state) {
-        sorts.push_back(nanosecondsOf([&] { step.sort(flock); }));
-        steps.push_back(nanosecondsOf([&] { step.run(flock); }));
-        state.SetIterationTime(steps.back() * 1e-9);
-    }
-    report(state, steps, static_cast<double>(boids));
-    state.counters["ns_of_it_sort"] =
-        *std::min_element(sorts.begin(), sorts.end()) / static_cast<double>(boids);
-    state.counters["neighbours"] = step.neighboursOf(flock);
-}
-BENCHMARK(think)
-    ->Name("think")
-    ->ArgNames({"fish", "neighbours"})
-    ->ArgsProduct({{1000, 10000, 100000, 1000000}, {20, 50}})
-    ->UseManualTime();
 
 // A school in which each has as many cubic body lengths as the second argument says, in tenths.
 struct School {

@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include "calibration/theatre/compose.h"
-#include "calibration/theatre/projected.h"
 #include "common/wall/wall.h"
+#include "tests/support/projected.h"
 
 namespace aquarama::bench {
 namespace {
@@ -16,7 +16,7 @@ config::Rig theatre() {
 std::vector<wall::Light> greyChannels(const config::Rig& rig) {
     std::vector<wall::Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        channels.push_back(theatre::projectedLight(rig, i, wall::TestPattern::Grey));
+        channels.push_back(test::projectedLight(rig, i, wall::TestPattern::Grey));
     return channels;
 }
 
@@ -35,7 +35,7 @@ BENCHMARK(panoramaOfTheatre)->Name("compose_panorama")->Unit(benchmark::kMillise
 
 void hallOfTheatre(benchmark::State& state) {
     const config::Rig rig = theatre();
-    const wall::Light panorama = theatre::directPanorama(rig, wall::TestPattern::Grey);
+    const wall::Light panorama = test::directPanorama(rig, wall::TestPattern::Grey);
     for (auto _ : state) benchmark::DoNotOptimize(theatre::composeHall(rig, panorama, {1600, 900}));
 }
 BENCHMARK(hallOfTheatre)->Name("compose_hall")->Unit(benchmark::kMillisecond);

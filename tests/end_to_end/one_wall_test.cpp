@@ -12,12 +12,12 @@
 #include <gtest/gtest.h>
 
 #include "calibration/theatre/compose.h"
-#include "calibration/theatre/measure.h"
-#include "calibration/theatre/projected.h"
 #include "calibration/theatre/snapshot.h"
 #include "common/config/rig.h"
 #include "common/wall/wall.h"
 #include "tests/end_to_end/free_port.h"
+#include "tests/support/panorama_measure.h"
+#include "tests/support/projected.h"
 
 namespace aquarama {
 namespace {
@@ -69,12 +69,12 @@ TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
     const wall::Light composed = theatre::composePanorama(
         installation.rig(), installation.show("--frames 2 --pattern grid --deep"));
     const auto offsets =
-        theatre::lineOffsets(installation.rig(),
-                             composed,
-                             theatre::directPanorama(installation.rig(), wall::TestPattern::Grid));
+        test::lineOffsets(installation.rig(),
+                          composed,
+                          test::directPanorama(installation.rig(), wall::TestPattern::Grid));
     ASSERT_GT(offsets.size(), 500U);
     double worst = 0;
-    for (const theatre::LineOffset& line : offsets)
+    for (const test::LineOffset& line : offsets)
         worst = std::max(worst, std::abs(line.offsetPixels));
     RecordProperty("worst_px", std::to_string(worst));
     EXPECT_LT(worst, 0.5);
@@ -83,10 +83,9 @@ TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
 TEST_P(OneWall, flatGreyStaysFlatAcrossTheOverlaps) {
     const Installation installation(GetParam());
     const auto deep = installation.show("--frames 2 --pattern grey --deep");
-    EXPECT_LT(theatre::unevenness(theatre::composePanorama(installation.rig(), deep), 1), 0.01);
+    EXPECT_LT(test::unevenness(theatre::composePanorama(installation.rig(), deep), 1), 0.01);
     const auto dithered = installation.show("--frames 2 --pattern grey");
-    EXPECT_LT(theatre::unevenness(theatre::composePanorama(installation.rig(), dithered), 16),
-              0.01);
+    EXPECT_LT(test::unevenness(theatre::composePanorama(installation.rig(), dithered), 16), 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));

@@ -20,10 +20,10 @@
 
 #include "common/config/rig.h"
 #include "common/motion/repertoire.h"
-#include "common/net/memory_channels.h"
 #include "common/units/error.h"
 #include "master/conductor/conductor.h"
 #include "render_node/session/link_session.h"
+#include "tests/support/memory_channels.h"
 
 namespace aquarama::test {
 

@@ -122,16 +122,6 @@ double fitTerm(const std::vector<Transition>& transitions,
     return squares > 0 ? std::max(0.0, products / squares) : 0;
 }
 
-std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law) {
-    std::vector<double> speeds{transition.speeds.front()};
-    while (speeds.size() < transition.speeds.size()) {
-        const double v = speeds.back();
-        speeds.push_back(v +
-                         transition.sampleSeconds * acceleration(law, transition.segmentSpeed, v));
-    }
-    return speeds;
-}
-
 motion::SpeedResponse fitResponse(const Transitions& transitions) {
     const SpeedLaw gliding{.glideDrag = fitTerm({transitions.glide}, &SpeedLaw::glideDrag, {})};
     motion::SpeedResponse response{.glideDrag = static_cast<float>(gliding.glideDrag)};

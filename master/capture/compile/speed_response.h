@@ -46,9 +46,6 @@ struct SpeedLaw {
                              double SpeedLaw::*term,
                              const SpeedLaw& known);
 
-// The speeds of a fish that obeys the law, from the transition's first speed on.
-[[nodiscard]] std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law);
-
 // swimDrag of a gait from the changes to it, whether they gather speed or lose it; glideDrag from
 // the glide, and with it brakeRate from the brake.
 [[nodiscard]] motion::SpeedResponse fitResponse(const Transitions& transitions);

@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "calibration/theatre/compose.h"
-#include "calibration/theatre/measure.h"
-#include "calibration/theatre/projected.h"
 #include "common/config/angle.h"
 #include "common/config/rig.h"
+#include "tests/support/panorama_measure.h"
+#include "tests/support/projected.h"
 
 namespace aquarama::theatre {
 namespace {
@@ -35,7 +35,7 @@ config::Rig testRig(const std::string& name) {
 std::vector<wall::Light> projected(const config::Rig& rig, wall::TestPattern pattern) {
     std::vector<wall::Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        channels.push_back(projectedLight(rig, i, pattern));
+        channels.push_back(test::projectedLight(rig, i, pattern));
     return channels;
 }
 
@@ -48,9 +48,10 @@ wall::Light composed(const config::Rig& rig, const std::vector<wall::Light>& pro
     return composePanorama(rig, channels);
 }
 
-double largest(const std::vector<LineOffset>& offsets) {
+double largest(const std::vector<test::LineOffset>& offsets) {
     double worst = 0;
-    for (const LineOffset& line : offsets) worst = std::max(worst, std::abs(line.offsetPixels));
+    for (const test::LineOffset& line : offsets)
+        worst = std::max(worst, std::abs(line.offsetPixels));
     return worst;
 }
 
@@ -60,9 +61,9 @@ INSTANTIATE_TEST_SUITE_P(Shipped, OneWall, testing::Values("theatre", "touring",
 TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
     const config::Rig rig = testRig(GetParam());
     const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grid);
-    const wall::Light direct = directPanorama(rig, wall::TestPattern::Grid);
+    const wall::Light direct = test::directPanorama(rig, wall::TestPattern::Grid);
     for (const int bits : {16, 8}) {
-        const auto offsets = lineOffsets(rig, composed(rig, channels, bits), direct);
+        const auto offsets = test::lineOffsets(rig, composed(rig, channels, bits), direct);
         EXPECT_GT(offsets.size(), 5000U);
         EXPECT_LT(largest(offsets), 0.5) << bits << " bits";
     }
@@ -72,8 +73,8 @@ TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
     const config::Rig rig = testRig(GetParam());
     const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
     const wall::Light deep = composed(rig, channels, 16);
-    EXPECT_LT(unevenness(deep, 1), 0.01);
-    EXPECT_LT(unevenness(composed(rig, channels, 8), 16), 0.01);
+    EXPECT_LT(test::unevenness(deep, 1), 0.01);
+    EXPECT_LT(test::unevenness(composed(rig, channels, 8), 16), 0.01);
     const glm::ivec2 middle = rig.panoramaPixels / 2;
     EXPECT_NEAR(static_cast<double>(deep.at(middle.x, middle.y).y), wall::kGreyLight, 1e-4);
 }
@@ -86,10 +87,10 @@ TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
     config::Rig pushed = rig;
     pushed.channels[0].projector.yawPitchRollRadians.x += config::radiansOf(0.1);
     // The pictures were made for the rig; the hall has the left projector turned by 0.1 degrees.
-    const auto offsets = lineOffsets(
-        rig, composed(pushed, channels, 16), directPanorama(rig, wall::TestPattern::Grid));
+    const auto offsets = test::lineOffsets(
+        rig, composed(pushed, channels, 16), test::directPanorama(rig, wall::TestPattern::Grid));
     EXPECT_GT(largest(offsets), 1);
-    for (const LineOffset& line : offsets) {
+    for (const test::LineOffset& line : offsets) {
         if (!line.upright || line.lineDegrees < -15) continue;  // the middle and right thirds
         EXPECT_LT(std::abs(line.offsetPixels), 0.1) << line.lineDegrees;
     }
@@ -97,31 +98,32 @@ TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
 
 TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
     const config::Rig rig = shippedRig("desk");
-    const wall::Light direct = directPanorama(rig, wall::TestPattern::Grid);
+    const wall::Light direct = test::directPanorama(rig, wall::TestPattern::Grid);
     wall::Light shifted = direct;
     for (int y = 0; y < direct.sizePixels.y; ++y)
         for (int x = 0; x < direct.sizePixels.x; ++x)
             shifted.at(x, y) = wall::bilinear(direct, {x + 0.5 - 0.75, y + 0.5 + 0.25});
-    const auto offsets = lineOffsets(rig, shifted, direct);
+    const auto offsets = test::lineOffsets(rig, shifted, direct);
     ASSERT_FALSE(offsets.empty());
-    for (const LineOffset& line : offsets)
+    for (const test::LineOffset& line : offsets)
         EXPECT_NEAR(line.offsetPixels, line.upright ? 0.75 : -0.25, 0.02);
 }
 
 TEST(Measure, aMissingLineIsInfinitelyOff) {
     const config::Rig rig = shippedRig("desk");
-    const auto offsets = lineOffsets(
-        rig, wall::darkness(rig.panoramaPixels), directPanorama(rig, wall::TestPattern::Grid));
+    const auto offsets = test::lineOffsets(rig,
+                                           wall::darkness(rig.panoramaPixels),
+                                           test::directPanorama(rig, wall::TestPattern::Grid));
     ASSERT_FALSE(offsets.empty());
     EXPECT_TRUE(std::ranges::all_of(
-        offsets, [](const LineOffset& line) { return std::isinf(line.offsetPixels); }));
+        offsets, [](const test::LineOffset& line) { return std::isinf(line.offsetPixels); }));
 }
 
 TEST(Measure, aSeamOfTwoPerCentIsSeen) {
     const config::Rig rig = shippedRig("desk");
     std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
     for (glm::vec3& light : channels[2].rgb) light *= 1.03F;
-    EXPECT_GT(unevenness(composed(rig, channels, 8), 16), 0.015);
+    EXPECT_GT(test::unevenness(composed(rig, channels, 8), 16), 0.015);
 }
 
 // Blending in codes instead of light is the classic mistake: the sum is then too dark.
@@ -134,7 +136,7 @@ TEST(Measure, blendingInCodesInsteadOfLightIsSeen) {
             const double share = static_cast<double>(light.x) / wall::kGreyLight;
             light = glm::vec3(static_cast<float>(wall::linearFromSrgb(greyCode * share)));
         }
-    EXPECT_GT(unevenness(composed(rig, channels, 16), 1), 0.2);
+    EXPECT_GT(test::unevenness(composed(rig, channels, 16), 1), 0.2);
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "calibration/theatre/projected.h"
 #include "common/config/rig.h"
 #include "common/wall/png_file.h"
+#include "tests/support/projected.h"
 
 namespace aquarama::theatre {
 namespace {
@@ -107,8 +107,9 @@ TEST_F(Program, composeMakesBothPicturesInTheDepthAskedFor) {
     const std::string rigPath = AQUARAMA_SOURCE_DIR "/config/desk.txtpb";
     const config::Rig rig = config::readRig(rigPath);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        wall::writePng(folder() + "/channel-" + rig.channels[i].name + ".png",
-                       wall::pictureOf(projectedLight(rig, i, wall::TestPattern::Grey), 16, 0));
+        wall::writePng(
+            folder() + "/channel-" + rig.channels[i].name + ".png",
+            wall::pictureOf(test::projectedLight(rig, i, wall::TestPattern::Grey), 16, 0));
     const Outcome outcome = calibrate("compose " + rigPath + " " + folder() + " --deep");
     EXPECT_EQ(outcome.status, 0) << outcome.said;
     const wall::Picture panorama = wall::readPng(folder() + "/panorama.png");

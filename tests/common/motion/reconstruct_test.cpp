@@ -2,7 +2,6 @@
 #include "common/motion/reconstruct.h"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include "tests/common/motion/school.h"
 
@@ -17,20 +16,14 @@ double travel(const body::NodalPoints& a, const body::NodalPoints& b) {
     return most;
 }
 
-PresentedFish randomFish(std::mt19937& random) {
-    std::normal_distribution<float> normal;
-    const auto share = [&] { return static_cast<float>(random() % 65536) / 65536.0F; };
-    const glm::vec4 turn(normal(random), normal(random), normal(random), normal(random));
-    PresentedFish fish;
-    fish.positionMetres = 0.1F * glm::vec3(normal(random), normal(random), normal(random));
-    fish.lengthMetres = 0.05F + share();
-    fish.rotation = glm::normalize(turn);
-    fish.phase = share();
-    fish.fromPhase = share();
-    fish.warpWeight = random() % 2 == 0 ? 1.0F : share();
-    fish.segment = static_cast<std::uint32_t>(random() % kActions);
-    fish.fromSegment = static_cast<std::uint32_t>(random() % kActions);
-    return fish;
+// World frame, metres: n = o + R (alpha d).
+body::NodalPoints nodesInWorld(const PresentedFish& fish) {
+    body::NodalPoints nodes;
+    nodalPose(sharedRepertoire(), fish, nodes);
+    const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
+    for (glm::vec3& node : nodes)
+        node = fish.positionMetres + rotation * (fish.lengthMetres * node);
+    return nodes;
 }
 
 // Eq. 12 with eq. 8 undone: n = o + R (alpha d), where d is what was captured.
@@ -49,43 +42,13 @@ TEST(Reconstruct, nodalPointsAreThoseThatWereCaptured) {
             fish.rotation = glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w);
             fish.phase = static_cast<float>(phase);
             fish.segment = static_cast<std::uint32_t>(action);
-            body::NodalPoints nodes;
-            nodalPoints(sharedRepertoire(), fish, nodes);
+            const body::NodalPoints nodes = nodesInWorld(fish);
             for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
                 const glm::dvec3 captured = kLength * synthetic::placed(gait, phase, rest[i]);
                 EXPECT_LT(glm::distance(glm::dvec3(nodes[i]), captured), kLength * 5e-5);
             }
         }
     }
-}
-
-TEST(Reconstruct, everyInstructionSetIsWithinAMillionthOfTheReference) {
-    std::mt19937 random(5);
-    std::vector<PresentedFish> school(500);
-    for (PresentedFish& fish : school) fish = randomFish(random);
-    std::vector<body::NodalPoints> nodes(school.size());
-    std::vector<glm::vec3> points(school.size() * body::kControlPoints);
-    std::vector<glm::vec3> expectedPoints(body::kControlPoints);
-    const ReconstructTables tables = makeReconstructTables(sharedRepertoire());
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        nodalPoints(tables, school, nodes);
-        controlPoints(tables, school, points);
-        for (std::size_t f = 0; f < school.size(); ++f) {
-            body::NodalPoints expected;
-            nodalPoints(sharedRepertoire(), school[f], expected);
-            const double allowed = 1e-6 * static_cast<double>(school[f].lengthMetres) + 2e-7;
-            ASSERT_LT(travel(nodes[f], expected), allowed) << hwy::TargetName(target);
-            controlPoints(sharedRepertoire(), school[f], expectedPoints);
-            for (std::size_t i = 0; i < body::kControlPoints; ++i) {
-                const glm::vec3 point = points[f * body::kControlPoints + i];
-                ASSERT_LT(static_cast<double>(glm::distance(point, expectedPoints[i])), allowed);
-            }
-        }
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(Reconstruct, aPresentedFishIsItsTicksAtBothEnds) {
@@ -100,10 +63,7 @@ TEST(Reconstruct, aPresentedFishIsItsTicksAtBothEnds) {
             const FishRecord a = recordOf(before, i);
             const FishRecord b = recordOf(school.states, i);
             const auto nodesOf = [&](const FishRecord& from, const FishRecord& to, float fraction) {
-                body::NodalPoints nodes;
-                nodalPoints(
-                    sharedRepertoire(), present(from, to, fraction, school.traits[i]), nodes);
-                return nodes;
+                return nodesInWorld(present(from, to, fraction, school.traits[i]));
             };
             const double length = school.traits[i].lengthMillimetres * 1e-3;
             const double rounding = 1e-5 * length + 7e-5;  // of floats, some 500 m out
@@ -127,10 +87,9 @@ TEST(Reconstruct, framesBetweenTicksFlow) {
         school.tick();
         const FishRecord after = recordOf(school.states, 0);
         for (int frame = 0; frame < 10; ++frame) {
-            body::NodalPoints nodes;
             const float fraction = static_cast<float>(frame) / 10.0F;
-            nodalPoints(
-                sharedRepertoire(), present(before, after, fraction, school.traits[0]), nodes);
+            const body::NodalPoints nodes =
+                nodesInWorld(present(before, after, fraction, school.traits[0]));
             // 0.2 m long, 2 body lengths a second, a tail that beats as fast again.
             ASSERT_TRUE(first || travel(nodes, last) < 0.2 * 0.1 / 10) << "tick " << tick;
             last = nodes;
@@ -174,8 +133,7 @@ TEST(Reconstruct, aSegmentThatDoesNotExistIsNotReadBeyondTheLast) {
     fish.segment = 250;
     fish.phase = 7.5F;
     fish.lengthMetres = 1;
-    body::NodalPoints nodes;
-    nodalPoints(sharedRepertoire(), fish, nodes);
+    const body::NodalPoints nodes = nodesInWorld(fish);
     for (const glm::vec3& node : nodes) EXPECT_LT(glm::length(node), 1.5F);
 }
 

@@ -14,8 +14,8 @@
 #include <unistd.h>
 #include <zmq.hpp>
 
-#include "common/net/memory_channels.h"
 #include "common/units/error.h"
+#include "tests/support/memory_channels.h"
 
 namespace aquarama::net {
 namespace {
@@ -44,7 +44,7 @@ Pair overSockets() {
 }
 
 Pair inMemory() {
-    MemoryNet net({milliseconds(2), 0, 1});
+    test::MemoryNet net({milliseconds(2), 0, 1});
     return {net.master(), net.node()};
 }
 
@@ -120,7 +120,7 @@ TEST_P(BothChannels, anotherThreadEndsTheWait) {
 }
 
 TEST(MemoryChannels, loseAsManyStatesAsAsked) {
-    MemoryNet net({Instant{0}, 16, 7});
+    test::MemoryNet net({Instant{0}, 16, 7});
     const auto master = net.master();
     const auto node = net.node();
     node->subscribeState("");

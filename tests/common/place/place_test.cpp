@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/noise.h"
+#include "tests/support/school_region.h"
 
 namespace aquarama::place {
 namespace {
@@ -96,7 +97,7 @@ TEST(Place, everyThirdOfTheWallHasSomethingToLookAt) {
 }
 
 TEST(Place, schoolHasWaterAllRoundIt) {
-    const Region region = schoolRegion();
+    const Region region = test::schoolRegion();
     const glm::vec3 lowest = region.centre - region.halfExtent;
     const glm::vec3 highest = region.centre + region.halfExtent;
     EXPECT_LT(highest.y, -1.0F);

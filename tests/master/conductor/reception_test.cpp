@@ -20,7 +20,7 @@ using std::chrono::seconds;
 
 class Peer {
   public:
-    explicit Peer(net::MemoryNet& net) : channels_(net.node()) { channels_->subscribeState(""); }
+    explicit Peer(test::MemoryNet& net) : channels_(net.node()) { channels_->subscribeState(""); }
     ~Peer() { say(wire::Farewell{}); }  // so that the master need not wait for it at the end
     Peer(const Peer&) = delete;
     Peer& operator=(const Peer&) = delete;
@@ -95,7 +95,7 @@ class Reception : public testing::Test {
         return asker.hear<wire::StatusReply>().value_or(wire::StatusReply{});
     }
 
-    net::MemoryNet net_;
+    test::MemoryNet net_;
 };
 
 TEST_F(Reception, refusesAnotherMajorVersionByName) {

@@ -263,7 +263,7 @@ TEST(Show, anEvenlySlowWallLosesNobody) {
 }
 
 TEST(Show, lostStatesAreSentAgain) {
-    net::MemoryNet net({milliseconds(1), 16, 3});  // one in four
+    test::MemoryNet net({milliseconds(1), 16, 3});  // one in four
     test::StageMaster master(lockstep(4), net.master());
     test::Journal journal;
     std::vector<std::unique_ptr<test::StageNode>> nodes;

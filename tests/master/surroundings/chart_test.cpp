@@ -9,6 +9,7 @@
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 #include "master/surroundings/obstacles.h"
+#include "tests/support/school_region.h"
 
 namespace aquarama::surroundings {
 namespace {
@@ -31,7 +32,7 @@ Probe probeIn(const place::Region& water, std::uint32_t index) {
 }
 
 TEST(Chart, knowsTheSandToHalfACentimetre) {
-    const place::Region water = place::schoolRegion();
+    const place::Region water = test::schoolRegion();
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const Chart chart({seed}, water, {});
         float worst = 0;
@@ -49,7 +50,7 @@ TEST(Chart, knowsTheSandToHalfACentimetre) {
 
 TEST(Chart, pushesAsWithoutIt) {
     // Deep enough that the sand pushes too, and wide enough for kelp.
-    place::Region water = place::schoolRegion();
+    place::Region water = test::schoolRegion();
     water.halfExtent += glm::vec3{3, 1.2F, 1};
     const Obstacles obstacles = obstaclesOf({1}, water);
     ASSERT_GT(obstacles.rocks.size(), 5U);
@@ -69,7 +70,7 @@ TEST(Chart, pushesAsWithoutIt) {
 }
 
 TEST(Chart, awayFromTheSandItPushesToTheBitAsWithoutIt) {
-    const Obstacles obstacles = obstaclesOf({2}, place::schoolRegion());
+    const Obstacles obstacles = obstaclesOf({2}, test::schoolRegion());
     for (std::uint32_t i = 0; i < kPlaces; ++i) {
         Probe probe = probeIn(obstacles.water, i);
         probe.position.y = std::max(probe.position.y, -6.0F);
@@ -80,7 +81,7 @@ TEST(Chart, awayFromTheSandItPushesToTheBitAsWithoutIt) {
 }
 
 TEST(Chart, offTheChartAndFartherThanItReachesThePlainWayServes) {
-    const Obstacles obstacles = obstaclesOf({2}, place::schoolRegion());
+    const Obstacles obstacles = obstaclesOf({2}, test::schoolRegion());
     const glm::vec3 far = obstacles.water.centre + glm::vec3{40, 0, 0};
     EXPECT_EQ(avoidance(obstacles, far, {1, 0, 0}, 1),
               plainAvoidance(obstacles, far, {1, 0, 0}, 1));
@@ -90,7 +91,7 @@ TEST(Chart, offTheChartAndFartherThanItReachesThePlainWayServes) {
 }
 
 TEST(Chart, theOpenSeaHasNothingInIt) {
-    const Obstacles sea = obstaclesOf({1, config::PlaceKind::OpenSea}, place::schoolRegion());
+    const Obstacles sea = obstaclesOf({1, config::PlaceKind::OpenSea}, test::schoolRegion());
     EXPECT_TRUE(sea.rocks.empty());
     EXPECT_TRUE(sea.stems.empty());
     EXPECT_EQ(avoidance(sea, sea.water.centre, {1, 0, 0}, 1), glm::vec3(0));

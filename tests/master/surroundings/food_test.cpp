@@ -5,6 +5,7 @@
 
 #include "common/place/angle.h"
 #include "common/place/place.h"
+#include "tests/support/school_region.h"
 
 namespace aquarama::surroundings {
 namespace {
@@ -13,7 +14,7 @@ constexpr std::uint32_t kSeed = 5;
 constexpr std::uint32_t kPlankton = 300;
 
 Obstacles reef() {
-    return obstaclesOf({kSeed}, place::schoolRegion());
+    return obstaclesOf({kSeed}, test::schoolRegion());
 }
 
 void drift(Food& food, const Obstacles& obstacles, Tick& tick, int ticks) {
@@ -43,7 +44,7 @@ TEST(Food, planktonDriftsAndStaysInTheWaterAndOffTheSandForTenMinutes) {
 }
 
 TEST(Food, theCurrentNeverJumps) {
-    const place::Region water = place::schoolRegion();
+    const place::Region water = test::schoolRegion();
     const glm::vec3 place = water.centre + water.halfExtent * 0.3F;
     for (std::uint64_t tick = 0; tick < 30'000; ++tick) {
         const glm::vec3 change =
@@ -84,7 +85,7 @@ TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
     const Obstacles obstacles = reef();
     Food food = makeFood(kSeed, obstacles, 0);
     Tick tick;
-    const glm::vec3 place = place::schoolRegion().centre;
+    const glm::vec3 place = test::schoolRegion().centre;
     dropPellets(food, kSeed, obstacles, place, 12, tick);
     EXPECT_EQ(food.pellets, 12U);
     EXPECT_LT(place::lengthOf(food.position(0) - place), 0.6F);
@@ -100,7 +101,7 @@ TEST(Food, pelletsSinkToTheSandLieThereAndDissolve) {
 }
 
 TEST(Food, pelletsThatSinkIntoTheDeepDissolveWhereNoFishGoes) {
-    const place::Region water = place::schoolRegion();
+    const place::Region water = test::schoolRegion();
     const Obstacles sea = obstaclesOf({kSeed, config::PlaceKind::OpenSea}, water);
     Food food = makeFood(kSeed, sea, 0);
     Tick tick;
@@ -117,7 +118,7 @@ TEST(Food, pelletsThatSinkIntoTheDeepDissolveWhereNoFishGoes) {
 
 TEST(Food, thereIsRoomForSoManyPellets) {
     Food food = makeFood(kSeed, reef(), 10);
-    dropPellets(food, kSeed, reef(), place::schoolRegion().centre, 100'000, {});
+    dropPellets(food, kSeed, reef(), test::schoolRegion().centre, 100'000, {});
     EXPECT_EQ(food.pellets, kMostPellets);
     EXPECT_EQ(food.size(), 10 + kMostPellets);
 }

@@ -9,6 +9,7 @@
 
 #include "common/place/angle.h"
 #include "common/place/place.h"
+#include "tests/support/school_region.h"
 
 namespace aquarama::surroundings {
 namespace {
@@ -30,7 +31,7 @@ TEST(Journey, theGoalMovesAsItsVelocitySaysAndNeverJumps) {
 }
 
 TEST(Journey, theGoalKeepsToTheWaterOfTheSchoolAndToSpeedsThatScadSwim) {
-    const place::Region water = place::schoolRegion();
+    const place::Region water = test::schoolRegion();
     for (std::uint32_t seed = 1; seed < 6; ++seed)
         for (std::uint64_t tick = 0; tick < kTenMinutes; tick += 7) {
             const Goal goal = journeyGoal(seed, {tick});

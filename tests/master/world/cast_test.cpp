@@ -6,6 +6,7 @@
 
 #include "common/place/angle.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/support/school_region.h"
 
 namespace aquarama::world {
 namespace {
@@ -49,7 +50,7 @@ TEST(Cast, thoseWhoKeepToThemselvesStayInTheWaterAndGoAbout) {
     WorldOptions options = reef(1);
     options.scene.plankton = 0;  // no food keeps them anywhere
     World world(options);
-    const place::Region water = place::schoolRegion();
+    const place::Region water = test::schoolRegion();
     for (std::size_t fish = kSchool; fish < 60; ++fish) EXPECT_GT(world.view().fish[fish].speed, 0);
     std::vector<float> west(60, 100.0F);
     std::vector<float> east(60, -100.0F);

@@ -12,6 +12,7 @@
 
 #include "common/place/place.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/support/school_region.h"
 
 namespace aquarama::world {
 namespace {
@@ -92,7 +93,7 @@ class Watch {
     }
 
     void notePlace(glm::vec3 position) {
-        const place::Region water = place::schoolRegion();
+        const place::Region water = test::schoolRegion();
         const glm::vec3 out = glm::abs(position - water.centre) - water.halfExtent;
         const float floor = place::floorHeight({seed_}, {position.x, position.z});
         const glm::vec3 fromEye = position - place::kEyePosition;

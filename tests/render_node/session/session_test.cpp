@@ -22,7 +22,7 @@ constexpr std::uint64_t kRun = 42;
 // The master's side, in the test's own thread.
 class ScriptedMaster {
   public:
-    explicit ScriptedMaster(net::MemoryNet& net) : channels_(net.master()) {}
+    explicit ScriptedMaster(test::MemoryNet& net) : channels_(net.master()) {}
 
     void say(const wire::Message& message) {
         channels_->sendControl(peer_, wire::encode({run, message}));
@@ -133,7 +133,7 @@ class SessionTest : public testing::Test {
                           [this, frame] { return session_->readyThenWait({frame}); });
     }
 
-    net::MemoryNet net_;
+    test::MemoryNet net_;
     ScriptedMaster master_;
     std::filesystem::path blobs_;
     std::unique_ptr<Session> session_;

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/motion/living_cage.h"
+#include "tests/render_node/surface/living_cage.h"
 #include "tests/render_node/surface/surface_fixture.h"
 #include "tests/support/cast.h"
 
@@ -25,7 +25,7 @@ class SchoolSurfaceTest : public test::SurfaceTest {
     [[nodiscard]] std::vector<glm::vec3> expectedPositions(const motion::PresentedFish& fish,
                                                            DetailLevel level) const {
         std::vector<glm::vec3> cage(body::kControlPoints);
-        motion::livingCage(body_, repertoire_, fish, test::kSeconds, cage);
+        test::livingCage(body_, repertoire_, fish, test::kSeconds, cage);
         const skin::LimitTable table = skin::makeLimitTable(
             body_, static_cast<int>(level) - static_cast<int>(DetailLevel::ControlMesh));
         std::vector<glm::vec3> positions(table.vertices.size());
@@ -99,7 +99,7 @@ TEST_F(SchoolSurfaceTest, everySpeciesMovesItsFinsAsTheCpuDoes) {
         const motion::PresentedFish shown =
             motion::present(recorded.records[i], recorded.records[i], 1.0F, cast[i].fish[0]);
         std::vector<glm::vec3> cage(body::kControlPoints), expected;
-        motion::livingCage(cast[i].body, cast[i].repertoire, shown, test::kSeconds, cage);
+        test::livingCage(cast[i].body, cast[i].repertoire, shown, test::kSeconds, cage);
         for (std::size_t v = 0; v < table.vertices.size(); ++v) {
             glm::vec3& place = expected.emplace_back(0.0F);
             for (std::uint32_t k = table.firstEntry[v]; k < table.firstEntry[v + 1]; ++k)
@@ -133,7 +133,7 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
     std::vector<glm::vec3> points(body::kControlPoints);
     std::size_t inSight = 0;
     for (std::size_t i = 0; i < school.size(); ++i) {
-        motion::controlPoints(repertoire_, school[i], points);
+        test::livingCage(body_, repertoire_, school[i], test::kSeconds, points);
         const bool isInSight = std::ranges::any_of(points, [&](glm::vec3 point) {
             const glm::vec4 clip = clip_ * glm::vec4(point, 1);
             return std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w && clip.z > 0 &&

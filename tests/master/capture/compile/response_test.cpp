@@ -24,6 +24,17 @@ SpeedLaw brakeOf(const motion::SpeedResponse& response) {
             .brakeRate = static_cast<double>(response.brakeRate)};
 }
 
+// The speeds of a fish that obeys the law, from the transition's first speed on.
+std::vector<double> replayLaw(const Transition& transition, const SpeedLaw& law) {
+    std::vector<double> speeds{transition.speeds.front()};
+    while (speeds.size() < transition.speeds.size()) {
+        const double v = speeds.back();
+        speeds.push_back(v +
+                         transition.sampleSeconds * acceleration(law, transition.segmentSpeed, v));
+    }
+    return speeds;
+}
+
 // Root mean square over the transition, as a share of the higher of its two speeds.
 double errorOf(const Transition& transition, const SpeedLaw& law) {
     const std::vector<double> speeds = replayLaw(transition, law);

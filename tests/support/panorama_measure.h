@@ -7,7 +7,7 @@
 #include "common/config/rig.h"
 #include "common/wall/picture.h"
 
-namespace aquarama::theatre {
+namespace aquarama::test {
 
 struct LineOffset {
     bool upright = false;     // a line of equal azimuth, else one of equal elevation
@@ -26,4 +26,4 @@ struct LineOffset {
 // border that may stay dark (kDarkBorder of wall.h).
 [[nodiscard]] double unevenness(const wall::Light& panorama, int blockPixels);
 
-}  // namespace aquarama::theatre
+}  // namespace aquarama::test

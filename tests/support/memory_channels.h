@@ -6,10 +6,10 @@
 
 #include "common/net/channels.h"
 
-namespace aquarama::net {
+namespace aquarama::test {
 
 struct MemoryNetFaults {
-    Instant delay{};               // of every message
+    net::Instant delay{};          // of every message
     unsigned lostStatesPer64 = 0;  // control is as reliable as TCP; states are not
     std::uint32_t seed = 1;        // of what is lost
 };
@@ -18,8 +18,8 @@ struct MemoryNetFaults {
 class MemoryNet {
   public:
     explicit MemoryNet(const MemoryNetFaults& faults = {});
-    [[nodiscard]] std::unique_ptr<MasterChannels> master();
-    [[nodiscard]] std::unique_ptr<NodeChannels> node();
+    [[nodiscard]] std::unique_ptr<net::MasterChannels> master();
+    [[nodiscard]] std::unique_ptr<net::NodeChannels> node();
 
     struct Hub;
 
@@ -27,4 +27,4 @@ class MemoryNet {
     std::shared_ptr<Hub> hub_;
 };
 
-}  // namespace aquarama::net
+}  // namespace aquarama::test

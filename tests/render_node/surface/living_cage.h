@@ -11,13 +11,13 @@
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
 
-namespace aquarama::motion {
+namespace aquarama::test {
 
 // seconds: of the show. World frame, metres.
 void livingCage(const body::FishBody& body,
-                const Repertoire& repertoire,
-                const PresentedFish& fish,
+                const motion::Repertoire& repertoire,
+                const motion::PresentedFish& fish,
                 float seconds,
                 std::span<glm::vec3> points);
 
-}  // namespace aquarama::motion
+}  // namespace aquarama::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/motion/living_cage.h"
+#include "tests/render_node/surface/living_cage.h"
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "common/body/fin_motion.h"
 #include "common/motion/phase_sample.h"
 
-namespace aquarama::motion {
+namespace aquarama::test {
 
 namespace {
 
@@ -23,19 +23,19 @@ struct CagePose {
 };
 
 void recordedPose(const body::FishBody& body,
-                  const ActionSegment& segment,
+                  const motion::ActionSegment& segment,
                   std::size_t phase,
                   CagePose& pose) {
     body::NodalPoints nodes{};
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const auto& [x, y, z] = segment.nodes.at(phase).at(n);
-        nodes.at(n) = glm::vec3(x, y, z) * kPoseUnit;
+        nodes.at(n) = glm::vec3(x, y, z) * motion::kPoseUnit;
     }
     body::headingsOf(body, nodes, pose.headings);
     if (segment.controlPoints.empty()) return body::poseCage(body, nodes, pose.points);
     for (std::size_t i = 0; i < pose.points.size(); ++i) {
         const auto& [x, y, z] = segment.controlPoints[phase].at(i);
-        pose.points.at(i) = glm::vec3(x, y, z) * kPoseUnit;
+        pose.points.at(i) = glm::vec3(x, y, z) * motion::kPoseUnit;
     }
 }
 
@@ -49,13 +49,14 @@ CagePose mixed(const CagePose& a, const CagePose& b, float share) {
     return pose;
 }
 
-CagePose poseAt(const body::FishBody& body, const ActionSegment& segment, float phase) {
-    const PhaseSample sample = sampleAt(phase);
+CagePose poseAt(const body::FishBody& body, const motion::ActionSegment& segment, float phase) {
+    const motion::PhaseSample sample = motion::sampleAt(phase);
     CagePose before, after;
     recordedPose(body, segment, sample.before, before);
     recordedPose(body, segment, sample.after, after);
     CagePose pose = mixed(before, after, sample.share);
-    constexpr float kRadians = glm::two_pi<float>() / kPhases;  // from one phase to the next
+    constexpr float kRadians =
+        glm::two_pi<float>() / motion::kPhases;  // from one phase to the next
     for (std::size_t i = 0; i < pose.points.size(); ++i)
         pose.drift.at(i) = glm::dot(after.points.at(i) - before.points.at(i),
                                     body::turned({0, 0, 1}, pose.headings.at(i))) /
@@ -66,12 +67,12 @@ CagePose poseAt(const body::FishBody& body, const ActionSegment& segment, float 
 // How far a segment is a turn to the left (0) or right (1).
 float turnOf(std::uint32_t segment, std::size_t side) {
     constexpr float kGradual = 0.4F;
-    const auto first =
-        static_cast<std::uint32_t>(side == 0 ? Action::TurnLeftGradual : Action::TurnRightGradual);
+    const auto first = static_cast<std::uint32_t>(side == 0 ? motion::Action::TurnLeftGradual
+                                                            : motion::Action::TurnRightGradual);
     return segment == first ? kGradual : segment == first + 1 ? 1.0F : 0.0F;
 }
 
-body::FinDrive driveOf(const PresentedFish& fish, float seconds) {
+body::FinDrive driveOf(const motion::PresentedFish& fish, float seconds) {
     const glm::quat rotation(fish.rotation.w, fish.rotation.x, fish.rotation.y, fish.rotation.z);
     body::FinDrive drive{
         .seconds = seconds - body::kFinSeconds * std::floor(seconds / body::kFinSeconds),
@@ -90,13 +91,13 @@ body::FinDrive driveOf(const PresentedFish& fish, float seconds) {
 }  // namespace
 
 void livingCage(const body::FishBody& body,
-                const Repertoire& repertoire,
-                const PresentedFish& fish,
+                const motion::Repertoire& repertoire,
+                const motion::PresentedFish& fish,
                 float seconds,
                 std::span<glm::vec3> points) {
-    CagePose pose = poseAt(body, segmentOf(repertoire, fish.segment), fish.phase);
+    CagePose pose = poseAt(body, motion::segmentOf(repertoire, fish.segment), fish.phase);
     if (fish.warpWeight < 1.0F)
-        pose = mixed(poseAt(body, segmentOf(repertoire, fish.fromSegment), fish.fromPhase),
+        pose = mixed(poseAt(body, motion::segmentOf(repertoire, fish.fromSegment), fish.fromPhase),
                      pose,
                      fish.warpWeight);
     const body::FinDrive drive = driveOf(fish, seconds);
@@ -108,4 +109,4 @@ void livingCage(const body::FishBody& body,
     }
 }
 
-}  // namespace aquarama::motion
+}  // namespace aquarama::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/theatre/measure.h"
+#include "tests/support/panorama_measure.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 #include "common/wall/pattern.h"
 #include "common/wall/wall.h"
 
-namespace aquarama::theatre {
+namespace aquarama::test {
 
 namespace {
 
@@ -139,4 +139,4 @@ double unevenness(const wall::Light& panorama, int blockPixels) {
     return worst;
 }
 
-}  // namespace aquarama::theatre
+}  // namespace aquarama::test

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/net/memory_channels.h"
+#include "tests/support/memory_channels.h"
 
 #include <condition_variable>
 #include <deque>
 #include <map>
 #include <mutex>
 
-namespace aquarama::net {
+namespace aquarama::test {
 namespace {
 
 constexpr std::size_t kStateQueue = 8;
 
 struct Parcel {
-    Instant due;
-    PeerId peer;
-    ByteVector bytes;
+    net::Instant due;
+    net::PeerId peer;
+    net::ByteVector bytes;
 };
 
 // What one end has not taken yet.
@@ -24,8 +24,8 @@ struct Inbox {
     bool subscribed = false;
     bool woken = false;
 
-    [[nodiscard]] std::optional<Instant> earliest() const {
-        std::optional<Instant> due;
+    [[nodiscard]] std::optional<net::Instant> earliest() const {
+        std::optional<net::Instant> due;
         for (const auto* queue : {&control, &states}) {
             if (!queue->empty() && (!due || queue->front().due < *due)) due = queue->front().due;
         }
@@ -45,7 +45,7 @@ std::uint32_t mixed(std::uint32_t x) {
 struct MemoryNet::Hub {
     explicit Hub(const MemoryNetFaults& netFaults) : faults(netFaults) {}
 
-    void post(const PeerId& to, const PeerId& from, ByteView bytes) {
+    void post(const net::PeerId& to, const net::PeerId& from, net::ByteView bytes) {
         const std::lock_guard lock(mutex);
         const auto inbox = inboxes.find(to);
         if (inbox == inboxes.end()) return;
@@ -53,7 +53,7 @@ struct MemoryNet::Hub {
         changed.notify_all();
     }
 
-    void publish(ByteView bytes) {
+    void publish(net::ByteView bytes) {
         const std::lock_guard lock(mutex);
         for (auto& [peer, inbox] : inboxes) {
             const bool lost = mixed(faults.seed + ++published) % 64 < faults.lostStatesPer64;
@@ -63,21 +63,21 @@ struct MemoryNet::Hub {
         changed.notify_all();
     }
 
-    std::optional<Parcel> take(const PeerId& owner, std::deque<Parcel> Inbox::*queue) {
+    std::optional<Parcel> take(const net::PeerId& owner, std::deque<Parcel> Inbox::*queue) {
         const std::lock_guard lock(mutex);
         auto& parcels = inboxes[owner].*queue;
-        if (parcels.empty() || parcels.front().due > monotonicNow()) return std::nullopt;
+        if (parcels.empty() || parcels.front().due > net::monotonicNow()) return std::nullopt;
         Parcel first = std::move(parcels.front());
         parcels.pop_front();
         return first;
     }
 
-    void wait(const PeerId& owner, Instant atMost) {
+    void wait(const net::PeerId& owner, net::Instant atMost) {
         std::unique_lock lock(mutex);
-        const Instant end = monotonicNow() + atMost;
+        const net::Instant end = net::monotonicNow() + atMost;
         Inbox& inbox = inboxes[owner];
         while (!inbox.woken) {
-            const Instant now = monotonicNow();
+            const net::Instant now = net::monotonicNow();
             const auto due = inbox.earliest();
             if (now >= end || (due && *due <= now)) break;
             changed.wait_for(lock, (due ? std::min(*due, end) : end) - now);
@@ -85,27 +85,27 @@ struct MemoryNet::Hub {
         inbox.woken = false;
     }
 
-    void wake(const PeerId& owner) {
+    void wake(const net::PeerId& owner) {
         const std::lock_guard lock(mutex);
         inboxes[owner].woken = true;
         changed.notify_all();
     }
 
-    [[nodiscard]] Parcel parcel(const PeerId& from, ByteView bytes) const {
-        return {monotonicNow() + faults.delay, from, {bytes.begin(), bytes.end()}};
+    [[nodiscard]] Parcel parcel(const net::PeerId& from, net::ByteView bytes) const {
+        return {net::monotonicNow() + faults.delay, from, {bytes.begin(), bytes.end()}};
     }
 
     MemoryNetFaults faults;
     std::mutex mutex;
     std::condition_variable changed;
-    std::map<PeerId, Inbox> inboxes;
+    std::map<net::PeerId, Inbox> inboxes;
     std::uint32_t published = 0;
     std::uint32_t nodes = 0;
 };
 
 namespace {
 
-class MemoryMaster final : public MasterChannels {
+class MemoryMaster final : public net::MasterChannels {
   public:
     explicit MemoryMaster(std::shared_ptr<MemoryNet::Hub> hub) : hub_(std::move(hub)) {
         const std::lock_guard lock(hub_->mutex);
@@ -118,15 +118,17 @@ class MemoryMaster final : public MasterChannels {
     MemoryMaster(const MemoryMaster&) = delete;
     MemoryMaster& operator=(const MemoryMaster&) = delete;
 
-    void sendControl(const PeerId& peer, ByteView bytes) override { hub_->post(peer, "", bytes); }
-    std::optional<FromPeer> receiveControl() override {
+    void sendControl(const net::PeerId& peer, net::ByteView bytes) override {
+        hub_->post(peer, "", bytes);
+    }
+    std::optional<net::FromPeer> receiveControl() override {
         auto parcel = hub_->take("", &Inbox::control);
         if (!parcel) return std::nullopt;
-        return FromPeer{std::move(parcel->peer), std::move(parcel->bytes)};
+        return net::FromPeer{std::move(parcel->peer), std::move(parcel->bytes)};
     }
-    void publishState(ByteView bytes) override { hub_->publish(bytes); }
+    void publishState(net::ByteView bytes) override { hub_->publish(bytes); }
     std::size_t discardNoise() override { return 0; }
-    void wait(Instant atMost) override { hub_->wait("", atMost); }
+    void wait(net::Instant atMost) override { hub_->wait("", atMost); }
     void wake() override { hub_->wake(""); }
     [[nodiscard]] std::string controlAddress() const override { return "memory:control"; }
     [[nodiscard]] std::string stateAddress() const override { return "memory:state"; }
@@ -135,7 +137,7 @@ class MemoryMaster final : public MasterChannels {
     std::shared_ptr<MemoryNet::Hub> hub_;
 };
 
-class MemoryNode final : public NodeChannels {
+class MemoryNode final : public net::NodeChannels {
   public:
     explicit MemoryNode(std::shared_ptr<MemoryNet::Hub> hub) : hub_(std::move(hub)) {
         const std::lock_guard lock(hub_->mutex);
@@ -149,35 +151,35 @@ class MemoryNode final : public NodeChannels {
     MemoryNode(const MemoryNode&) = delete;
     MemoryNode& operator=(const MemoryNode&) = delete;
 
-    void sendControl(ByteView bytes) override { hub_->post("", name_, bytes); }
-    std::optional<ByteVector> receiveControl() override { return taken(&Inbox::control); }
+    void sendControl(net::ByteView bytes) override { hub_->post("", name_, bytes); }
+    std::optional<net::ByteVector> receiveControl() override { return taken(&Inbox::control); }
     void subscribeState(const std::string&) override {
         const std::lock_guard lock(hub_->mutex);
         hub_->inboxes[name_].subscribed = true;
     }
-    std::optional<ByteVector> receiveState() override { return taken(&Inbox::states); }
-    void wait(Instant atMost) override { hub_->wait(name_, atMost); }
+    std::optional<net::ByteVector> receiveState() override { return taken(&Inbox::states); }
+    void wait(net::Instant atMost) override { hub_->wait(name_, atMost); }
     void wake() override { hub_->wake(name_); }
 
   private:
-    std::optional<ByteVector> taken(std::deque<Parcel> Inbox::*queue) {
+    std::optional<net::ByteVector> taken(std::deque<Parcel> Inbox::*queue) {
         auto parcel = hub_->take(name_, queue);
         if (!parcel) return std::nullopt;
         return std::move(parcel->bytes);
     }
 
     std::shared_ptr<MemoryNet::Hub> hub_;
-    PeerId name_;
+    net::PeerId name_;
 };
 
 }  // namespace
 
 MemoryNet::MemoryNet(const MemoryNetFaults& faults) : hub_(std::make_shared<Hub>(faults)) {}
-std::unique_ptr<MasterChannels> MemoryNet::master() {
+std::unique_ptr<net::MasterChannels> MemoryNet::master() {
     return std::make_unique<MemoryMaster>(hub_);
 }
-std::unique_ptr<NodeChannels> MemoryNet::node() {
+std::unique_ptr<net::NodeChannels> MemoryNet::node() {
     return std::make_unique<MemoryNode>(hub_);
 }
 
-}  // namespace aquarama::net
+}  // namespace aquarama::test

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/theatre/projected.h"
+#include "tests/support/projected.h"
 
 #include "common/wall/wall.h"
 
-namespace aquarama::theatre {
+namespace aquarama::test {
 
 wall::Light projectedLight(const config::Rig& rig, std::size_t channel, wall::TestPattern pattern) {
     const wall::WarpMap warp = wall::warpMap(rig, channel);
@@ -28,4 +28,4 @@ wall::Light directPanorama(const config::Rig& rig, wall::TestPattern pattern) {
     return light;
 }
 
-}  // namespace aquarama::theatre
+}  // namespace aquarama::test

@@ -7,7 +7,7 @@
 #include "common/wall/pattern.h"
 #include "common/wall/picture.h"
 
-namespace aquarama::theatre {
+namespace aquarama::test {
 
 // A channel's share of the pattern: warped and blended. pictureOf (common/wall/picture.h) encodes
 // it as the channel's picture.
@@ -18,4 +18,4 @@ namespace aquarama::theatre {
 // The pattern on the unrolled screen, straight from its formula: no projector in between.
 [[nodiscard]] wall::Light directPanorama(const config::Rig& rig, wall::TestPattern pattern);
 
-}  // namespace aquarama::theatre
+}  // namespace aquarama::test
