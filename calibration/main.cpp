@@ -11,10 +11,10 @@
 #include "calibration/theatre/snapshot.h"
 #include "calibration/theatre/survey.h"
 #include "common/cli/program.h"
-#include "common/config/angle.h"
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
 #include "common/config/stereo_names.h"
+#include "common/units/angle.h"
 #include "common/units/error.h"
 #include "common/wall/wall.h"
 
@@ -75,7 +75,7 @@ void inspectRig(const std::string& path) {
     std::printf("scene: %s\n", rig.scene.c_str());
     std::printf("screen: radius %.3f m, %.1f degrees (%.3f m of arc), %.3f m high\n",
                 rig.screen.radiusMetres,
-                rig.screen.arcRadians / config::kRadiansPerDegree,
+                rig.screen.arcRadians / kRadiansPerDegree<double>,
                 rig.screen.arcRadians * rig.screen.radiusMetres,
                 rig.screen.heightMetres);
     std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);

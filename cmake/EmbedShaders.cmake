@@ -1,6 +1,7 @@
-# cmake -DFOLDER=render_node/shaders -DOUTPUT=embedded_shaders.cpp -P EmbedShaders.cmake
-# Writes every file of the folder into one C++ source, in pieces below the compiler's limit for a literal.
+# cmake -DFOLDER=render_node/shaders -DSHARED=common/units/hash.h -DOUTPUT=embedded_shaders.cpp -P EmbedShaders.cmake
+# Writes every file of the folder, and those of others that are included there, into one C++ source, in pieces below the compiler's limit for a literal.
 file(GLOB files LIST_DIRECTORIES false ${FOLDER}/*)
+list(APPEND files ${SHARED})
 list(SORT files)
 set(source "#include \"render_node/gl/embedded_shaders.h\"\n\n#include <array>\n\nnamespace aquarama::gl {\n\nnamespace {\n\n")
 string(APPEND source "constexpr std::array kShaders{\n")

@@ -80,7 +80,7 @@ void addExplain(CLI::App& app, cli::Job& job) {
         *app.add_subcommand("explain", "what a fish sees, feels, intends and does, and why");
     explain.add_option("--fish", options->fish, "which, by its number")
         ->required()
-        ->check(cli::wholeNumber(0, config::kMostFish));
+        ->check(cli::wholeNumber(0, kMostFish));
     explain.add_option("RIG", options->rig, "whose master is asked")->capture_default_str();
     explain.add_option("--master", options->address, "its control address, instead of the rig's");
     auto* follow = explain.add_flag("--follow", options->follow, "go on, twice a second");

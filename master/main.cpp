@@ -164,7 +164,7 @@ void describe(CLI::App& app, MasterOptions& options) {
     app.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
     app.add_option(
            "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(cli::wholeNumber(0, config::kMostFish));
+        ->check(cli::wholeNumber(0, kMostFish));
     app.add_option("--pattern", options.pattern, "what the channels show")
         ->check(CLI::IsMember({"world", "grid", "grey"}));
     app.add_option("--quality", options.quality, "how fine the wall is drawn, instead of the rig's")

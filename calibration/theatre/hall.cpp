@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <thread>
 #include <vector>
@@ -10,6 +9,7 @@
 
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/room.h"
+#include "common/units/worker_pool.h"
 
 namespace aquarama::theatre {
 
@@ -68,14 +68,9 @@ wall::Light composeHall(const config::Rig& rig,
     const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
     const Room room(rig.screen, panorama, eye.position);
     wall::Light hall = wall::darkness(sizePixels);
-    std::atomic<int> next{0};
-    const auto work = [&] {
-        for (int y = next++; y < sizePixels.y; y = next++) drawRow(room, eye, y, hall);
-    };
-    std::vector<std::jthread> workers;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) workers.emplace_back(work);
-    work();
-    workers.clear();
+    WorkerPool(std::thread::hardware_concurrency())
+        .run(static_cast<std::size_t>(sizePixels.y),
+             [&](std::size_t y) { drawRow(room, eye, static_cast<int>(y), hall); });
     return hall;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "common/wall/blend.h"
 #include "common/wall/outline.h"
 #include "common/wall/wall.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr int kAlong = 12001;  // samples of the screen's mid-height; a hundredth of a degree each
 
 double degreesAt(glm::dvec3 point) {
-    return wall::azimuthOf(point) / config::kRadiansPerDegree;
+    return wall::azimuthOf(point) / kRadiansPerDegree<double>;
 }
 
 // How much of this projector's picture a neighbour lights too, at mid-height.
@@ -58,9 +58,9 @@ glm::dvec2 densityAt(const config::Screen& screen,
     const auto down =
         projector.pixelOf(wall::screenPointAt(screen, unrolledPosition + glm::dvec2(0, kStep)));
     if (!here || !right || !down) return {};
-    const double degreesRight = kStep * screen.arcRadians / config::kRadiansPerDegree;
+    const double degreesRight = kStep * screen.arcRadians / kRadiansPerDegree<double>;
     const double degreesDown =
-        std::atan(kStep * screen.heightMetres / screen.radiusMetres) / config::kRadiansPerDegree;
+        std::atan(kStep * screen.heightMetres / screen.radiusMetres) / kRadiansPerDegree<double>;
     return {(right->x - here->x) / degreesRight, (down->y - here->y) / degreesDown};
 }
 

@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/units/angle.h"
+
 namespace aquarama::body {
 
 namespace {
@@ -20,7 +22,6 @@ constexpr float kFirstStripShare = 0.54F;
 constexpr float kStripGap = 0.001F;
 constexpr float kStripOverlap = 0.02F;  // of the rays, above the gap, which therefore does not show
 constexpr float kRootHalfLength = 0.012F;  // of the pectoral fins
-constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
 // Where a column is on its ring: how far down from back (0) over flank (1) to belly (2), at what
 // angle above the horizontal, on which side, and which ray of the tail fin it becomes.
@@ -37,7 +38,10 @@ ColumnPlace placeOf(int column) {
     const bool isRight = column >= 1 && column <= 6;
     const int fromBack = isRight ? column - 1 : (kTubeColumns - column) % kTubeColumns;
     const auto k = static_cast<std::size_t>(fromBack);
-    return {kDown[k], kAngle[k] * kDegree, isRight ? 1.0F : -1.0F, static_cast<float>(k) / 5};
+    return {kDown[k],
+            kAngle[k] * kRadiansPerDegree<float>,
+            isRight ? 1.0F : -1.0F,
+            static_cast<float>(k) / 5};
 }
 
 // The sine or cosine of an ellipse's angle, on a superellipse.

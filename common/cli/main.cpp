@@ -130,7 +130,7 @@ void describeRun(CLI::App& run, cli::ShowOptions& options) {
     run.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
     run.add_option(
            "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(cli::wholeNumber(0, config::kMostFish));
+        ->check(cli::wholeNumber(0, kMostFish));
     run.add_option("--record", options.recordPath, "write the show to this new file");
     describeShow(run, options);
 }

@@ -5,20 +5,19 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <numbers>
+
+#include "common/units/angle.h"
 
 namespace aquarama::config {
 
-inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-
 [[nodiscard]] inline double radiansOf(double degrees) {
-    return degrees * kRadiansPerDegree;
+    return degrees * kRadiansPerDegree<double>;
 }
 
 // The degrees that radiansOf turns back into exactly these radians, so that a rig survives being
 // written and read; a rounded one ("40", not "39.999999999999993") where that does.
 [[nodiscard]] inline double degreesOf(double radians) {
-    const double degrees = radians / kRadiansPerDegree;
+    const double degrees = radians / kRadiansPerDegree<double>;
     const double rounded = std::round(degrees * 1e9) / 1e9;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const double candidate : {rounded,

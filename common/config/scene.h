@@ -13,10 +13,10 @@
 #include <glm/vec3.hpp>
 
 #include "common/config/source_place.h"
+#include "common/units/limits.h"
 
 namespace aquarama::config {
 
-inline constexpr std::uint32_t kMostFish = 1'000'000;
 inline constexpr std::uint32_t kMostPlankton = 60'000;
 
 enum class PlaceKind : std::uint8_t {

@@ -11,7 +11,7 @@
 namespace aquarama::net {
 namespace {
 
-constexpr std::uintmax_t kMaxCachedBytes = std::uintmax_t{64} << 20U;
+constexpr std::uintmax_t kMostCachedBytes = std::uintmax_t{64} << 20U;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
     std::error_code error;
     if (!std::filesystem::exists(pathOf(digest), error)) return std::nullopt;
     try {
-        auto bytes = files::readWhole(pathOf(digest), kMaxCachedBytes);
+        auto bytes = files::readWhole(pathOf(digest), kMostCachedBytes);
         if (digestOf(bytes) == digest) return bytes;
     } catch (const Error&) {  // no more than a cache: the blob is fetched again
     }

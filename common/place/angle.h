@@ -10,7 +10,6 @@
 namespace aquarama::place {
 
 inline constexpr float kPi = 3.14159265F;
-inline constexpr float kRadiansPerDegree = kPi / 180.0F;
 
 // Angle of (x, y) from the x axis, -pi to pi, within 2e-5 rad (Abramowitz & Stegun 4.4.49).
 [[nodiscard]] constexpr float angleOf(float y, float x) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/units/hash.h"
+
 namespace aquarama::place {
 
 namespace {

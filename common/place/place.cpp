@@ -4,14 +4,13 @@
 #include <array>
 
 #include "common/place/noise.h"
+#include "common/units/random_streams.h"
 
 namespace aquarama::place {
 
 namespace {
 
 // Streams of one seed, so that adding a rock never moves the sand.
-enum Stream : std::uint32_t { Dunes = 1, Hummocks, Rocks, Kelp, Meadow, Arch, Ring };
-
 // The composition: what stands where is planned for the wall's 120 degrees, with low heads before,
 // high reefs at both sides and a gap between them into the blue; a seed only moves it a little.
 struct RockGroup {
@@ -177,7 +176,7 @@ void addArch(std::vector<Rock>& rocks, const PlaceKey& place) {
     const float sand = floorHeight(place, kArch);
     for (std::uint32_t i = 0; i < kArchStones.size(); ++i) {
         const ArchStone& stone = kArchStones[i];
-        const std::uint32_t seed = hashOf(hashOf(place.seed, Arch), i);
+        const std::uint32_t seed = hashOf(hashOf(place.seed, Stream::Arch), i);
         rocks.push_back(
             {{kArch.x + stone.offset.x, sand + stone.heightMetres, kArch.y + stone.offset.y},
              stone.radiusMetres,
@@ -201,13 +200,13 @@ bool isFree(const std::vector<Rock>& rocks, glm::vec2 xz, float radius) {
 }
 
 void addRing(std::vector<Rock>& rocks, const PlaceKey& place) {
-    std::uint32_t next = hashOf(place.seed, Ring);
+    std::uint32_t next = hashOf(place.seed, Stream::Ring);
     constexpr std::uint32_t kTries = 220;
     int groups = 0;
     for (std::uint32_t attempt = 0; attempt < kTries && groups < kRingGroups; ++attempt) {
-        const glm::vec2 spot = inDisc(hashOf(place.seed, Ring), attempt);
+        const glm::vec2 spot = inDisc(hashOf(place.seed, Stream::Ring), attempt);
         const glm::vec2 xz{spot.x * kRingOuterMetres, spot.y * kRingOuterMetres};
-        const float share = unitOf(hashOf(hashOf(place.seed, Ring), 5000 + attempt));
+        const float share = unitOf(hashOf(hashOf(place.seed, Stream::Ring), 5000 + attempt));
         const float radius = 0.9F + 2.4F * share;
         if (!isFree(rocks, xz, radius)) continue;
         addGroup(rocks,
@@ -260,14 +259,15 @@ float floorHeight(const PlaceKey& place, glm::vec2 xz) {
     // Two scales: long dunes of 14 m and hummocks of 3 m.
     const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
     const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
-    return -kMeanFloorDepthMetres + 0.22F * fractalNoise(hashOf(place.seed, Dunes), dunes, 2) +
-           0.07F * fractalNoise(hashOf(place.seed, Hummocks), hummocks, 2) - dropAt(xz);
+    return -kMeanFloorDepthMetres +
+           0.22F * fractalNoise(hashOf(place.seed, Stream::Dunes), dunes, 2) +
+           0.07F * fractalNoise(hashOf(place.seed, Stream::Hummocks), hummocks, 2) - dropAt(xz);
 }
 
 std::vector<Rock> rocksOf(const PlaceKey& place) {
     std::vector<Rock> rocks;
     if (place.kind == config::PlaceKind::OpenSea) return rocks;
-    std::uint32_t next = hashOf(place.seed, Rocks);
+    std::uint32_t next = hashOf(place.seed, Stream::Rocks);
     for (const RockGroup& group : kRockGroups) addGroup(rocks, place, group, next);
     addArch(rocks, place);
     addRing(rocks, place);
@@ -284,13 +284,13 @@ std::vector<Plant> plantsOf(const PlaceKey& place) {
             rocks,
             place,
             kelp,
-            {PlantKind::Kelp, hashOf(hashOf(place.seed, Kelp), stand++), 0.55F});
+            {PlantKind::Kelp, hashOf(hashOf(place.seed, Stream::Kelp), stand++), 0.55F});
     for (const Stand& meadow : kMeadows)
         sow(plants,
             rocks,
             place,
             meadow,
-            {PlantKind::Seagrass, hashOf(hashOf(place.seed, Meadow), stand++), 0.45F});
+            {PlantKind::Seagrass, hashOf(hashOf(place.seed, Stream::Meadow), stand++), 0.45F});
     return plants;
 }
 

@@ -87,12 +87,12 @@ Region roamingRegion(const Region& fishWater, glm::vec3 eye) {
 }
 
 std::uint32_t mostFishIn(const config::Scene& scene, float meanLengthMetres) {
-    if (scene.place == config::PlaceKind::OpenSea) return config::kMostFish;
+    if (scene.place == config::PlaceKind::OpenSea) return kMostFish;
     const double wider =
         std::max(1.0, kReefHalfWidthMetres / static_cast<double>(scene.water.halfExtent.x));
     const double fish = volumeOf(scene.water) * wider * wider /
                         roomOf(scene, static_cast<double>(meanLengthMetres));
-    return static_cast<std::uint32_t>(std::min(fish, static_cast<double>(config::kMostFish)));
+    return static_cast<std::uint32_t>(std::min(fish, static_cast<double>(kMostFish)));
 }
 
 void checkRoom(const config::Scene& scene,

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "common/units/error.h"
 #include "common/wall/outline.h"
 #include "common/wall/wall.h"
@@ -30,7 +31,7 @@ std::string oneDecimal(double value) {
 
 // "12.0 degrees left", "3.5 degrees right"
 std::string sideways(double azimuth) {
-    return oneDecimal(std::abs(azimuth) / config::kRadiansPerDegree) + " degrees " +
+    return oneDecimal(std::abs(azimuth) / kRadiansPerDegree<double>) + " degrees " +
            (azimuth < 0 ? "left" : "right");
 }
 

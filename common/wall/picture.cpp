@@ -6,16 +6,11 @@
 
 #include <glm/common.hpp>
 
+#include "common/units/hash.h"
+
 namespace aquarama::wall {
 
 namespace {
-
-// A full-avalanche integer hash (Wellons 2018, "lowbias32").
-std::uint32_t scramble(std::uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352dU;
-    x = (x ^ (x >> 15)) * 0x846ca68bU;
-    return x ^ (x >> 16);
-}
 
 double unit(std::uint32_t bits) {
     return (bits + 0.5) / 4294967296.0;
@@ -56,8 +51,8 @@ double linearFromSrgb(double encoded) {
 }
 
 double ditherCodes(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
-    const std::uint32_t pixel = scramble(x + scramble(y + scramble(seed)));
-    return unit(pixel) + unit(scramble(pixel + 1)) - 1;
+    const std::uint32_t pixel = hashOf(x + hashOf(y + hashOf(seed)));
+    return unit(pixel) + unit(hashOf(pixel + 1)) - 1;
 }
 
 Light lightOf(const Picture& picture) {

@@ -21,7 +21,7 @@ bool isText(const std::string& text, std::size_t maxBytes) {
 }
 
 bool isName(const std::string& text) {
-    return !text.empty() && isText(text, kMaxNameBytes);
+    return !text.empty() && isText(text, kMostNameBytes);
 }
 
 std::optional<Digest> digestIn(const std::string& bytes) {
@@ -63,18 +63,18 @@ std::optional<NodeCondition> conditionIn(v1::NodeCondition condition) {
 // One reader a message; empty where it is not what it should be.
 std::optional<Message> read(const v1::Hello& message) {
     if (!isName(message.channel()) || !message.has_major()) return std::nullopt;
-    if (!isText(message.build(), kMaxNameBytes)) return std::nullopt;
+    if (!isText(message.build(), kMostNameBytes)) return std::nullopt;
     return Hello{message.channel(), message.major(), message.build()};
 }
 
 std::optional<Message> read(const v1::Refusal& message) {
-    if (!message.has_reason() || !isText(message.reason(), kMaxReasonBytes)) return std::nullopt;
+    if (!message.has_reason() || !isText(message.reason(), kMostReasonBytes)) return std::nullopt;
     return Refusal{message.reason()};
 }
 
 std::optional<std::vector<motion::FishTraits>> schoolIn(const v1::Welcome& message) {
     const int fish = message.fish_ids_size();
-    if (message.length_millimetres_size() != fish || std::size_t(fish) > kMaxFish) {
+    if (message.length_millimetres_size() != fish || std::size_t(fish) > kMostFish) {
         return std::nullopt;
     }
     std::vector<motion::FishTraits> school;
@@ -89,13 +89,13 @@ std::optional<std::vector<motion::FishTraits>> schoolIn(const v1::Welcome& messa
 
 // Species that together have as many fish as the school.
 std::optional<std::vector<SpeciesBlobs>> castIn(const v1::Welcome& message, std::size_t school) {
-    if (std::size_t(message.cast_size()) > kMaxSpecies) return std::nullopt;
+    if (std::size_t(message.cast_size()) > kMostSpecies) return std::nullopt;
     std::vector<SpeciesBlobs> cast;
     std::size_t fish = 0;
     for (const v1::SpeciesBlobs& member : message.cast()) {
         const auto species = digestIn(member.species());
         const auto repertoire = digestIn(member.repertoire());
-        if (!species || !repertoire || member.fish() > kMaxFish) return std::nullopt;
+        if (!species || !repertoire || member.fish() > kMostFish) return std::nullopt;
         cast.push_back({*species, *repertoire, member.fish()});
         fish += member.fish();
     }
@@ -118,9 +118,9 @@ std::optional<Message> read(const v1::Welcome& message) {
     if (!cast) return std::nullopt;
     const auto quality = tierIn(message);
     if (message.has_quality() && !quality) return std::nullopt;
-    if (message.rig_text().size() > kMaxRigTextBytes ||
-        message.scene_text().size() > kMaxSceneTextBytes || !message.has_seed() ||
-        !isText(message.state_address(), kMaxReasonBytes)) {
+    if (message.rig_text().size() > kMostRigTextBytes ||
+        message.scene_text().size() > kMostSceneTextBytes || !message.has_seed() ||
+        !isText(message.state_address(), kMostReasonBytes)) {
         return std::nullopt;
     }
     return Welcome{message.rig_text(),
@@ -136,7 +136,7 @@ std::optional<Message> read(const v1::Welcome& message) {
 
 std::optional<Message> read(const v1::BlobRequest& message) {
     const auto digest = digestIn(message.digest());
-    if (!digest || !message.has_offset() || message.offset() > kMaxBlobBytes) return std::nullopt;
+    if (!digest || !message.has_offset() || message.offset() > kMostBlobBytes) return std::nullopt;
     return BlobRequest{*digest, message.offset()};
 }
 
@@ -144,7 +144,7 @@ std::optional<Message> read(const v1::BlobChunk& message) {
     const auto digest = digestIn(message.digest());
     const std::string& content = message.content();
     if (!digest || !message.has_offset() || !message.has_total()) return std::nullopt;
-    if (content.size() > kBlobChunkBytes || message.total() > kMaxBlobBytes) return std::nullopt;
+    if (content.size() > kBlobChunkBytes || message.total() > kMostBlobBytes) return std::nullopt;
     if (message.offset() > message.total() || content.size() > message.total() - message.offset()) {
         return std::nullopt;
     }
@@ -184,7 +184,7 @@ std::optional<Message> read(const v1::Present& message) {
 }
 
 std::optional<Message> read(const v1::Dismissed& message) {
-    if (!message.has_reason() || !isText(message.reason(), kMaxReasonBytes)) return std::nullopt;
+    if (!message.has_reason() || !isText(message.reason(), kMostReasonBytes)) return std::nullopt;
     return Dismissed{message.reason()};
 }
 
@@ -214,7 +214,7 @@ std::optional<Message> read(const v1::Input& message) {
     const auto& at = message.position();
     if (message.kind() == v1::INPUT_STEER) return steeringIn(message);
     if (!message.steering().empty()) return std::nullopt;
-    const auto isNear = [](float number) { return std::abs(number) <= kMaxInputMetres; };
+    const auto isNear = [](float number) { return std::abs(number) <= kMostInputMetres; };
     if (message.kind() == v1::INPUT_DROP_FOOD) {  // a number that is none is not near
         if (at.size() != 3 || !std::ranges::all_of(at, isNear)) return std::nullopt;
         return Input{InputKind::DropFood, {at[0], at[1], at[2]}, {}};
@@ -233,7 +233,7 @@ std::optional<NodeStatus> nodeIn(const v1::NodeStatus& message) {
 
 std::optional<Message> read(const v1::StatusReply& message) {
     const auto pace = paceIn(message.pace());
-    if (!pace || std::size_t(message.nodes_size()) > kMaxNodes) return std::nullopt;
+    if (!pace || std::size_t(message.nodes_size()) > kMostNodes) return std::nullopt;
     for (const float ms : {message.frame_median_ms(),
                            message.frame_p99_ms(),
                            message.skew_median_ms(),
@@ -242,7 +242,7 @@ std::optional<Message> read(const v1::StatusReply& message) {
         if (!std::isfinite(ms)) return std::nullopt;
     }
     const auto eye = readEye(message.eye());
-    if (!eye || !isText(message.pilot(), kMaxNameBytes)) return std::nullopt;
+    if (!eye || !isText(message.pilot(), kMostNameBytes)) return std::nullopt;
     StatusReply reply{*pace,
                       message.paused(),
                       {message.frame()},
@@ -271,13 +271,13 @@ std::optional<Message> read(const v1::ExplainRequest& message) {
 
 // Drawn with a font of ASCII, and printed.
 bool isLine(const std::string& line) {
-    return line.size() <= kMaxExplanationLineBytes &&
+    return line.size() <= kMostExplanationLineBytes &&
            std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 std::optional<Message> read(const v1::Explanation& message) {
     if (!message.has_fish() || !message.has_school() || !message.has_tick()) return std::nullopt;
-    if (message.school() > kMaxFish || std::size_t(message.lines_size()) > kMaxExplanationLines ||
+    if (message.school() > kMostFish || std::size_t(message.lines_size()) > kMostExplanationLines ||
         !std::ranges::all_of(message.lines(), isLine)) {
         return std::nullopt;
     }
@@ -344,15 +344,15 @@ bool mayBeLarge(int field) {
 
 bool isBounded(std::span<const std::byte> packet) {
     using google::protobuf::internal::WireFormatLite;
-    if (packet.size() <= kMaxSmallPacketBytes) return true;
-    if (packet.size() > kMaxPacketBytes) return false;
+    if (packet.size() <= kMostSmallPacketBytes) return true;
+    if (packet.size() > kMostPacketBytes) return false;
     google::protobuf::io::CodedInputStream stream(
         reinterpret_cast<const std::uint8_t*>(packet.data()), static_cast<int>(packet.size()));
     while (const std::uint32_t tag = stream.ReadTag()) {
         const int start = stream.CurrentPosition();
         if (!WireFormatLite::SkipField(&stream, tag)) return false;
         const auto size = static_cast<std::size_t>(stream.CurrentPosition() - start);
-        if (size > kMaxSmallPacketBytes && !mayBeLarge(WireFormatLite::GetTagFieldNumber(tag))) {
+        if (size > kMostSmallPacketBytes && !mayBeLarge(WireFormatLite::GetTagFieldNumber(tag))) {
             return false;
         }
     }

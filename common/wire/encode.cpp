@@ -205,7 +205,7 @@ void write(const Explanation& explanation, v1::Envelope& envelope) {
 
 Packet packed(const v1::Envelope& envelope) {
     Packet packet(envelope.ByteSizeLong());
-    assert(packet.size() <= kMaxPacketBytes);
+    assert(packet.size() <= kMostPacketBytes);
     envelope.SerializeToArray(packet.data(), static_cast<int>(packet.size()));
     return packet;
 }

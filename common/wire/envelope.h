@@ -12,6 +12,7 @@
 
 #include "common/units/digest.h"
 #include "common/units/ids.h"
+#include "common/units/limits.h"
 #include "common/units/steering.h"
 #include "common/wire/messages.h"
 
@@ -20,21 +21,19 @@ namespace aquarama::wire {
 inline constexpr std::uint32_t kProtocolMajor = 1;  // peers refuse any other
 
 // Nothing larger is encoded, nor looked at when it arrives.
-inline constexpr std::size_t kMaxNameBytes = 64;
-inline constexpr std::size_t kMaxReasonBytes = 1024;
-inline constexpr std::size_t kMaxRigTextBytes = std::size_t{1} << 20U;
-inline constexpr std::size_t kMaxSceneTextBytes = std::size_t{1} << 20U;
-inline constexpr std::size_t kMaxFish = 1'000'000;
-inline constexpr std::size_t kMaxBlobBytes = std::size_t{64} << 20U;
+inline constexpr std::size_t kMostNameBytes = 64;
+inline constexpr std::size_t kMostReasonBytes = 1024;
+inline constexpr std::size_t kMostRigTextBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMostSceneTextBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMostBlobBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
-inline constexpr std::size_t kMaxNodes = 256;
-inline constexpr std::size_t kMaxSpecies = 64;
-inline constexpr float kMaxInputMetres = 10'000;  // of a position, on each axis
-inline constexpr std::size_t kMaxExplanationLines = 48;
-inline constexpr std::size_t kMaxExplanationLineBytes = 120;
-inline constexpr std::size_t kMaxSmallPacketBytes = std::size_t{64} << 10U;  // all but
+inline constexpr std::size_t kMostNodes = 256;
+inline constexpr float kMostInputMetres = 10'000;  // of a position, on each axis
+inline constexpr std::size_t kMostExplanationLines = 48;
+inline constexpr std::size_t kMostExplanationLineBytes = 120;
+inline constexpr std::size_t kMostSmallPacketBytes = std::size_t{64} << 10U;  // all but
 // welcomes, states and chunks; nothing larger ever goes from a node to the master
-inline constexpr std::size_t kMaxPacketBytes = std::size_t{64} << 20U;  // two states of kMaxFish
+inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // two states of kMostFish
 
 struct Hello {
     std::string channel;

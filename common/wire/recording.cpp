@@ -19,12 +19,12 @@ namespace {
 constexpr std::string_view kMagic = "AQREC";
 // Of a header behind its length: the tag and the length of the entry's field, then of the magic's.
 constexpr std::size_t kMostBytesBeforeMagic = 16;
-constexpr std::size_t kMaxLengthBytes = 5;
-constexpr std::size_t kMaxEntryBytes = kMaxBlobBytes + kMaxSpeciesBytes + 4096;
-constexpr std::size_t kMaxSmallEntryBytes = 256;             // of inputs and hashes
-constexpr std::uint64_t kMaxTick = std::uint64_t{1} << 32U;  // two years
-constexpr float kMaxMetres = 10'000;
-constexpr std::uint32_t kMaxPellets = 65'535;
+constexpr std::size_t kMostLengthBytes = 5;
+constexpr std::size_t kMostEntryBytes = kMostBlobBytes + kMostSpeciesBytes + 4096;
+constexpr std::size_t kMostSmallEntryBytes = 256;             // of inputs and hashes
+constexpr std::uint64_t kMostTick = std::uint64_t{1} << 32U;  // two years
+constexpr float kMostMetres = 10'000;
+constexpr std::uint32_t kMostPellets = 65'535;
 
 Packet delimited(const v1::RecordingEntry& entry) {
     const std::size_t size = entry.ByteSizeLong();
@@ -107,14 +107,14 @@ class Reader {
     // The length of the next entry; false where the file ends before or within it.
     bool nextLength(std::size_t& length) {
         length = 0;
-        for (std::size_t i = 0; i < kMaxLengthBytes && at_ + i < bytes_.size(); ++i) {
+        for (std::size_t i = 0; i < kMostLengthBytes && at_ + i < bytes_.size(); ++i) {
             const auto byte = std::to_integer<std::size_t>(bytes_[at_ + i]);
             length |= (byte & 0x7FU) << (7 * i);
             if (byte > 0x7F) continue;
             at_ += i + 1;
             return true;
         }
-        if (bytes_.size() - at_ >= kMaxLengthBytes) fail("is damaged");
+        if (bytes_.size() - at_ >= kMostLengthBytes) fail("is damaged");
         return false;
     }
 
@@ -123,11 +123,11 @@ class Reader {
         start_ = at_;
         std::size_t length = 0;
         if (!nextLength(length) || length > bytes_.size() - at_) {
-            if (length > kMaxEntryBytes) fail("is damaged");
+            if (length > kMostEntryBytes) fail("is damaged");
             recording_.bytesLeftOver = bytes_.size() - start_;
             return false;
         }
-        if (length > kMaxEntryBytes ||
+        if (length > kMostEntryBytes ||
             !entry_.ParseFromArray(bytes_.data() + at_, static_cast<int>(length)))
             fail("is damaged");
         at_ += length;
@@ -145,7 +145,7 @@ class Reader {
                         printed(header.build()) + "; this program reads version " +
                         std::to_string(kRecordingVersion) + ": use the program that wrote it");
         if (!header.has_protocol() || !header.has_seed() || !header.has_scene() ||
-            header.scene().size() > kMaxSceneBytes || header.species_count() > kMaxSpecies)
+            header.scene().size() > kMostSceneBytes || header.species_count() > kMostSpecies)
             fail("has a damaged header");
         recording_.protocol = header.protocol();
         recording_.build = printed(header.build());
@@ -158,8 +158,9 @@ class Reader {
     void readSpecies() {
         if (!nextEntry()) fail("ends before it has all its species");
         const v1::RecordedSpecies& species = entry_.species();
-        if (!entry_.has_species() || !species.has_fish() || species.fish() > kMaxFish - fish_ ||
-            species.text().size() > kMaxSpeciesBytes || species.repertoire().size() > kMaxBlobBytes)
+        if (!entry_.has_species() || !species.has_fish() || species.fish() > kMostFish - fish_ ||
+            species.text().size() > kMostSpeciesBytes ||
+            species.repertoire().size() > kMostBlobBytes)
             fail("has a damaged species");
         fish_ += species.fish();
         const auto* first = reinterpret_cast<const std::byte*>(species.repertoire().data());
@@ -170,7 +171,7 @@ class Reader {
     }
 
     void readEvent() {
-        if (entryBytes_ > kMaxSmallEntryBytes) fail("is damaged");
+        if (entryBytes_ > kMostSmallEntryBytes) fail("is damaged");
         switch (entry_.entry_case()) {
             case v1::RecordingEntry::kInput:
                 recording_.inputs.push_back(inputIn(entry_.input()));
@@ -188,7 +189,7 @@ class Reader {
 
     // Time never goes back.
     Tick tickIn(bool has, std::uint64_t tick) {
-        if (!has || tick < lastTick_ || tick > kMaxTick) fail("has a tick that cannot be");
+        if (!has || tick < lastTick_ || tick > kMostTick) fail("has a tick that cannot be");
         lastTick_ = tick;
         return {tick};
     }
@@ -200,7 +201,7 @@ class Reader {
 
     glm::vec3 vectorIn(const std::array<float, 3>& numbers) const {
         // A number that is none is not below the bound.
-        if (!std::ranges::all_of(numbers, [](float n) { return std::abs(n) <= kMaxMetres; }))
+        if (!std::ranges::all_of(numbers, [](float n) { return std::abs(n) <= kMostMetres; }))
             fail("has an input from nowhere");
         return {numbers[0], numbers[1], numbers[2]};
     }
@@ -217,7 +218,7 @@ class Reader {
         RecordedInput input{tickIn(message.has_tick(), message.tick()), {}};
         if (message.has_food()) {
             const v1::RecordedFood& food = message.food();
-            if (food.pellets() > kMaxPellets) fail("has an input that cannot be");
+            if (food.pellets() > kMostPellets) fail("has an input that cannot be");
             input.input = RecordedFood{vectorIn({food.x(), food.y(), food.z()}), food.pellets()};
         } else if (message.has_submarine()) {
             const v1::RecordedSubmarine& moved = message.submarine();
@@ -235,7 +236,7 @@ class Reader {
 
     // Names of files and builds are shown in terminals.
     static std::string printed(std::string text) {
-        text.resize(std::min(text.size(), kMaxNameBytes));
+        text.resize(std::min(text.size(), kMostNameBytes));
         std::ranges::replace_if(
             text, [](char c) { return c < ' ' || c > '~'; }, '?');
         return text;
@@ -313,7 +314,7 @@ Recording readRecording(const std::string& path) {
     std::error_code problem;
     const std::uintmax_t size = std::filesystem::file_size(path, problem);
     if (!file || problem) throw Error(path + ": cannot be read; is there such a recording?");
-    if (size > kMaxRecordingBytes) throw Error(path + ": is too large for a recording");
+    if (size > kMostRecordingBytes) throw Error(path + ": is too large for a recording");
     Packet bytes(size);
     file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
     bytes.resize(static_cast<std::size_t>(file.gcount()));

@@ -22,9 +22,9 @@ namespace aquarama::wire {
 
 inline constexpr std::uint32_t kRecordingVersion = 1;
 // Nothing larger is read or written.
-inline constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20U;
-inline constexpr std::size_t kMaxSpeciesBytes = std::size_t{1} << 20U;
-inline constexpr std::size_t kMaxRecordingBytes = std::size_t{1} << 30U;
+inline constexpr std::size_t kMostSceneBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMostSpeciesBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMostRecordingBytes = std::size_t{1} << 30U;
 
 // One species of a show: its file, the repertoire that moves it, and how many there are.
 struct ProducedSpecies {

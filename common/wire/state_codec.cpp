@@ -41,7 +41,7 @@ std::optional<std::vector<Record>> readRecords(const std::string& bytes,
 }
 
 auto readFish(const std::string& bytes) {
-    return readRecords<motion::FishRecord>(bytes, kMaxFish, motion::isPlayable);
+    return readRecords<motion::FishRecord>(bytes, kMostFish, motion::isPlayable);
 }
 
 auto readFood(const std::string& bytes) {

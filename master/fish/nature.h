@@ -7,10 +7,9 @@
 #include <cstdint>
 
 #include "common/config/habits.h"
+#include "common/units/limits.h"
 
 namespace aquarama::fish {
-
-inline constexpr std::size_t kMostKinds = 64;
 
 struct Nature {
     config::Role role = config::Role::Prey;

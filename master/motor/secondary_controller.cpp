@@ -4,22 +4,21 @@
 #include <algorithm>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/angle.h"
+#include "common/units/random_streams.h"
 
 namespace aquarama::fish {
 
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { Tempo = 101, Patience, Recommended, Hold };
-
-constexpr float kGradualFrom = 22.0F * place::kRadiansPerDegree;  // error at which a turn begins
-constexpr float kSharpFrom = 70.0F * place::kRadiansPerDegree;
-constexpr float kSharpFromInDanger = 45.0F * place::kRadiansPerDegree;
-constexpr float kSideIsOpen = 150.0F * place::kRadiansPerDegree;  // beyond, either side serves
+constexpr float kGradualFrom = 22.0F * kRadiansPerDegree<float>;  // error at which a turn begins
+constexpr float kSharpFrom = 70.0F * kRadiansPerDegree<float>;
+constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree<float>;
+constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree<float>;  // beyond, either side serves
 
 constexpr float kYawGain = 1.6F;                              // radians a second for a radian
-constexpr float kMostYaw = 30.0F * place::kRadiansPerDegree;  // a second: beyond, a turn is played
+constexpr float kMostYaw = 30.0F * kRadiansPerDegree<float>;  // a second: beyond, a turn is played
 constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);         // MotorCommands::yawRate
 constexpr float kUnitsOfPitchSine = 32768.0F;                 // MotorCommands::pitch
 constexpr float kRateMargin = 0.15F;                          // of the recorded phase rate
@@ -30,17 +29,17 @@ constexpr float kHoverBelow = 0.25F;     // of the slow gait's speed
 constexpr float kHoverBrakeGain = 4.0F;  // wholly from a quarter body length a second
 constexpr std::uint64_t kShortestGaitTicks = 36;
 constexpr float kSpeedMayDiffer = 0.9F;  // of a recommended gait, body lengths a second
-constexpr float kCourseMayDiffer = 40.0F * place::kRadiansPerDegree;
+constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree<float>;
 constexpr std::uint32_t kShortestHoldTicks = 30, kHoldSpreadTicks = 46;  // of a recommended one
 
-std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Draw draw, std::uint64_t tick) {
-    return place::hashOf(place::hashOf(place::hashOf(seed, static_cast<std::uint32_t>(fish)), draw),
-                         static_cast<std::uint32_t>(tick));
+std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Stream draw, std::uint64_t tick) {
+    return hashOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(fish)), draw),
+                  static_cast<std::uint32_t>(tick));
 }
 
 // U(4, 10) seconds.
 std::uint16_t patienceOf(std::uint32_t seed, std::size_t fish, std::uint64_t tick) {
-    return static_cast<std::uint16_t>(240 + drawn(seed, fish, Patience, tick) % 361);
+    return static_cast<std::uint16_t>(240 + drawn(seed, fish, Stream::Patience, tick) % 361);
 }
 
 // Any of the other patterns.
@@ -136,7 +135,7 @@ void ControllerMemory::resize(std::size_t fish) {
 }
 
 float tempoOf(std::uint32_t seed, std::size_t fish) {
-    return 1 + 0.1F * place::signedUnitOf(drawn(seed, fish, Tempo, 0));
+    return 1 + 0.1F * signedUnitOf(drawn(seed, fish, Stream::Tempo, 0));
 }
 
 void startCommands(const Gaits& gaits,
@@ -208,11 +207,11 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);
     const motion::Action recommended =
-        otherThan(moment.present, drawn(seed, fish, Recommended, tick.value));
+        otherThan(moment.present, drawn(seed, fish, Stream::RecommendedGait, tick.value));
     if (!moment.isOpen || !serves(*gaits, moment, recommended)) return chosen;
     if (isTurn(recommended)) return recommended;  // it holds by itself
-    memory->heldUntil[fish] =
-        tick.value + kShortestHoldTicks + drawn(seed, fish, Hold, tick.value) % kHoldSpreadTicks;
+    memory->heldUntil[fish] = tick.value + kShortestHoldTicks +
+                              drawn(seed, fish, Stream::GaitHold, tick.value) % kHoldSpreadTicks;
     return recommended;
 }
 

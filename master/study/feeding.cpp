@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 
 namespace aquarama::study {
 
@@ -14,9 +14,8 @@ constexpr std::uint32_t kPinches = 701;  // stream of the seed
 
 // In the upper half of the water, not at its borders.
 glm::vec3 placeOf(const place::Region& water, std::uint32_t hash) {
-    const glm::vec3 share{place::signedUnitOf(hash),
-                          place::unitOf(place::hashOf(hash, 1)),
-                          place::signedUnitOf(place::hashOf(hash, 2))};
+    const glm::vec3 share{
+        signedUnitOf(hash), unitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
     return water.centre + water.halfExtent * share * 0.6F;
 }
 
@@ -26,8 +25,8 @@ void Feeding::before(world::World& world) {
     if (between_ == 0 || world.tick().value % between_ != 0) return;
     if (waits_) ticks_ += between_;
     const place::Region& water = world.surroundings().obstacles.water;
-    world.apply(world::DropFood{
-        placeOf(water, place::hashOf(place::hashOf(seed_, kPinches), pinches_)), kPellets});
+    world.apply(
+        world::DropFood{placeOf(water, hashOf(hashOf(seed_, kPinches), pinches_)), kPellets});
     ++pinches_;
     waits_ = true;
     thrownAt_ = world.tick().value;

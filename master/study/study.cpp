@@ -4,9 +4,9 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "common/place/noise.h"
+#include "common/units/worker_pool.h"
 #include "master/study/feeding.h"
 
 namespace aquarama::study {
@@ -58,21 +58,16 @@ std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(dou
     std::vector<Sample> samples(plan.scenarios.size());
     for (Sample& sample : samples)
         for (auto& seeds : sample) seeds.resize(plan.seeds);
-    std::atomic<std::size_t> next = 0, finished = 0;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < tasks.size(); i = next++) {
-            const Task& task = tasks[i];
-            samples[task.scenario].at(task.condition)[task.seed - 1] =
-                runOnce(plan.scenarios[task.scenario],
-                        kConditions.at(task.condition).adaptation,
-                        task.seed,
-                        plan.minutes);
-            done(static_cast<double>(++finished) / static_cast<double>(tasks.size()));
-        }
-    };
-    std::vector<std::jthread> threads;
-    for (unsigned i = 0; i < plan.threads; ++i) threads.emplace_back(work);
-    threads.clear();
+    std::atomic<std::size_t> finished = 0;
+    WorkerPool(plan.threads).run(tasks.size(), [&](std::size_t i) {
+        const Task& task = tasks[i];
+        samples[task.scenario].at(task.condition)[task.seed - 1] =
+            runOnce(plan.scenarios[task.scenario],
+                    kConditions.at(task.condition).adaptation,
+                    task.seed,
+                    plan.minutes);
+        done(static_cast<double>(++finished) / static_cast<double>(tasks.size()));
+    });
     return samples;
 }
 

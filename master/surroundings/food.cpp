@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/random_streams.h"
 
 namespace aquarama::surroundings {
 
 namespace {
-
-enum Draw : std::uint32_t { Place = 401, Absence, Spread };
 
 constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
 // Particles are looked after in turns: each about once in four seconds.
@@ -63,11 +61,10 @@ glm::vec3 strewn(std::uint32_t seed,
     const place::Region water = reachable(obstacles.water);
     glm::vec3 place{};
     for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
-        const std::uint32_t hash = place::hashOf(
-            place::hashOf(place::hashOf(place::hashOf(seed, Place), particle), turn), i);
-        const glm::vec3 share{place::signedUnitOf(hash),
-                              place::signedUnitOf(place::hashOf(hash, 1)),
-                              place::signedUnitOf(place::hashOf(hash, 2))};
+        const std::uint32_t hash =
+            hashOf(hashOf(hashOf(hashOf(seed, Stream::FoodPlace), particle), turn), i);
+        const glm::vec3 share{
+            signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
         place = water.centre + water.halfExtent * share;
         place.y =
             std::min(std::max(place.y, lowestAt(obstacles, place.x, place.z)), -kSurfaceRoomMetres);
@@ -216,11 +213,9 @@ void dropPellets(Food& food,
     const auto now = static_cast<std::uint32_t>(tick.value);
     for (std::size_t i = food.size() - kMostPellets; i < food.size() && pellets > 0; ++i) {
         if (food.isThere(i)) continue;
-        const std::uint32_t hash =
-            place::hashOf(place::hashOf(place::hashOf(seed, Spread), now), pellets--);
-        const glm::vec3 aside{place::signedUnitOf(hash),
-                              place::signedUnitOf(place::hashOf(hash, 1)),
-                              place::signedUnitOf(place::hashOf(hash, 2))};
+        const std::uint32_t hash = hashOf(hashOf(hashOf(seed, Stream::FoodSpread), now), pellets--);
+        const glm::vec3 aside{
+            signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
         glm::vec3 place = position + aside * kSpreadMetres;
         const float sand =
             place::floorHeight(obstacles.place, {place.x, place.z}) + kPelletOnSandMetres;
@@ -249,7 +244,7 @@ void removeFood(Food& food, std::uint32_t particle, Tick tick) {
     const auto now = static_cast<std::uint32_t>(tick.value);
     food.absentUntil[particle] =
         now + kShortestAbsence +
-        place::hashOf(place::hashOf(particle, Absence), now) % kShortestAbsence;
+        hashOf(hashOf(particle, Stream::FoodAbsence), now) % kShortestAbsence;
 }
 
 glm::vec3 currentAt(const place::Region& water, glm::vec3 position, Tick tick) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 
 namespace aquarama::surroundings {
 
@@ -45,12 +45,12 @@ constexpr std::uint64_t ticksOfRound() {
 glm::vec3 stationAt(std::uint32_t seed, std::uint64_t index) {
     const auto round = static_cast<std::uint32_t>(index / kRound.size());
     const Station& station = kRound[index % kRound.size()];
-    const std::uint32_t hash = place::hashOf(seed, static_cast<std::uint32_t>(index));
-    const bool mirrored = (place::hashOf(~seed, round) & 1U) != 0;
+    const std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(index));
+    const bool mirrored = (hashOf(~seed, round) & 1U) != 0;
     return {(mirrored ? -station.position.x : station.position.x) +
-                station.shiftMetres * place::signedUnitOf(hash),
-            station.position.y + kHeightShiftMetres * place::signedUnitOf(place::hashOf(hash, 1)),
-            station.position.z + station.shiftMetres * place::signedUnitOf(place::hashOf(hash, 2))};
+                station.shiftMetres * signedUnitOf(hash),
+            station.position.y + kHeightShiftMetres * signedUnitOf(hashOf(hash, 1)),
+            station.position.z + station.shiftMetres * signedUnitOf(hashOf(hash, 2))};
 }
 
 float secondsOfLeg(std::uint64_t index) {
@@ -84,8 +84,7 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
     const glm::vec3 square = step * 3.0F - leaving * 2.0F - arriving;
     const glm::vec3 cube = leaving + arriving - step * 2.0F;
     const float side =
-        (place::hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0 ? 1.0F
-                                                                                           : -1.0F;
+        (hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0 ? 1.0F : -1.0F;
     const float fade = std::min(1.0F, 12 * u * (1 - u));
     const float mill = kRound[index % kRound.size()].mills ? side * fade : 0.0F;
     return {from + (leaving + (square + cube * u) * u) * u,
@@ -131,7 +130,7 @@ Goal millGoal(std::uint32_t seed, const place::Region& water, float radius, Tick
     const float metres = std::min(kRiseMetres, 0.25F * water.halfExtent.y);
     return {water.centre + glm::vec3{0, (2 * risen - 1) * metres, 0},
             {0, 2 * slope * metres / seconds, 0},
-            (place::hashOf(seed) & 1U) != 0 ? 1.0F : -1.0F,
+            (hashOf(seed) & 1U) != 0 ? 1.0F : -1.0F,
             std::min(1.0F, kHeightOfMill * water.halfExtent.y / radius)};
 }
 

@@ -10,7 +10,7 @@
 #include <glm/common.hpp>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/random_streams.h"
 #include "master/behaviour/act/home.h"
 #include "master/behaviour/act/school.h"
 #include "master/surroundings/journey.h"
@@ -20,12 +20,10 @@ namespace aquarama::world {
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { Length = 201, Place, Phase, Heading };
-
 // Irwin-Hall: four uniform numbers make a bell curve of deviation 1 / sqrt(3), without libm.
 float bell(std::uint32_t hash) {
     float sum = 0;
-    for (std::uint32_t i = 0; i < 4; ++i) sum += place::unitOf(place::hashOf(hash, i));
+    for (std::uint32_t i = 0; i < 4; ++i) sum += unitOf(hashOf(hash, i));
     return (sum - 2) * 1.7320508F;
 }
 
@@ -66,9 +64,9 @@ std::vector<glm::vec3> schoolCells(std::size_t fish) {
 }
 
 glm::vec3 signedUnits(std::uint32_t hash) {
-    return {place::signedUnitOf(place::hashOf(hash, 0)),
-            place::signedUnitOf(place::hashOf(hash, 1)),
-            place::signedUnitOf(place::hashOf(hash, 2))};
+    return {signedUnitOf(hashOf(hash, 0)),
+            signedUnitOf(hashOf(hash, 1)),
+            signedUnitOf(hashOf(hash, 2))};
 }
 
 void begin(std::uint32_t seed,
@@ -77,7 +75,7 @@ void begin(std::uint32_t seed,
            motion::MotionStates& states) {
     motion::setBodyFrame(states, fish, frame);
     const std::uint32_t phase =
-        place::hashOf(place::hashOf(seed, Phase), static_cast<std::uint32_t>(fish)) >> 16U;
+        hashOf(hashOf(seed, Stream::BeginningPhase), static_cast<std::uint32_t>(fish)) >> 16U;
     states.phase[fish] = static_cast<std::uint16_t>(phase);
     states.segment[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
     states.fromPhase[fish] = states.phase[fish];
@@ -101,7 +99,7 @@ void placeSchool(std::uint32_t seed,
     glm::vec3 reach{1.0e-6F};
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t own =
-            place::hashOf(place::hashOf(seed, Place), static_cast<std::uint32_t>(i));
+            hashOf(hashOf(seed, Stream::BeginningPlace), static_cast<std::uint32_t>(i));
         offsets[i] = rotation * ((offsets[i] + signedUnits(own) * kOffCell) * kSpacingMetres);
         reach = glm::max(reach, glm::abs(offsets[i]));
     }
@@ -114,7 +112,7 @@ void placeSchool(std::uint32_t seed,
     const glm::vec3 course = place::directionOf(goal.velocityMetresPerSecond, {1, 0, 0});
     for (std::size_t i = 0; i < fish; ++i) {
         const std::uint32_t own =
-            place::hashOf(place::hashOf(seed, Heading), static_cast<std::uint32_t>(i));
+            hashOf(hashOf(seed, Stream::BeginningHeading), static_cast<std::uint32_t>(i));
         const glm::vec3 place =
             glm::clamp(middle + offsets[i] * fit, water.centre - room, water.centre + room);
         begin(seed, i, {place, facing(course + signedUnits(own) * kOffCourse)}, states);
@@ -131,12 +129,10 @@ void placeBall(std::uint32_t seed,
     constexpr float kInnermost = 0.7F;  // of the radius
     const glm::vec3 room = water.halfExtent * 0.85F;
     for (std::uint32_t i = 0; i < fish; ++i) {
-        const std::uint32_t own = place::hashOf(place::hashOf(seed, Place), i);
-        const glm::vec3 out = place::directionOf({place::signedUnitOf(place::hashOf(own, 0)),
-                                                  0,
-                                                  place::signedUnitOf(place::hashOf(own, 1))},
-                                                 {1, 0, 0});
-        const float away = radius * (kInnermost + place::unitOf(place::hashOf(own, 2)));
+        const std::uint32_t own = hashOf(hashOf(seed, Stream::BeginningPlace), i);
+        const glm::vec3 out = place::directionOf(
+            {signedUnitOf(hashOf(own, 0)), 0, signedUnitOf(hashOf(own, 1))}, {1, 0, 0});
+        const float away = radius * (kInnermost + unitOf(hashOf(own, 2)));
         const float rise = radius * goal.flatness * behaviour::levelInBall(seed, i);
         const glm::vec3 place = goal.position + out * away + glm::vec3{0, rise, 0};
         begin(seed,
@@ -157,7 +153,7 @@ glm::vec3 restingPlace(std::uint32_t seed,
     if (habits.home.kind != config::HomeKind::Place)
         return behaviour::wanderingGoal(seed, obstacles.water, depth, fish, {});
     const auto index = static_cast<std::uint32_t>(fish);
-    const std::uint32_t own = place::hashOf(place::hashOf(seed, Place), index);
+    const std::uint32_t own = hashOf(hashOf(seed, Stream::BeginningPlace), index);
     const glm::vec3 share = signedUnits(own);
     const std::uint32_t household =
         behaviour::householdOf(static_cast<std::uint32_t>(first), index);
@@ -195,7 +191,7 @@ void placeAbout(std::uint32_t seed,
     const glm::quat rotation{cosine, 0, sine, 0};
     for (std::size_t fish = first; fish < last; ++fish) {
         const std::uint32_t own =
-            place::hashOf(place::hashOf(seed, Place), static_cast<std::uint32_t>(fish));
+            hashOf(hashOf(seed, Stream::BeginningPlace), static_cast<std::uint32_t>(fish));
         const glm::vec3 share = signedUnits(own);
         const glm::vec3 place = start.centre + share * static_cast<float>(start.radiusMetres);
         begin(seed, fish, {place, rotation}, states);
@@ -210,7 +206,7 @@ std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
     for (const WorldSpecies& species : options.cast) {
         const FishLengths& lengths = species.lengths;
         for (std::uint32_t i = 0; i < species.fish; ++i, ++id) {
-            const float own = bell(place::hashOf(place::hashOf(options.seed, Length), id));
+            const float own = bell(hashOf(hashOf(options.seed, Stream::BeginningLength), id));
             const float metres = std::clamp(lengths.meanMetres + lengths.deviationMetres * own,
                                             lengths.leastMetres,
                                             lengths.mostMetres);

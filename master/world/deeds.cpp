@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 #include "master/behaviour/feel/temperament.h"
 #include "master/world/beginning.h"
 #include "master/world/world.h"
@@ -60,7 +60,7 @@ void World::arrive(std::uint32_t fish) {
         place::directionOf(surroundings_.obstacles.water.centre - place, glm::vec3{1, 0, 0});
     placeFishAt(states_, fish, place, inwards);
     motion::setSpeedBodyLengths(states_, fish, nature.medium);
-    const auto drawn = place::hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
+    const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
     minds_[fish] = behaviour::freshMind(nature, drawn, fish);
     courses_[fish] = {place::levelled(inwards), nature.medium, 0};
     view_.signs[fish] = 0;

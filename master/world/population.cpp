@@ -4,15 +4,13 @@
 #include <algorithm>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/random_streams.h"
 
 namespace aquarama::world {
 
 namespace {
 
 // Streams of one seed: what a number is drawn for.
-enum Draw : std::uint32_t { Absent = 601, Arrival };
-
 constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
 constexpr std::uint32_t kLongestAbsence = 60 * 60;
 constexpr float kHazeMetres = 12;        // beyond, the haze has swallowed a fish of the school
@@ -23,9 +21,8 @@ constexpr float kRockRoomMetres = 1;
 constexpr std::uint32_t kPlacesTried = 16;
 
 glm::vec3 placeDrawn(const surroundings::Obstacles& obstacles, std::uint32_t hash) {
-    const glm::vec3 share{place::signedUnitOf(hash),
-                          place::signedUnitOf(place::hashOf(hash, 1)),
-                          place::signedUnitOf(place::hashOf(hash, 2))};
+    const glm::vec3 share{
+        signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
     glm::vec3 place = obstacles.water.centre + obstacles.water.halfExtent * share * kShore;
     const float lowest = place::floorHeight(obstacles.place, {place.x, place.z}) + kFloorRoomMetres;
     place.y = std::min(std::max(place.y, lowest), -kSurfaceRoomMetres);
@@ -50,21 +47,20 @@ std::vector<Absence> makeAbsences(std::span<const fish::Nature> natures) {
 }
 
 Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now) {
-    const std::uint32_t hash = place::hashOf(place::hashOf(place::hashOf(seed, Absent), fish),
-                                             static_cast<std::uint32_t>(now.value));
+    const std::uint32_t hash =
+        hashOf(hashOf(hashOf(seed, Stream::Absence), fish), static_cast<std::uint32_t>(now.value));
     return {fish, {now.value + kShortestAbsence + hash % (kLongestAbsence - kShortestAbsence)}};
 }
 
 glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
                        std::uint32_t fish,
                        Tick tick) {
-    const std::uint32_t own =
-        place::hashOf(place::hashOf(place::hashOf(surroundings.seed, Arrival), fish),
-                      static_cast<std::uint32_t>(tick.value));
+    const std::uint32_t own = hashOf(hashOf(hashOf(surroundings.seed, Stream::Arrival), fish),
+                                     static_cast<std::uint32_t>(tick.value));
     glm::vec3 best = surroundings.obstacles.water.centre;
     float farthest = -1;
     for (std::uint32_t i = 0; i < kPlacesTried; ++i) {
-        const glm::vec3 place = placeDrawn(surroundings.obstacles, place::hashOf(own, i));
+        const glm::vec3 place = placeDrawn(surroundings.obstacles, hashOf(own, i));
         if (!isClear(surroundings.obstacles, place)) continue;
         const float far =
             std::min(place::lengthOf(place - surroundings.submarine.position), kHazeMetres);

@@ -67,9 +67,9 @@ World::World(const WorldOptions& options)
       pilot_(pilot::pilotOf(voyage_, options.scene.eye)),
       grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
       pool_(options.threads) {
-    if (options.cast.size() > fish::kMostKinds)
+    if (options.cast.size() > kMostSpecies)
         throw Error("a cast of " + std::to_string(options.cast.size()) +
-                    " species: there is room for " + std::to_string(fish::kMostKinds));
+                    " species: there is room for " + std::to_string(kMostSpecies));
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
     if (!kinds_.empty())
         schoolRadius_ =

@@ -15,6 +15,7 @@
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
 #include "common/units/ids.h"
+#include "common/units/worker_pool.h"
 #include "master/behaviour/act/routine.h"
 #include "master/behaviour/perceive/environment.h"
 #include "master/fish/adaptation.h"
@@ -27,7 +28,6 @@
 #include "master/world/input.h"
 #include "master/world/meals.h"
 #include "master/world/population.h"
-#include "master/world/worker_pool.h"
 
 namespace aquarama::world {
 
@@ -59,7 +59,7 @@ struct WorldOptions {
 
 class World {
   public:
-    // Throws Error for a cast of more kinds than kMostKinds.
+    // Throws Error for a cast of more kinds than kMostSpecies.
     explicit World(const WorldOptions& options);
 
     void apply(const WorldInput& input);  // between two ticks

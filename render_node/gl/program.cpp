@@ -6,7 +6,6 @@
 #include <cstring>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "common/files/derived_cache.h"
 #include "common/units/error.h"
@@ -15,8 +14,6 @@
 namespace aquarama::gl {
 
 namespace {
-
-thread_local std::string definitions;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 const EmbeddedShader& embedded(std::string_view name) {
     const auto shaders = embeddedShaders();
@@ -42,32 +39,6 @@ bool isLinked(const ProgramHandle& program) {
 std::string trimmed(std::string log) {
     log.erase(log.find_last_not_of(" \n\t") + 1);
     return log;
-}
-
-// After the #version, which comes first; the lines of the files keep their places.
-void addDefinitions(ShaderText& shader, const std::string& file) {
-    shader.text.insert(shader.text.find('\n') + 1, definitions);
-    const auto lines = static_cast<std::size_t>(std::ranges::count(definitions, '\n'));
-    shader.sources.insert(shader.sources.begin() + 1, lines, {file, 0});
-}
-
-}  // namespace
-
-Definitions::Definitions(std::string lines)
-    : outer_{std::exchange(definitions, std::move(lines))} {}
-
-Definitions::~Definitions() {
-    definitions = std::move(outer_);
-}
-
-namespace {
-
-ShaderText sourceOf(const std::string& file,
-                    std::span<const Replacement> replacements,
-                    const ReadShader& read) {
-    ShaderText source = expand(file, read, replacements);
-    addDefinitions(source, file);
-    return source;
 }
 
 ShaderHandle compiled(const std::string& file, const ShaderText& source) {
@@ -160,9 +131,9 @@ ProgramHandle linkedOrLoaded(std::span<const Stage> stages) {
 }  // namespace
 
 ShaderHandle compileShader(const std::string& file,
-                           std::span<const Replacement> replacements,
+                           const Replacements& replacements,
                            const ReadShader& read) {
-    return compiled(file, sourceOf(file, replacements, read));
+    return compiled(file, expand(file, read, replacements));
 }
 
 std::string_view shaderSource(std::string_view name) {
@@ -176,10 +147,10 @@ std::vector<std::string_view> shaderNames() {
 }
 
 ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
-                          std::span<const Replacement> replacements) {
+                          const Replacements& replacements) {
     std::vector<Stage> stages;
     for (const std::string& file : shaderFiles)
-        stages.push_back({file, sourceOf(file, replacements, shaderSource)});
+        stages.push_back({file, expand(file, shaderSource, replacements)});
     ProgramHandle program = linkedOrLoaded(stages);
     glObjectLabel(GL_PROGRAM, program.name(), -1, shaderFiles.front().c_str());
     return program;

@@ -2,7 +2,6 @@
 // Shader programs from the files of render_node/shaders, which are embedded at build time.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,21 +15,6 @@ namespace aquarama::gl {
 [[nodiscard]] std::string_view shaderSource(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> shaderNames();  // every embedded file
 
-// While it lives, every program that this thread makes begins with these lines of #define: what a
-// tier leaves out costs nothing, also where a driver runs both sides of every branch.
-class Definitions {
-  public:
-    explicit Definitions(std::string lines);
-    ~Definitions();
-    Definitions(const Definitions&) = delete;
-    Definitions& operator=(const Definitions&) = delete;
-    Definitions(Definitions&&) = delete;
-    Definitions& operator=(Definitions&&) = delete;
-
-  private:
-    std::string outer_;
-};
-
 struct ShaderTraits {
     static unsigned create(GLenum stage) { return glCreateShader(stage); }
     static void destroy(unsigned name) { glDeleteShader(name); }
@@ -40,12 +24,12 @@ using ShaderHandle = Handle<ShaderTraits>;
 // The stage follows from the ending: .vert .frag .comp. Throws Error with the driver's log, which
 // names file and line of each mistake, also in an included file.
 [[nodiscard]] ShaderHandle compileShader(const std::string& file,
-                                         std::span<const Replacement> replacements = {},
+                                         const Replacements& replacements = {},
                                          const ReadShader& read = shaderSource);
 
 // Compiles and links, or takes the driver's binary of an earlier time from this user's cache; the
 // first name labels the program. Throws Error as above.
 [[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
-                                        std::span<const Replacement> replacements = {});
+                                        const Replacements& replacements = {});
 
 }  // namespace aquarama::gl

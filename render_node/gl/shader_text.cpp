@@ -14,7 +14,7 @@ void addLine(ShaderText& shader, std::string_view line, std::string_view file, i
     shader.sources.push_back({std::string(file), number});
 }
 
-std::string_view replaced(std::string_view file, std::span<const Replacement> replacements) {
+std::string_view replaced(std::string_view file, const Replacements& replacements) {
     const auto found = std::ranges::find(replacements, file, &Replacement::file);
     return found == replacements.end() ? file : found->by;
 }
@@ -22,7 +22,7 @@ std::string_view replaced(std::string_view file, std::span<const Replacement> re
 void addFile(ShaderText& shader,
              std::string_view name,
              const ReadShader& read,
-             std::span<const Replacement> replacements) {
+             const Replacements& replacements) {
     constexpr std::string_view kInclude = "#include \"";
     std::string_view rest = read(name);
     for (int number = 1; !rest.empty(); ++number) {
@@ -42,9 +42,7 @@ void addFile(ShaderText& shader,
 
 }  // namespace
 
-ShaderText expand(std::string_view name,
-                  const ReadShader& read,
-                  std::span<const Replacement> replacements) {
+ShaderText expand(std::string_view name, const ReadShader& read, const Replacements& replacements) {
     ShaderText shader;
     addLine(shader, "#version 450 core", name, 0);
     addFile(shader, name, read, replacements);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,15 +21,17 @@ struct ShaderText {
 // The text of a file of this name; throws Error where there is none.
 using ReadShader = std::function<std::string_view(std::string_view name)>;
 
-// Includes `by` wherever a file says #include "file": so one shader serves several painters.
+// Includes `by` wherever a file says #include "file": so one shader serves several painters and
+// tiers.
 struct Replacement {
-    std::string_view file, by;
+    std::string file, by;
 };
+using Replacements = std::vector<Replacement>;
 
 // "#version 450 core" and the file, its #include "name" lines expanded.
 [[nodiscard]] ShaderText expand(std::string_view name,
                                 const ReadShader& read,
-                                std::span<const Replacement> replacements = {});
+                                const Replacements& replacements = {});
 
 // A driver's log with places in files, "water.glsl:12", for the lines of the text that drivers
 // write as 0:40, NVIDIA's as 0(40). The text has no #line for them: Mesa loses its file where an

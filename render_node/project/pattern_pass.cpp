@@ -7,17 +7,13 @@
 
 #include "common/wall/pattern.h"
 #include "render_node/gl/program.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::project {
 
 namespace {
 
 // Places in pattern.frag.
-constexpr GLint kWallFromCamera = 0;
-constexpr GLint kExtents = 3;
-constexpr GLint kGreyLightPlace = 4;
-constexpr GLint kGridLines = 5;
-constexpr GLint kEyeAndRadius = 6;
 
 constexpr float kNoGrey = -1;  // the grid instead
 
@@ -55,11 +51,12 @@ void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLi
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glUseProgram(program_.name());
-    glUniformMatrix3fv(kWallFromCamera, 1, GL_FALSE, glm::value_ptr(wallFromCamera));
-    glUniform4fv(kExtents, 1, glm::value_ptr(extents));
-    glUniform1f(kGreyLightPlace, greyLight);
-    glUniform4fv(kGridLines, 1, glm::value_ptr(gridLines));
-    glUniform4fv(kEyeAndRadius, 1, glm::value_ptr(eyeAndRadius_));
+    glUniformMatrix3fv(
+        shaders::kWallFromCameraLocation, 1, GL_FALSE, glm::value_ptr(wallFromCamera));
+    glUniform4fv(shaders::kExtentsLocation, 1, glm::value_ptr(extents));
+    glUniform1f(shaders::kGreyLightLocation, greyLight);
+    glUniform4fv(shaders::kGridLinesLocation, 1, glm::value_ptr(gridLines));
+    glUniform4fv(shaders::kEyeAndRadiusLocation, 1, glm::value_ptr(eyeAndRadius_));
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

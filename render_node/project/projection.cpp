@@ -2,22 +2,14 @@
 #include "render_node/project/projection.h"
 
 #include "render_node/gl/program.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::project {
 
 namespace {
 
 // Places in project.frag and project_pair.frag.
-constexpr GLuint kSceneUnit = 0;
-constexpr GLuint kMapUnit = 1;
-constexpr GLuint kRightSceneUnit = 2;
-constexpr GLuint kRightMapUnit = 3;
 // Places in project.glsl, and one in project_pair.frag.
-constexpr GLint kSize = 0;
-constexpr GLint kSeed = 1;
-constexpr GLint kDither = 2;
-constexpr GLint kBlendMask = 3;
-constexpr GLint kMode = 4;
 
 void beginPass(const Projection::Draw& what,
                const gl::ProgramHandle& program,
@@ -30,10 +22,11 @@ void beginPass(const Projection::Draw& what,
     glDisable(GL_BLEND);
     glDisable(GL_DITHER);
     glUseProgram(program.name());
-    glUniform2i(kSize, size.x, size.y);
-    glUniform1ui(kSeed, channelId * 2U + static_cast<GLuint>(what.frame.value % 2));
-    glUniform1i(kDither, what.encoding == Encoding::Dithered8 ? 1 : 0);
-    glUniform1i(kBlendMask, what.blendMask ? 1 : 0);
+    glUniform2i(shaders::kSizeLocation, size.x, size.y);
+    glUniform1ui(shaders::kSeedLocation,
+                 channelId * 2U + static_cast<GLuint>(what.frame.value % 2));
+    glUniform1i(shaders::kDitheredLocation, what.encoding == Encoding::Dithered8 ? 1 : 0);
+    glUniform1i(shaders::kBlendMaskLocation, what.blendMask ? 1 : 0);
 }
 
 void makeBilinear(const gl::Sampler& sampler) {
@@ -59,12 +52,12 @@ Projection::Projection(const ProjectionMap& map, std::uint32_t channelId)
 
 void Projection::draw(const Draw& what) const {
     beginPass(what, program_, size_, channelId_);
-    glBindTextureUnit(kSceneUnit, what.sceneTexture);
-    glBindSampler(kSceneUnit, bilinear_.name());
-    glBindTextureUnit(kMapUnit, map_.name());
+    glBindTextureUnit(shaders::kSceneUnit, what.sceneTexture);
+    glBindSampler(shaders::kSceneUnit, bilinear_.name());
+    glBindTextureUnit(shaders::kPlacesUnit, map_.name());
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindSampler(kSceneUnit, 0);
+    glBindSampler(shaders::kSceneUnit, 0);
 }
 
 PairProjection::PairProjection(glm::ivec2 sizePixels,
@@ -79,17 +72,17 @@ PairProjection::PairProjection(glm::ivec2 sizePixels,
 
 void PairProjection::draw(const Eye& left, const Eye& right, const Projection::Draw& both) const {
     beginPass(both, program_, size_, channelId_);
-    glUniform1i(kMode, static_cast<GLint>(mode_));
-    glBindTextureUnit(kSceneUnit, left.sceneTexture);
-    glBindTextureUnit(kMapUnit, left.mapTexture);
-    glBindTextureUnit(kRightSceneUnit, right.sceneTexture);
-    glBindTextureUnit(kRightMapUnit, right.mapTexture);
-    glBindSampler(kSceneUnit, bilinear_.name());
-    glBindSampler(kRightSceneUnit, bilinear_.name());
+    glUniform1i(shaders::kModeLocation, static_cast<GLint>(mode_));
+    glBindTextureUnit(shaders::kSceneUnit, left.sceneTexture);
+    glBindTextureUnit(shaders::kPlacesUnit, left.mapTexture);
+    glBindTextureUnit(shaders::kRightSceneUnit, right.sceneTexture);
+    glBindTextureUnit(shaders::kRightPlacesUnit, right.mapTexture);
+    glBindSampler(shaders::kSceneUnit, bilinear_.name());
+    glBindSampler(shaders::kRightSceneUnit, bilinear_.name());
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindSampler(kSceneUnit, 0);
-    glBindSampler(kRightSceneUnit, 0);
+    glBindSampler(shaders::kSceneUnit, 0);
+    glBindSampler(shaders::kRightSceneUnit, 0);
 }
 
 glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel) {

@@ -10,7 +10,8 @@
 #include <glm/vec2.hpp>
 
 #include "common/files/derived_cache.h"
-#include "common/place/noise.h"
+#include "common/units/hash.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
@@ -27,9 +28,8 @@ float tiled(std::uint32_t seed, glm::vec2 uv, int cells) {
     const auto corner = [&](int x, int y) {
         const int column = ((static_cast<int>(cell.x) + x) % cells + cells) % cells;
         const int row = ((static_cast<int>(cell.y) + y) % cells + cells) % cells;
-        return place::signedUnitOf(
-            place::hashOf(place::hashOf(seed, static_cast<std::uint32_t>(column)),
-                          static_cast<std::uint32_t>(row)));
+        return signedUnitOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(column)),
+                                   static_cast<std::uint32_t>(row)));
     };
     return glm::mix(
         glm::mix(corner(0, 0), corner(1, 0), s.x), glm::mix(corner(0, 1), corner(1, 1), s.x), s.y);
@@ -65,12 +65,9 @@ float toNearest(std::uint32_t seed, glm::vec2 uv, int cells) {
     for (int i = 0; i < 9; ++i) {
         const glm::ivec2 at = cell + glm::ivec2{i % 3 - 1, i / 3 - 1};
         const glm::ivec2 on = (at % cells + cells) % cells;
-        const std::uint32_t hash =
-            place::hashOf(place::hashOf(seed, static_cast<std::uint32_t>(on.x)),
-                          static_cast<std::uint32_t>(on.y));
-        const glm::vec2 way = glm::vec2(at) +
-                              glm::vec2{place::unitOf(hash), place::unitOf(place::hashOf(hash))} -
-                              place;
+        const std::uint32_t hash = hashOf(hashOf(seed, static_cast<std::uint32_t>(on.x)),
+                                          static_cast<std::uint32_t>(on.y));
+        const glm::vec2 way = glm::vec2(at) + glm::vec2{unitOf(hash), unitOf(hashOf(hash))} - place;
         nearest2 = std::min(nearest2, glm::dot(way, way));
     }
     return std::sqrt(nearest2);
@@ -138,10 +135,10 @@ Tile keptTile(const char* name, float sideMetres, ReliefAt reliefAt) {
 }  // namespace
 
 Tile sandTile() {
-    return keptTile("sand", kSandTileMetres, sandAt);
+    return keptTile("sand", shaders::kSandTileMetres, sandAt);
 }
 Tile rockTile() {
-    return keptTile("rock", kRockTileMetres, rockAt);
+    return keptTile("rock", shaders::kRockTileMetres, rockAt);
 }
 
 }  // namespace aquarama::scene

@@ -18,9 +18,6 @@ struct Tile {
     auto arrays() { return std::tie(values); }
 };
 
-inline constexpr float kSandTileMetres = 2.6F;  // as in floor.frag
-inline constexpr float kRockTileMetres = 1.1F;  // as in rock.frag
-
 // Painted once on a machine: derived data.
 [[nodiscard]] Tile sandTile();
 [[nodiscard]] Tile rockTile();

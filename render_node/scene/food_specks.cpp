@@ -5,22 +5,19 @@
 
 #include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
-#include "render_node/scene/frustum.h"
+#include "render_node/scene/viewpoint.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
 namespace {
 
-constexpr GLuint kSpecks = 0;  // as in food_particle.glsl
-constexpr GLint kFirst = 0;    // place of the number of the first speck, as there
 // Farther they are smaller than a pixel; the shaders fade them out before.
-constexpr float kPlanktonMetres = 8.0F;
-constexpr float kPelletMetres = 16.0F;
 constexpr float kMarginMetres = 0.05F;  // for what is drawn larger than it is
 constexpr int kPelletVertices = 24;     // an octahedron, each face with corners of its own
 
 bool isSeen(const FoodParticle& particle, const Viewpoint& viewpoint) {
-    const float farthest = particle.isPellet ? kPelletMetres : kPlanktonMetres;
+    const float farthest = particle.isPellet ? shaders::kPelletMetres : shaders::kPlanktonMetres;
     const glm::vec3 way = particle.positionMetres - viewpoint.eyeMetres;
     return glm::dot(way, way) < farthest * farthest &&
            viewpoint.sees(particle.positionMetres, kMarginMetres);
@@ -28,9 +25,9 @@ bool isSeen(const FoodParticle& particle, const Viewpoint& viewpoint) {
 
 }  // namespace
 
-FoodSpecks::FoodSpecks()
-    : plankton_{gl::makeProgram({"plankton.vert", "snow.frag"})},
-      pellets_{gl::makeProgram({"pellet.vert", "pellet.frag"})} {}
+FoodSpecks::FoodSpecks(const gl::Replacements& replacements)
+    : plankton_{gl::makeProgram({"plankton.vert", "snow.frag"}, replacements)},
+      pellets_{gl::makeProgram({"pellet.vert", "pellet.frag"}, replacements)} {}
 
 void FoodSpecks::update(std::span<const FoodParticle> food, const Viewpoint& viewpoint) {
     seen_.clear();
@@ -51,7 +48,7 @@ void FoodSpecks::draw() const {
     const gl::Stage stage{"food"};
     if (seen_.empty()) return;
     glBindVertexArray(empty_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSpecks, specks_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kSpecksStorage, specks_.name());
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     if (pelletCount_ > 0) drawPellets();
@@ -71,7 +68,7 @@ void FoodSpecks::drawPlankton() const {
     glBlendFunc(GL_ONE, GL_ONE);
     glEnable(GL_PROGRAM_POINT_SIZE);
     glUseProgram(plankton_.name());
-    glUniform1i(kFirst, pelletCount_);
+    glUniform1i(shaders::kFirstLocation, pelletCount_);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(seen_.size()) - pelletCount_);
 }
 

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "render_node/gl/handle.h"
+#include "render_node/gl/shader_text.h"
 
 namespace aquarama::scene {
 
@@ -23,7 +24,7 @@ struct FoodParticle {
 // Owns its GL objects; construct, use and destroy with the same context current.
 class FoodSpecks {
   public:
-    FoodSpecks();
+    explicit FoodSpecks(const gl::Replacements& replacements);
     // Takes what this view can see: the rest costs a test each.
     void update(std::span<const FoodParticle> food, const Viewpoint& viewpoint);
     // Over all that is solid. Expects the frame's uniform block and the sea's light to be bound.

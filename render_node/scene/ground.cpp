@@ -13,6 +13,7 @@
 #include "render_node/scene/shade.h"
 #include "render_node/scene/solid_array.h"
 #include "render_node/scene/texture.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
@@ -23,7 +24,6 @@ constexpr int kPatchesASide = 14;
 constexpr std::array<int, 3> kCells{24, 10, 4};
 constexpr std::array<float, 2> kLevelMetres{13.0F, 26.0F};
 constexpr float kRimMetres = 0.35F;
-constexpr float kShadeMetres = 72.0F;  // side of the square round the origin, as in floor.frag
 constexpr int kShadeTexels = 360;
 
 glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
@@ -37,11 +37,13 @@ glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
 using ShadeTexel = glm::u8vec4;  // openness to the sun and from above, rubble
 
 glm::vec2 middleOfTexel(int column, int row) {
-    return (glm::vec2{column, row} + 0.5F) * (kShadeMetres / kShadeTexels) - kShadeMetres / 2.0F;
+    return (glm::vec2{column, row} + 0.5F) * (shaders::kFloorShadeMetres / kShadeTexels) -
+           shaders::kFloorShadeMetres / 2.0F;
 }
 
 int texelAt(float metres) {
-    const float texel = (metres + kShadeMetres / 2.0F) * (kShadeTexels / kShadeMetres);
+    const float texel =
+        (metres + shaders::kFloorShadeMetres / 2.0F) * (kShadeTexels / shaders::kFloorShadeMetres);
     return std::clamp(static_cast<int>(texel), 0, kShadeTexels - 1);
 }
 
@@ -147,10 +149,10 @@ GroundTables groundTables(std::uint32_t seed) {
                                               [&] { return makeGroundTables(seed); });
 }
 
-Ground::Ground(const GroundTables& tables)
+Ground::Ground(const GroundTables& tables, const gl::Replacements& replacements)
     : patches_{tables.patches},
       levels_{tables.levels},
-      program_{gl::makeProgram({"floor.vert", "floor.frag"})},
+      program_{gl::makeProgram({"floor.vert", "floor.frag"}, replacements)},
       detail_{makeTexture(sandTile())},
       rubble_{makeTexture(rockTile())},
       shade_{makeShade(tables.shade)} {
@@ -159,9 +161,9 @@ Ground::Ground(const GroundTables& tables)
 
 void Ground::draw(const Viewpoint& viewpoint) const {
     glUseProgram(program_.name());
-    glBindTextureUnit(14, detail_.name());
-    glBindTextureUnit(15, shade_.name());
-    glBindTextureUnit(16, rubble_.name());
+    glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
+    glBindTextureUnit(shaders::kFloorShadeUnit, shade_.name());
+    glBindTextureUnit(shaders::kFloorRockUnit, rubble_.name());
     drawPatches(viewpoint);
 }
 

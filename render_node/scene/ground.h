@@ -11,8 +11,9 @@
 #include <glm/vec2.hpp>
 
 #include "render_node/gl/handle.h"
-#include "render_node/scene/frustum.h"
+#include "render_node/gl/shader_text.h"
 #include "render_node/scene/mesh.h"
+#include "render_node/scene/viewpoint.h"
 
 namespace aquarama::scene {
 
@@ -44,7 +45,7 @@ struct GroundTables {
 
 class Ground {
   public:
-    explicit Ground(const GroundTables& tables);
+    Ground(const GroundTables& tables, const gl::Replacements& replacements);
     void draw(const Viewpoint& viewpoint) const;
     // The same for a map of depths: without light.
     [[nodiscard]] static gl::ProgramHandle depthProgram();

@@ -18,8 +18,8 @@ constexpr std::array<void (*)(Mesh&, std::size_t, Dice), kForms> kGrow{
 
 Levels grow(Form form, int shape) {
     const auto at = static_cast<std::size_t>(form);
-    const std::uint32_t seed = place::hashOf(place::hashOf(static_cast<std::uint32_t>(at)),
-                                             static_cast<std::uint32_t>(shape));
+    const std::uint32_t seed =
+        hashOf(hashOf(static_cast<std::uint32_t>(at)), static_cast<std::uint32_t>(shape));
     Levels levels;
     for (std::size_t level = 0; level < kLevels; ++level)
         kGrow.at(at)(levels.at(level), level, Dice{seed});

@@ -47,8 +47,9 @@ constexpr LightQuality kUltraLight{.waveTexels = 192,
 
 }  // namespace
 
-std::string definitionsOf(const LightQuality& light) {
-    return light.isFine ? "#define FINE_LIGHT\n" : "";
+gl::Replacements replacementsOf(const LightQuality& light) {
+    if (!light.isFine) return {};
+    return {{"light_plain.glsl", "light_fine.glsl"}};
 }
 
 Quality qualityOf(config::QualityTier tier) {

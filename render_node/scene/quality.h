@@ -2,9 +2,8 @@
 // How much a frame may cost: what each tier of quality buys, in one place.
 #pragma once
 
-#include <string>
-
 #include "common/config/quality.h"
+#include "render_node/gl/shader_text.h"
 
 namespace aquarama::scene {
 
@@ -25,8 +24,9 @@ struct LightQuality {
     bool isFine = false;
 };
 
-// What shaders of the tier begin with: see gl::Definitions.
-[[nodiscard]] std::string definitionsOf(const LightQuality& light);
+// What shaders of the tier include instead: what a tier leaves out costs nothing, also where a
+// driver runs both sides of every branch.
+[[nodiscard]] gl::Replacements replacementsOf(const LightQuality& light);
 
 struct Quality {
     float pictureShare = 1.0F;  // of the projector's pixels along either axis that are drawn

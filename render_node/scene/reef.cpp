@@ -2,7 +2,6 @@
 #include "render_node/scene/reef.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -13,16 +12,19 @@
 #include <glm/geometric.hpp>
 
 #include "common/files/derived_cache.h"
+#include "common/units/worker_pool.h"
+#include "render_node/gl/buffer.h"
 #include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/solid_array.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
 namespace {
 
-constexpr unsigned kGroupSize = 64;                                  // as in place_cull.comp
-constexpr GLsizeiptr kWakeBytes = GLsizeiptr{40} * 16 * 40 * 3 * 4;  // as in wake.glsl
+constexpr std::size_t kWakeBytes = sizeof(std::int32_t) * 3 * shaders::kWakeCellsAcross *
+                                   shaders::kWakeCellsUp * shaders::kWakeCellsAcross;
 constexpr unsigned kGrowths = kPrototypes - kRockShapes;
 
 // In one run for rock and one for what grows; fine levels, which are near, before coarse ones.
@@ -39,12 +41,6 @@ std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
     if (prototype >= prototypeOf(Form::Kelp, 0)) return {900.0F, 420.0F, 190.0F, 6.0F};
     if (prototype >= prototypeOf(Form::Turf, 0)) return {60.0F, 26.0F, 11.0F, 3.0F};
     return {95.0F, 36.0F, 13.0F, 2.2F};
-}
-
-template <class T>
-void fill(const gl::Buffer& buffer, std::span<const T> values, GLbitfield flags = 0) {
-    glNamedBufferStorage(
-        buffer.name(), static_cast<GLsizeiptr>(values.size_bytes()), values.data(), flags);
 }
 
 Prototype boundsOf(const Mesh& mesh) {
@@ -77,15 +73,15 @@ std::vector<Instance> byCells(std::vector<Instance> instances) {
 std::vector<glm::vec4> groupBalls(std::span<const Instance> instances,
                                   std::span<const Prototype> prototypes) {
     std::vector<glm::vec4> balls;
-    for (std::size_t first = 0; first < instances.size(); first += kGroupSize) {
-        const auto group =
-            instances.subspan(first, std::min<std::size_t>(kGroupSize, instances.size() - first));
+    for (std::size_t first = 0; first < instances.size(); first += shaders::kGroupSize) {
+        const auto group = instances.subspan(
+            first, std::min<std::size_t>(shaders::kGroupSize, instances.size() - first));
         glm::vec3 middle{0.0F};
         for (const Instance& one : group) middle += glm::vec3(one.placeAndScale);
         middle /= static_cast<float>(group.size());
         float reach = 0.0F;
         for (const Instance& one : group) {
-            const Prototype& prototype = prototypes[static_cast<std::size_t>(one.light.w)];
+            const Prototype& prototype = prototypes[one.prototype];
             // As in place_cull.comp: what bends reaches further.
             const float own = one.placeAndScale.w * (std::abs(prototype.middle) + prototype.reach +
                                                      1.5F * one.tintAndSway.w);
@@ -109,19 +105,12 @@ void drawFrom(std::size_t command, GLsizei count) {
 
 Library growLibrary() {
     Library library;
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-        for (std::size_t i = next++; i < kPrototypes; i = next++) {
-            const std::size_t growth = i - kRockShapes;
-            library[i] = i < kRockShapes ? growRock(static_cast<int>(i))
-                                         : grow(static_cast<Form>(growth / kShapesOfForm),
-                                                static_cast<int>(growth % kShapesOfForm));
-        }
-    };
-    std::vector<std::jthread> workers;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) workers.emplace_back(work);
-    work();
-    workers.clear();
+    WorkerPool(std::thread::hardware_concurrency()).run(kPrototypes, [&](std::size_t i) {
+        const std::size_t growth = i - kRockShapes;
+        library[i] = i < kRockShapes ? growRock(static_cast<int>(i))
+                                     : grow(static_cast<Form>(growth / kShapesOfForm),
+                                            static_cast<int>(growth % kShapesOfForm));
+    });
     return library;
 }
 
@@ -137,8 +126,7 @@ ReefTables makeReefTables(const place::PlaceKey& place) {
     std::uint32_t slots = 0;
     for (std::size_t i = 0; i < kPrototypes; ++i) {
         const auto own = static_cast<std::uint32_t>(std::ranges::count_if(
-            tables.instances,
-            [&](const Instance& one) { return one.light.w == static_cast<float>(i); }));
+            tables.instances, [&](const Instance& one) { return one.prototype == i; }));
         Prototype prototype = boundsOf(library.at(i)[0]);
         prototype.firstCommand = commandOf(i, 0);
         prototype.commandStride = commandOf(i, 1) - commandOf(i, 0);
@@ -174,13 +162,15 @@ Reef::Reef(const ReefTables& tables, const Quality& quality)
     : quality_{quality},
       group_{gl::makeProgram({"place_groups.comp"})},
       cull_{gl::makeProgram({"place_cull.comp"})},
-      stone_{quality.rockScales > 1 ? gl::makeProgram({"rock.vert", "rock.frag"})
-                                    : gl::makeProgram({"rock_plain.vert", "rock_plain.frag"})},
-      growth_{gl::makeProgram({"coral.vert", "coral.frag"})},
-      farGrowth_{gl::makeProgram({"coral_far.vert", "lit.frag"})},
+      stone_{quality.rockScales > 1
+                 ? gl::makeProgram({"rock.vert", "rock.frag"}, replacementsOf(quality.light))
+                 : gl::makeProgram({"rock_plain.vert", "rock_plain.frag"},
+                                   replacementsOf(quality.light))},
+      growth_{gl::makeProgram({"coral.vert", "coral.frag"}, replacementsOf(quality.light))},
+      farGrowth_{gl::makeProgram({"coral_far.vert", "lit.frag"}, replacementsOf(quality.light))},
       stir_{gl::makeProgram({"wake.comp"})},
       detail_{makeTexture(rockTile())} {
-    glNamedBufferStorage(wake_.name(), kWakeBytes, nullptr, 0);
+    wake_ = gl::makeBuffer(kWakeBytes, "wake");
     constexpr GLint kStill = 0;  // also for who draws before any fish has passed: the shadows' maps
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
     fillBuffers(tables);
@@ -190,17 +180,16 @@ void Reef::fillBuffers(const ReefTables& tables) {
     instanceCount_ = static_cast<unsigned>(tables.instances.size());
     groupCount_ = static_cast<unsigned>(tables.groups.size());
     setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
-    fill(instances_, std::span{tables.instances});
-    fill(prototypes_, std::span{tables.prototypes});
-    fill(groups_, std::span{tables.groups});
+    instances_ = gl::makeBuffer(tables.instances, "reef instances");
+    prototypes_ = gl::makeBuffer(tables.prototypes, "reef prototypes");
+    groups_ = gl::makeBuffer(tables.groups, "reef groups");
     const std::vector<std::uint32_t> seen(3 + groupCount_);  // a dispatch, and the groups of it
-    fill(seenGroups_, std::span{seen});
-    fill(none_, std::span{tables.commands});
-    fill(commands_, std::span{tables.commands});
+    seenGroups_ = gl::makeBuffer(seen, "reef groups seen");
+    none_ = gl::makeBuffer(tables.commands, "reef commands, none drawn");
+    commands_ = gl::makeBuffer(tables.commands, "reef commands");
     const std::size_t slots = kLevels * tables.instances.size();  // each at every level
-    glNamedBufferStorage(
-        chosen_.name(), static_cast<GLsizeiptr>(slots * sizeof(std::uint32_t)), nullptr, 0);
-    constexpr unsigned kChosen = 4;  // location and binding, as in instance.glsl
+    chosen_ = gl::makeBuffer(slots * sizeof(std::uint32_t), "reef chosen");
+    constexpr unsigned kChosen = shaders::kChosenAttribute;
     glVertexArrayVertexBuffer(array_.name(), kChosen, chosen_.name(), 0, sizeof(std::uint32_t));
     glVertexArrayBindingDivisor(array_.name(), kChosen, 1);
     glEnableVertexArrayAttrib(array_.name(), kChosen);
@@ -213,14 +202,14 @@ void Reef::stir(std::size_t fish, float fraction) const {
     if (!quality_.plantsGiveWay) return;
     constexpr std::int32_t kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 12, wake_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kWakeStorage, wake_.name());
     const auto count = static_cast<unsigned>(fish);
     if (count == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(stir_.name());
-    glUniform1f(0, fraction);
-    glUniform1ui(1, count);
-    glDispatchCompute((count + kGroupSize - 1) / kGroupSize, 1, 1);
+    glUniform1f(shaders::kFractionLocation, fraction);
+    glUniform1ui(shaders::kWakeFishCountLocation, count);
+    glDispatchCompute((count + shaders::kGroupSize - 1) / shaders::kGroupSize, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -234,11 +223,11 @@ void Reef::cullGroups(const ReefRule& rule) const {
                               GL_UNSIGNED_INT,
                               kNone.data());
     glUseProgram(group_.name());
-    glUniform1ui(0, groupCount_);
-    glUniform1i(1, rule.culling ? 1 : 0);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 13, groups_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 14, seenGroups_.name());
-    glDispatchCompute((groupCount_ + kGroupSize - 1) / kGroupSize, 1, 1);
+    glUniform1ui(shaders::kGroupCountLocation, groupCount_);
+    glUniform1i(shaders::kCullingLocation, rule.culling ? 1 : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kGroupsStorage, groups_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kSeenGroupsStorage, seenGroups_.name());
+    glDispatchCompute((groupCount_ + shaders::kGroupSize - 1) / shaders::kGroupSize, 1, 1);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -251,13 +240,13 @@ void Reef::cull(const ReefRule& rule) const {
                              static_cast<GLsizeiptr>(kPrototypes * kLevels * sizeof(DrawCommand)));
     cullGroups(rule);
     glUseProgram(cull_.name());
-    glUniform1ui(0, instanceCount_);
-    glUniform1i(1, rule.culling ? 1 : 0);
-    glUniform1f(2, rule.levelsOfDetail ? quality_.placeDetail : 1.0e6F);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, instances_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9, prototypes_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 10, commands_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 11, chosen_.name());
+    glUniform1ui(shaders::kInstanceCountLocation, instanceCount_);
+    glUniform1i(shaders::kCullingLocation, rule.culling ? 1 : 0);
+    glUniform1f(shaders::kCullDetailLocation, rule.levelsOfDetail ? quality_.placeDetail : 1.0e6F);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kInstancesStorage, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kPrototypesStorage, prototypes_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kCommandsStorage, commands_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kChosenStorage, chosen_.name());
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, seenGroups_.name());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
@@ -265,48 +254,49 @@ void Reef::cull(const ReefRule& rule) const {
 
 void Reef::bind() const {
     glBindVertexArray(array_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, instances_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 12, wake_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kInstancesStorage, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kWakeStorage, wake_.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
 }
 
 void Reef::draw() const {
     bind();
-    glBindTextureUnit(14, detail_.name());
+    glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
     constexpr unsigned kFine = 3;  // levels that are lit at each pixel
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
-        glUniform1f(0, quality_.placeDetail);
-        glUniform1i(1, quality_.plantsGiveWay ? 1 : 0);
+        glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+        glUniform1i(shaders::kStirredLocation, quality_.plantsGiveWay ? 1 : 0);
         drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
     }
     const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
     glUseProgram(farGrowth_.name());
-    glUniform1f(0, quality_.placeDetail);
-    glUniform1i(1, 0);  // too far off to be seen to give way
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    glUniform1i(shaders::kStirredLocation, 0);  // too far off to be seen to give way
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
     // What grows hides much of the rock, and is cheaper.
     glEnable(GL_CULL_FACE);
     glUseProgram(stone_.name());
-    glUniform1f(0, quality_.placeDetail);
-    if (quality_.rockScales > 1) glUniform1i(1, quality_.rockScales);
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    if (quality_.rockScales > 1) glUniform1i(shaders::kRockScalesLocation, quality_.rockScales);
     drawFrom(0, commandCount(kRockShapes, kLevels));
     glDisable(GL_CULL_FACE);
 }
 
-Reef::DepthPrograms Reef::depthPrograms() {
-    return {gl::makeProgram({"coral.vert"}), gl::makeProgram({"rock.vert"})};
+Reef::DepthPrograms Reef::depthPrograms() const {
+    return {gl::makeProgram({"coral.vert"}, replacementsOf(quality_.light)),
+            gl::makeProgram({"rock.vert"})};
 }
 
 void Reef::drawDepths(const DepthPrograms& programs) const {
     bind();
     glUseProgram(programs.growth.name());
-    glUniform1f(0, quality_.placeDetail);
-    glUniform1i(1, 0);  // nothing gives way
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    glUniform1i(shaders::kStirredLocation, 0);  // nothing gives way
     drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kLevels));
     glEnable(GL_CULL_FACE);
     glUseProgram(programs.stone.name());
-    glUniform1f(0, quality_.placeDetail);
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
     drawFrom(0, commandCount(kRockShapes, kLevels));
     glDisable(GL_CULL_FACE);
 }

@@ -77,7 +77,7 @@ class Reef {
     struct DepthPrograms {
         gl::ProgramHandle growth, stone;
     };
-    [[nodiscard]] static DepthPrograms depthPrograms();
+    [[nodiscard]] DepthPrograms depthPrograms() const;
     void drawDepths(const DepthPrograms& programs) const;
 
   private:

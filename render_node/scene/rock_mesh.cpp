@@ -30,7 +30,7 @@ struct Habit {
 };
 
 Habit habitOf(int shape) {
-    Dice dice{place::hashOf(0x5eaU, static_cast<std::uint32_t>(shape))};
+    Dice dice{hashOf(0x5eaU, static_cast<std::uint32_t>(shape))};
     Habit habit{};
     habit.seed = dice.seed();
     habit.stretch = {
@@ -58,12 +58,10 @@ float lobes(std::uint32_t seed, glm::vec3 place) {
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 cell = low + glm::vec3{i % 2, i / 2 % 2, i / 4};
         const glm::ivec3 at{cell};
-        std::uint32_t hash = place::hashOf(seed, static_cast<std::uint32_t>(at.x));
-        hash = place::hashOf(hash, static_cast<std::uint32_t>(at.y));
-        hash = place::hashOf(hash, static_cast<std::uint32_t>(at.z));
-        const glm::vec3 jitter{place::unitOf(hash),
-                               place::unitOf(place::hashOf(hash)),
-                               place::unitOf(place::hashOf(hash, 1))};
+        std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(at.x));
+        hash = hashOf(hash, static_cast<std::uint32_t>(at.y));
+        hash = hashOf(hash, static_cast<std::uint32_t>(at.z));
+        const glm::vec3 jitter{unitOf(hash), unitOf(hashOf(hash)), unitOf(hashOf(hash, 1))};
         const glm::vec3 way = cell + 0.25F + 0.5F * jitter - place;
         nearest2 = std::min(nearest2, glm::dot(way, way));
     }

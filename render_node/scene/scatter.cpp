@@ -68,11 +68,11 @@ struct Bed {
 };
 
 std::size_t shapeOf(const place::Rock& rock) {
-    return place::hashOf(rock.seed, 31) % kRockShapes;
+    return hashOf(rock.seed, 31) % kRockShapes;
 }
 
 glm::quat turnOf(const place::Rock& rock) {
-    return glm::angleAxis(kTwoPi * place::unitOf(place::hashOf(rock.seed, 32)), glm::vec3{0, 1, 0});
+    return glm::angleAxis(kTwoPi * unitOf(hashOf(rock.seed, 32)), glm::vec3{0, 1, 0});
 }
 
 glm::vec4 packed(const glm::quat& turn) {
@@ -107,8 +107,8 @@ std::uint32_t patchAt(const place::PlaceKey& place, glm::vec3 at, float metres) 
                                         0,
                                         solidNoise(place.seed ^ 9U, at / metres * 1.9F)};
     const glm::ivec3 cell{glm::floor(bent)};
-    const std::uint32_t column = place::hashOf(place.seed, static_cast<std::uint32_t>(cell.x));
-    return place::hashOf(column, static_cast<std::uint32_t>(cell.z));
+    const std::uint32_t column = hashOf(place.seed, static_cast<std::uint32_t>(cell.x));
+    return hashOf(column, static_cast<std::uint32_t>(cell.z));
 }
 
 // The chance that a spot is settled: what looks at the light is, and bare patches stay bare.
@@ -121,7 +121,7 @@ float coverAt(const place::PlaceKey& place, const Spot& spot) {
 
 const Way& wayFor(float up, std::uint32_t patch, Dice& dice) {
     const std::size_t first = patch % kWays.size();
-    const std::size_t second = place::hashOf(patch) % 8;  // a hard coral
+    const std::size_t second = hashOf(patch) % 8;  // a hard coral
     const auto weightOf = [&](std::size_t i) {
         const Way& way = kWays.at(i);
         const float weight = up > 0.45F ? way.above : up > -0.25F ? way.aside : way.below;
@@ -161,10 +161,9 @@ Instance instanceOf(const place::PlaceKey& place,
     return {glm::vec4(spot.place, size),
             packed(turn),
             tintAndSway,
-            {sunOpenness(rocks, above),
-             skyOpenness(rocks, above, glm::vec3{0, 1, 0}),
-             place::floorHeight(place, {spot.place.x, spot.place.z}),
-             static_cast<float>(prototypeOf(form, shape))}};
+            {sunOpenness(rocks, above), skyOpenness(rocks, above, glm::vec3{0, 1, 0})},
+            place::floorHeight(place, {spot.place.x, spot.place.z}),
+            static_cast<std::uint32_t>(prototypeOf(form, shape))};
 }
 
 void plant(std::vector<Instance>& all,
@@ -204,7 +203,7 @@ void crownRock(std::vector<Instance>& all,
 void coverRock(std::vector<Instance>& all, const Bed& bed) {
     const float radius = bed.rock->radiusMetres;
     const auto corals = static_cast<int>(30.0F + 130.0F * std::pow(radius, 1.6F));
-    Dice dice{place::hashOf(bed.rock->seed, 77)};
+    Dice dice{hashOf(bed.rock->seed, 77)};
     std::vector<Planted> planted;
     for (int crown = 0; crown < (radius > 1.2F ? 2 : 1); ++crown)
         crownRock(all, bed, planted, dice);
@@ -243,16 +242,15 @@ void addPebble(
     all.push_back({glm::vec4(spot.place + glm::vec3{0, 0.15F * size, 0}, size),
                    packed(turn),
                    glm::vec4(glm::vec3{light}, 0.0F),
-                   {sunOpenness(bed.others, above),
-                    skyOpenness(bed.others, above, {0, 1, 0}),
-                    spot.place.y,
-                    static_cast<float>(dice.seed() % kRockShapes)}});
+                   {sunOpenness(bed.others, above), skyOpenness(bed.others, above, {0, 1, 0})},
+                   spot.place.y,
+                   static_cast<std::uint32_t>(dice.seed() % kRockShapes)});
 }
 
 // What has broken off lies at the foot, and young corals have settled on it.
 void litterFoot(std::vector<Instance>& all, const Bed& bed) {
     const place::Rock& rock = *bed.rock;
-    Dice dice{place::hashOf(rock.seed, 78)};
+    Dice dice{hashOf(rock.seed, 78)};
     const auto pieces = static_cast<int>(6.0F + 16.0F * rock.radiusMetres);
     for (int i = 0; i < pieces; ++i) {
         const float turn = kTwoPi * dice.unit();
@@ -275,15 +273,14 @@ void litterFoot(std::vector<Instance>& all, const Bed& bed) {
 
 void addRock(std::vector<Instance>& all, const Bed& bed) {
     const place::Rock& rock = *bed.rock;
-    const float light = 0.9F + 0.2F * place::unitOf(place::hashOf(rock.seed, 33));
-    const float warm = 0.05F * place::signedUnitOf(place::hashOf(rock.seed, 34));
+    const float light = 0.9F + 0.2F * unitOf(hashOf(rock.seed, 33));
+    const float warm = 0.05F * signedUnitOf(hashOf(rock.seed, 34));
     all.push_back({glm::vec4(rock.centre, rock.radiusMetres),
                    packed(bed.turn),
                    {light * (1.0F + warm), light, light * (1.0F - warm), 0.0F},
-                   {1.0F,
-                    1.0F,
-                    place::floorHeight(*bed.place, {rock.centre.x, rock.centre.z}),
-                    static_cast<float>(shapeOf(rock))}});
+                   {1.0F, 1.0F},
+                   place::floorHeight(*bed.place, {rock.centre.x, rock.centre.z}),
+                   static_cast<std::uint32_t>(shapeOf(rock))});
 }
 
 // Lone heads, whips and stones on the open sand, in loose groups.
@@ -292,7 +289,7 @@ void strew(std::vector<Instance>& all,
            std::span<const place::Rock> rocks) {
     constexpr int kGroups = 90;
     constexpr float kReachMetres = 30.0F;
-    Dice dice{place::hashOf(place.seed, 79)};
+    Dice dice{hashOf(place.seed, 79)};
     const Bed bed{&place, nullptr, nullptr, {}, {rocks.begin(), rocks.end()}};
     for (int group = 0; group < kGroups; ++group) {
         const glm::vec2 middle{dice.between(-kReachMetres, kReachMetres),
@@ -317,7 +314,7 @@ void sow(std::vector<Instance>& all,
          const place::PlaceKey& place,
          std::span<const place::Rock> rocks) {
     for (const place::Plant& one : place::plantsOf(place)) {
-        Dice dice{place::hashOf(one.seed, 80)};
+        Dice dice{hashOf(one.seed, 80)};
         const bool kelp = one.kind == place::PlantKind::Kelp;
         const Form form = kelp ? Form::Kelp : Form::Seagrass;
         const float lean = kelp ? 0.07F : 0.15F;
@@ -355,7 +352,7 @@ std::vector<Instance> scatter(const place::PlaceKey& place,
     }
     strew(all, place, rocks);
     sow(all, place, rocks);
-    std::ranges::stable_sort(all, {}, [](const Instance& one) { return one.light.w; });
+    std::ranges::stable_sort(all, {}, &Instance::prototype);
     return all;
 }
 

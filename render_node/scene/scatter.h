@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -29,7 +30,9 @@ struct Instance {
     glm::vec4 placeAndScale{};   // world metres
     glm::vec4 turn{0, 0, 0, 1};  // quaternion x, y, z, w
     glm::vec4 tintAndSway{};     // linear albedo; w: share of the swell that its top follows
-    glm::vec4 light{};           // openness to sun and sky, height of the sand, the prototype
+    glm::vec2 openness{1, 1};    // to sun and sky
+    float sandHeightMetres = 0;
+    std::uint32_t prototype = 0;
 };
 static_assert(sizeof(Instance) == 64);
 

@@ -10,15 +10,17 @@
 #include <glm/matrix.hpp>
 
 #include "common/place/place.h"
+#include "render_node/gl/buffer.h"
 #include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
-#include "render_node/scene/frustum.h"
 #include "render_node/scene/ground.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/scene_picture.h"
 #include "render_node/scene/sea_light.h"
 #include "render_node/scene/shade.h"
+#include "render_node/scene/viewpoint.h"
 #include "render_node/shaders/frame_uniforms.h"
+#include "render_node/shaders/shader_interface.h"
 #include "render_node/surface/school_surface.h"
 #include "render_node/surface/skin_programs.h"
 
@@ -50,8 +52,10 @@ glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
 constexpr double kClockSeconds = 9000;
 
 // What is the same for all views of a frame.
-FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, float pixelRadians) {
-    FrameUniforms uniforms{};
+shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
+                                     const SeaLight& light,
+                                     float pixelRadians) {
+    shaders::FrameUniforms uniforms{};
     const auto clock = static_cast<float>(std::fmod(frame.timeSeconds, kClockSeconds));
     uniforms.eyeAndTime = glm::vec4(frame.eyePositionMetres, clock);
     uniforms.sharedEyeAndPixel = glm::vec4(frame.eyePositionMetres, pixelRadians);
@@ -63,7 +67,7 @@ FrameUniforms frameUniforms(const SceneFrame& frame, const SeaLight& light, floa
     return uniforms;
 }
 
-void setView(FrameUniforms& uniforms, const View& view) {
+void setView(shaders::FrameUniforms& uniforms, const View& view) {
     uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
     const glm::vec3 eye(glm::inverse(view.cameraFromWorld)[3]);
@@ -96,6 +100,7 @@ struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const surface::SchoolSpecies> cast)
         : options{chosen},
           quality{qualityOf(chosen.quality)},
+          shaders{replacementsOf(quality.light)},
           bottomTables{chosen},
           light{{chosen.seed, chosen.water, quality.light}},
           picture{quality},
@@ -105,15 +110,14 @@ struct SceneRenderer::Parts {
                   .finest =
                       quality.closeUps ? surface::DetailLevel::CloseUp : surface::DetailLevel::Hero,
                   .fineness = quality.fishFineness},
-                 surface::makeSkinPrograms()},
-          surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"})},
-          water{gl::makeProgram({"quad.vert", "water.frag"})},
-          snow{gl::makeProgram({"snow.vert", "snow.frag"})} {
+                 surface::makeSkinPrograms(shaders)},
+          food{shaders},
+          surface{gl::makeProgram({"water_surface.vert", "water_surface.frag"}, shaders)},
+          water{gl::makeProgram({"quad.vert", "water.frag"}, shaders)},
+          snow{gl::makeProgram({"snow.vert", "snow.frag"}, shaders)} {
         if (bottomTables.reef.valid())
-            bottom.emplace(Ground{bottomTables.ground.get()},
+            bottom.emplace(Ground{bottomTables.ground.get(), shaders},
                            Reef{bottomTables.reef.get(), quality});
-        glNamedBufferStorage(
-            frameBlock.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         if (bottom && quality.light.isFine) bakeShadows();
     }
 
@@ -125,10 +129,12 @@ struct SceneRenderer::Parts {
 
     SceneOptions options;
     Quality quality;
+    gl::Replacements shaders;  // of the tier
     BottomTables bottomTables;
-    FrameUniforms uniforms{};
+    shaders::FrameUniforms uniforms{};
     std::vector<FoodParticle> specks;
-    gl::Buffer frameBlock;
+    gl::Buffer frameBlock{
+        gl::makeBuffer(sizeof(shaders::FrameUniforms), "frame", GL_DYNAMIC_STORAGE_BIT)};
     gl::VertexArray empty;
     SeaLight light;
     std::optional<Bottom> bottom;
@@ -140,13 +146,13 @@ struct SceneRenderer::Parts {
 
 void SceneRenderer::Parts::setUniforms() const {
     glNamedBufferSubData(frameBlock.name(), 0, sizeof(uniforms), &uniforms);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, shaders::kFrameBlock, frameBlock.name());
 }
 
 // Of the place as it stands, as rays of light see it; as fine as the maps' texels.
 void SceneRenderer::Parts::bakeShadows() {
     constexpr glm::vec4 kFarAboveWithCoarsePixels{0.0F, 30.0F, 0.0F, 0.002F};
-    const Reef::DepthPrograms reefPrograms = Reef::depthPrograms();
+    const Reef::DepthPrograms reefPrograms = bottom->reef.depthPrograms();
     const gl::ProgramHandle groundProgram = Ground::depthProgram();
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     uniforms.sharedEyeAndPixel = kFarAboveWithCoarsePixels;
@@ -156,9 +162,11 @@ void SceneRenderer::Parts::bakeShadows() {
         light.bind();
         bottom->reef.cull({.culling = false, .levelsOfDetail = options.levelsOfDetail});
         bottom->reef.drawDepths(reefPrograms);
-        bottom->ground.drawDepths(
-            groundProgram,
-            Viewpoint{Frustum{clipFromWorld}, place::kEyePosition, false, options.levelsOfDetail});
+        bottom->ground.drawDepths(groundProgram,
+                                  Viewpoint{surface::frustumOf(clipFromWorld),
+                                            place::kEyePosition,
+                                            false,
+                                            options.levelsOfDetail});
     });
 }
 
@@ -193,10 +201,8 @@ void SceneRenderer::Parts::drawSnow() const {
 }
 
 SceneRenderer::SceneRenderer(const SceneOptions& options,
-                             std::span<const surface::SchoolSpecies> cast) {
-    const gl::Definitions tier{definitionsOf(qualityOf(options.quality).light)};
-    parts_ = std::make_unique<Parts>(options, cast);
-}
+                             std::span<const surface::SchoolSpecies> cast)
+    : parts_{std::make_unique<Parts>(options, cast)} {}
 
 SceneRenderer::~SceneRenderer() = default;
 
@@ -228,7 +234,7 @@ unsigned SceneRenderer::draw(const View& view) {
     if (parts.bottom)
         parts.bottom->reef.cull({parts.options.culling, parts.options.levelsOfDetail});
     parts.picture.begin(view.sizePixels);
-    const Viewpoint viewpoint{Frustum{parts.uniforms.clipFromWorld},
+    const Viewpoint viewpoint{surface::frustumOf(parts.uniforms.clipFromWorld),
                               glm::vec3(parts.uniforms.sharedEyeAndPixel),
                               parts.options.culling,
                               parts.options.levelsOfDetail,

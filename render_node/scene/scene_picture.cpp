@@ -7,6 +7,7 @@
 #include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
@@ -36,9 +37,8 @@ int bloomLevels(glm::ivec2 size) {
 }
 
 gl::ProgramHandle makeTone(bool bloom) {
-    const std::array replacements{gl::Replacement{"scene_light.glsl", "bloom.glsl"}};
     if (!bloom) return gl::makeProgram({"quad.vert", "tone.frag"});
-    return gl::makeProgram({"quad.vert", "tone.frag"}, replacements);
+    return gl::makeProgram({"quad.vert", "tone.frag"}, {{"scene_light.glsl", "bloom.glsl"}});
 }
 
 }  // namespace
@@ -117,8 +117,8 @@ unsigned ScenePicture::finish() {
     unsigned seen = light.colour.name();
     if (soften_) {
         const gl::Stage stage{"soften"};
-        glBindTextureUnit(0, seen);
-        glBindTextureUnit(1, light.depth.name());
+        glBindTextureUnit(shaders::kSceneUnit, seen);
+        glBindTextureUnit(shaders::kDepthUnit, light.depth.name());
         pass(softened_.name(), soften_->name());
         seen = softenedColour_.name();
     }
@@ -127,7 +127,7 @@ unsigned ScenePicture::finish() {
         glGenerateTextureMipmap(seen);
     }
     const gl::Stage stage{"tone"};
-    glBindTextureUnit(0, seen);
+    glBindTextureUnit(shaders::kSceneUnit, seen);
     pass(toned_.name(), tone_.name());
     return display_.name();
 }

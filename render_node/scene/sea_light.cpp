@@ -10,11 +10,13 @@
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 
-#include "common/place/noise.h"
 #include "common/place/place.h"
+#include "common/units/hash.h"
+#include "render_node/gl/buffer.h"
 #include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/texture.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
@@ -58,8 +60,7 @@ gl::Texture makeClouds(std::uint32_t seed) {
     const auto at = [&](glm::vec2 place, int cells) {
         const auto corner = [&](glm::ivec2 c) {
             const auto index = static_cast<std::uint32_t>((c.y % cells) * cells + c.x % cells);
-            return place::unitOf(
-                place::hashOf(place::hashOf(seed, static_cast<std::uint32_t>(cells)), index));
+            return unitOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(cells)), index));
         };
         const glm::vec2 p = place * static_cast<float>(cells);
         const glm::ivec2 c(p);
@@ -149,18 +150,15 @@ SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
       waveTarget_{makeTarget(waveTile_)},
       rippleTarget_{makeTarget(rippleTile_)},
       shaftTarget_{makeTarget(shaftMap_)},
-      waveProgram_{gl::makeProgram({"quad.vert", "waves.frag"})},
+      waveProgram_{gl::makeProgram({"quad.vert", "waves.frag"}, replacementsOf(quality_))},
       causticProgram_{gl::makeProgram({"caustic.vert", "caustic.frag"})},
-      shaftProgram_{gl::makeProgram({"quad.vert", "shaft.frag"})},
+      shaftProgram_{gl::makeProgram({"quad.vert", "shaft.frag"}, replacementsOf(quality_))},
       shade_{options.quality} {
     const SeaNow start = seaAt(sea_, 0.0);
-    glNamedBufferStorage(seaBlock_.name(), sizeof(SeaNow), &start, GL_DYNAMIC_STORAGE_BIT);
+    seaBlock_ = gl::makeBuffer(std::span{&start, 1}, "sea now", GL_DYNAMIC_STORAGE_BIT);
     const auto indices = gridIndices(quality_.causticCells);
     causticIndexCount_ = static_cast<int>(indices.size());
-    glNamedBufferStorage(causticIndices_.name(),
-                         static_cast<GLsizeiptr>(indices.size() * sizeof(indices.front())),
-                         indices.data(),
-                         0);
+    causticIndices_ = gl::makeBuffer(indices, "caustic indices");
     glVertexArrayElementBuffer(causticGrid_.name(), causticIndices_.name());
 }
 
@@ -177,11 +175,11 @@ void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
                        std::log2(static_cast<float>(quality_.causticTexels) / 256.0F)};
     now.surfaceDetail = {quality_.surfaceTaps,
                          quality_.isFine ? kDispersion : 0.0F,
-                         static_cast<float>(quality_.waveTexels) / kTileMetres,
-                         static_cast<float>(quality_.rippleTexels) / kRippleTileMetres};
+                         static_cast<float>(quality_.waveTexels) / shaders::kTileMetres,
+                         static_cast<float>(quality_.rippleTexels) / shaders::kRippleTileMetres};
     now.fishWindow = shade_.fishWindow(sharedEyeMetres);
     glNamedBufferSubData(seaBlock_.name(), 0, sizeof(now), &now);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, seaBlock_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, shaders::kSeaBlock, seaBlock_.name());
     glDisable(GL_DEPTH_TEST);
     drawWaves();
     drawCaustics();
@@ -198,13 +196,13 @@ void SeaLight::drawWaves() {
     const auto draw = [](const gl::Framebuffer& target, int texels, float metres, bool ripples) {
         glBindFramebuffer(GL_FRAMEBUFFER, target.name());
         glViewport(0, 0, texels, texels);
-        glUniform1f(0, metres);
-        glUniform1i(1, ripples ? 1 : 0);
-        glUniform1f(2, metres / static_cast<float>(texels));
+        glUniform1f(shaders::kTileMetresLocation, metres);
+        glUniform1i(shaders::kDrawsRipplesLocation, ripples ? 1 : 0);
+        glUniform1f(shaders::kTexelMetresLocation, metres / static_cast<float>(texels));
         glDrawArrays(GL_TRIANGLES, 0, 3);
     };
-    draw(waveTarget_, quality_.waveTexels, kTileMetres, false);
-    draw(rippleTarget_, quality_.rippleTexels, kRippleTileMetres, true);
+    draw(waveTarget_, quality_.waveTexels, shaders::kTileMetres, false);
+    draw(rippleTarget_, quality_.rippleTexels, shaders::kRippleTileMetres, true);
     glGenerateTextureMipmap(waveTile_.name());
     glGenerateTextureMipmap(rippleTile_.name());
 }
@@ -218,15 +216,16 @@ void SeaLight::drawCaustics() {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
     glUseProgram(causticProgram_.name());
-    glUniform1i(1, quality_.causticCells);
-    glUniform1f(2, kTileMetres / static_cast<float>(quality_.causticTexels));
-    glBindTextureUnit(13, waveTile_.name());
+    glUniform1i(shaders::kCellsLocation, quality_.causticCells);
+    glUniform1f(shaders::kCausticTexelLocation,
+                shaders::kTileMetres / static_cast<float>(quality_.causticTexels));
+    glBindTextureUnit(shaders::kWaveTileUnit, waveTile_.name());
     glBindVertexArray(causticGrid_.name());
     for (int layer = 0; layer < quality_.causticLayers; ++layer) {
         glNamedFramebufferTextureLayer(
             causticTarget_.name(), GL_COLOR_ATTACHMENT0, causticLayers_.name(), 0, layer);
         glClear(GL_COLOR_BUFFER_BIT);
-        glUniform1f(0, layerDepth(layer, quality_.causticLayers));
+        glUniform1f(shaders::kReceiverMetresLocation, layerDepth(layer, quality_.causticLayers));
         glDrawElements(GL_TRIANGLES, causticIndexCount_, GL_UNSIGNED_SHORT, nullptr);
     }
     glDisable(GL_BLEND);
@@ -242,9 +241,9 @@ void SeaLight::drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(box.low.x, box.low.y, box.high.x - box.low.x, box.high.y - box.low.y);
     glUseProgram(shaftProgram_.name());
-    glUniform1i(0, quality_.shaftTexels);
-    glUniform1i(1, quality_.shaftSteps);
-    glBindTextureUnit(11, causticLayers_.name());
+    glUniform1i(shaders::kTexelsLocation, quality_.shaftTexels);
+    glUniform1i(shaders::kStepsLocation, quality_.shaftSteps);
+    glBindTextureUnit(shaders::kCausticLayersUnit, causticLayers_.name());
     shade_.bind();
     glBindVertexArray(empty_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -252,15 +251,15 @@ void SeaLight::drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip) {
 }
 
 void SeaLight::bind() const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, seaBlock_.name());
-    glBindTextureUnit(8, direct_.name());
-    glBindTextureUnit(9, inscatterTable_.name());
-    glBindTextureUnit(10, openWater_.name());
-    glBindTextureUnit(11, causticLayers_.name());
-    glBindTextureUnit(12, shaftMap_.name());
-    glBindTextureUnit(13, waveTile_.name());
-    glBindTextureUnit(19, rippleTile_.name());
-    glBindTextureUnit(20, cloudTile_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, shaders::kSeaBlock, seaBlock_.name());
+    glBindTextureUnit(shaders::kDirectTableUnit, direct_.name());
+    glBindTextureUnit(shaders::kInscatterTableUnit, inscatterTable_.name());
+    glBindTextureUnit(shaders::kOpenWaterTableUnit, openWater_.name());
+    glBindTextureUnit(shaders::kCausticLayersUnit, causticLayers_.name());
+    glBindTextureUnit(shaders::kShaftMapUnit, shaftMap_.name());
+    glBindTextureUnit(shaders::kWaveTileUnit, waveTile_.name());
+    glBindTextureUnit(shaders::kRippleTileUnit, rippleTile_.name());
+    glBindTextureUnit(shaders::kCloudTileUnit, cloudTile_.name());
     shade_.bind();
 }
 

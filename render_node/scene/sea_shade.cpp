@@ -11,26 +11,25 @@
 #include "render_node/gl/program.h"
 #include "render_node/scene/shade.h"
 #include "render_node/scene/texture.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
 namespace {
 
-constexpr float kPlaceMetres = 80.0F;     // as in shadow.glsl
-constexpr float kMapDepthMetres = 64.0F;  // depth 0 of the maps of the place, as in moments.frag
-constexpr float kFishMetres = 32.0F;      // side of the map of fish
+constexpr float kFishMetres = 32.0F;  // side of the map of fish
 constexpr int kPlaceLevels = 7;
 constexpr int kFishLevels = 6;  // the finest alone where nobody reads the others
 
 // Parallel to the rays: a place goes to where its ray meets the surface; depth is its height.
 glm::mat4 alongRays(glm::vec3 towardsLight) {
-    constexpr float kScale = 2.0F / kPlaceMetres;
+    constexpr float kScale = 2.0F / shaders::kPlaceMetres;
     glm::mat4 clip{0.0F};
     clip[0][0] = kScale;
     clip[2][1] = kScale;
     clip[1] = {-kScale * towardsLight.x / towardsLight.y,
                -kScale * towardsLight.z / towardsLight.y,
-               1.0F / kMapDepthMetres,
+               1.0F / shaders::kMapDepthMetres,
                0.0F};
     clip[3] = {0.0F, 0.0F, 1.0F, 1.0F};
     return clip;
@@ -50,12 +49,14 @@ SeaShade::SeaShade(const LightQuality& quality)
       topTarget_{makeTarget(topHeights_)},
       fishTarget_{makeTarget(fishOnTheWay_)},
       moments_{gl::makeProgram({"quad.vert", "moments.frag"})},
-      fishProgram_{gl::makeProgram({"fish_shadow.vert", "fish_shadow.frag"})} {
+      fishProgram_{
+          gl::makeProgram({"fish_shadow.vert", "fish_shadow.frag"}, replacementsOf(quality))} {
     clear();
 }
 
 void SeaShade::clear() {
-    const glm::vec2 nothing{-kMapDepthMetres, kMapDepthMetres * kMapDepthMetres};
+    const glm::vec2 nothing{-shaders::kMapDepthMetres,
+                            shaders::kMapDepthMetres * shaders::kMapDepthMetres};
     for (int level = 0; level < kPlaceLevels; ++level)
         for (const gl::Texture* heights : {&sunHeights_, &topHeights_})
             glClearTexImage(heights->name(), level, GL_RG, GL_FLOAT, &nothing);
@@ -91,7 +92,7 @@ void SeaShade::setPlace(const std::function<void(const glm::mat4&)>& drawPlace) 
 void SeaShade::takeMoments(const gl::Texture& depth, const gl::Framebuffer& heights) {
     glBindFramebuffer(GL_FRAMEBUFFER, heights.name());
     glUseProgram(moments_.name());
-    glBindTextureUnit(0, depth.name());
+    glBindTextureUnit(shaders::kMomentDepthsUnit, depth.name());
     glBindVertexArray(empty_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -117,7 +118,7 @@ void SeaShade::updateFish(const surface::SchoolSurface& school) {
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_ONE);
         glUseProgram(fishProgram_.name());
-        glUniform1f(0, school.fraction());
+        glUniform1f(shaders::kFractionLocation, school.fraction());
         glBindVertexArray(empty_.name());
         glDrawArraysInstanced(
             GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(school.fishInRecords()));
@@ -127,9 +128,9 @@ void SeaShade::updateFish(const surface::SchoolSurface& school) {
 }
 
 void SeaShade::bind() const {
-    glBindTextureUnit(21, sunHeights_.name());
-    glBindTextureUnit(22, topHeights_.name());
-    glBindTextureUnit(18, fishOnTheWay_.name());
+    glBindTextureUnit(shaders::kSunHeightsUnit, sunHeights_.name());
+    glBindTextureUnit(shaders::kTopHeightsUnit, topHeights_.name());
+    glBindTextureUnit(shaders::kFishOnTheWayUnit, fishOnTheWay_.name());
 }
 
 }  // namespace aquarama::scene

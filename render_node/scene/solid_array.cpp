@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "render_node/gl/buffer.h"
 #include "render_node/scene/texture.h"
 
 namespace aquarama::scene {
@@ -17,21 +18,15 @@ void setAttribute(unsigned array, unsigned location, GLint size, GLenum type, st
     glVertexArrayAttribBinding(array, location, 0);
 }
 
-template <class T>
-void fill(const gl::Buffer& buffer, const std::vector<T>& values) {
-    glNamedBufferStorage(
-        buffer.name(), static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), 0);
-}
-
 }  // namespace
 
 void setSolids(const gl::VertexArray& array,
-               const gl::Buffer& vertices,
-               const gl::Buffer& indices,
+               gl::Buffer& vertices,
+               gl::Buffer& indices,
                const std::vector<SolidVertex>& meshVertices,
                const std::vector<std::uint32_t>& meshIndices) {
-    fill(vertices, meshVertices);
-    fill(indices, meshIndices);
+    vertices = gl::makeBuffer(meshVertices, "solid vertices");
+    indices = gl::makeBuffer(meshIndices, "solid indices");
     glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, sizeof(SolidVertex));
     glVertexArrayElementBuffer(array.name(), indices.name());
     setAttribute(array.name(), 0, 3, GL_FLOAT, offsetof(SolidVertex, position));

@@ -14,8 +14,8 @@ namespace aquarama::scene {
 
 // Fills the two buffers with a mesh and names them in the array.
 void setSolids(const gl::VertexArray& array,
-               const gl::Buffer& vertices,
-               const gl::Buffer& indices,
+               gl::Buffer& vertices,
+               gl::Buffer& indices,
                const std::vector<SolidVertex>& meshVertices,
                const std::vector<std::uint32_t>& meshIndices);
 [[nodiscard]] gl::Texture makeTexture(const Tile& tile);

@@ -15,9 +15,9 @@ float solidNoise(std::uint32_t seed, glm::vec3 place) {
     const glm::vec3 s = t * t * (3.0F - 2.0F * t);
     const glm::ivec3 at{cell};
     const auto corner = [&](int x, int y, int z) {
-        const std::uint32_t column = place::hashOf(seed, static_cast<std::uint32_t>(at.x + x));
-        const std::uint32_t row = place::hashOf(column, static_cast<std::uint32_t>(at.y + y));
-        return place::signedUnitOf(place::hashOf(row, static_cast<std::uint32_t>(at.z + z)));
+        const std::uint32_t column = hashOf(seed, static_cast<std::uint32_t>(at.x + x));
+        const std::uint32_t row = hashOf(column, static_cast<std::uint32_t>(at.y + y));
+        return signedUnitOf(hashOf(row, static_cast<std::uint32_t>(at.z + z)));
     };
     const auto plane = [&](int z) {
         return glm::mix(glm::mix(corner(0, 0, z), corner(1, 0, z), s.x),

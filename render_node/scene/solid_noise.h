@@ -7,7 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 
 namespace aquarama::scene {
 
@@ -18,9 +18,9 @@ namespace aquarama::scene {
 class Dice {
   public:
     explicit Dice(std::uint32_t seed) : seed_{seed} {}
-    float unit() { return place::unitOf(place::hashOf(seed_, count_++)); }
+    float unit() { return unitOf(hashOf(seed_, count_++)); }
     float between(float low, float high) { return low + (high - low) * unit(); }
-    std::uint32_t seed() { return place::hashOf(seed_, count_++); }
+    std::uint32_t seed() { return hashOf(seed_, count_++); }
 
   private:
     std::uint32_t seed_;

@@ -15,13 +15,13 @@
 #include "common/files/derived_cache.h"
 #include "render_node/scene/shade.h"
 #include "render_node/scene/water_lobes.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
 namespace {
 
 constexpr int kRanges = 64, kDepths = 64, kRises = 32;
-constexpr int kSightRanges = 40, kSightRises = 32, kSightAzimuths = 9;  // as in water.glsl
 constexpr double kOpenWaterMetres = 60.0;
 // Eyes: closer near the surface, where the light changes most.
 constexpr int kEyes = 13;
@@ -99,7 +99,7 @@ Ray rayOf(const WaterSpectra& water,
 }
 
 double azimuthAt(int i) {
-    const double cosine = std::clamp(2.0 * evenly(i, kSightAzimuths) - 1.0, -1.0, 1.0);
+    const double cosine = std::clamp(2.0 * evenly(i, shaders::kSightAzimuths) - 1.0, -1.0, 1.0);
     return std::acos(cosine) * 180.0 / std::numbers::pi;
 }
 
@@ -170,11 +170,15 @@ Inscatter::Inscatter(const WaterSpectra& water) {
 
 Inscatter::Inscatter(std::span<const glm::vec3> texels, std::vector<double> exposures)
     : exposures_{std::move(exposures)} {
-    constexpr std::size_t kTexels = std::size_t{kSightRanges} * kSightRises * kSightAzimuths;
+    constexpr std::size_t kTexels =
+        std::size_t{shaders::kSightRanges} * shaders::kSightRises * shaders::kSightAzimuths;
     assert(texels.size() == kEyes * kTexels && exposures_.size() == kEyes);
     for (std::size_t eye = 0; eye < kEyes; ++eye) {
         const auto own = texels.subspan(eye * kTexels, kTexels);
-        slices_.push_back({kSightRanges, kSightRises, kSightAzimuths, {own.begin(), own.end()}});
+        slices_.push_back({shaders::kSightRanges,
+                           shaders::kSightRises,
+                           shaders::kSightAzimuths,
+                           {own.begin(), own.end()}});
     }
 }
 
@@ -187,14 +191,14 @@ std::vector<glm::vec3> Inscatter::texels() const {
 
 Table Inscatter::baked(const WaterSpectra& water, double eyeDepthMetres) const {
     const double lit = eyeDepthMetres - filterDepthMetres(eyeDepthMetres);
-    Table table{kSightRanges, kSightRises, kSightAzimuths, {}};
-    for (int azimuth = 0; azimuth < kSightAzimuths; ++azimuth)
-        for (int rise = 0; rise < kSightRises; ++rise) {
-            const Ray ray =
-                rayOf(water, eyeDepthMetres, lit, riseAt(rise, kSightRises), azimuthAt(azimuth));
-            for (int range = 0; range < kSightRanges; ++range)
-                table.texels.push_back(
-                    glm::vec3(integrated(water, ray.lightBefore(rangeAt(range, kSightRanges)))));
+    Table table{shaders::kSightRanges, shaders::kSightRises, shaders::kSightAzimuths, {}};
+    for (int azimuth = 0; azimuth < shaders::kSightAzimuths; ++azimuth)
+        for (int rise = 0; rise < shaders::kSightRises; ++rise) {
+            const Ray ray = rayOf(
+                water, eyeDepthMetres, lit, riseAt(rise, shaders::kSightRises), azimuthAt(azimuth));
+            for (int range = 0; range < shaders::kSightRanges; ++range)
+                table.texels.push_back(glm::vec3(
+                    integrated(water, ray.lightBefore(rangeAt(range, shaders::kSightRanges)))));
         }
     return table;
 }

@@ -7,7 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/place/noise.h"
+#include "common/units/hash.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 
@@ -43,8 +44,7 @@ WaveSet<Count> wavesOf(std::uint32_t seed, const Band& band, double tileMetres) 
     WaveSet<Count> waves;
     for (std::uint32_t i = 0; i < Count; ++i) {
         const auto unit = [&](std::uint32_t n) {
-            return static_cast<double>(
-                place::unitOf(place::hashOf(place::hashOf(seed ^ 0x7a5eU, i), n)));
+            return static_cast<double>(unitOf(hashOf(hashOf(seed ^ 0x7a5eU, i), n)));
         };
         const double length = band.longestMetres * std::pow(band.shortestShare, (i + 0.5) / Count);
         const double heading = kGoldenAngle * i + 0.6 * (unit(0) - 0.5);
@@ -90,9 +90,9 @@ void setPhases(const WaveSet<Count>& waves, double timeSeconds, std::array<glm::
 
 Sea seaOf(std::uint32_t seed, float focusDepthMetres) {
     Sea sea{
-        wavesOf<kWaves>(seed, kWaveBand, static_cast<double>(kTileMetres)),
-        wavesOf<kWaves>(place::hashOf(seed), kRippleBand, static_cast<double>(kRippleTileMetres)),
-        wavesOf<kLongWaves>(place::hashOf(seed, 2), kLongBand, 0.0)};
+        wavesOf<kWaves>(seed, kWaveBand, static_cast<double>(shaders::kTileMetres)),
+        wavesOf<kWaves>(hashOf(seed), kRippleBand, static_cast<double>(shaders::kRippleTileMetres)),
+        wavesOf<kLongWaves>(hashOf(seed, 2), kLongBand, 0.0)};
     scale(sea.waves, kSharpestNet / focusNumber(sea.waves, static_cast<double>(focusDepthMetres)));
     scale(sea.ripples, kRippleSteepness / steepness(sea.ripples));
     scale(sea.longWaves, kLongSteepness / std::sqrt(meanSquareSlope(sea.longWaves)));

@@ -14,8 +14,6 @@ namespace aquarama::scene {
 
 inline constexpr int kWaves = 32;
 inline constexpr int kLongWaves = 4;
-inline constexpr float kTileMetres = 12.0F;       // as in sunlight.glsl
-inline constexpr float kRippleTileMetres = 2.9F;  // as in sea_surface.glsl
 
 struct Wave {
     glm::dvec2 number{};  // 1/m

@@ -1,5 +1,6 @@
 // Light is kept: as an area shrinks it brightens.
-layout(location = 2) uniform float texelMetres;
+#include "shader_interface.h"
+layout(location = kCausticTexelLocation) uniform float texelMetres;
 layout(location = 0) in vec2 before;
 layout(location = 0) out float light;
 const float kSharpest = 32.0;  // the sun's disc has a width: no focus is infinitely bright

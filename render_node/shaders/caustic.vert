@@ -1,12 +1,12 @@
 // A grid over the surface, moved to where the refracted sun carries it at one depth, less the mean
 // shift: so the tile is indexed by where the straight ray meets the surface.
+#include "shader_interface.h"
 #include "frame_uniforms.h"
-layout(binding = 13) uniform sampler2D waveTile;
-layout(location = 0) uniform float receiverMetres;
-layout(location = 1) uniform int cells;
+layout(binding = kWaveTileUnit) uniform sampler2D waveTile;
+layout(location = kReceiverMetresLocation) uniform float receiverMetres;
+layout(location = kCellsLocation) uniform int cells;
 layout(location = 0) out vec2 before;
 const float kMargin = 0.12;  // of the tile: light that comes in over the edge
-const float kTileMetres = 12.0;
 const float kIndex = 1.335;
 void main() {
     ivec2 corner = ivec2(gl_VertexID % (cells + 1), gl_VertexID / (cells + 1));

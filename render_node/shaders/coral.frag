@@ -1,7 +1,8 @@
 // Coral, sponge and leaf near by: polyps as a fine relief, or the meanders of a brain coral.
+#include "shader_interface.h"
 #include "light.glsl"
 // Centroids: beyond the edge of a thin leaf there is nothing to be guessed.
-layout(binding = 14) uniform sampler2D relief;  // slopes, albedo, crest
+layout(binding = kDetailTileUnit) uniform sampler2D relief;  // slopes, albedo, crest
 layout(location = 0) centroid in vec3 place;
 layout(location = 1) centroid in vec3 rest;
 layout(location = 2) centroid in vec4 normal;

@@ -1,6 +1,7 @@
 // One workgroup a fish: its control points from the recorded ones (eq. 13), kept in shared memory,
 // then each vertex of its surface by the stencils of its level. A fish that has just come near
 // enough for a level moves its vertices from where the coarser level has them.
+#include "shader_interface.h"
 #include "fish_pose.glsl"
 #include "fish_detail.glsl"
 #include "fish_plan.glsl"
@@ -8,19 +9,19 @@
 const uint kThreads = 128u;
 
 layout(local_size_x = 128) in;
-layout(std430, binding = 2) readonly buffer FirstEntries { uint firstEntry[]; };
+layout(std430, binding = kFirstEntriesStorage) readonly buffer FirstEntries { uint firstEntry[]; };
 struct Entry {
     uint controlPoint;
     float position, tangentU, tangentV;
 };
-layout(std430, binding = 3) readonly buffer Entries { Entry entries[]; };
-layout(std430, binding = 5) coherent buffer Surface { uvec4 surface[]; };
+layout(std430, binding = kEntriesStorage) readonly buffer Entries { Entry entries[]; };
+layout(std430, binding = kSurfaceStorage) coherent buffer Surface { uvec4 surface[]; };
 // Of each vertex the two, of the same mesh, between which the coarser level has it: 16 bits each. Of
 // the control mesh its place on few triangles: three control points of 9 bits, the weights of two,
 // and a normal.
-layout(std430, binding = 7) readonly buffer Parents { uint parents[]; };
+layout(std430, binding = kParentsStorage) readonly buffer Parents { uint parents[]; };
 
-layout(location = 18) uniform uint turn;
+layout(location = kTurnLocation) uniform uint turn;
 
 shared vec3 controlPoints[kControlPoints];
 

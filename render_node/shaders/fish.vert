@@ -1,8 +1,9 @@
 // A vertex of the surface that fish.comp has made, with its place on the skin.
+#include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "fish_school.glsl"
 
-layout(std430, binding = 5) readonly buffer Surface { uvec4 surface[]; };
+layout(std430, binding = kSurfaceStorage) readonly buffer Surface { uvec4 surface[]; };
 layout(location = 0) in vec4 vertexRest;
 layout(location = 1) in vec2 vertexFin;
 layout(location = 2) in uint vertexPart;

@@ -1,13 +1,14 @@
 // Which fish a view shows, and how finely: one thread a fish, one workgroup a group. Only place and
 // length are unpacked here; the rest of what nobody sees is never looked at (paper, section 4.3).
+#include "shader_interface.h"
 #include "fish_record.glsl"
 #include "fish_detail.glsl"
 #include "fish_lists.glsl"
 
-layout(local_size_x = 64) in;
-layout(std430, binding = 5) writeonly buffer Choices { uint choices[]; };  // level | rank << 4
-layout(std430, binding = 7) writeonly buffer Counts { uint counts[]; };    // [group][level]
-layout(location = 18) uniform uint fishCount;
+layout(local_size_x = kGroupSize) in;
+layout(std430, binding = kChoicesStorage) writeonly buffer Choices { uint choices[]; };  // level | rank << 4
+layout(std430, binding = kCountsStorage) writeonly buffer Counts { uint counts[]; };    // [group][level]
+layout(location = kFishCountLocation) uniform uint fishCount;
 
 // Who of the group is at a level, a bit each: an order of arrival could not change it.
 shared uint members[kDetails][2];
@@ -29,7 +30,7 @@ void main() {
 
     uint s = 0u;
     while (group >= kinds[s].firstGroup + kinds[s].groups) ++s;
-    uint own = (group - kinds[s].firstGroup) * kGroup + lane;
+    uint own = (group - kinds[s].firstGroup) * kGroupSize + lane;
     uint i = kinds[s].firstFish + own;
     uint level = own < kinds[s].fish && i < fishCount ? levelOf(kinds[s], i) : kUnseen;
     if (level != kUnseen) atomicOr(members[level][lane >> 5], 1u << (lane & 31u));
@@ -43,5 +44,5 @@ void main() {
         choices[i] = kUnseen;
     }
     if (lane < kDetails)
-        counts[group * kStride + lane] = bitCount(members[lane][0]) + bitCount(members[lane][1]);
+        counts[group * kDetailStride + lane] = bitCount(members[lane][0]) + bitCount(members[lane][1]);
 }

@@ -1,16 +1,17 @@
 // How finely a fish is drawn; detailOf() of render_node/surface/visibility.h is the reference.
 #ifndef FISH_DETAIL_GLSL
 #define FISH_DETAIL_GLSL
+#include "shader_interface.h"
 
 const uint kPoint = 0u, kFading = 1u, kFewTriangles = 2u, kControlMesh = 3u, kHero = 5u, kDetails = 7u,
            kUnseen = 15u;
 
-layout(location = 1) uniform vec4 planes[6];       // of the view's frustum, inward
-layout(location = 7) uniform vec4 sharedEye;       // world, metres; w: the wall's finest pixel, radians
-layout(location = 8) uniform float limits[7];      // pixels that a fish fills from this level on
-layout(location = 15) uniform uint finestDetail;
-layout(location = 16) uniform bool culls;
-layout(location = 17) uniform bool choosesDetail;  // else all are heroes
+layout(location = kPlanesLocation) uniform vec4 planes[6];       // of the view's frustum, inward
+layout(location = kSharedEyeLocation) uniform vec4 sharedEye;       // world, metres; w: the wall's finest pixel, radians
+layout(location = kLimitsLocation) uniform float limits[7];      // pixels that a fish fills from this level on
+layout(location = kFinestDetailLocation) uniform uint finestDetail;
+layout(location = kCullsLocation) uniform bool culls;
+layout(location = kChoosesDetailLocation) uniform bool choosesDetail;  // else all are heroes
 
 struct Detail {
     uint level;

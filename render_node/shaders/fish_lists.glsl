@@ -3,9 +3,8 @@
 // any other, and the order is always that of the school.
 #ifndef FISH_LISTS_GLSL
 #define FISH_LISTS_GLSL
+#include "shader_interface.h"
 
-const uint kGroup = 64u;   // fish
-const uint kStride = 8u;   // numbers that a group or species has, one a level of detail
 const uint kMeshes = 5u;   // few triangles, then the surfaces from coarse to fine
 
 struct Mesh {
@@ -20,5 +19,5 @@ struct Species {
     vec4 middle;  // of the body, in its frame, body lengths
     Mesh meshes[kMeshes];
 };
-layout(std430, binding = 4) readonly buffer Cast { Species kinds[]; };
+layout(std430, binding = kCastStorage) readonly buffer Cast { Species kinds[]; };
 #endif

@@ -1,11 +1,12 @@
 // From how many fish are in each list to the commands that draw them. One thread: a few hundred
 // steps, whatever the number of fish.
+#include "shader_interface.h"
 #include "fish_detail.glsl"
 #include "fish_plan.glsl"
 
 layout(local_size_x = 1) in;
-layout(location = 18) uniform uint speciesCount;
-layout(location = 19) uniform uint roomVertices;  // of the surface buffer
+layout(location = kSpeciesCountLocation) uniform uint speciesCount;
+layout(location = kRoomVerticesLocation) uniform uint roomVertices;  // of the surface buffer
 
 const uint kPointIndices = 12u;
 
@@ -63,7 +64,7 @@ void place(uint species, uint surface, uint first, uint fish) {
 // Few triangles, those that fade, points: one behind the other, and those that fade are drawn as
 // both.
 uint placeTail(uint species, uint first) {
-    uint list = species * kStride;
+    uint list = species * kDetailStride;
     uint few = totals[list + kFewTriangles], fading = totals[list + kFading];
     firsts[list + kFewTriangles] = first;
     firsts[list + kFading] = first + few;
@@ -82,7 +83,7 @@ void main() {
     uint first = 0u;
     for (uint surface = kSurfaces; surface-- > 0u;) {
         for (uint species = 0u; species < speciesCount; ++species) {
-            uint list = species * kStride + kControlMesh + surface;
+            uint list = species * kDetailStride + kControlMesh + surface;
             firsts[list] = first;
             place(species, surface, first, totals[list]);
             first += totals[list];

@@ -2,12 +2,9 @@
 // holds, and the commands that draw them. FishPlan of render_node/surface/fish_plan.h.
 #ifndef FISH_PLAN_GLSL
 #define FISH_PLAN_GLSL
+#include "shader_interface.h"
 #include "fish_lists.glsl"
 
-const uint kMostSpecies = 64u;
-const uint kTurns = 8u;     // of the surface buffer
-const uint kSurfaces = 4u;  // levels that have one
-const uint kTails = 11u;    // commands of a species that need no surface: see below
 
 struct Command {  // as glDrawElementsIndirect takes it
     uint count, instances, firstIndex, firstVertex, firstInstance;
@@ -20,9 +17,9 @@ const uint kPieces = kTurns * kMostSpecies * kSurfaces;  // [turn][species][surf
 
 // All arrays are of plain numbers: of an array of structures a driver keeps a record for each
 // member of each element, which costs software OpenGL seconds a program.
-layout(std430, binding = 6) buffer Plan {
-    uint totals[kMostSpecies * kStride];  // fish, [species][level]
-    uint firsts[kMostSpecies * kStride];  // the place of each list's first
+layout(std430, binding = kPlanStorage) buffer Plan {
+    uint totals[kMostSpecies * kDetailStride];  // fish, [species][level]
+    uint firsts[kMostSpecies * kDetailStride];  // the place of each list's first
     uint turns[kTurns * 8u];              // see bodyGroupsOf(), finGroupsOf(), firstFishOf()
     uint pieces[kPieces * 3u];
     uint commands[(2u * kPieces + kMostSpecies * kTails) * 5u];  // see setCommand()

@@ -2,18 +2,16 @@
 // frame, body lengths. The reference is tests/render_node/surface/living_cage.h.
 #ifndef FISH_POSE_GLSL
 #define FISH_POSE_GLSL
+#include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "fish_school.glsl"
 #include "fish_fins.glsl"
 
-const uint kControlPoints = 426u;
-const uint kPhases = 64u;
-const uint kActions = 8u;
 const uint kPoses = kActions * kPhases * kControlPoints;
 const uint kFinNumbers = 7u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
 // Species by species. First by segment and phase the points: 3 x 16 bits, body lengths, then a
 // heading, half turns; behind them, as OpenGL promises no more buffers, the fins.
-layout(std430, binding = 1) readonly buffer Recorded { uvec2 recorded[]; };
+layout(std430, binding = kRecordedStorage) readonly buffer Recorded { uvec2 recorded[]; };
 
 vec4 finNumbers(uint species, uint vector) {
     uint k = species * (kPoses + kFinNumbers) + kPoses + 2u * vector;

@@ -3,13 +3,14 @@
 // reference of all this.
 #ifndef FISH_RECORD_GLSL
 #define FISH_RECORD_GLSL
+#include "shader_interface.h"
 
 // Two words of four numbers a fish: place and the low orientation; the high one, phases, segments
 // and warp, speed.
-layout(std430, binding = 1) readonly buffer Before { uvec4 before[]; };
-layout(std430, binding = 2) readonly buffer After { uvec4 after[]; };
-layout(std430, binding = 3) readonly buffer Traits { uvec2 traits[]; };  // id, length in millimetres
-layout(location = 0) uniform float fraction;                             // of the way to `after`
+layout(std430, binding = kBeforeStorage) readonly buffer Before { uvec4 before[]; };
+layout(std430, binding = kAfterStorage) readonly buffer After { uvec4 after[]; };
+layout(std430, binding = kTraitsStorage) readonly buffer Traits { uvec2 traits[]; };  // id, length in millimetres
+layout(location = kFractionLocation) uniform float fraction;                             // of the way to `after`
 
 const float kPositionUnitMetres = 1.0 / 65536.0;
 const float kPhaseUnit = 1.0 / 65536.0;

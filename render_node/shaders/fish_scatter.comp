@@ -1,14 +1,15 @@
 // Puts each fish that a view shows in its place, and only of those unpacks all.
+#include "shader_interface.h"
 #include "fish_data.glsl"
 #include "fish_record.glsl"
 #include "fish_detail.glsl"
 #include "fish_plan.glsl"
 
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) writeonly buffer School { Fish fish[]; };
-layout(std430, binding = 5) readonly buffer Choices { uint choices[]; };  // level | rank << 4
-layout(std430, binding = 7) readonly buffer Counts { uint counts[]; };    // [group][level], sums
-layout(location = 18) uniform uint fishCount;
+layout(local_size_x = kGroupSize) in;
+layout(std430, binding = kSchoolStorage) writeonly buffer School { Fish fish[]; };
+layout(std430, binding = kChoicesStorage) readonly buffer Choices { uint choices[]; };  // level | rank << 4
+layout(std430, binding = kCountsStorage) readonly buffer Counts { uint counts[]; };    // [group][level], sums
+layout(location = kFishCountLocation) uniform uint fishCount;
 
 // The piece that has its place, or none.
 bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
@@ -25,13 +26,13 @@ bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
 void main() {
     uint species = 0u, group = gl_WorkGroupID.x;
     while (group >= kinds[species].firstGroup + kinds[species].groups) ++species;
-    uint own = (group - kinds[species].firstGroup) * kGroup + gl_LocalInvocationID.x;
+    uint own = (group - kinds[species].firstGroup) * kGroupSize + gl_LocalInvocationID.x;
     uint i = kinds[species].firstFish + own;
     if (own >= kinds[species].fish || i >= fishCount) return;
     uint level = choices[i] & 15u;
     if (level == kUnseen) return;
 
-    uint slot = firsts[species * kStride + level] + counts[group * kStride + level] + (choices[i] >> 4);
+    uint slot = firsts[species * kDetailStride + level] + counts[group * kDetailStride + level] + (choices[i] >> 4);
     Fish self;
     self.positionMetres = placeMetresOf(i);
     self.lengthMetres = lengthMetresOf(i);

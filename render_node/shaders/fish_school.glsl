@@ -1,7 +1,8 @@
 // The fish that a view draws.
 #ifndef FISH_SCHOOL_GLSL
 #define FISH_SCHOOL_GLSL
+#include "shader_interface.h"
 #include "fish_data.glsl"
 
-layout(std430, binding = 0) readonly buffer School { Fish fish[]; };
+layout(std430, binding = kSchoolStorage) readonly buffer School { Fish fish[]; };
 #endif

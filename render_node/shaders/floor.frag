@@ -1,21 +1,20 @@
 // The sand: ripples and grains; rubble about the foot of the reefs.
+#include "shader_interface.h"
 #include "light.glsl"
-layout(binding = 14) uniform sampler2D detail;  // slopes, albedo, crest
-layout(binding = 15) uniform sampler2D shade;   // openness to the sun and to the light from above, rubble
-layout(binding = 16) uniform sampler2D rock;    // as `detail`
+layout(binding = kDetailTileUnit) uniform sampler2D detail;  // slopes, albedo, crest
+layout(binding = kFloorShadeUnit) uniform sampler2D shade;   // openness to the sun and to the light from above, rubble
+layout(binding = kFloorRockUnit) uniform sampler2D rock;    // as `detail`
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 radiance;
-const float kTile = 2.6;
 const float kRubbleTile = 1.3;
-const float kShadeSide = 72.0;
 const vec3 kSand = vec3(0.44, 0.39, 0.31);
 void main() {
-    vec4 fine = texture(detail, place.xz / kTile);
+    vec4 fine = texture(detail, place.xz / kSandTileMetres);
     // A second look, larger and turned, so that the tile is not seen to repeat.
     vec2 turned = vec2(place.x * 0.83 - place.z * 0.56, place.x * 0.56 + place.z * 0.83);
-    vec4 coarse = texture(detail, turned / (kTile * 5.3));
-    vec3 open = texture(shade, place.xz / kShadeSide + 0.5).rgb;
+    vec4 coarse = texture(detail, turned / (kSandTileMetres * 5.3));
+    vec3 open = texture(shade, place.xz / kFloorShadeMetres + 0.5).rgb;
     vec2 slope = 2.4 * (fine.xy - 0.5) + 0.6 * (coarse.xy - 0.5);
     // Where the swell is slack the sand is finer, paler and without ripples.
     float slack = smoothstep(0.35, 0.75, coarse.w);

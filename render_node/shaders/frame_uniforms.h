@@ -6,12 +6,13 @@
 #ifdef __cplusplus
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
-namespace aquarama {
+namespace aquarama::shaders {
 using mat4 = glm::mat4;
 using vec4 = glm::vec4;
 struct FrameUniforms {
 #else
-layout(std140, binding = 0) uniform FrameUniforms {
+#include "shader_interface.h"
+layout(std140, binding = kFrameBlock) uniform FrameUniforms {
 #endif
     mat4 clipFromWorld;
     mat4 worldFromClip;
@@ -30,7 +31,7 @@ layout(std140, binding = 0) uniform FrameUniforms {
     vec4 bottom;             // x: 1 over a sea floor, 0 in the open sea
 #ifdef __cplusplus
 };
-}  // namespace aquarama
+}  // namespace aquarama::shaders
 #else
 };
 #endif

@@ -1,17 +1,18 @@
 // A corner of what grows on the reef: where the swell has carried it, and how it is lit.
+#include "shader_interface.h"
 #include "instance.glsl"
 #include "plant_bend.h"
 #include "shading.glsl"
 #include "sea_now.glsl"
 #include "wake.glsl"
-layout(std430, binding = 12) readonly buffer Wake { int wake[]; };
+layout(std430, binding = kWakeStorage) readonly buffer Wake { int wake[]; };
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normalAndRoughness;
 layout(location = 2) in vec4 albedoAndSky;
 layout(location = 3) in vec4 response;  // share of the sway, translucency, fluorescence, relief
 layout(location = 4) in uint chosen;
-layout(location = 0) uniform float detail;
-layout(location = 1) uniform bool stirred;  // by fish that pass
+layout(location = kDetailLocation) uniform float detail;
+layout(location = kStirredLocation) uniform bool stirred;  // by fish that pass
 
 // How far passing fish push what is free to move, metres: between the middles of eight cells.
 vec2 pushedAt(vec3 place) {
@@ -54,9 +55,9 @@ Grown grown() {
     // A leaf has two sides: the one that looks at us is lit.
     if (response.y > 0.3 && dot(it.normal, eyeAndTime.xyz - it.place) < 0.0) it.normal = -it.normal;
     // The sand takes light from what stands close above it.
-    float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.light.z));
+    float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.sandHeightMetres));
     float own = albedoAndSky.w;
-    it.open = Openness(one.light.x * mix(0.35, 1.0, own), one.light.y * own * contact);
+    it.open = Openness(one.openness.x * mix(0.35, 1.0, own), one.openness.y * own * contact);
     if (kFine) {
         Openness mapped = openAt(it.place, it.normal);
         it.open = Openness(min(it.open.sun, mapped.sun), min(it.open.sky, mapped.sky));

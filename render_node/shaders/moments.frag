@@ -1,7 +1,7 @@
 // From the depth of the topmost things to their height and its square, over a few texels.
-layout(binding = 0) uniform sampler2D depths;
+#include "shader_interface.h"
+layout(binding = kMomentDepthsUnit) uniform sampler2D depths;
 layout(location = 0) out vec2 heightAndSquare;
-const float kMapDepthMetres = 64.0;  // as in sea_shade.cpp
 void main() {
     ivec2 last = textureSize(depths, 0) - 1;
     vec2 sum = vec2(0.0);

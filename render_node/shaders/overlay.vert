@@ -1,13 +1,14 @@
 // One glyph of a text: a box of 6 x 9 dots with its 5 x 7 dots inside.
+#include "shader_interface.h"
 struct Glyph {
     vec2 topLeft;  // pixels from the picture's top left corner
     uvec2 bits;
 };
-layout(std430, binding = 0) readonly buffer Glyphs {
+layout(std430, binding = kGlyphsStorage) readonly buffer Glyphs {
     Glyph glyphs[];
 };
-layout(location = 0) uniform vec2 pictureSize;
-layout(location = 1) uniform float dotPixels;
+layout(location = kPictureSizeLocation) uniform vec2 pictureSize;
+layout(location = kDotPixelsLocation) uniform float dotPixels;
 
 layout(location = 0) out vec2 dot;  // from the glyph's own top left dot
 layout(location = 1) flat out uvec2 bits;

@@ -1,10 +1,11 @@
 // A test pattern that lies on the screen, as a function of the direction from the wall's origin: the
 // formulas of common/wall/pattern.h.
-layout(location = 0) uniform mat3 wallFromCamera;
-layout(location = 3) uniform vec4 extents;  // left, bottom, right, top: tangents
-layout(location = 4) uniform float greyLight;  // negative: the grid
-layout(location = 5) uniform vec4 gridLines;   // degrees between lines, between bright ones; light of the others; sigma, degrees
-layout(location = 6) uniform vec4 eyeAndRadius;  // wall frame; w: of the screen
+#include "shader_interface.h"
+layout(location = kWallFromCameraLocation) uniform mat3 wallFromCamera;
+layout(location = kExtentsLocation) uniform vec4 extents;  // left, bottom, right, top: tangents
+layout(location = kGreyLightLocation) uniform float greyLight;  // negative: the grid
+layout(location = kGridLinesLocation) uniform vec4 gridLines;   // degrees between lines, between bright ones; light of the others; sigma, degrees
+layout(location = kEyeAndRadiusLocation) uniform vec4 eyeAndRadius;  // wall frame; w: of the screen
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 light;

@@ -1,9 +1,9 @@
 // A crumb of fish food: an uneven octahedron that tumbles as it sinks, lit on each face.
+#include "shader_interface.h"
 #include "food_particle.glsl"
 #include "shading.glsl"
 layout(location = 0) out vec3 light;
 layout(location = 1) out float coverage;
-const float kFarMetres = 16.0;  // as in food_specks.cpp
 const float kLeastPixels = 3.0;  // of its diameter: smaller, it would slip between the pixels
 const vec3 kCrumb = vec3(0.66, 0.27, 0.07);
 
@@ -38,7 +38,7 @@ void main() {
     vec3 place = speck.place + corners[gl_VertexID % 3] * (radius * larger);
     vec3 albedo = kCrumb * mix(0.7, 1.2, unit(speck.seed, 12u));
     light = seen(litAt(1.0, Openness(1.0, 1.0), albedo, speck.place, normal, 0.2), speck.place);
-    coverage = smoothstep(kFarMetres, 0.7 * kFarMetres, range) / (larger * larger);
+    coverage = smoothstep(kPelletMetres, 0.7 * kPelletMetres, range) / (larger * larger);
     // The far side is hidden by the near one.
     bool hidden = dot(normal, speck.place + middle * (radius * larger) - eyeAndTime.xyz) >= 0.0;
     gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : clipFromWorld * vec4(place, 1.0);

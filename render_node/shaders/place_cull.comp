@@ -1,9 +1,10 @@
 // What of the place a view may show, and how finely: each instance becomes one more of the draw of
 // its prototype at its level. A ball against the four sides of the frustum; the level follows from
 // the angle at the shared eye in units of the wall's finest pixel, so that neighbours agree.
+#include "shader_interface.h"
 #include "instance.glsl"
 #include "place_groups.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x = kGroupSize) in;
 struct Prototype {
     float reach, middle;
     uint firstCommand, commandStride;
@@ -14,18 +15,18 @@ struct Command {
     int baseVertex;
     uint baseInstance;
 };
-layout(std430, binding = 9) readonly buffer Prototypes { Prototype prototypes[]; };
-layout(std430, binding = 10) buffer Commands { Command commands[]; };
-layout(std430, binding = 11) writeonly buffer Chosen { uint chosenOnes[]; };
-layout(std430, binding = 14) readonly buffer SeenGroups { uint groupsX, groupsY, groupsZ, seenGroups[]; };
-layout(location = 0) uniform uint instanceCount;
-layout(location = 2) uniform float detail;
+layout(std430, binding = kPrototypesStorage) readonly buffer Prototypes { Prototype prototypes[]; };
+layout(std430, binding = kCommandsStorage) buffer Commands { Command commands[]; };
+layout(std430, binding = kChosenStorage) writeonly buffer Chosen { uint chosenOnes[]; };
+layout(std430, binding = kSeenGroupsStorage) readonly buffer SeenGroups { uint groupsX, groupsY, groupsZ, seenGroups[]; };
+layout(location = kInstanceCountLocation) uniform uint instanceCount;
+layout(location = kCullDetailLocation) uniform float detail;
 
 void main() {
     uint id = seenGroups[gl_WorkGroupID.x] * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (id >= instanceCount) return;
     Instance one = instances[id];
-    Prototype prototype = prototypes[uint(one.light.w)];
+    Prototype prototype = prototypes[one.prototype];
     float scale = one.placeAndScale.w;
     vec3 centre = one.placeAndScale.xyz + turned(one.turn, vec3(0.0, prototype.middle * scale, 0.0));
     // What bends reaches further.

@@ -1,9 +1,10 @@
 // Which groups of instances a view may show: a ball about each against the frustum. Only these are
 // then culled one by one (place_cull.comp), so that what lies behind the eye costs next to nothing.
+#include "shader_interface.h"
 #include "place_groups.glsl"
-layout(local_size_x = 64) in;
-layout(std430, binding = 14) buffer SeenGroups { uint groupsX, groupsY, groupsZ, seenGroups[]; };
-layout(location = 0) uniform uint groupCount;
+layout(local_size_x = kGroupSize) in;
+layout(std430, binding = kSeenGroupsStorage) buffer SeenGroups { uint groupsX, groupsY, groupsZ, seenGroups[]; };
+layout(location = kGroupCountLocation) uniform uint groupCount;
 
 void main() {
     uint id = gl_GlobalInvocationID.x;

@@ -1,9 +1,10 @@
 // Balls against the view's frustum, and the balls about groups of instances.
 #ifndef PLACE_GROUPS_GLSL
 #define PLACE_GROUPS_GLSL
+#include "shader_interface.h"
 #include "frame_uniforms.h"
-layout(std430, binding = 13) readonly buffer Groups { vec4 groupBalls[]; };
-layout(location = 1) uniform bool culling;
+layout(std430, binding = kGroupsStorage) readonly buffer Groups { vec4 groupBalls[]; };
+layout(location = kCullingLocation) uniform bool culling;
 
 // The four sides: things before and behind are few.
 bool sees(vec3 centre, float reach) {

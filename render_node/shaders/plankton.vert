@@ -1,9 +1,9 @@
 // Plankton: small clear bodies that catch the light as they turn.
+#include "shader_interface.h"
 #include "water.glsl"
 #include "food_particle.glsl"
-layout(location = 0) uniform int first;
+layout(location = kFirstLocation) uniform int first;
 layout(location = 0) out vec3 light;
-const float kFarMetres = 8.0;  // as in food_specks.cpp
 const vec3 kTint = vec3(1.0, 0.96, 0.78);
 void main() {
     Speck speck = specks[first + gl_VertexID];
@@ -19,7 +19,7 @@ void main() {
     float glint = pow(abs(dot(side, normalize(sunAndFilterDepth.xyz - way / range))), 24.0);
     float phase = 1.1 * lobe(dot(way / range, sunAndFilterDepth.xyz), 0.7) + 0.16;
     float lit = daylight.x * unscatteredShare(-speck.place.y) * caustic(speck.place, 1.0) * (phase + 0.9 * glint);
-    float fade = smoothstep(0.25, 0.6, range) * smoothstep(kFarMetres, 0.6 * kFarMetres, range);
+    float fade = smoothstep(0.25, 0.6, range) * smoothstep(kPlanktonMetres, 0.6 * kPlanktonMetres, range);
     vec3 outgoing = kTint * ((lit + 0.35 * phase * daylight.z) / kPi);
     light = direct(outgoing, range, max(-speck.place.y, 0.1)) *
             (0.8 * fade * sharp * sharp / (size * size));

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-namespace aquarama {
+namespace aquarama::shaders {
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 inline
@@ -19,6 +19,6 @@ inline
     return vec3(push.x * share * share, height * share - sag, push.y * share * share);
 }
 #ifdef __cplusplus
-}  // namespace aquarama
+}  // namespace aquarama::shaders
 #endif
 #endif

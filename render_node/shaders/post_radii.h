@@ -5,7 +5,7 @@
 #ifndef AQUARAMA_POST_RADII_H
 #define AQUARAMA_POST_RADII_H
 #ifdef __cplusplus
-namespace aquarama {
+namespace aquarama::shaders {
 inline constexpr float
 #else
 const float
@@ -16,6 +16,6 @@ const float
     // The glow about what is bright: rings of taps of so wide a mean.
     kBloomNear = 0.0035F, kBloomFar = 0.0095F, kPostReach = 0.0170F;
 #ifdef __cplusplus
-}  // namespace aquarama
+}  // namespace aquarama::shaders
 #endif
 #endif

@@ -1,7 +1,8 @@
 // One pixel of the projector: the scene where it looks, times its share of the light, encoded.
+#include "shader_interface.h"
 #include "project.glsl"
-layout(binding = 0) uniform sampler2D scene;           // linear light
-layout(binding = 1) uniform sampler2D placeAndWeight;  // top row first
+layout(binding = kSceneUnit) uniform sampler2D scene;           // linear light
+layout(binding = kPlacesUnit) uniform sampler2D placeAndWeight;  // top row first
 
 void main() {
     ivec2 pixel = projectorPixel();

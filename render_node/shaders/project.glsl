@@ -1,9 +1,10 @@
 // From a projector pixel's light to its code. The dither is the same for both eyes, or its grain would
 // hang in the room.
-layout(location = 0) uniform ivec2 size;  // of the projector's picture
-layout(location = 1) uniform uint seed;
-layout(location = 2) uniform bool dithered;
-layout(location = 3) uniform bool blendMask;
+#include "shader_interface.h"
+layout(location = kSizeLocation) uniform ivec2 size;  // of the projector's picture
+layout(location = kSeedLocation) uniform uint seed;
+layout(location = kDitheredLocation) uniform bool dithered;
+layout(location = kBlendMaskLocation) uniform bool blendMask;
 
 layout(location = 0) out vec4 encoded;
 

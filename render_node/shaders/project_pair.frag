@@ -1,10 +1,11 @@
 // One pixel of a display that takes the pictures of two eyes at once.
+#include "shader_interface.h"
 #include "project.glsl"
-layout(binding = 0) uniform sampler2D leftScene;
-layout(binding = 1) uniform sampler2D leftPlaces;
-layout(binding = 2) uniform sampler2D rightScene;
-layout(binding = 3) uniform sampler2D rightPlaces;
-layout(location = 4) uniform int mode;
+layout(binding = kSceneUnit) uniform sampler2D leftScene;
+layout(binding = kPlacesUnit) uniform sampler2D leftPlaces;
+layout(binding = kRightSceneUnit) uniform sampler2D rightScene;
+layout(binding = kRightPlacesUnit) uniform sampler2D rightPlaces;
+layout(location = kModeLocation) uniform int mode;
 
 const int kSideBySide = 2, kTopBottom = 3, kInterlaced = 4;  // as StereoMode; else anaglyph
 

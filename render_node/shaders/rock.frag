@@ -1,9 +1,10 @@
 // Rock: grit, pits and knobs at two or three scales, laid on from three sides; turf on what looks
 // up, pink crusts of algae in the shade, sponges in patches.
+#include "shader_interface.h"
 #include "light.glsl"
 // Centroids: beyond the edge of a thin leaf there is nothing to be guessed.
-layout(binding = 14) uniform sampler2D grit;  // slopes, albedo, crest
-layout(location = 1) uniform int scales;        // 2 or 3
+layout(binding = kDetailTileUnit) uniform sampler2D grit;  // slopes, albedo, crest
+layout(location = kRockScalesLocation) uniform int scales;        // 2 or 3
 layout(location = 0) centroid in vec3 place;
 layout(location = 1) centroid in vec3 normal;
 layout(location = 2) centroid in vec3 mottle;  // lightness, turf, crust
@@ -33,7 +34,7 @@ void main() {
     vec3 weight = pow(abs(n), vec3(4.0));
     weight /= weight.x + weight.y + weight.z;
     Relief broad = reliefAt(place, weight, 3.7, pixelMetres);
-    Relief middle = reliefAt(place + 0.9, weight, 1.1, pixelMetres);
+    Relief middle = reliefAt(place + 0.9, weight, kRockTileMetres, pixelMetres);
     Relief fine = Relief(vec3(0.0), vec2(0.5));
     if (scales > 2) fine = reliefAt(place, weight, 0.31, pixelMetres);
     vec3 slope = 1.1 * broad.slope + 0.9 * middle.slope + 0.5 * fine.slope;

@@ -1,10 +1,11 @@
 // Rock: worn limestone, lit at each pixel.
+#include "shader_interface.h"
 #include "instance.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normalAndRoughness;
 layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; openness
 layout(location = 4) in uint chosen;
-layout(location = 0) uniform float detail;
+layout(location = kDetailLocation) uniform float detail;
 layout(location = 0) centroid out vec3 place;
 layout(location = 1) centroid out vec3 normal;
 layout(location = 2) centroid out vec3 mottle;

@@ -12,9 +12,9 @@ RockCorner rockCorner() {
     it.place = one.placeAndScale.xyz + scale * turned(one.turn, position);
     it.normal = turned(one.turn, normalAndRoughness.xyz);
     it.tint = one.tintAndSway.rgb;
-    float above = (it.place.y - one.light.z) / min(one.placeAndScale.w, 1.0);
+    float above = (it.place.y - one.sandHeightMetres) / min(one.placeAndScale.w, 1.0);
     float contact = mix(0.4, 1.0, smoothstep(-0.1, 0.6, above));
     float own = mottleAndSky.w;
-    it.open = vec2(one.light.x * mix(0.3, 1.0, own), one.light.y * own * sqrt(own) * contact);
+    it.open = vec2(one.openness.x * mix(0.3, 1.0, own), one.openness.y * own * sqrt(own) * contact);
     return it;
 }

@@ -1,6 +1,7 @@
 // As rock.frag, with two scales of grit from one side.
+#include "shader_interface.h"
 #include "light.glsl"
-layout(binding = 14) uniform sampler2D grit;  // slopes, albedo, crest
+layout(binding = kDetailTileUnit) uniform sampler2D grit;  // slopes, albedo, crest
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 mottle;  // lightness, turf, crust
@@ -12,7 +13,7 @@ layout(location = 0) out vec4 radiance;
 void main() {
     vec3 side = abs(normal);
     vec2 uv = side.y > max(side.x, side.z) ? place.xz : side.x > side.z ? place.zy : place.xy;
-    vec4 relief = texture(grit, uv / 1.1);
+    vec4 relief = texture(grit, uv / kRockTileMetres);
     vec4 broad = texture(grit, uv / 3.7);
     float pits = mix(0.30, 1.0, smoothstep(0.15, 0.75, relief.w)) * mix(0.5, 1.0, smoothstep(0.2, 0.6, broad.w));
     vec3 colour = rockColour(mottle, 4.0 * relief.z * broad.z, broad.w + 0.35 * (relief.w - 0.5), relief.w);

@@ -1,12 +1,13 @@
 // Rock for those who must save: light and water at the corners, grit and the net of the waves at
 // the pixels.
+#include "shader_interface.h"
 #include "instance.glsl"
 #include "shading.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normalAndRoughness;
 layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; openness
 layout(location = 4) in uint chosen;
-layout(location = 0) uniform float detail;
+layout(location = kDetailLocation) uniform float detail;
 layout(location = 0) out vec3 place;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec3 mottle;

@@ -1,7 +1,9 @@
 // The waves and the swell at this instant; phases are reduced on the CPU in double precision.
 #ifndef SEA_NOW_GLSL
 #define SEA_NOW_GLSL
-layout(std140, binding = 1) uniform SeaNow {
+#include "shader_interface.h"
+#include "light_plain.glsl"
+layout(std140, binding = kSeaBlock) uniform SeaNow {
     vec4 waves[32];     // k.x, k.z, amplitude, phase
     vec4 ripples[32];   // the same, much shorter
     vec4 longWaves[4];  // the same, longer than the tile
@@ -10,13 +12,6 @@ layout(std140, binding = 1) uniform SeaNow {
     vec4 surfaceDetail;
     vec4 fishWindow;
 };
-
-// Tiers that can pay for it: soft shadows of several reaches, a mirrored reef, clouds, dispersion.
-#ifdef FINE_LIGHT
-const bool kFine = true;
-#else
-const bool kFine = false;
-#endif
 
 // How far the swell has carried the water at a place, metres: deep-water waves of 7 and 4.3 s,
 // whose orbits shrink with depth, and a flutter.

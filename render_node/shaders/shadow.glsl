@@ -3,12 +3,13 @@
 // holds heights, so that a shadow is soft by how far its thrower is above it.
 #ifndef SHADOW_GLSL
 #define SHADOW_GLSL
+#include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "sea_now.glsl"
 
-layout(binding = 21) uniform sampler2D sunHeights;  // topmost height along the sun's ray, and its square
-layout(binding = 22) uniform sampler2D topHeights;  // the same straight from above
-layout(binding = 18) uniform sampler2D fishOnTheWay;  // optical depth along the sun's ray; times height; times its square
+layout(binding = kSunHeightsUnit) uniform sampler2D sunHeights;  // topmost height along the sun's ray, and its square
+layout(binding = kTopHeightsUnit) uniform sampler2D topHeights;  // the same straight from above
+layout(binding = kFishOnTheWayUnit) uniform sampler2D fishOnTheWay;  // optical depth along the sun's ray; times height; times its square
 
 // How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
 struct Openness {
@@ -16,7 +17,6 @@ struct Openness {
     float sky;
 };
 
-const float kPlaceMetres = 80.0;  // side of the maps of the place, round the origin; as in sea_shade.cpp
 vec2 surfacePoint(vec3 place) {
     return place.xz - sunAndFilterDepth.xz / sunAndFilterDepth.y * place.y;
 }

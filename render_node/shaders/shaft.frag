@@ -1,11 +1,12 @@
 // How much more or less than the mean the sun lights the water before 3, 8, 18 and 45 m along each
 // direction. Never added light: a weighted mean of the caustics on the way, less what rock and fish
 // keep away.
+#include "shader_interface.h"
 #include "water.glsl"
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 upTo;
-layout(location = 0) uniform int texels;
-layout(location = 1) uniform int steps;
+layout(location = kTexelsLocation) uniform int texels;
+layout(location = kStepsLocation) uniform int steps;
 
 const float kGain = 2.2;
 

@@ -1,10 +1,11 @@
 // The sky above the sea, linear Rec. 709; relative to an irradiance of 1 at the surface.
 #ifndef SKY_GLSL
 #define SKY_GLSL
+#include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "sea_now.glsl"
 
-layout(binding = 20) uniform sampler2D cloudTile;  // cover of fair-weather clouds
+layout(binding = kCloudTileUnit) uniform sampler2D cloudTile;  // cover of fair-weather clouds
 
 const float kIndex = 1.34;
 

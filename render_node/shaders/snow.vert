@@ -1,13 +1,11 @@
 // Marine snow: specks in a box round the shared eye that wraps in the world.
 #include "water.glsl"
 #include "sea_now.glsl"
+#include "hash.h"
 layout(location = 0) out vec3 light;
 const float kBoxMetres = 9.0;
 const float kLensMetres = 0.0055, kFocusMetres = 6.0;  // a little out of focus when near
-uint mixed(uint x) {
-    x ^= x >> 16; x *= 0x7feb352du; x ^= x >> 15; x *= 0x846ca68bu; return x ^ (x >> 16);
-}
-float unit(uint n) { return float(mixed(uint(gl_VertexID) * 4u + n) >> 8) / 16777216.0; }
+float unit(uint n) { return unitOf(hashOf(uint(gl_VertexID) * 4u + n)); }
 void main() {
     vec3 home = vec3(unit(0u), unit(1u), unit(2u));
     vec2 carried = 0.25 * surge(home * 9.0 - vec3(0.0, 9.0, 0.0));

@@ -1,10 +1,11 @@
 // Forward scattering on the way to the eye: of the light of a thing at a range, a share arrives
 // spread over some tenths of a degree. Each tap counts by its own thing's share and spread, so that
 // the distance softens behind a near fish whose outline stays sharp.
+#include "shader_interface.h"
 #include "look_around.glsl"
 #include "post_radii.h"
-layout(binding = 0) uniform sampler2D scene;
-layout(binding = 1) uniform sampler2D depth;
+layout(binding = kSceneUnit) uniform sampler2D scene;
+layout(binding = kDepthUnit) uniform sampler2D depth;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 softened;
 

@@ -2,15 +2,15 @@
 // in the water.
 #ifndef SUNLIGHT_GLSL
 #define SUNLIGHT_GLSL
+#include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "sea_now.glsl"
 #include "shadow.glsl"
 
-layout(binding = 11) uniform sampler2DArray causticLayers;  // sunlight at some depths, mean 1
-layout(binding = 12) uniform sampler2D shaftMap;  // by direction: sunlight in the water before 3, 8, 18, 45 m
+layout(binding = kCausticLayersUnit) uniform sampler2DArray causticLayers;  // sunlight at some depths, mean 1
+layout(binding = kShaftMapUnit) uniform sampler2D shaftMap;  // by direction: sunlight in the water before 3, 8, 18, 45 m
 
 const float kPi = 3.14159265;
-const float kTileMetres = 12.0;  // side of the caustic tile; waves have whole numbers on it
 
 // Octahedral map of the directions, the zenith in its middle; one texel of border continues it.
 vec2 shaftPlace(vec3 direction) {

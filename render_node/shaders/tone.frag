@@ -1,8 +1,9 @@
 // From the light of the scene to the light of the display, both linear. The same everywhere on the
 // wall and at all times: no histogram, or neighbours would differ.
+#include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "scene_light.glsl"
-layout(binding = 0) uniform sampler2D scene;
+layout(binding = kSceneUnit) uniform sampler2D scene;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display;
 // A magenta filter before the lens, as divers have for green water: luminance stays.

@@ -1,9 +1,10 @@
 // Adds each fish's momentum to the eight cells about it.
+#include "shader_interface.h"
 #include "fish_record.glsl"
 #include "wake.glsl"
-layout(local_size_x = 64) in;
-layout(location = 1) uniform uint fishCount;
-layout(std430, binding = 12) buffer Wake { int wake[]; };
+layout(local_size_x = kGroupSize) in;
+layout(location = kWakeFishCountLocation) uniform uint fishCount;
+layout(std430, binding = kWakeStorage) buffer Wake { int wake[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= fishCount || isAway(i)) return;

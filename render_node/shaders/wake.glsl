@@ -3,8 +3,9 @@
 // their side, so that the grid may follow the eye and no value changes.
 #ifndef WAKE_GLSL
 #define WAKE_GLSL
+#include "shader_interface.h"
 #include "frame_uniforms.h"
-const ivec3 kWakeCells = ivec3(40, 16, 40);
+const ivec3 kWakeCells = ivec3(kWakeCellsAcross, kWakeCellsUp, kWakeCellsAcross);
 const float kWakeCellMetres = 0.5;
 const float kWakeUnit = 1.0 / 1024.0;  // m/s, of a fish of a quarter of a metre
 

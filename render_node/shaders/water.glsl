@@ -3,16 +3,17 @@
 // Two coefficients, never one: Kd for the way down, kappa = a + 0.51 b for the way to the eye.
 #ifndef WATER_GLSL
 #define WATER_GLSL
+#include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "sunlight.glsl"
 
-layout(binding = 8) uniform sampler2DArray directTable;  // columns of a 3x3 matrix over range, depth
-layout(binding = 9) uniform sampler3D inscatterTable;    // of the eye's depth: range, rise, azimuth
-layout(binding = 10) uniform sampler2D openWaterTable;   // 60 m of water: over depth, rise
+layout(binding = kDirectTableUnit) uniform sampler2DArray directTable;  // columns of a 3x3 matrix over range, depth
+layout(binding = kInscatterTableUnit) uniform sampler3D inscatterTable;    // of the eye's depth: range, rise, azimuth
+layout(binding = kOpenWaterTableUnit) uniform sampler2D openWaterTable;   // 60 m of water: over depth, rise
 
 // The axes of the tables, as water_tables.h has them.
 const vec2 kDirectTexels = vec2(64.0, 64.0);
-const vec3 kInscatterTexels = vec3(40.0, 32.0, 9.0);
+const vec3 kInscatterTexels = vec3(kSightRanges, kSightRises, kSightAzimuths);
 const vec2 kOpenWaterTexels = vec2(64.0, 32.0);
 vec2 atTexelCentres(vec2 u, vec2 texels) { return (u * (texels - 1.0) + 0.5) / texels; }
 float rangeAxis(float range) { return sqrt(clamp(range * (1.0 / 80.0), 0.0, 1.0)); }

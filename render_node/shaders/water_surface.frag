@@ -1,13 +1,13 @@
 // The surface from below: Snell's window where a facet lets light in, else the mirrored sea and reef.
+#include "shader_interface.h"
 #include "shading.glsl"
 #include "sky.glsl"
-layout(binding = 13) uniform sampler2D waveTile;    // slopes, height, squared slope
-layout(binding = 19) uniform sampler2D rippleTile;  // the same
+layout(binding = kWaveTileUnit) uniform sampler2D waveTile;    // slopes, height, squared slope
+layout(binding = kRippleTileUnit) uniform sampler2D rippleTile;  // the same
 layout(location = 0) in vec3 place;
 layout(location = 0) out vec4 radiance;
 const float kBrightening = kIndex * kIndex;  // a beam narrows as it enters the water
 const float kCritical = 0.66566;             // cosine of the angle of total reflection
-const float kRippleTileMetres = 2.9;
 // The net of light wants waves less steep than the sea's: seen from below they are as steep.
 const float kSteeper = 1.5;
 

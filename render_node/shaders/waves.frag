@@ -1,10 +1,11 @@
 // Slopes, height and squared slope of the surface on one tile: of the waves or of the ripples.
+#include "shader_interface.h"
 #include "sea_now.glsl"
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 slopesHeightSquare;
-layout(location = 0) uniform float tileMetres;
-layout(location = 1) uniform bool drawsRipples;
-layout(location = 2) uniform float texelMetres;
+layout(location = kTileMetresLocation) uniform float tileMetres;
+layout(location = kDrawsRipplesLocation) uniform bool drawsRipples;
+layout(location = kTexelMetresLocation) uniform float texelMetres;
 void main() {
     vec3 sum = vec3(0.0);
     float lost = 0.0;

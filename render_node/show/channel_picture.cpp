@@ -23,7 +23,7 @@ namespace {
 
 // Beyond what the projector lights, so that filters which read neighbours have some: 1 degree.
 constexpr double kMarginRadians = 0.0175;
-static_assert(double{kPostReach} <= kMarginRadians);
+static_assert(double{shaders::kPostReach} <= kMarginRadians);
 constexpr float kNearMetres = 0.05F;
 
 // Dots large enough to be read from the sweet spot.

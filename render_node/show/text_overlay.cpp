@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render_node/gl/program.h"
+#include "render_node/shaders/shader_interface.h"
 #include "render_node/show/font.h"
 
 namespace aquarama::show {
@@ -11,9 +12,6 @@ namespace aquarama::show {
 namespace {
 
 // Places in overlay.vert.
-constexpr GLuint kGlyphBinding = 0;
-constexpr GLint kPictureSize = 0;
-constexpr GLint kDotPixels = 1;
 
 // A glyph with a margin of one dot above, below and to its left.
 constexpr glm::vec2 kCellDots(kGlyphColumns + 1, kGlyphRows + 2);
@@ -62,9 +60,11 @@ void TextOverlay::draw(std::span<const Label> labels,
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(program_.name());
-    glUniform2f(kPictureSize, static_cast<float>(sizePixels.x), static_cast<float>(sizePixels.y));
-    glUniform1f(kDotPixels, dotPixels);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kGlyphBinding, glyphs_.name());
+    glUniform2f(shaders::kPictureSizeLocation,
+                static_cast<float>(sizePixels.x),
+                static_cast<float>(sizePixels.y));
+    glUniform1f(shaders::kDotPixelsLocation, dotPixels);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kGlyphsStorage, glyphs_.name());
     glBindVertexArray(noVertices_.name());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(glyphs.size()));
     glDisable(GL_BLEND);

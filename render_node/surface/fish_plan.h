@@ -6,20 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/units/limits.h"
+#include "render_node/shaders/shader_interface.h"
 #include "render_node/surface/visibility.h"
 
 namespace aquarama::surface {
 
-inline constexpr std::size_t kMostSpecies = 64;
 // The surface buffer is filled so often at most for one view. With its 64 MiB that is room for
 // 78 000 control meshes, or 19 000 meshes, or 4 900 heroes; heroes come first. Fish beyond are
 // drawn as few triangles. It takes more than a fish in each cube of its length to get there.
-inline constexpr std::size_t kTurns = 8;
-inline constexpr std::size_t kDetailStride = 8;  // numbers of a species, one a level of detail
-inline constexpr std::size_t kSurfaces = 4;      // levels that have a surface
+inline constexpr std::size_t kTurns = shaders::kTurns;
+inline constexpr std::size_t kDetailStride = shaders::kDetailStride;
+inline constexpr std::size_t kSurfaces = shaders::kSurfaces;
 inline constexpr std::size_t kMeshes = 1 + kSurfaces;
-inline constexpr std::size_t kTails = 2 * kMeshes + 1;
-inline constexpr std::size_t kGroup = 64;  // fish that one workgroup of fish_cull.comp looks at
+inline constexpr std::size_t kTails = shaders::kTails;
+static_assert(kTails == 2 * kMeshes + 1);
+inline constexpr std::size_t kGroup =
+    shaders::kGroupSize;  // fish that one workgroup of fish_cull.comp looks at
 
 struct FishPlan {
     struct Command {  // as glDrawElementsIndirect takes it
@@ -42,6 +45,7 @@ struct FishPlan {
     EachPiece<Command> bodies, fins;
     std::array<std::array<Command, kTails>, kMostSpecies> tails;
 };
+static_assert(shaders::kMostSpecies == kMostSpecies);
 static_assert(sizeof(FishPlan::Command) == 20 && sizeof(FishPlan::Turn) == 32);
 
 }  // namespace aquarama::surface

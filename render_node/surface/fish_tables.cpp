@@ -18,8 +18,13 @@
 #include "common/files/derived_cache.h"
 #include "common/skin/coarser_level.h"
 #include "common/units/error.h"
+#include "render_node/gl/buffer.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::surface {
+
+static_assert(shaders::kControlPoints == body::kControlPoints &&
+              shaders::kPhases == motion::kPhases && shaders::kActions == motion::kActions);
 
 namespace {
 
@@ -325,15 +330,15 @@ FishTables::FishTables(const FishArrays& arrays, std::size_t finest) {
         groups += species.groups;
         mostVertices = std::max<std::size_t>(mostVertices, species.meshes.at(1 + finest).vertices);
     }
-    cast = makeBuffer(arrays.species, "cast");
-    recorded = makeBuffer(arrays.recorded, "recorded control points");
-    firstEntries = makeBuffer(arrays.firstEntry, "stencil offsets");
-    entries = makeBuffer(arrays.entries, "stencil entries");
-    parents = makeBuffer(arrays.parents, "parents of vertices");
-    fewVertices = makeBuffer(arrays.fewVertices, "few vertices");
-    fewIndices = makeBuffer(arrays.fewIndices, "few indices");
-    places = makeBuffer(arrays.places, "skin places");
-    indices = makeBuffer(arrays.indices, "fish indices");
+    cast = gl::makeBuffer(arrays.species, "cast");
+    recorded = gl::makeBuffer(arrays.recorded, "recorded control points");
+    firstEntries = gl::makeBuffer(arrays.firstEntry, "stencil offsets");
+    entries = gl::makeBuffer(arrays.entries, "stencil entries");
+    parents = gl::makeBuffer(arrays.parents, "parents of vertices");
+    fewVertices = gl::makeBuffer(arrays.fewVertices, "few vertices");
+    fewIndices = gl::makeBuffer(arrays.fewIndices, "few indices");
+    places = gl::makeBuffer(arrays.places, "skin places");
+    indices = gl::makeBuffer(arrays.indices, "fish indices");
 }
 
 }  // namespace aquarama::surface

@@ -62,19 +62,6 @@ struct SpeciesTables {
 };
 static_assert(sizeof(SpeciesTables) == 208);
 
-template <class T>
-gl::Buffer makeBuffer(const std::vector<T>& values, const char* label) {
-    gl::Buffer buffer;
-    // A buffer of nothing is an error in GL, and a school may have no fish.
-    const std::size_t bytes = values.size() * sizeof(T);
-    glNamedBufferStorage(buffer.name(),
-                         static_cast<GLsizeiptr>(bytes == 0 ? sizeof(T) : bytes),
-                         bytes == 0 ? nullptr : values.data(),
-                         0);
-    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
-    return buffer;
-}
-
 // A vertex of a surface, and what is painted where the next coarser level has it.
 struct SurfaceVertex {
     skin::SkinPlace place;

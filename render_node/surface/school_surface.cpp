@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "render_node/gl/buffer.h"
 #include "render_node/gl/debug.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
+#include "render_node/shaders/shader_interface.h"
 #include "render_node/surface/fish_plan.h"
 #include "render_node/surface/skin_programs.h"
 
@@ -17,25 +19,7 @@ namespace aquarama::surface {
 
 namespace {
 
-// Bindings of shader storage. The kernels that sort fish and those that make surfaces share
-// numbers, as OpenGL promises only eight.
-constexpr GLuint kSchool = 0, kBefore = 1, kAfter = 2, kTraits = 3, kCast = 4, kChoices = 5,
-                 kPlan = 6, kCounts = 7;
-constexpr GLuint kRecorded = 1, kFirstEntries = 2, kEntries = 3, kSurface = 5, kParents = 7;
-
-// Uniforms of fish_record.glsl, fish_detail.glsl and of the kernels.
-constexpr GLint kFraction = 0, kPlanes = 1, kSharedEye = 7, kLimits = 8, kFinest = 15, kCulls = 16,
-                kChoosesDetail = 17, kOwn = 18, kRoom = 19;
-
 constexpr std::size_t kBytesPerVertex = 16;
-
-gl::Buffer makeRoom(std::size_t bytes, const char* label, GLbitfield flags = 0) {
-    gl::Buffer buffer;
-    const auto size = static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16));
-    glNamedBufferStorage(buffer.name(), size, nullptr, flags);
-    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
-    return buffer;
-}
 
 void bindStorage(GLuint binding, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
@@ -95,9 +79,11 @@ void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::si
 
 namespace {
 
-std::vector<SkinPainter> paintersOf(std::span<const SchoolSpecies> cast) {
+std::vector<SkinPainter> paintersOf(std::span<const SchoolSpecies> cast,
+                                    const gl::Replacements& replacements) {
     std::vector<SkinPainter> painters;
-    for (const SchoolSpecies& member : cast) painters.emplace_back(member.skin, member.body.eye);
+    for (const SchoolSpecies& member : cast)
+        painters.emplace_back(member.skin, member.body.eye, replacements);
     return painters;
 }
 
@@ -111,7 +97,7 @@ struct SchoolSurface::Parts {
           limits{detailLimits(options.fineness)},
           arrays{std::async(std::launch::async, fishArrays, members, surfaceOf(options.finest))},
           programs{std::move(skins)},
-          painters{paintersOf(members)},
+          painters{paintersOf(members, programs->replacements)},
           tables{arrays.get(), surfaceOf(options.finest)} {
         for (const SchoolSpecies& member : members) fish += member.fish.size();
         makeBuffers(members);
@@ -124,7 +110,7 @@ struct SchoolSurface::Parts {
     void setConstants() const;
     void upload(const gl::Buffer& buffer, std::span<const motion::FishRecord> records) const;
     void bindRecords() const;
-    void setView(unsigned program, const FrustumPlanes& frustum, const SharedView& shared) const;
+    void setView(unsigned program, const Frustum& frustum, const SharedView& shared) const;
     void sort() const;
     void evaluate(std::size_t turn, std::size_t groupsOffset) const;
     void drawSurfaces(std::size_t turn, bool isFins) const;
@@ -145,7 +131,7 @@ struct SchoolSurface::Parts {
     std::size_t turns = 1;  // of the surface buffer, at most
     gl::Buffer before, after, traits, choices, counts, plan, school, surface, slots;
     gl::VertexArray surfaceArray, fewArray, pointArray;
-    gl::Buffer pointIndices{makeBuffer(
+    gl::Buffer pointIndices{gl::makeBuffer(
         std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, "point indices")};
     gl::ProgramHandle cull{gl::makeProgram({"fish_cull.comp"})};
     gl::ProgramHandle scan{gl::makeProgram({"fish_scan.comp"})};
@@ -162,16 +148,17 @@ void SchoolSurface::Parts::makeBuffers(std::span<const SchoolSpecies> members) {
     const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
     const std::size_t room = std::min(most, wanted);
     turns = std::min(kTurns, (wanted + most - 1) / most);
-    before = makeRoom(fish * sizeof(motion::FishRecord), "fish before", GL_DYNAMIC_STORAGE_BIT);
-    after = makeRoom(fish * sizeof(motion::FishRecord), "fish after", GL_DYNAMIC_STORAGE_BIT);
-    traits = makeBuffer(traitsOf(members), "traits");
-    choices = makeRoom(fish * sizeof(std::uint32_t), "fish choices");
-    counts = makeRoom(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
-    plan = makeRoom(sizeof(FishPlan), "fish plan");
-    school = makeRoom(fish * sizeof(DrawnFish), "fish drawn");
-    surface = makeRoom(room * kBytesPerVertex, "fish surfaces");
-    slots = makeBuffer(upTo(fish), "places in the school");
-    glProgramUniform1ui(planner.name(), kRoom, static_cast<GLuint>(room));
+    before =
+        gl::makeBuffer(fish * sizeof(motion::FishRecord), "fish before", GL_DYNAMIC_STORAGE_BIT);
+    after = gl::makeBuffer(fish * sizeof(motion::FishRecord), "fish after", GL_DYNAMIC_STORAGE_BIT);
+    traits = gl::makeBuffer(traitsOf(members), "traits");
+    choices = gl::makeBuffer(fish * sizeof(std::uint32_t), "fish choices");
+    counts = gl::makeBuffer(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
+    plan = gl::makeBuffer(sizeof(FishPlan), "fish plan");
+    school = gl::makeBuffer(fish * sizeof(DrawnFish), "fish drawn");
+    surface = gl::makeBuffer(room * kBytesPerVertex, "fish surfaces");
+    slots = gl::makeBuffer(upTo(fish), "places in the school");
+    glProgramUniform1ui(planner.name(), shaders::kRoomVerticesLocation, static_cast<GLuint>(room));
 }
 
 void SchoolSurface::Parts::makeVertexArrays() const {
@@ -201,12 +188,16 @@ void SchoolSurface::Parts::makeVertexArrays() const {
 
 void SchoolSurface::Parts::setConstants() const {
     for (const unsigned program : {cull.name(), scatter.name()}) {
-        glProgramUniform1fv(program, kLimits, static_cast<GLsizei>(limits.size()), limits.data());
-        glProgramUniform1ui(program, kFinest, static_cast<GLuint>(options.finest));
-        glProgramUniform1i(program, kChoosesDetail, options.levelsOfDetail ? 1 : 0);
+        glProgramUniform1fv(
+            program, shaders::kLimitsLocation, static_cast<GLsizei>(limits.size()), limits.data());
+        glProgramUniform1ui(
+            program, shaders::kFinestDetailLocation, static_cast<GLuint>(options.finest));
+        glProgramUniform1i(
+            program, shaders::kChoosesDetailLocation, options.levelsOfDetail ? 1 : 0);
     }
-    glProgramUniform1i(cull.name(), kCulls, options.culling ? 1 : 0);
-    glProgramUniform1ui(planner.name(), kOwn, static_cast<GLuint>(painters.size()));
+    glProgramUniform1i(cull.name(), shaders::kCullsLocation, options.culling ? 1 : 0);
+    glProgramUniform1ui(
+        planner.name(), shaders::kSpeciesCountLocation, static_cast<GLuint>(painters.size()));
 }
 
 void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
@@ -219,30 +210,30 @@ void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
 
 // Without a tick before, the frame shows the tick itself.
 void SchoolSurface::Parts::bindRecords() const {
-    bindStorage(kBefore, isBetween ? before : after);
-    bindStorage(kAfter, after);
-    bindStorage(kTraits, traits);
+    bindStorage(shaders::kBeforeStorage, isBetween ? before : after);
+    bindStorage(shaders::kAfterStorage, after);
+    bindStorage(shaders::kTraitsStorage, traits);
 }
 
 void SchoolSurface::Parts::setView(unsigned program,
-                                   const FrustumPlanes& frustum,
+                                   const Frustum& frustum,
                                    const SharedView& shared) const {
     const glm::vec4 eye{shared.eyeMetres, shared.pixelRadians};
-    glProgramUniform4fv(program, kPlanes, 6, &frustum.planes.front().x);
-    glProgramUniform4fv(program, kSharedEye, 1, &eye.x);
-    glProgramUniform1f(program, kFraction, fraction);
-    glProgramUniform1ui(program, kOwn, static_cast<GLuint>(recordsUploaded));
+    glProgramUniform4fv(program, shaders::kPlanesLocation, 6, &frustum.planes.front().x);
+    glProgramUniform4fv(program, shaders::kSharedEyeLocation, 1, &eye.x);
+    glProgramUniform1f(program, shaders::kFractionLocation, fraction);
+    glProgramUniform1ui(program, shaders::kFishCountLocation, static_cast<GLuint>(recordsUploaded));
 }
 
 // Each kernel reads what the one before it wrote.
 void SchoolSurface::Parts::sort() const {
     const auto groups = static_cast<GLuint>(tables.groups);
     bindRecords();
-    bindStorage(kCast, tables.cast);
-    bindStorage(kChoices, choices);
-    bindStorage(kCounts, counts);
-    bindStorage(kPlan, plan);
-    bindStorage(kSchool, school);
+    bindStorage(shaders::kCastStorage, tables.cast);
+    bindStorage(shaders::kChoicesStorage, choices);
+    bindStorage(shaders::kCountsStorage, counts);
+    bindStorage(shaders::kPlanStorage, plan);
+    bindStorage(shaders::kSchoolStorage, school);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // an earlier view has drawn from these
     glUseProgram(cull.name());
     glDispatchCompute(groups, 1, 1);
@@ -260,16 +251,16 @@ void SchoolSurface::Parts::sort() const {
 
 void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) const {
     const gl::Stage stage{"fish surfaces"};
-    bindStorage(kSchool, school);
-    bindStorage(kRecorded, tables.recorded);
-    bindStorage(kFirstEntries, tables.firstEntries);
-    bindStorage(kEntries, tables.entries);
-    bindStorage(kCast, tables.cast);
-    bindStorage(kSurface, surface);
-    bindStorage(kPlan, plan);
-    bindStorage(kParents, tables.parents);
+    bindStorage(shaders::kSchoolStorage, school);
+    bindStorage(shaders::kRecordedStorage, tables.recorded);
+    bindStorage(shaders::kFirstEntriesStorage, tables.firstEntries);
+    bindStorage(shaders::kEntriesStorage, tables.entries);
+    bindStorage(shaders::kCastStorage, tables.cast);
+    bindStorage(shaders::kSurfaceStorage, surface);
+    bindStorage(shaders::kPlanStorage, plan);
+    bindStorage(shaders::kParentsStorage, tables.parents);
     glUseProgram(programs->surface.name());
-    glUniform1ui(kOwn, static_cast<GLuint>(turn));
+    glUniform1ui(shaders::kTurnLocation, static_cast<GLuint>(turn));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan.name());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // earlier draws have read what is overwritten
     glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(FishPlan, turns) +
@@ -290,7 +281,7 @@ void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
             std::size_t last = first + 1;
             while (last < surfaces && programOf(painters[s], last) == program) ++last;
             glUseProgram(program);
-            const std::size_t piece = (turn * kMostSpecies + s) * kSurfaces + first;
+            const std::size_t piece = (turn * shaders::kMostSpecies + s) * kSurfaces + first;
             glMultiDrawElementsIndirect(GL_TRIANGLES,
                                         GL_UNSIGNED_INT,
                                         at(table + piece * sizeof(FishPlan::Command)),
@@ -309,8 +300,8 @@ void SchoolSurface::Parts::drawTurns(bool isFins) const {
             evaluate(turn,
                      isFins ? offsetof(FishPlan::Turn, finGroups)
                             : offsetof(FishPlan::Turn, bodyGroups));
-        bindStorage(kSchool, school);
-        bindStorage(kSurface, surface);
+        bindStorage(shaders::kSchoolStorage, school);
+        bindStorage(shaders::kSurfaceStorage, surface);
         drawSurfaces(turn, isFins);
     }
 }
@@ -332,8 +323,8 @@ void SchoolSurface::Parts::drawTails(std::size_t first,
 
 // Before the few triangles that fade in over them. They hide nothing.
 void SchoolSurface::Parts::drawPoints() const {
-    bindStorage(kSchool, school);
-    bindStorage(kCast, tables.cast);
+    bindStorage(shaders::kSchoolStorage, school);
+    bindStorage(shaders::kCastStorage, tables.cast);
     glBindVertexArray(pointArray.name());
     glDepthMask(GL_FALSE);
     drawTails(2 * kMeshes, 1, &SkinPainter::point);
@@ -341,8 +332,8 @@ void SchoolSurface::Parts::drawPoints() const {
 }
 
 void SchoolSurface::Parts::drawFew() const {
-    bindStorage(kSchool, school);
-    bindStorage(kRecorded, tables.recorded);
+    bindStorage(shaders::kSchoolStorage, school);
+    bindStorage(shaders::kRecordedStorage, tables.recorded);
     glBindVertexArray(fewArray.name());
     glEnable(GL_CULL_FACE);
     drawTails(0, kMeshes, &SkinPainter::fewBody);
@@ -373,7 +364,7 @@ void SchoolSurface::look(const glm::mat4& clipFromWorld, const SharedView& share
     const gl::Stage stage{"fish sort"};
     const Parts& parts = *parts_;
     if (parts.fish == 0) return;
-    const FrustumPlanes frustum = frustumOf(clipFromWorld);
+    const Frustum frustum = frustumOf(clipFromWorld);
     for (const unsigned program : {parts.cull.name(), parts.scatter.name()})
         parts.setView(program, frustum, shared);
     parts.sort();

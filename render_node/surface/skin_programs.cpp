@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <string_view>
+#include <utility>
 
 #include "render_node/gl/program.h"
 
@@ -12,7 +12,7 @@ namespace aquarama::surface {
 
 namespace {
 
-constexpr std::string_view kPlain = "skin_plain.glsl";
+constexpr const char* kPlain = "skin_plain.glsl";
 
 std::string painterOf(const body::FishSkin& skin) {
     std::string file = "skin_" + skin.species + ".glsl";
@@ -23,10 +23,10 @@ std::string painterOf(const body::FishSkin& skin) {
 gl::ProgramHandle painting(const std::string& vertices,
                            const std::string& fragments,
                            const body::FishSkin& skin,
-                           glm::vec3 eye) {
-    const std::string painter = painterOf(skin);
-    const std::array replaced{gl::Replacement{kPlain, painter}};
-    gl::ProgramHandle program = gl::makeProgram({vertices, fragments}, replaced);
+                           glm::vec3 eye,
+                           gl::Replacements replacements) {
+    replacements.push_back({kPlain, painterOf(skin)});
+    gl::ProgramHandle program = gl::makeProgram({vertices, fragments}, replacements);
     const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
     // Which of them a painter does not look at, has no location.
     const auto at = [&](const char* name) { return glGetUniformLocation(program.name(), name); };
@@ -37,18 +37,19 @@ gl::ProgramHandle painting(const std::string& vertices,
 
 }  // namespace
 
-SkinPrograms::SkinPrograms() : surface{gl::makeProgram({"fish.comp"})} {}
-
-std::shared_ptr<const SkinPrograms> makeSkinPrograms() {
-    return std::make_shared<const SkinPrograms>();
+std::shared_ptr<const SkinPrograms> makeSkinPrograms(gl::Replacements replacements) {
+    return std::make_shared<const SkinPrograms>(
+        SkinPrograms{gl::makeProgram({"fish.comp"}), std::move(replacements)});
 }
 
-SkinPainter::SkinPainter(const body::FishSkin& skin, glm::vec3 eye)
-    : nearBody{painting("fish.vert", "fish_body.frag", skin, eye)},
-      farBody{painting("fish.vert", "fish_far.frag", skin, eye)},
-      fins{painting("fish.vert", "fish_fin.frag", skin, eye)},
-      fewBody{painting("fish_few.vert", "fish_far.frag", skin, eye)},
-      fewFins{painting("fish_few.vert", "fish_fin.frag", skin, eye)},
-      point{painting("fish_point.vert", "fish_far.frag", skin, eye)} {}
+SkinPainter::SkinPainter(const body::FishSkin& skin,
+                         glm::vec3 eye,
+                         const gl::Replacements& replacements)
+    : nearBody{painting("fish.vert", "fish_body.frag", skin, eye, replacements)},
+      farBody{painting("fish.vert", "fish_far.frag", skin, eye, replacements)},
+      fins{painting("fish.vert", "fish_fin.frag", skin, eye, replacements)},
+      fewBody{painting("fish_few.vert", "fish_far.frag", skin, eye, replacements)},
+      fewFins{painting("fish_few.vert", "fish_fin.frag", skin, eye, replacements)},
+      point{painting("fish_point.vert", "fish_far.frag", skin, eye, replacements)} {}
 
 }  // namespace aquarama::surface

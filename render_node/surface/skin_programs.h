@@ -9,21 +9,22 @@
 
 #include "common/body/fish_skin.h"
 #include "render_node/gl/handle.h"
+#include "render_node/gl/shader_text.h"
 
 namespace aquarama::surface {
 
 struct SkinPrograms {
-    SkinPrograms();
-
-    gl::ProgramHandle surface;  // fish.comp
+    gl::ProgramHandle surface;      // fish.comp
+    gl::Replacements replacements;  // of a tier: for the painters
 };
-[[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms();
+[[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms(
+    gl::Replacements replacements = {});
 
 // What draws the skin of one species: fish_body.frag near, fish_far.frag far and fish_fin.frag with
 // its painter, shaders/skin_SPECIES.glsl, or plainly where there is none.
 struct SkinPainter {
     // eye: s, y and radius, body lengths.
-    SkinPainter(const body::FishSkin& skin, glm::vec3 eye);
+    SkinPainter(const body::FishSkin& skin, glm::vec3 eye, const gl::Replacements& replacements);
 
     gl::ProgramHandle nearBody, farBody, fins;
     gl::ProgramHandle fewBody, fewFins, point;  // with the vertex shaders of coarser levels

@@ -17,10 +17,10 @@ constexpr float kMorph = 1.35F;  // a level is all its own at so many times its 
 
 }  // namespace
 
-FrustumPlanes frustumOf(const glm::mat4& clipFromWorld) {
+Frustum frustumOf(const glm::mat4& clipFromWorld) {
     const glm::vec4 x = glm::row(clipFromWorld, 0), y = glm::row(clipFromWorld, 1);
     const glm::vec4 z = glm::row(clipFromWorld, 2), w = glm::row(clipFromWorld, 3);
-    FrustumPlanes frustum{{w + x, w - x, w + y, w - y, z, w - z}};
+    Frustum frustum{{w + x, w - x, w + y, w - y, z, w - z}};
     for (glm::vec4& plane : frustum.planes) {
         const float length = glm::length(glm::vec3(plane));
         if (length > 0.0F) plane /= length;  // none at infinity
@@ -28,9 +28,9 @@ FrustumPlanes frustumOf(const glm::mat4& clipFromWorld) {
     return frustum;
 }
 
-bool reaches(const FrustumPlanes& frustum, glm::vec3 point, float marginMetres) {
-    return std::ranges::all_of(frustum.planes, [&](const glm::vec4& plane) {
-        return glm::dot(glm::vec3(plane), point) + plane.w >= -marginMetres;
+bool Frustum::sees(glm::vec3 centre, float radius) const {
+    return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
+        return glm::dot(glm::vec3(plane), centre) + plane.w >= -radius;
     });
 }
 

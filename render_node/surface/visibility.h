@@ -13,15 +13,16 @@
 
 namespace aquarama::surface {
 
-// Planes of a view's frustum, inward, with unit normals where they have one.
-struct FrustumPlanes {
+// What a view sees, world frame, metres.
+struct Frustum {
+    // Inward, with unit normals where they have one: the four sides, then the two of the depth.
     std::array<glm::vec4, 6> planes{};
+
+    // Whether any of a ball lies within.
+    [[nodiscard]] bool sees(glm::vec3 centre, float radius) const;
 };
 // Depth zero to one, in either direction; the far plane may be at infinity.
-[[nodiscard]] FrustumPlanes frustumOf(const glm::mat4& clipFromWorld);
-
-// A single point, against the frustum enlarged by a margin on every side.
-[[nodiscard]] bool reaches(const FrustumPlanes& frustum, glm::vec3 point, float marginMetres);
+[[nodiscard]] Frustum frustumOf(const glm::mat4& clipFromWorld);
 
 // From coarse to fine. From the control mesh on they have a surface, which is refined 0 to 3 times.
 enum class DetailLevel : std::uint32_t {

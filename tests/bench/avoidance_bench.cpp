@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 #include "master/surroundings/obstacles.h"
 #include "tests/support/school_region.h"
 
@@ -22,9 +22,7 @@ struct Swimmer {
 std::vector<Swimmer> swimmers(const place::Region& water) {
     std::vector<Swimmer> all;
     for (std::uint32_t i = 0; i < 4096; ++i) {
-        const auto draw = [&](std::uint32_t of) {
-            return place::signedUnitOf(place::hashOf(place::hashOf(9, i), of));
-        };
+        const auto draw = [&](std::uint32_t of) { return signedUnitOf(hashOf(hashOf(9, i), of)); };
         all.push_back({water.centre + water.halfExtent * glm::vec3{draw(0), draw(1), draw(2)},
                        place::directionOf({draw(3), 0.3F * draw(4), draw(5)}, {1, 0, 0})});
     }

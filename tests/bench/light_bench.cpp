@@ -30,7 +30,7 @@ glm::mat4 clipFromWorld() {
 
 void light(benchmark::State& state) {
     const auto context = context::makeOffscreenContext("auto", {16, 16});
-    FrameUniforms uniforms{};
+    shaders::FrameUniforms uniforms{};
     uniforms.clipFromWorld = clipFromWorld();
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
     uniforms.eyeAndTime = glm::vec4(place::kEyePosition, 0.0F);

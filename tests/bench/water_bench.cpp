@@ -17,8 +17,8 @@ namespace {
 constexpr glm::ivec2 kDeskWindow{480, 360};
 
 // Everything far away: each tap of the softening counts.
-FrameUniforms farAway() {
-    FrameUniforms uniforms{};
+shaders::FrameUniforms farAway() {
+    shaders::FrameUniforms uniforms{};
     uniforms.clipFromWorld = glm::mat4{0.0F};
     uniforms.clipFromWorld[0][0] = 2.5F;
     uniforms.clipFromWorld[1][1] = 2.0F;
@@ -32,7 +32,7 @@ FrameUniforms farAway() {
 
 void post(benchmark::State& state) {
     const auto context = context::makeOffscreenContext("auto", {16, 16});
-    const FrameUniforms uniforms = farAway();
+    const shaders::FrameUniforms uniforms = farAway();
     const gl::Buffer block;
     glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.name());

@@ -28,7 +28,7 @@ int fuzzRecording(const std::uint8_t* bytes, std::size_t size) {
             wire::decodeRecording(std::as_bytes(std::span(bytes, size)), "fuzzed");
         std::size_t fish = 0;
         for (const wire::ProducedSpecies& species : recording.production.cast) fish += species.fish;
-        promise(fish <= wire::kMaxFish, "the fish of a recording are bounded");
+        promise(fish <= kMostFish, "the fish of a recording are bounded");
         for (const wire::RecordedInput& input : recording.inputs)
             promise(input.tick <= recording.lastTick(), "nothing comes after the last tick");
         wire::Packet again = wire::beginningOf(recording.production);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "common/wall/pattern.h"
 #include "common/wall/wall.h"
 
@@ -54,11 +55,11 @@ double rowOf(const config::Rig& rig, double degrees) {
 }
 double azimuthAt(const config::Rig& rig, double column) {
     return (column / rig.panoramaPixels.x - 0.5) * rig.screen.arcRadians /
-           config::kRadiansPerDegree;
+           kRadiansPerDegree<double>;
 }
 double elevationAt(const config::Rig& rig, double row) {
     const double height = (0.5 - row / rig.panoramaPixels.y) * rig.screen.heightMetres;
-    return std::atan2(height, rig.screen.radiusMetres) / config::kRadiansPerDegree;
+    return std::atan2(height, rig.screen.radiusMetres) / kRadiansPerDegree<double>;
 }
 
 double fromNearestLine(double degrees) {

@@ -5,14 +5,12 @@
 #include <bit>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/random_streams.h"
 #include "master/behaviour/act/pursue.h"
 
 namespace aquarama::behaviour {
 
 namespace {
-
-enum Draw : std::uint32_t { Bouts = 321, Hosts };
 
 constexpr std::uint64_t kTicksOfBout = 50 * 60;
 constexpr std::uint32_t kShortestShadowing = 10 * 60;  // ticks
@@ -60,7 +58,7 @@ std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
     while (skip-- > 0) left &= left - 1;
     const fish::Nature& host = situation.environment.natures[std::size_t(std::countr_zero(left))];
     if (host.last == host.first) return fish::kNobody;
-    return host.first + place::hashOf(hash, 1) % (host.last - host.first);
+    return host.first + hashOf(hash, 1) % (host.last - host.first);
 }
 
 }  // namespace
@@ -73,13 +71,12 @@ std::uint32_t partnerOf(const fish::Nature& nature, std::uint32_t fish) {
 std::uint32_t shadowedBy(const Situation& situation) {
     if (situation.nature.shadows == 0) return fish::kNobody;
     const Environment& environment = situation.environment;
-    const std::uint32_t own = place::hashOf(place::hashOf(environment.seed, Bouts), situation.fish);
+    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Bouts), situation.fish);
     const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
-    const std::uint32_t bout = place::hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
+    const std::uint32_t bout = hashOf(own, static_cast<std::uint32_t>(now / kTicksOfBout));
     if (now % kTicksOfBout > kShortestShadowing + bout % kShadowingSpread) return fish::kNobody;
     for (std::uint32_t i = 0; i < kHostsTried; ++i) {
-        const std::uint32_t host =
-            drawnHost(situation, place::hashOf(place::hashOf(bout, Hosts), i));
+        const std::uint32_t host = drawnHost(situation, hashOf(hashOf(bout, Stream::Hosts), i));
         if (isWithin(situation, host, sightOf(situation))) return host;
     }
     return fish::kNobody;

@@ -4,13 +4,11 @@
 #include <algorithm>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/random_streams.h"
 
 namespace aquarama::behaviour {
 
 namespace {
-
-enum Draw : std::uint32_t { Places = 301, Homes, Beats };
 
 constexpr std::uint64_t kTicksToAPlace = 15 * 60;
 constexpr float kInside = 0.75F;      // of the water's half extent: where places are
@@ -24,9 +22,7 @@ constexpr float kBeatSine = 0.643F;
 constexpr std::uint64_t kTicksOfPass = 16 * 60;  // one of some predators goes through the bait ball
 
 glm::vec3 shareOf(std::uint32_t hash) {
-    return {place::signedUnitOf(hash),
-            place::signedUnitOf(place::hashOf(hash, 1)),
-            place::signedUnitOf(place::hashOf(hash, 2))};
+    return {signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
 }
 
 float heightIn(const place::Region& water, float bestDepthMetres, float share) {
@@ -73,9 +69,9 @@ glm::vec3 wanderingGoal(std::uint32_t seed,
                         std::size_t fish,
                         Tick tick) {
     const std::uint32_t own =
-        place::hashOf(place::hashOf(seed, Places), static_cast<std::uint32_t>(fish));
+        hashOf(hashOf(seed, Stream::HomePlaces), static_cast<std::uint32_t>(fish));
     const std::uint64_t place = (tick.value + own % kTicksToAPlace) / kTicksToAPlace;
-    const glm::vec3 share = shareOf(place::hashOf(own, static_cast<std::uint32_t>(place)));
+    const glm::vec3 share = shareOf(hashOf(own, static_cast<std::uint32_t>(place)));
     const glm::vec3 goal = water.centre + water.halfExtent * share * kInside;
     return {goal.x, heightIn(water, bestDepthMetres, share.y), goal.z};
 }
@@ -90,7 +86,7 @@ glm::vec3 homeOf(std::uint32_t seed,
                  float bestDepthMetres,
                  std::uint32_t household) {
     const place::Region& water = obstacles.water;
-    const std::uint32_t hash = place::hashOf(place::hashOf(seed, Homes), household);
+    const std::uint32_t hash = hashOf(hashOf(seed, Stream::Homes), household);
     const place::Rock* rock = home.onTheReef ? rockFor(obstacles, hash) : nullptr;
     if (rock == nullptr) return wanderingGoal(hash, water, bestDepthMetres, household, {});
     const float lowest = water.centre.y - kHomeInside * water.halfExtent.y;
@@ -106,7 +102,7 @@ glm::vec3 beatGoal(const Environment& environment,
     if (environment.gathering == config::Gathering::Mill && passes(environment, fish))
         return passGoal(environment, position, environment.view->heading(fish));
     const place::Region& water = environment.surroundings->obstacles.water;
-    const std::uint32_t own = place::hashOf(place::hashOf(environment.seed, Beats), fish);
+    const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Beats), fish);
     const float sine = (own & 1U) != 0 ? kBeatSine : -kBeatSine;
     const glm::vec3 from = (position - water.centre) / water.halfExtent;
     const glm::vec3 at = place::directionOf({from.x, 0, from.z}, {1, 0, 0});

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 #include "master/behaviour/act/courtship.h"
 #include "master/behaviour/act/wander.h"
 
@@ -20,7 +20,7 @@ Couple coupleOf(const Situation& situation, const fish::Mind& mind) {
             .matesSpeed = view.fish[mate].speed,
             .length = 0.5F * (situation.senses.length + view.fish[mate].length),
             .isFemale = (mind.likes & fish::kIsFemale) != 0,
-            .turnsLeft = (place::hashOf(situation.environment.seed, first) & 1U) != 0};
+            .turnsLeft = (hashOf(situation.environment.seed, first) & 1U) != 0};
 }
 
 CourtshipStage stageOf(std::uint8_t stage) {

@@ -6,6 +6,7 @@
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
+#include "common/units/random_streams.h"
 #include "master/behaviour/act/avoid_obstacle.h"
 #include "master/behaviour/act/company.h"
 #include "master/behaviour/act/flight.h"
@@ -27,7 +28,6 @@ constexpr float kBaitBallPace = 2.1F;
 constexpr float kBrakeBefore = 0.4F;  // body lengths a second, for a push of 1 straight back
 constexpr float kAlarmedPace = 0.5F;  // more than at ease
 
-enum Draw : std::uint32_t { kLevels = 341, kGlances };  // streams of the seed
 constexpr std::uint32_t kGlimpses = 4;
 constexpr std::uint64_t kTicksOfGlance = 60;
 constexpr float kRejoin = 1.5F;
@@ -73,7 +73,7 @@ glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec
 
 // A slow whim of each fish, so that no two hold quite the same course.
 glm::vec3 whim(std::uint32_t seed, std::size_t fish, Tick tick) {
-    const std::uint32_t own = place::hashOf(seed, static_cast<std::uint32_t>(fish));
+    const std::uint32_t own = hashOf(seed, static_cast<std::uint32_t>(fish));
     const float seconds = static_cast<float>(tick.value % (1U << 20U)) / 60.0F;
     return {place::valueNoise(own, {seconds * 0.5F, 0.5F}),
             0.6F * place::valueNoise(own, {seconds * 0.5F, 8.5F}),
@@ -108,12 +108,11 @@ using Glance = std::array<std::uint32_t, kGlimpses>;
 Glance glanceOf(const Situation& situation) {
     const fish::Nature& nature = situation.nature;
     const std::uint32_t own =
-        place::hashOf(place::hashOf(situation.environment.seed, kGlances), situation.fish);
+        hashOf(hashOf(situation.environment.seed, Stream::Glances), situation.fish);
     const auto when = static_cast<std::uint32_t>(situation.environment.tick.value / kTicksOfGlance);
     Glance glance{};
     for (std::uint32_t i = 0; i < kGlimpses; ++i) {
-        glance[i] = nature.first +
-                    place::hashOf(place::hashOf(own, when), i) % (nature.last - nature.first);
+        glance[i] = nature.first + hashOf(hashOf(own, when), i) % (nature.last - nature.first);
         situation.environment.view->fetch(glance[i]);
     }
     return glance;
@@ -156,8 +155,8 @@ glm::vec3 clearing(const Situation& situation) {
 }  // namespace
 
 float levelInBall(std::uint32_t seed, std::uint32_t fish) {
-    const std::uint32_t own = place::hashOf(place::hashOf(seed, kLevels), fish);
-    return place::unitOf(own) + place::unitOf(place::hashOf(own)) - 1;
+    const std::uint32_t own = hashOf(hashOf(seed, Stream::SchoolLevels), fish);
+    return unitOf(own) + unitOf(hashOf(own)) - 1;
 }
 
 float schoolRadiusMetres(std::size_t fish) {

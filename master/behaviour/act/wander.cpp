@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/random_streams.h"
 #include "master/behaviour/act/companion.h"
 #include "master/behaviour/act/company.h"
 #include "master/behaviour/act/home.h"
@@ -13,8 +13,6 @@
 namespace aquarama::behaviour {
 
 namespace {
-
-enum Draw : std::uint32_t { Pace = 311, Turn, Sharpness };
 
 constexpr std::uint64_t kTicksOfPace = 5 * 60;
 constexpr std::uint64_t kTicksOfTurn = 60;
@@ -32,16 +30,16 @@ struct Spell {
     std::uint64_t ticks;  // since it began
 };
 Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
-    const std::uint32_t own = place::hashOf(place::hashOf(seed, Pace), fish);
+    const std::uint32_t own = hashOf(hashOf(seed, Stream::Pace), fish);
     const std::uint64_t now = tick.value + own % kTicksOfPace;
-    return {place::hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
+    return {hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
 }
 
 // A turn for no reason: 40 degrees if gradual, 100 if sharp, to either side.
 glm::vec3 turnOf(const fish::Nature& nature, const Spell& spell, glm::vec3 course) {
-    const std::uint32_t hash = place::hashOf(spell.hash, Turn);
-    if (spell.ticks >= kTicksOfTurn || place::unitOf(hash) >= kTurns) return {};
-    const bool gradual = place::unitOf(place::hashOf(spell.hash, Sharpness)) <
+    const std::uint32_t hash = hashOf(spell.hash, Stream::WanderTurn);
+    if (spell.ticks >= kTicksOfTurn || unitOf(hash) >= kTurns) return {};
+    const bool gradual = unitOf(hashOf(spell.hash, Stream::TurnSharpness)) <
                          static_cast<float>(nature.habits.gradualShare);
     const float cosine = gradual ? 0.766F : -0.174F;
     const float sine = (gradual ? 0.643F : 0.985F) * ((hash & 1U) != 0 ? 1.0F : -1.0F);
@@ -52,7 +50,7 @@ glm::vec3 turnOf(const fish::Nature& nature, const Spell& spell, glm::vec3 cours
 
 float paceOf(const fish::Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick tick) {
     const config::Paces& paces = nature.habits.paces;
-    const float drawn = place::unitOf(place::hashOf(spellOf(seed, fish, tick).hash));
+    const float drawn = unitOf(hashOf(spellOf(seed, fish, tick).hash));
     const auto hover = static_cast<float>(paces.hover);
     const float slow = hover + static_cast<float>(paces.slow);
     const float medium = slow + static_cast<float>(paces.medium);

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "common/units/error.h"
+#include "common/units/worker_pool.h"
 #include "master/capture/compile/compile_segment.h"
 #include "master/capture/compile/speed_response.h"
 #include "master/capture/compile/steady_swimming.h"
 #include "master/capture/compile/turn.h"
-#include "master/capture/compile/work_queue.h"
 
 namespace aquarama::capture {
 
@@ -100,15 +100,13 @@ std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species
         const std::lock_guard lock(telling);
         run.progress(static_cast<double>(++done) / static_cast<double>(kJobs * species.size()));
     };
+    WorkerPool pool(run.threads);
     for (const std::size_t first : {std::size_t{0}, kGaits})
-        shareOut(kGaits * species.size(), run.threads, [&](std::size_t i) {
-            runOne(first + i / species.size(), i % species.size());
-        });
+        pool.run(kGaits * species.size(),
+                 [&](std::size_t i) { runOne(first + i / species.size(), i % species.size()); });
 
     std::vector<CaptureOutcome> outcomes(species.size());
-    shareOut(species.size(), run.threads, [&](std::size_t i) {
-        outcomes[i] = outcomeOf(species[i], swum[i]);
-    });
+    pool.run(species.size(), [&](std::size_t i) { outcomes[i] = outcomeOf(species[i], swum[i]); });
     return outcomes;
 }
 

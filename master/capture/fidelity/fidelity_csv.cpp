@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "common/units/ids.h"
 #include "master/capture/fidelity/fidelity_report.h"
 #include "master/capture/report/svg.h"
@@ -40,8 +40,8 @@ std::string rowOf(const Fidelity& fidelity, const CommandErrors& errors) {
         report::fixed(errors.pathErrorMost, 4),
         report::fixed(errors.pathErrorAlong, 4),
         report::fixed(errors.pathErrorAcross, 4),
-        report::fixed(errors.turn / config::kRadiansPerDegree, 2),
-        report::fixed(errors.headingError / config::kRadiansPerDegree, 2)});
+        report::fixed(errors.turn / kRadiansPerDegree<double>, 2),
+        report::fixed(errors.headingError / kRadiansPerDegree<double>, 2)});
 }
 
 std::string openLoopRow(const Fidelity& fidelity) {
@@ -61,7 +61,7 @@ std::string openLoopRow(const Fidelity& fidelity) {
                           std::string(),
                           std::string(),
                           std::string(),
-                          report::fixed(errors.headingAtEnd / config::kRadiansPerDegree, 2)});
+                          report::fixed(errors.headingAtEnd / kRadiansPerDegree<double>, 2)});
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "master/capture/fidelity/fidelity_report.h"
 #include "master/capture/report/svg.h"
 
@@ -15,7 +15,7 @@ std::string hundredths(double share) {
     return report::fixed(share * 100, 2);
 }
 std::string tenthsOfDegrees(double radians) {
-    return report::fixed(radians / config::kRadiansPerDegree, 1);
+    return report::fixed(radians / kRadiansPerDegree<double>, 1);
 }
 
 std::string manoeuvreRow(Manoeuvre manoeuvre, std::span<const CommandErrors> commands) {

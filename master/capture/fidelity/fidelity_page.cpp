@@ -2,7 +2,7 @@
 #include <array>
 #include <initializer_list>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "common/units/ids.h"
 #include "master/capture/fidelity/fidelity_figures.h"
 #include "master/capture/fidelity/fidelity_report.h"
@@ -46,7 +46,7 @@ std::string percent(double share, double goal) {
     return share > goal ? "<span class=\"over\">" + percent(share) + "</span>" : percent(share);
 }
 std::string degrees(double radians) {
-    return report::fixed(radians / config::kRadiansPerDegree, 1);
+    return report::fixed(radians / kRadiansPerDegree<double>, 1);
 }
 
 constexpr const char* kSummaryHead =

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "master/capture/fidelity/fidelity_figures.h"
 #include "master/capture/fidelity/paint.h"
 
@@ -29,7 +29,7 @@ constexpr std::array kQuantities{
              0},
     Quantity{
         "heading after a turn, rms, deg",
-        [](const VocabularyErrors& e) { return e.turnHeadingError / config::kRadiansPerDegree; },
+        [](const VocabularyErrors& e) { return e.turnHeadingError / kRadiansPerDegree<double>; },
         0}};
 
 std::vector<double> valuesAt(std::span<const SpeciesVocabularies> species,

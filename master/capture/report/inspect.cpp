@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/config/angle.h"
 #include "common/motion/repertoire.h"
+#include "common/units/angle.h"
 #include "common/units/digest.h"
 #include "master/capture/measure/measure.h"
 #include "master/capture/report/tables.h"
@@ -39,14 +39,14 @@ std::string rowOf(motion::Action action, const motion::ActionSegment& segment) {
     // Amplitude is across a straight course, which a turn does not have.
     row += isForward ? line(" %7s %8s %8s", "-", "-", "-")
                      : line(" %7.1f %8.1f %8.2f",
-                            m.turnRadians / config::kRadiansPerDegree,
-                            m.turnRate / config::kRadiansPerDegree,
+                            m.turnRadians / kRadiansPerDegree<double>,
+                            m.turnRate / kRadiansPerDegree<double>,
                             turnRadius(segment));
     row +=
         isForward ? line(" %8.3f %8.3f", m.tailAmplitude, m.strouhal) : line(" %8s %8s", "-", "-");
     row += line(" %9.4f %9.1e %9.1e\n",
                 m.largestStep,
-                cleaned(m.leanRadians / config::kRadiansPerDegree),
+                cleaned(m.leanRadians / kRadiansPerDegree<double>),
                 cleaned(m.climb));
     return row;
 }

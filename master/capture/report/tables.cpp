@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "common/units/digest.h"
 #include "master/capture/measure/body_wave.h"
 #include "master/capture/measure/measure.h"
@@ -41,7 +41,7 @@ std::string exact(double value) {
 }
 
 double degrees(double radians) {
-    return radians / config::kRadiansPerDegree;
+    return radians / kRadiansPerDegree<double>;
 }
 
 struct Quantity {

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "master/capture/measure/course.h"
 #include "master/capture/report/fish_view.h"
 #include "master/capture/report/path_figures.h"
@@ -58,7 +58,7 @@ std::vector<glm::dvec2> headingOver(const motion::ActionSegment& segment) {
         const glm::dvec2 heading = aheadAndLeft(phases[k].worldFromBody * glm::dvec3(1, 0, 0));
         points.emplace_back(
             static_cast<double>(segment.periodSeconds) * static_cast<double>(k) / motion::kPhases,
-            std::atan2(heading.y, heading.x) / config::kRadiansPerDegree);
+            std::atan2(heading.y, heading.x) / kRadiansPerDegree<double>);
     }
     return points;
 }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/noise.h"
+#include "common/units/hash.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::place {

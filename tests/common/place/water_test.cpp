@@ -56,9 +56,9 @@ TEST(Water, ofAReefDoesNotGrowIntoTheSand) {
 }
 
 TEST(Water, ofAMillionFishStaysAboveTheFloorOfTheOpenSea) {
-    const Region water = waterFor(sceneAt(config::PlaceKind::OpenSea), config::kMostFish, kLength);
+    const Region water = waterFor(sceneAt(config::PlaceKind::OpenSea), kMostFish, kLength);
     EXPECT_GT(water.centre.y - water.halfExtent.y, -kOpenSeaFloorDepthMetres);
-    EXPECT_NEAR(roomOfEach(water, config::kMostFish), 4, 1e-3);
+    EXPECT_NEAR(roomOfEach(water, kMostFish), 4, 1e-3);
 }
 
 std::string refusalOf(const config::Scene& scene, std::size_t fish) {
@@ -77,8 +77,8 @@ TEST(Room, ofAReefEndsSomewhereAndThatOfTheOpenSeaDoesNot) {
     const std::string refusal = refusalOf(sceneAt(config::PlaceKind::Reef), most + 1);
     EXPECT_THAT(refusal, testing::StartsWith("sea.txtpb:17:8: "));
     EXPECT_THAT(refusal, testing::HasSubstr("room for " + std::to_string(most)));
-    EXPECT_EQ(refusalOf(sceneAt(config::PlaceKind::OpenSea), config::kMostFish), "accepted");
-    EXPECT_THAT(refusalOf(sceneAt(config::PlaceKind::OpenSea), config::kMostFish + 1),
+    EXPECT_EQ(refusalOf(sceneAt(config::PlaceKind::OpenSea), kMostFish), "accepted");
+    EXPECT_THAT(refusalOf(sceneAt(config::PlaceKind::OpenSea), kMostFish + 1),
                 testing::HasSubstr("take fewer"));
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "common/units/error.h"
 #include "rigs.h"
 
@@ -53,7 +54,7 @@ TEST(CheckGeometry, aGapBetweenNeighboursIsNamedInDegrees) {
     const auto azimuth = [&](std::size_t channel, double x) {
         const double middleRow = rig.channels[channel].sizePixels.y / 2.0;
         const auto point = screenPoint(rig.screen, rig.channels[channel], {x, middleRow});
-        return std::atan2(-point->x, -point->z) / config::kRadiansPerDegree;
+        return std::atan2(-point->x, -point->z) / kRadiansPerDegree<double>;
     };
     EXPECT_NEAR(from, azimuth(0, rig.channels[0].sizePixels.x), 0.8);
     EXPECT_NEAR(to, azimuth(1, 0), 0.8);  // the borders lean by as much

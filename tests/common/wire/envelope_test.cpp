@@ -196,8 +196,8 @@ TEST(Envelope, foodIsDroppedAtAPlaceOrNotAtAll) {
     const auto accepted = [](glm::vec3 place) {
         return decode(encode({1, Input{InputKind::DropFood, place, {}}})).has_value();
     };
-    EXPECT_TRUE(accepted({0, -6, -kMaxInputMetres}));
-    EXPECT_FALSE(accepted({0, -6, -2 * kMaxInputMetres}));
+    EXPECT_TRUE(accepted({0, -6, -kMostInputMetres}));
+    EXPECT_FALSE(accepted({0, -6, -2 * kMostInputMetres}));
     EXPECT_FALSE(accepted({std::numeric_limits<float>::quiet_NaN(), -6, 0}));
     EXPECT_FALSE(accepted({0, std::numeric_limits<float>::infinity(), 0}));
 }
@@ -227,8 +227,8 @@ TEST(Envelope, namesAreBoundedAndPrintable) {
     const auto accepted = [](const std::string& name) {
         return decode(encode({0, Hello{name, kProtocolMajor, ""}})).has_value();
     };
-    EXPECT_TRUE(accepted(std::string(kMaxNameBytes, 'n')));
-    EXPECT_FALSE(accepted(std::string(kMaxNameBytes + 1, 'n')));
+    EXPECT_TRUE(accepted(std::string(kMostNameBytes, 'n')));
+    EXPECT_FALSE(accepted(std::string(kMostNameBytes + 1, 'n')));
     EXPECT_FALSE(accepted(""));
     EXPECT_FALSE(accepted("left\nmaster: all is well"));
 }
@@ -239,12 +239,12 @@ TEST(Envelope, anExplanationIsBoundedAndPrintable) {
         const std::vector<std::string> all(lines, line);
         return decode(encode({1, Explanation{0, school, {}, all}})).has_value();
     };
-    EXPECT_TRUE(accepted(kMaxExplanationLines, std::string(kMaxExplanationLineBytes, '~'), 1));
-    EXPECT_FALSE(accepted(kMaxExplanationLines + 1, "", 1));
-    EXPECT_FALSE(accepted(1, std::string(kMaxExplanationLineBytes + 1, ' '), 1));
+    EXPECT_TRUE(accepted(kMostExplanationLines, std::string(kMostExplanationLineBytes, '~'), 1));
+    EXPECT_FALSE(accepted(kMostExplanationLines + 1, "", 1));
+    EXPECT_FALSE(accepted(1, std::string(kMostExplanationLineBytes + 1, ' '), 1));
     EXPECT_FALSE(accepted(1, "\x1b[2J", 1));
     EXPECT_FALSE(accepted(1, "\xc3\xa9", 1));
-    EXPECT_FALSE(accepted(1, "", kMaxFish + 1));
+    EXPECT_FALSE(accepted(1, "", kMostFish + 1));
 }
 
 TEST(Envelope, aChunkStaysInsideItsBlob) {
@@ -253,8 +253,8 @@ TEST(Envelope, aChunkStaysInsideItsBlob) {
     };
     EXPECT_TRUE(accepted(0, kBlobChunkBytes, kBlobChunkBytes));
     EXPECT_FALSE(accepted(1, kBlobChunkBytes, kBlobChunkBytes));
-    EXPECT_FALSE(accepted(0, kMaxBlobBytes, kBlobChunkBytes + 1));
-    EXPECT_FALSE(accepted(0, kMaxBlobBytes + 1, 1));
+    EXPECT_FALSE(accepted(0, kMostBlobBytes, kBlobChunkBytes + 1));
+    EXPECT_FALSE(accepted(0, kMostBlobBytes + 1, 1));
     EXPECT_FALSE(accepted(std::numeric_limits<std::uint64_t>::max(), 2, 1));
 }
 

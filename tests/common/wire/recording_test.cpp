@@ -127,7 +127,7 @@ TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
 
 TEST(RecordingFormat, moreFishThanAWorldHoldsAreRefused) {
     Production production = sampleProduction();
-    production.cast[1].fish = kMaxFish - 50;
+    production.cast[1].fish = kMostFish - 50;
     EXPECT_THAT(refusalOf(beginningOf(production)), HasSubstr("damaged species"));
 }
 

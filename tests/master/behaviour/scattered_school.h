@@ -5,16 +5,16 @@
 #include <cstdint>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
 #include "common/place/place.h"
+#include "common/units/hash.h"
 #include "master/fish/fish_view.h"
 
 namespace aquarama::behaviour {
 
 inline glm::vec3 scatteredPoint(std::uint32_t hash) {
-    return {place::signedUnitOf(place::hashOf(hash, 0)),
-            place::signedUnitOf(place::hashOf(hash, 1)),
-            place::signedUnitOf(place::hashOf(hash, 2))};
+    return {signedUnitOf(hashOf(hash, 0)),
+            signedUnitOf(hashOf(hash, 1)),
+            signedUnitOf(hashOf(hash, 2))};
 }
 
 inline fish::FishView scatteredSchool(std::uint32_t seed,
@@ -23,7 +23,7 @@ inline fish::FishView scatteredSchool(std::uint32_t seed,
     fish::FishView view;
     view.resize(fish);
     for (std::size_t i = 0; i < fish; ++i) {
-        const std::uint32_t hash = place::hashOf(seed, static_cast<std::uint32_t>(i));
+        const std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(i));
         const glm::vec3 position = region.centre + scatteredPoint(hash) * region.halfExtent;
         const glm::vec3 heading = place::directionOf(scatteredPoint(~hash), {1, 0, 0});
         view.fish[i].position = position;

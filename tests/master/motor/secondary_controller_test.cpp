@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/angle.h"
+#include "common/units/angle.h"
 
 namespace aquarama::fish {
 namespace {
@@ -32,7 +33,7 @@ struct Mind {
         want(0, 2.0F);
     }
     void want(float degreesToTheLeft, float speed, float urgency = 0) {
-        const float angle = degreesToTheLeft * place::kRadiansPerDegree;
+        const float angle = degreesToTheLeft * kRadiansPerDegree<float>;
         courses[0].direction = {std::cos(angle), 0, -std::sin(angle)};
         courses[0].speed = speed;
         courses[0].urgency = urgency;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/angle.h"
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 #include "master/surroundings/obstacles.h"
 #include "tests/support/school_region.h"
 
@@ -24,8 +24,8 @@ struct Probe {
 
 // Within the water and a metre about it.
 Probe probeIn(const place::Region& water, std::uint32_t index) {
-    const std::uint32_t hash = place::hashOf(77, index);
-    const auto draw = [&](std::uint32_t i) { return place::signedUnitOf(place::hashOf(hash, i)); };
+    const std::uint32_t hash = hashOf(77, index);
+    const auto draw = [&](std::uint32_t i) { return signedUnitOf(hashOf(hash, i)); };
     return {water.centre + (water.halfExtent + 1.0F) * glm::vec3{draw(0), draw(1), draw(2)},
             place::directionOf({draw(3), 0.4F * draw(4), draw(5)}, {1, 0, 0}),
             0.5F + 1.2F * std::abs(draw(6))};

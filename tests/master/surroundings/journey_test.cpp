@@ -9,6 +9,7 @@
 
 #include "common/place/angle.h"
 #include "common/place/place.h"
+#include "common/units/angle.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::surroundings {
@@ -48,7 +49,7 @@ TEST(Journey, everyRoundPassesNearAndFarAndThroughBothWings) {
         float nearest = 99, farthest = 0, leftmost = 0, rightmost = 0;
         for (std::uint64_t tick = 0; tick < 5400; ++tick) {
             const glm::vec3 from = journeyGoal(seed, {tick}).position - place::kEyePosition;
-            const float azimuth = place::angleOf(from.x, -from.z) / place::kRadiansPerDegree;
+            const float azimuth = place::angleOf(from.x, -from.z) / kRadiansPerDegree<float>;
             nearest = std::min(nearest, place::lengthOf(from));
             farthest = std::max(farthest, place::lengthOf(from));
             leftmost = std::min(leftmost, azimuth);

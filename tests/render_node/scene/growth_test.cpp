@@ -33,7 +33,7 @@ float lengthOfStem(float height, glm::vec2 push) {
     float length = 0.0F;
     for (int i = 0; i < kPieces; ++i) {
         const auto at = [&](int k) {
-            return bentStem(static_cast<float>(k) / kPieces, height, push);
+            return shaders::bentStem(static_cast<float>(k) / kPieces, height, push);
         };
         length += glm::distance(at(i), at(i + 1));
     }
@@ -47,8 +47,8 @@ TEST(Plants, aStemKeepsItsLengthAsItSways) {
 }
 
 TEST(Plants, aStemStandsOnItsRootAndRisesWithoutWater) {
-    EXPECT_EQ(bentStem(0.0F, 5.0F, {1.0F, 1.0F}), glm::vec3(0.0F));
-    EXPECT_EQ(bentStem(1.0F, 5.0F, {0.0F, 0.0F}), glm::vec3(0.0F, 5.0F, 0.0F));
+    EXPECT_EQ(shaders::bentStem(0.0F, 5.0F, {1.0F, 1.0F}), glm::vec3(0.0F));
+    EXPECT_EQ(shaders::bentStem(1.0F, 5.0F, {0.0F, 0.0F}), glm::vec3(0.0F, 5.0F, 0.0F));
 }
 
 const Library& library() {
@@ -66,7 +66,7 @@ const std::vector<Instance>& instances() {
 }
 
 bool isRock(const Instance& one) {
-    return one.light.w < static_cast<float>(kRockShapes);
+    return one.prototype < kRockShapes;
 }
 
 TEST(Library, fartherLevelsHaveFewerTriangles) {

@@ -41,7 +41,8 @@ class Sunlight : public testing::Test {
         uniforms_.sharedEyeAndPixel = glm::vec4(place::kEyePosition, 0.002F);
         uniforms_.sunAndFilterDepth = glm::vec4(sunInWater(), kFilterDepthMetres);
         uniforms_.daylight = glm::vec4(1.0F);
-        glNamedBufferStorage(block_.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
+        glNamedBufferStorage(
+            block_.name(), sizeof(shaders::FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
         setUniforms();
     }
     void setUniforms() const {
@@ -49,7 +50,7 @@ class Sunlight : public testing::Test {
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
     }
 
-    FrameUniforms uniforms_{};
+    shaders::FrameUniforms uniforms_{};
     gl::Buffer block_;
 };
 

@@ -114,7 +114,7 @@ std::optional<glm::vec2> pixelOf(const Camera& camera, float azimuth, float elev
         view.clipFromCamera * glm::mat4(glm::mat3(view.cameraFromWorld)) * glm::vec4(direction, 0);
     const glm::vec2 size(camera.sizePixels);
     const glm::vec2 pixel = (0.5F + 0.5F * glm::vec2(clip.x, -clip.y) / clip.w) * size;
-    const float margin = 1.0F + kPostReach * view.clipFromCamera[1][1] * size.y;
+    const float margin = 1.0F + shaders::kPostReach * view.clipFromCamera[1][1] * size.y;
     if (clip.w <= 0 || std::min(pixel.x, pixel.y) < margin || pixel.x > size.x - margin ||
         pixel.y > size.y - margin)
         return {};

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
+#include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
 namespace {
@@ -29,8 +30,8 @@ void expectOnTile(const Waves& waves, float tileMetres, double pace) {
 
 TEST(Waves, fitTheirTilesAndFocusOnTheSand) {
     const Sea sea = seaOf(kSeed, place::kMeanFloorDepthMetres);
-    expectOnTile(sea.waves, kTileMetres, 0.55);
-    expectOnTile(sea.ripples, kRippleTileMetres, 1.0);
+    expectOnTile(sea.waves, shaders::kTileMetres, 0.55);
+    expectOnTile(sea.ripples, shaders::kRippleTileMetres, 1.0);
     const double focus = focusNumber(sea.waves, static_cast<double>(place::kMeanFloorDepthMetres));
     EXPECT_GT(focus, 0.45);
     EXPECT_LT(focus, 0.70);

@@ -46,7 +46,7 @@ inline constexpr float kSeconds = 3.7F;  // of the show
 class SurfaceTest : public testing::Test {
   protected:
     SurfaceTest() {
-        FrameUniforms uniforms{};
+        shaders::FrameUniforms uniforms{};
         uniforms.eyeAndTime.w = kSeconds;
         glNamedBufferStorage(frameBlock_.name(), sizeof(uniforms), &uniforms, 0);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());

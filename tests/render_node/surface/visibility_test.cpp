@@ -122,11 +122,11 @@ TEST_F(VisibilityTest, cullingAndLevelsAreThoseOfTheCpu) {
             EXPECT_FALSE(isShown) << i;
             continue;
         }
-        const FrustumPlanes frustum = frustumOf(clip_);
-        if (reaches(frustum, fish.positionMetres, margin - 1e-4F)) {
+        const Frustum frustum = frustumOf(clip_);
+        if (frustum.sees(fish.positionMetres, margin - 1e-4F)) {
             EXPECT_TRUE(isShown) << i;
         }
-        if (!reaches(frustum, fish.positionMetres, margin + 1e-4F)) {
+        if (!frustum.sees(fish.positionMetres, margin + 1e-4F)) {
             EXPECT_FALSE(isShown) << i;
         }
         if (!isShown) continue;
@@ -179,14 +179,14 @@ TEST_F(VisibilityTest, aQuarterOfAMillionFishAreSorted) {
     SchoolSurface surface = surfaceOf(school, {});
     surface.update({school.before, school.after, 1.0F});
     surface.look(clip_, kShared);
-    const FrustumPlanes frustum = frustumOf(clip_);
+    const Frustum frustum = frustumOf(clip_);
     const float reach = reachOf(recordedPoints(body_, repertoire_));
     std::size_t expected = 0;
     for (std::size_t i = 0; i < school.traits.size(); ++i) {
         if (motion::isAway(school.before[i]) || motion::isAway(school.after[i])) continue;
         const glm::vec3 place = motion::bodyFrameOf(school.after[i]).position;
         const float length = 0.001F * static_cast<float>(school.traits[i].lengthMillimetres);
-        expected += reaches(frustum, place, marginOf(kShared, place, length, reach)) ? 1 : 0;
+        expected += frustum.sees(place, marginOf(kShared, place, length, reach)) ? 1 : 0;
     }
     const auto found = static_cast<double>(surface.counts().visible);
     EXPECT_NEAR(found, static_cast<double>(expected), 3);  // some lie on a plane

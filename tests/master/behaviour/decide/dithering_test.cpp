@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/noise.h"
+#include "common/units/hash.h"
 #include "tests/master/behaviour/decide/fish_in_mind.h"
 
 namespace aquarama::behaviour {
@@ -17,8 +18,7 @@ constexpr int kThoughtsAMinute = 450;
 float wavering(std::uint32_t stream, int thought, float mean, float swing) {
     const float seconds = static_cast<float>(thought) / 7.5F;
     const float wave = place::valueNoise(stream, {seconds * 0.1F, 0.5F});
-    const float tremor =
-        place::signedUnitOf(place::hashOf(stream, static_cast<std::uint32_t>(thought))) * 0.1F;
+    const float tremor = signedUnitOf(hashOf(stream, static_cast<std::uint32_t>(thought))) * 0.1F;
     return std::max(0.0F, mean + swing * (wave + tremor));
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/noise.h"
+#include "common/units/hash.h"
 #include "tests/master/behaviour/decide/fish_in_mind.h"
 
 namespace aquarama::behaviour {
@@ -263,7 +263,7 @@ TEST(Predator, thatIsSatedDoesNotHunt) {
 // Whatever a mind meets, why it decided is what it decided, and one rung won.
 TEST(Reasoning, tellsOfTheDecisionThatIsTaken) {
     std::uint32_t state = 1;
-    const auto drawn = [&state] { return place::unitOf(state = place::hashOf(state + 1)); };
+    const auto drawn = [&state] { return unitOf(state = hashOf(state + 1)); };
     for (int i = 0; i < 20'000; ++i) {
         const auto role = static_cast<config::Role>(state % 3);
         FishInMind fish(role);

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/config/angle.h"
+#include "common/units/angle.h"
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/fidelity/fidelity.h"
@@ -27,7 +27,7 @@ TEST_P(ReplicaFidelity, staysWithinTheBounds) {
         summarise(measureFidelity(species, repertoire, 1, kSeconds).comparison.commands);
     EXPECT_LE(summary.shapeWithin, 0.01);
     EXPECT_LE(summary.pathErrorMedian, 0.055);
-    EXPECT_LE(summary.headingErrorRms, 6 * config::kRadiansPerDegree);
+    EXPECT_LE(summary.headingErrorRms, 6 * kRadiansPerDegree<double>);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAllSpecies,

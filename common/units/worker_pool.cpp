@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/world/worker_pool.h"
+#include "common/units/worker_pool.h"
 
-namespace aquarama::world {
+namespace aquarama {
 
 WorkerPool::WorkerPool(unsigned threads) {
     for (unsigned i = 1; i < threads; ++i) workers_.emplace_back([this] { serve(); });
@@ -42,4 +42,4 @@ void WorkerPool::serve() {
     }
 }
 
-}  // namespace aquarama::world
+}  // namespace aquarama

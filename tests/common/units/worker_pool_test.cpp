@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/world/worker_pool.h"
+#include "common/units/worker_pool.h"
 
 #include <array>
 #include <atomic>
 
 #include <gtest/gtest.h>
 
-namespace aquarama::world {
+namespace aquarama {
 namespace {
 
 TEST(WorkerPool, everyChunkOfEveryJobIsDoneOnceBeforeRunReturns) {
@@ -25,4 +25,4 @@ TEST(WorkerPool, everyChunkOfEveryJobIsDoneOnceBeforeRunReturns) {
 }
 
 }  // namespace
-}  // namespace aquarama::world
+}  // namespace aquarama

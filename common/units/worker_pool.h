@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace aquarama::world {
+namespace aquarama {
 
 class WorkerPool {
   public:
@@ -44,4 +44,4 @@ class WorkerPool {
     std::vector<std::jthread> workers_;
 };
 
-}  // namespace aquarama::world
+}  // namespace aquarama

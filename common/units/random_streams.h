@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The register of random streams: what is drawn from a world's seed. Two draws that should not go
+// together have two streams; a number that is given away once stays, as every seed's world hangs on
+// it.
+#pragma once
+
+#include <cstdint>
+
+#include "common/units/hash.h"
+
+namespace aquarama {
+
+enum class Stream : std::uint32_t {
+    // The place.
+    Dunes = 1,
+    Hummocks,
+    Rocks,
+    Kelp,
+    Meadow,
+    Arch,
+    Ring,
+    // The secondary controller of the motor.
+    Tempo = 101,
+    Patience,
+    RecommendedGait,
+    GaitHold,
+    // Where and how fish begin.
+    BeginningLength = 201,
+    BeginningPlace,
+    BeginningPhase,
+    BeginningHeading,
+    // Homes.
+    HomePlaces = 301,
+    Homes,
+    Beats,
+    // Wandering.
+    Pace = 311,
+    WanderTurn,
+    TurnSharpness,
+    // Companions.
+    Bouts = 321,
+    Hosts,
+    // The school.
+    SchoolLevels = 341,
+    Glances,
+    // Food.
+    FoodPlace = 401,
+    FoodAbsence,
+    FoodSpread,
+    // Temperament.
+    LikesBrightness = 501,
+    LikesDarkness,
+    LikesWarmth,
+    LikesCold,
+    LikesSchooling,
+    IsFemale,
+    SinceMeal,
+    SinceSpawning,
+    // Who was eaten.
+    Absence = 601,
+    Arrival,
+};
+
+[[nodiscard]] constexpr std::uint32_t hashOf(std::uint32_t seed, Stream stream) {
+    return hashOf(seed, static_cast<std::uint32_t>(stream));
+}
+
+}  // namespace aquarama

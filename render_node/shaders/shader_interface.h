@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// What C++ and GLSL agree on, included by both: bindings of uniform blocks, shader storage and
+// textures, locations of uniforms, and the sizes of what they share. OpenGL promises eight storage
+// blocks in a stage: what is never bound at the same time may share a number.
+#ifndef AQUARAMA_SHADER_INTERFACE_H
+#define AQUARAMA_SHADER_INTERFACE_H
+#ifdef __cplusplus
+#include <cstdint>
+#define AQUARAMA_CONSTANT inline constexpr
+namespace aquarama::shaders {
+using uint = std::uint32_t;
+#else
+#define AQUARAMA_CONSTANT const
+#endif
+
+// Uniform blocks.
+AQUARAMA_CONSTANT int kFrameBlock = 0;
+AQUARAMA_CONSTANT int kSeaBlock = 1;
+
+// Shader storage of the kernels that sort fish.
+AQUARAMA_CONSTANT int kSchoolStorage = 0;
+AQUARAMA_CONSTANT int kBeforeStorage = 1;
+AQUARAMA_CONSTANT int kAfterStorage = 2;
+AQUARAMA_CONSTANT int kTraitsStorage = 3;
+AQUARAMA_CONSTANT int kCastStorage = 4;
+AQUARAMA_CONSTANT int kChoicesStorage = 5;
+AQUARAMA_CONSTANT int kPlanStorage = 6;
+AQUARAMA_CONSTANT int kCountsStorage = 7;
+
+// Of the kernel that makes surfaces, beside kSchoolStorage, kCastStorage and kPlanStorage.
+AQUARAMA_CONSTANT int kRecordedStorage = 1;
+AQUARAMA_CONSTANT int kFirstEntriesStorage = 2;
+AQUARAMA_CONSTANT int kEntriesStorage = 3;
+AQUARAMA_CONSTANT int kSurfaceStorage = 5;
+AQUARAMA_CONSTANT int kParentsStorage = 7;
+
+// Of the place.
+AQUARAMA_CONSTANT int kInstancesStorage = 8;
+AQUARAMA_CONSTANT int kPrototypesStorage = 9;
+AQUARAMA_CONSTANT int kCommandsStorage = 10;
+AQUARAMA_CONSTANT int kChosenStorage = 11;
+AQUARAMA_CONSTANT int kWakeStorage = 12;
+AQUARAMA_CONSTANT int kGroupsStorage = 13;
+AQUARAMA_CONSTANT int kSeenGroupsStorage = 14;
+
+// Of food and of text.
+AQUARAMA_CONSTANT int kSpecksStorage = 0;
+AQUARAMA_CONSTANT int kGlyphsStorage = 0;
+
+// Texture units of the light and the place.
+AQUARAMA_CONSTANT int kDirectTableUnit = 8;
+AQUARAMA_CONSTANT int kInscatterTableUnit = 9;
+AQUARAMA_CONSTANT int kOpenWaterTableUnit = 10;
+AQUARAMA_CONSTANT int kCausticLayersUnit = 11;
+AQUARAMA_CONSTANT int kShaftMapUnit = 12;
+AQUARAMA_CONSTANT int kWaveTileUnit = 13;
+AQUARAMA_CONSTANT int kDetailTileUnit = 14;
+AQUARAMA_CONSTANT int kFloorShadeUnit = 15;
+AQUARAMA_CONSTANT int kFloorRockUnit = 16;
+AQUARAMA_CONSTANT int kFishOnTheWayUnit = 18;
+AQUARAMA_CONSTANT int kRippleTileUnit = 19;
+AQUARAMA_CONSTANT int kCloudTileUnit = 20;
+AQUARAMA_CONSTANT int kSunHeightsUnit = 21;
+AQUARAMA_CONSTANT int kTopHeightsUnit = 22;
+
+// Texture units of the passes over a picture.
+AQUARAMA_CONSTANT int kSceneUnit = 0;
+AQUARAMA_CONSTANT int kDepthUnit = 1;
+AQUARAMA_CONSTANT int kMomentDepthsUnit = 0;
+AQUARAMA_CONSTANT int kPlacesUnit = 1;
+AQUARAMA_CONSTANT int kRightSceneUnit = 2;
+AQUARAMA_CONSTANT int kRightPlacesUnit = 3;
+
+// Locations of uniforms: fish kernels.
+AQUARAMA_CONSTANT int kFractionLocation = 0;
+AQUARAMA_CONSTANT int kPlanesLocation = 1;
+AQUARAMA_CONSTANT int kSharedEyeLocation = 7;
+AQUARAMA_CONSTANT int kLimitsLocation = 8;
+AQUARAMA_CONSTANT int kFinestDetailLocation = 15;
+AQUARAMA_CONSTANT int kCullsLocation = 16;
+AQUARAMA_CONSTANT int kChoosesDetailLocation = 17;
+AQUARAMA_CONSTANT int kFishCountLocation = 18;
+AQUARAMA_CONSTANT int kTurnLocation = 18;
+AQUARAMA_CONSTANT int kSpeciesCountLocation = 18;
+AQUARAMA_CONSTANT int kRoomVerticesLocation = 19;
+
+// Locations of uniforms: what grows, and rock.
+AQUARAMA_CONSTANT int kDetailLocation = 0;
+AQUARAMA_CONSTANT int kStirredLocation = 1;
+AQUARAMA_CONSTANT int kRockScalesLocation = 1;
+AQUARAMA_CONSTANT int kWakeFishCountLocation = 1;
+
+// Locations of uniforms: culling of the place.
+AQUARAMA_CONSTANT int kGroupCountLocation = 0;
+AQUARAMA_CONSTANT int kInstanceCountLocation = 0;
+AQUARAMA_CONSTANT int kCullingLocation = 1;
+AQUARAMA_CONSTANT int kCullDetailLocation = 2;
+
+// Locations of uniforms: waves, caustics, shafts.
+AQUARAMA_CONSTANT int kTileMetresLocation = 0;
+AQUARAMA_CONSTANT int kDrawsRipplesLocation = 1;
+AQUARAMA_CONSTANT int kTexelMetresLocation = 2;
+AQUARAMA_CONSTANT int kReceiverMetresLocation = 0;
+AQUARAMA_CONSTANT int kCellsLocation = 1;
+AQUARAMA_CONSTANT int kCausticTexelLocation = 2;
+AQUARAMA_CONSTANT int kTexelsLocation = 0;
+AQUARAMA_CONSTANT int kStepsLocation = 1;
+
+// Locations of uniforms: food.
+AQUARAMA_CONSTANT int kFirstLocation = 0;
+
+// Locations of uniforms: projection.
+AQUARAMA_CONSTANT int kSizeLocation = 0;
+AQUARAMA_CONSTANT int kSeedLocation = 1;
+AQUARAMA_CONSTANT int kDitheredLocation = 2;
+AQUARAMA_CONSTANT int kBlendMaskLocation = 3;
+AQUARAMA_CONSTANT int kModeLocation = 4;
+
+// Locations of uniforms: pattern.
+AQUARAMA_CONSTANT int kWallFromCameraLocation = 0;
+AQUARAMA_CONSTANT int kExtentsLocation = 3;
+AQUARAMA_CONSTANT int kGreyLightLocation = 4;
+AQUARAMA_CONSTANT int kGridLinesLocation = 5;
+AQUARAMA_CONSTANT int kEyeAndRadiusLocation = 6;
+
+// Locations of uniforms: text.
+AQUARAMA_CONSTANT int kPictureSizeLocation = 0;
+AQUARAMA_CONSTANT int kDotPixelsLocation = 1;
+
+// Vertex attribute and vertex buffer of what grows: the instance that was chosen.
+AQUARAMA_CONSTANT int kChosenAttribute = 4;
+
+// The kernels that look at one fish or one thing a thread.
+AQUARAMA_CONSTANT uint kGroupSize = 64U;
+
+// The plan of a view's fish.
+AQUARAMA_CONSTANT uint kMostSpecies = 64U;
+AQUARAMA_CONSTANT uint kTurns = 8U;         // of the surface buffer
+AQUARAMA_CONSTANT uint kSurfaces = 4U;      // levels of detail that have a surface
+AQUARAMA_CONSTANT uint kTails = 11U;        // commands of a species that need no surface
+AQUARAMA_CONSTANT uint kDetailStride = 8U;  // numbers of a species, one a level of detail
+
+// Recorded poses of a species.
+AQUARAMA_CONSTANT uint kControlPoints = 426U;
+AQUARAMA_CONSTANT uint kPhases = 64U;
+AQUARAMA_CONSTANT uint kActions = 8U;
+
+// The water stirred by fish, about the shared eye: cells of a grid, three numbers each.
+AQUARAMA_CONSTANT int kWakeCellsAcross = 40;
+AQUARAMA_CONSTANT int kWakeCellsUp = 16;
+
+// Texels of the table of inscattered light: range, rise, azimuth.
+AQUARAMA_CONSTANT int kSightRanges = 40;
+AQUARAMA_CONSTANT int kSightRises = 32;
+AQUARAMA_CONSTANT int kSightAzimuths = 9;
+
+// Sides of square tiles and maps, metres.
+AQUARAMA_CONSTANT float kTileMetres = 12.0F;       // caustics and waves; waves have whole numbers on it
+AQUARAMA_CONSTANT float kRippleTileMetres = 2.9F;  // the shorter waves
+AQUARAMA_CONSTANT float kSandTileMetres = 2.6F;
+AQUARAMA_CONSTANT float kRockTileMetres = 1.1F;
+AQUARAMA_CONSTANT float kFloorShadeMetres = 72.0F;  // the floor's openness, round the origin
+AQUARAMA_CONSTANT float kPlaceMetres = 80.0F;       // maps of the place's shadows, round the origin
+AQUARAMA_CONSTANT float kMapDepthMetres = 64.0F;    // depth 0 of those maps; 1 is the surface
+
+// How far food is seen, metres.
+AQUARAMA_CONSTANT float kPlanktonMetres = 8.0F;
+AQUARAMA_CONSTANT float kPelletMetres = 16.0F;
+
+#ifdef __cplusplus
+}  // namespace aquarama::shaders
+#endif
+#undef AQUARAMA_CONSTANT
+#endif
