@@ -42,8 +42,8 @@ std::string lineOf(const config::Species& species) {
     std::string line = said("%s, %s, %.3g to %.3g m",
                             species.name.c_str(),
                             nameOf(habits.role),
-                            species.size.leastMetres,
-                            species.size.mostMetres);
+                            double{species.size.leastMetres},
+                            double{species.size.mostMetres});
     if (!habits.hunts.empty()) line += "; hunts " + joined(habits.hunts);
     if (!habits.shadows.empty()) line += "; shadows " + joined(habits.shadows);
     return line;
@@ -73,7 +73,7 @@ std::string inventoryOfScene(const std::string& path) {
     const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, path);
     std::size_t fish = 0;
     for (const config::CastMember& member : scene.cast) fish += member.fish;
-    const auto length = static_cast<float>(cast.front().species.size.meanMetres);
+    const auto length = cast.front().species.size.meanMetres;
     place::checkRoom(scene, path, fish, length);
 
     std::string text = said("scene \"%s\": %s; %s\n",

@@ -68,10 +68,10 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
 }
 
 // What the nodes are told of the cast, and the blobs that they may then ask for.
-std::vector<wire::SpeciesBlobs> castOf(const wire::Production& production,
+std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& production,
                                        conductor::Blobs& blobs) {
     std::vector<wire::SpeciesBlobs> cast;
-    for (const wire::ProducedSpecies& species : production.cast) {
+    for (const wire::SpeciesAssets& species : production.cast) {
         const auto text = std::as_bytes(std::span{species.text});
         cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
         blobs.emplace(cast.back().species, net::ByteVector{text.begin(), text.end()});
@@ -82,7 +82,7 @@ std::vector<wire::SpeciesBlobs> castOf(const wire::Production& production,
 
 // What is shown: the living world, or a recorded or replayed one about it.
 struct Shown {
-    const wire::Production& production;
+    const wire::AssetBundle& production;
     const production::LivingWorld& world;
     conductor::Simulation& simulation;
 };
@@ -110,7 +110,7 @@ void show(const config::Rig& rig,
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
-    const wire::Production production = production::readProduction(
+    const wire::AssetBundle production = production::readProduction(
         options.scenePath.empty() ? config::scenePathOf(rig, options.rigPath) : options.scenePath,
         {.seed = options.seed, .fish = options.fish});
     production::LivingWorld world(production::worldOptionsOf(production));

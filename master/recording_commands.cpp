@@ -77,7 +77,7 @@ std::string wordsFor(const wire::RecordedInput& input) {
 int inspect(const std::string& path) {
     constexpr std::size_t kMostInputsShown = 20;
     const wire::Recording recording = wire::readRecording(path);
-    const wire::Production& production = recording.production;
+    const wire::AssetBundle& production = recording.production;
     std::cout << fmt::format(
         "{}: a recording of a show\n"
         "written by   {} (protocol {})\n"
@@ -91,7 +91,7 @@ int inspect(const std::string& path) {
         static_cast<double>(recording.lastTick().value) / kTicksPerSecond,
         production.seed,
         production.scene.size());
-    for (const wire::ProducedSpecies& species : production.cast)
+    for (const wire::SpeciesAssets& species : production.cast)
         std::cout << fmt::format("species      {:>7} of {}, repertoire {} of {} bytes\n",
                                  species.fish,
                                  species.file.substr(species.file.rfind(' ') + 1),

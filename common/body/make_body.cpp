@@ -42,7 +42,7 @@ ControlCage makeCage(const config::Species& species) {
 FishBody makeBody(const config::Species& species) {
     FishBody body;
     body.species = species.name;
-    body.typicalLengthMetres = static_cast<float>(species.size.meanMetres);
+    body.typicalLengthMetres = species.size.meanMetres;
     body.restNodes = restNodesOf(species.skeleton);
     for (std::size_t r = 0; r < 5; ++r)
         body.ringStations.at(r) = static_cast<float>(species.skeleton.rings.at(r).s);

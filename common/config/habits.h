@@ -27,7 +27,7 @@ struct HabitShares {
 // A fish feels threatened by what is inside this box about its middle line, in its own body
 // lengths. Timid fish have large ones.
 struct SensitivityBox {
-    double aheadBodyLengths = 1.2, asideBodyLengths = 0.4, upBodyLengths = 0.35;
+    float aheadBodyLengths = 1.2F, asideBodyLengths = 0.4F, upBodyLengths = 0.35F;
 };
 
 // Shares of the time that a fish at ease swims so; they sum to 1.
@@ -53,11 +53,11 @@ struct Hunt {
 struct Habits {
     Role role = Role::Prey;
     // Hunger: appetite alpha in particles of plankton, digestion p0 per second.
-    double appetiteParticles = 4, digestionPerSecond = 0.004;
-    double libidoPerSecond = 0;  // p1; 0: never mates
+    float appetiteParticles = 4, digestionPerSecond = 0.004F;
+    float libidoPerSecond = 0;  // p1; 0: never mates
     // Fear: a predator at this distance or nearer frightens wholly (D0); fear above f0 is heeded,
     // above f1 a schooling fish flees alone.
-    double fearMetres = 1.6, fearFrom = 0.25, fearAlone = 0.6;
+    float fearMetres = 1.6F, fearFrom = 0.25F, fearAlone = 0.6F;
     HabitShares shares;
     Span depthMetres{1, 40};
     double bestDepthMetres = 6;
@@ -65,10 +65,10 @@ struct Habits {
     Span waterCelsius{20, 32};
     Paces paces;
     double gradualShare = 0.8;  // of turns for no reason; the others are sharp
-    double visionBodyLengths = 14;
-    double smellBodyLengths = 16;  // food is sensed so far in every direction
+    float visionBodyLengths = 14;
+    float smellBodyLengths = 16;  // food is sensed so far in every direction
     SensitivityBox box;
-    double persistence = 0.3;  // another target must be nearer by this share to be preferred
+    float persistence = 0.3F;  // another target must be nearer by this share to be preferred
     Home home;
     bool eatsPlankton = true;
     std::vector<std::string> hunts;  // species by name

@@ -19,10 +19,10 @@ constexpr Range kMetres{0.005, 20};
 
 SizeRange readSize(const TextPlace& at) {
     SizeRange size;
-    size.meanMetres = at.number("mean_m", kMetres);
-    size.deviationMetres = at.number("deviation_m", {0, 10});
-    size.leastMetres = at.number("least_m", kMetres);
-    size.mostMetres = at.number("most_m", kMetres);
+    size.meanMetres = static_cast<float>(at.number("mean_m", kMetres));
+    size.deviationMetres = static_cast<float>(at.number("deviation_m", {0, 10}));
+    size.leastMetres = static_cast<float>(at.number("least_m", kMetres));
+    size.mostMetres = static_cast<float>(at.number("most_m", kMetres));
     if (size.leastMetres > size.meanMetres)
         at.refuse("least_m", "least_m is more than mean_m: exchange them");
     if (size.mostMetres < size.meanMetres)

@@ -122,8 +122,9 @@ struct Turn {
     Bend gradual, sharp;
 };
 
+// How long the fish of a species are: a bell curve, cut off.
 struct SizeRange {
-    double meanMetres = 0, deviationMetres = 0, leastMetres = 0, mostMetres = 0;
+    float meanMetres = 0.24F, deviationMetres = 0.012F, leastMetres = 0.20F, mostMetres = 0.28F;
 };
 
 struct Paint {

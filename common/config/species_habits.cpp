@@ -26,15 +26,15 @@ Role readRole(const TextPlace& at) {
 }
 
 void readHunger(const TextPlace& at, Habits& habits) {
-    habits.appetiteParticles = at.number("appetite_particles", {0.1, 1000});
-    habits.digestionPerSecond = at.number("digestion_per_s", {1e-5, 1});
+    habits.appetiteParticles = static_cast<float>(at.number("appetite_particles", {0.1, 1000}));
+    habits.digestionPerSecond = static_cast<float>(at.number("digestion_per_s", {1e-5, 1}));
     habits.eatsPlankton = at.truth("plankton");
 }
 
 void readFear(const TextPlace& at, Habits& habits) {
-    habits.fearMetres = at.number("whole_m", kMetres);
-    habits.fearFrom = at.number("heeded_from", {0.01, 1});
-    habits.fearAlone = at.number("alone_from", kShare);
+    habits.fearMetres = static_cast<float>(at.number("whole_m", kMetres));
+    habits.fearFrom = static_cast<float>(at.number("heeded_from", {0.01, 1}));
+    habits.fearAlone = static_cast<float>(at.number("alone_from", kShare));
     if (habits.fearAlone <= habits.fearFrom)
         at.refuse("alone_from", "alone_from must be more than heeded_from: exchange them");
 }
@@ -82,8 +82,8 @@ Paces readPaces(const TextPlace& at) {
 }
 
 void readSenses(const TextPlace& at, Habits& habits) {
-    habits.visionBodyLengths = at.number("vision_bl", kBodyLengths);
-    habits.smellBodyLengths = at.number("smell_bl", kBodyLengths);
+    habits.visionBodyLengths = static_cast<float>(at.number("vision_bl", kBodyLengths));
+    habits.smellBodyLengths = static_cast<float>(at.number("smell_bl", kBodyLengths));
     if (habits.smellBodyLengths < habits.visionBodyLengths)
         at.refuse("smell_bl", "smell_bl is less than vision_bl: food that is seen is sensed too");
 }
@@ -157,7 +157,7 @@ Habits readHabits(const TextPlace& at, const std::string& species) {
     Habits habits;
     habits.role = readRole(at);
     readHunger(at.in("hunger"), habits);
-    habits.libidoPerSecond = at.numberOr("libido_per_s", kPerSecond, 0);
+    habits.libidoPerSecond = static_cast<float>(at.numberOr("libido_per_s", kPerSecond, 0));
     if (at.has("fear"))
         readFear(at.in("fear"), habits);
     else
@@ -168,10 +168,10 @@ Habits readHabits(const TextPlace& at, const std::string& species) {
     habits.gradualShare = at.number("gradual_share", kShare);
     readSenses(at.in("senses"), habits);
     const TextPlace box = at.in("box");
-    habits.box = {.aheadBodyLengths = box.number("ahead_bl", kBodyLengths),
-                  .asideBodyLengths = box.number("aside_bl", kBodyLengths),
-                  .upBodyLengths = box.number("up_bl", kBodyLengths)};
-    habits.persistence = at.number("persistence", kShare);
+    habits.box = {.aheadBodyLengths = static_cast<float>(box.number("ahead_bl", kBodyLengths)),
+                  .asideBodyLengths = static_cast<float>(box.number("aside_bl", kBodyLengths)),
+                  .upBodyLengths = static_cast<float>(box.number("up_bl", kBodyLengths))};
+    habits.persistence = static_cast<float>(at.number("persistence", kShare));
     if (at.has("home")) habits.home = readHome(at.in("home"));
     if (at.has("hunt")) readHunt(at.in("hunt"), species, habits);
     habits.pairBodyLengths = at.numberOr("pair_bl", kBodyLengths, 0);

@@ -44,7 +44,7 @@ void append(Packet& bytes, const Packet& more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-void write(const ProducedSpecies& species, v1::RecordedSpecies& message) {
+void write(const SpeciesAssets& species, v1::RecordedSpecies& message) {
     // The folders of one machine mean nothing on another.
     message.set_file(std::filesystem::path(species.file).filename().string());
     message.set_text(species.text);
@@ -261,7 +261,7 @@ Tick Recording::lastTick() const {
     return last;
 }
 
-Packet beginningOf(const Production& production) {
+Packet beginningOf(const AssetBundle& production) {
     v1::RecordingEntry entry;
     v1::RecordingHeader& header = *entry.mutable_header();
     header.set_magic(std::string(kMagic));
@@ -272,7 +272,7 @@ Packet beginningOf(const Production& production) {
     header.set_scene(production.scene);
     header.set_species_count(static_cast<std::uint32_t>(production.cast.size()));
     Packet bytes = delimited(entry);
-    for (const ProducedSpecies& species : production.cast) {
+    for (const SpeciesAssets& species : production.cast) {
         write(species, *entry.mutable_species());
         append(bytes, delimited(entry));
     }

@@ -27,7 +27,7 @@ inline constexpr std::size_t kMostSpeciesBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostRecordingBytes = std::size_t{1} << 30U;
 
 // One species of a show: its file, the repertoire that moves it, and how many there are.
-struct ProducedSpecies {
+struct SpeciesAssets {
     std::string file;  // for messages: in which file the text is
     std::string text;
     std::vector<std::byte> repertoire;
@@ -35,11 +35,11 @@ struct ProducedSpecies {
 };
 
 // All that a show is made of, as bytes: the same production is the same world on any machine.
-struct Production {
+struct AssetBundle {
     std::uint32_t seed = 1;
-    std::string sceneFile;              // for messages
-    std::string scene;                  // the text
-    std::vector<ProducedSpecies> cast;  // as the scene's, the school first
+    std::string sceneFile;            // for messages
+    std::string scene;                // the text
+    std::vector<SpeciesAssets> cast;  // as the scene's, the school first
 };
 
 struct RecordedFood {
@@ -66,7 +66,7 @@ struct RecordedHash {
 struct Recording {
     std::uint32_t protocol = kProtocolMajor;
     std::string build;
-    Production production;
+    AssetBundle production;
     std::vector<RecordedInput> inputs;      // in the order in which they came
     std::vector<RecordedHash> checkpoints;  // in the order of ticks
     std::optional<RecordedHash> end;        // without: the recording was cut short
@@ -76,7 +76,7 @@ struct Recording {
 };
 
 // The file, piece by piece: first beginningOf(), at last endOf().
-[[nodiscard]] Packet beginningOf(const Production& production);
+[[nodiscard]] Packet beginningOf(const AssetBundle& production);
 [[nodiscard]] Packet entryOf(const RecordedInput& input);
 [[nodiscard]] Packet entryOf(const RecordedHash& checkpoint);
 [[nodiscard]] Packet endOf(const RecordedHash& end);

@@ -117,7 +117,7 @@ class Screen {
         add("",
             format("{:.3f} m long (1 L), {}, {}",
                    of_.lengthMetres,
-                   wordFor(of_.nature.role),
+                   wordFor(of_.nature.habits.role),
                    likesOf(of_.mind)));
     }
 
@@ -175,7 +175,7 @@ class Screen {
     [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return wordFor(intention);
         const bool isParticle =
-            intention == fish::Intention::Eat && of_.nature.role != config::Role::Predator;
+            intention == fish::Intention::Eat && of_.nature.habits.role != config::Role::Predator;
         return format("{} {}",
                       wordFor(intention),
                       isParticle ? format("particle {}", target) : named(target));

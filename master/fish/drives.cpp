@@ -24,27 +24,28 @@ std::uint32_t ticksOf(float seconds) {
 
 // R of the thesis: 1 after a meal, 0 when it is digested.
 float undigested(const Nature& nature, const Mind& mind) {
-    return std::max(0.0F, 1 - nature.digestion * seconds(mind.sinceMeal));
+    return std::max(0.0F, 1 - nature.habits.digestionPerSecond * seconds(mind.sinceMeal));
 }
 
 }  // namespace
 
 float innerHunger(const Nature& nature, const Mind& mind) {
     const float stomach = static_cast<float>(mind.eaten) * undigested(nature, mind);
-    return std::clamp(1 - stomach / nature.appetite, 0.0F, 1.0F);
+    return std::clamp(1 - stomach / nature.habits.appetiteParticles, 0.0F, 1.0F);
 }
 
 bool isGorged(const Nature& nature, const Mind& mind) {
-    return static_cast<float>(mind.eaten) > 2 * nature.appetite;
+    return static_cast<float>(mind.eaten) > 2 * nature.habits.appetiteParticles;
 }
 
 float innerLibido(const Nature& nature, const Mind& mind, float hunger) {
     if (!mates(nature)) return 0;
-    return std::min(1.0F, nature.libido * seconds(mind.sinceSpawning)) * (1 - hunger);
+    return std::min(1.0F, nature.habits.libidoPerSecond * seconds(mind.sinceSpawning)) *
+           (1 - hunger);
 }
 
 bool mates(const Nature& nature) {
-    return nature.role == config::Role::Pacifist && nature.libido > 0;
+    return nature.habits.role == config::Role::Pacifist && nature.habits.libidoPerSecond > 0;
 }
 
 void passTime(const Nature& nature, Mind& mind) {
@@ -59,11 +60,12 @@ void passTime(const Nature& nature, Mind& mind) {
 }
 
 void setMood(const Nature& nature, float hunger, float libido, Mind& mind) {
-    const float meal = std::max(1.0F, std::ceil(nature.appetite));
-    const float left = std::clamp((1 - hunger) * nature.appetite / meal, 0.0F, 1.0F);
+    const float meal = std::max(1.0F, std::ceil(nature.habits.appetiteParticles));
+    const float left =
+        std::clamp((1 - hunger) * nature.habits.appetiteParticles / meal, 0.0F, 1.0F);
     mind.eaten = static_cast<std::uint16_t>(meal);
-    mind.sinceMeal = ticksOf((1 - left) / nature.digestion);
-    const float growth = nature.libido * std::max(1 - hunger, 0.0F);
+    mind.sinceMeal = ticksOf((1 - left) / nature.habits.digestionPerSecond);
+    const float growth = nature.habits.libidoPerSecond * std::max(1 - hunger, 0.0F);
     mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
 }
 

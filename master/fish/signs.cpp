@@ -23,7 +23,7 @@ unsigned moodOf(std::uint8_t likes, Intention aim) {
 void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, FishView& view) {
     const unsigned away = view.signs[fish] & unsigned{kAway};
     const Mind& mind = minds[fish];
-    if (nature.role ==
+    if (nature.habits.role ==
         config::Role::Prey) {  // most fish are; they need but three bytes of their mind
         const bool schools =
             mind.intention == Intention::School || mind.remembered == Intention::School;
@@ -34,7 +34,8 @@ void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, Fish
     const Aim aim = aimOf(mind);
     unsigned signs = away | moodOf(mind.likes, aim.intention);
     if (wouldMate(nature, mind, aim.intention)) signs |= kWilling;
-    if (nature.role == config::Role::Predator && aim.intention == Intention::Eat) signs |= kHunting;
+    if (nature.habits.role == config::Role::Predator && aim.intention == Intention::Eat)
+        signs |= kHunting;
     view.signs[fish] = static_cast<std::uint8_t>(signs);
     view.stage[fish] = mind.stage;
     view.partner[fish] = aim.intention == Intention::Mate ? aim.target : kNobody;

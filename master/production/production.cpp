@@ -40,20 +40,13 @@ std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Cast
     return files;
 }
 
-world::FishLengths lengthsOf(const config::SizeRange& size) {
-    return {.meanMetres = static_cast<float>(size.meanMetres),
-            .deviationMetres = static_cast<float>(size.deviationMetres),
-            .leastMetres = static_cast<float>(size.leastMetres),
-            .mostMetres = static_cast<float>(size.mostMetres)};
-}
-
-world::WorldSpecies worldSpeciesOf(const wire::ProducedSpecies& produced,
+world::WorldSpecies worldSpeciesOf(const wire::SpeciesAssets& produced,
                                    const std::optional<config::Start>& start) {
     const config::Species species = config::parseSpecies(produced.text, produced.file);
     return {.tables = motion::makeMotorTables(
                 motion::decodeRepertoire(produced.repertoire, produced.file)),
             .fish = produced.fish,
-            .lengths = lengthsOf(species.size),
+            .size = species.size,
             .name = species.name,
             .habits = species.habits,
             .start = start};
@@ -66,7 +59,7 @@ std::uint32_t fishIn(const config::Scene& scene) {
 }
 
 // The scene with the number of fish that is asked for.
-config::Scene chosenScene(const std::string& path, const ProductionChoice& choice) {
+config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
     config::Scene scene = config::readScene(path);
     config::CastMember& school = scene.cast.front();
     school.fish = choice.fish.value_or(school.fish);
@@ -78,15 +71,14 @@ config::Scene chosenScene(const std::string& path, const ProductionChoice& choic
 
 }  // namespace
 
-wire::Production readProduction(const std::string& scenePath, const ProductionChoice& choice) {
+wire::AssetBundle readProduction(const std::string& scenePath, const AssetChoice& choice) {
     const config::Scene scene = chosenScene(scenePath, choice);
     const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, scenePath);
-    place::checkRoom(
-        scene, scenePath, fishIn(scene), static_cast<float>(cast.front().species.size.meanMetres));
-    wire::Production production{.seed = choice.seed,
-                                .sceneFile = scenePath,
-                                .scene = config::writeScene(scene),
-                                .cast = {}};
+    place::checkRoom(scene, scenePath, fishIn(scene), cast.front().species.size.meanMetres);
+    wire::AssetBundle production{.seed = choice.seed,
+                                 .sceneFile = scenePath,
+                                 .scene = config::writeScene(scene),
+                                 .cast = {}};
     std::vector<capture::RepertoireFile> captured = capturedOnce(cast);
     for (std::size_t i = 0; i < cast.size(); ++i)
         production.cast.push_back(
@@ -94,7 +86,7 @@ wire::Production readProduction(const std::string& scenePath, const ProductionCh
     return production;
 }
 
-world::WorldOptions worldOptionsOf(const wire::Production& production) {
+world::WorldOptions worldOptionsOf(const wire::AssetBundle& production) {
     world::WorldOptions options;
     options.seed = production.seed;
     options.scene = config::parseScene(production.scene, production.sceneFile);

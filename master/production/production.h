@@ -12,17 +12,17 @@
 
 namespace aquarama::production {
 
-struct ProductionChoice {
+struct AssetChoice {
     std::uint32_t seed = 1;
     std::optional<std::uint32_t> fish;  // of the first species, instead of the scene's number
 };
 
 // Reads the scene and the files of its cast; a species that was never shown on this machine is
 // captured, behind a bar of progress. Throws Error with file:line:column.
-[[nodiscard]] wire::Production readProduction(const std::string& scenePath,
-                                              const ProductionChoice& choice);
+[[nodiscard]] wire::AssetBundle readProduction(const std::string& scenePath,
+                                               const AssetChoice& choice);
 
 // Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.
-[[nodiscard]] world::WorldOptions worldOptionsOf(const wire::Production& production);
+[[nodiscard]] world::WorldOptions worldOptionsOf(const wire::AssetBundle& production);
 
 }  // namespace aquarama::production

@@ -31,7 +31,7 @@ void requireNewRecording(const std::string& path) {
         throw Error(path + ": is there already; a recording never overwrites a file: name another");
 }
 
-RecordingFile::RecordingFile(std::string path, const wire::Production& production)
+RecordingFile::RecordingFile(std::string path, const wire::AssetBundle& production)
     : path_(std::move(path)) {
     requireNewRecording(path_);
     file_.open(path_, std::ios::binary);

@@ -23,7 +23,7 @@ void requireNewRecording(const std::string& path);
 class RecordingFile {
   public:
     // Throws Error where there is such a file already, and where it cannot be written.
-    RecordingFile(std::string path, const wire::Production& production);
+    RecordingFile(std::string path, const wire::AssetBundle& production);
 
     // A show does not end because a disk is full: the first entry that cannot be written is
     // reported, and nothing is recorded from then on.

@@ -56,7 +56,8 @@ void Diary::note(const world::World& world) {
 void Diary::noteMind(const world::World& world, std::size_t fish) {
     const fish::Minds& minds = world.minds();
     const fish::Intention intention = minds[fish].intention;
-    const bool hunts = world.natures()[world.view().kind[fish]].role == config::Role::Predator;
+    const bool hunts =
+        world.natures()[world.view().kind[fish]].habits.role == config::Role::Predator;
     const bool isNew = intention != intention_[fish];
     const bool another = isNew || minds[fish].target != target_[fish];
     ++tally_.fishTicks;

@@ -15,19 +15,19 @@ namespace {
 constexpr std::uint64_t kTicksBetweenPinches = 30 * kTicksPerSecond;
 
 // The greatest of the body.
-float halfWidthOf(const wire::ProducedSpecies& species) {
+float halfWidthOf(const wire::SpeciesAssets& species) {
     return std::ranges::max(config::parseSpecies(species.text, species.file).profile.halfWidth);
 }
 
 }  // namespace
 
 Scenario readScenario(const std::filesystem::path& scene) {
-    const wire::Production production = production::readProduction(scene.string(), {});
+    const wire::AssetBundle production = production::readProduction(scene.string(), {});
     Scenario scenario;
     scenario.world = production::worldOptionsOf(production);
     scenario.world.scene.tour.reset();  // fish are measured, not how they make way
     scenario.name = scenario.world.scene.name;
-    for (const wire::ProducedSpecies& species : production.cast)
+    for (const wire::SpeciesAssets& species : production.cast)
         scenario.halfWidths.push_back(halfWidthOf(species));
     return scenario;
 }

@@ -204,12 +204,11 @@ std::vector<motion::FishTraits> traitsOf(const WorldOptions& options) {
     std::vector<motion::FishTraits> traits;
     std::uint32_t id = 0;
     for (const WorldSpecies& species : options.cast) {
-        const FishLengths& lengths = species.lengths;
+        const config::SizeRange& size = species.size;
         for (std::uint32_t i = 0; i < species.fish; ++i, ++id) {
             const float own = bell(hashOf(hashOf(options.seed, Stream::BeginningLength), id));
-            const float metres = std::clamp(lengths.meanMetres + lengths.deviationMetres * own,
-                                            lengths.leastMetres,
-                                            lengths.mostMetres);
+            const float metres = std::clamp(
+                size.meanMetres + size.deviationMetres * own, size.leastMetres, size.mostMetres);
             traits.push_back({id, static_cast<std::uint16_t>(std::lround(metres * 1000))});
         }
     }
@@ -230,7 +229,7 @@ void placeFish(const WorldOptions& options,
             options.scene.gathering == config::Gathering::Mill
                 ? placeBall(options.seed,
                             goal,
-                            surroundings::millRadiusMetres(water, last, species.lengths.meanMetres),
+                            surroundings::millRadiusMetres(water, last, species.size.meanMetres),
                             water,
                             last,
                             states)

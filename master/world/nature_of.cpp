@@ -35,29 +35,15 @@ fish::Nature natureOf(const std::vector<WorldSpecies>& cast,
                       std::size_t first,
                       std::size_t last) {
     const config::Habits& habits = cast[kind].habits;
-    const auto single = [](double value) { return static_cast<float>(value); };
-    return {.role = habits.role,
-            .kind = static_cast<std::uint8_t>(kind),
+    return {.kind = static_cast<std::uint8_t>(kind),
             .first = static_cast<std::uint32_t>(first),
             .last = static_cast<std::uint32_t>(last),
             .hunts = kindsNamed(cast, habits.hunts),
             .huntedBy = huntersOf(cast, cast[kind].name),
             .shadows = kindsNamed(cast, habits.shadows),
-            .appetite = single(habits.appetiteParticles),
-            .digestion = single(habits.digestionPerSecond),
-            .libido = single(habits.libidoPerSecond),
-            .fearMetres = single(habits.fearMetres),
-            .fearFrom = single(habits.fearFrom),
-            .fearAlone = single(habits.fearAlone),
             .slow = gaits.speed[fish::indexOf(motion::Action::ForwardSlow)],
             .medium = gaits.speed[fish::indexOf(motion::Action::ForwardMedium)],
             .fast = gaits.speed[fish::indexOf(motion::Action::ForwardFast)],
-            .visionBodyLengths = single(habits.visionBodyLengths),
-            .smellBodyLengths = single(habits.smellBodyLengths),
-            .boxAhead = single(habits.box.aheadBodyLengths),
-            .boxAside = single(habits.box.asideBodyLengths),
-            .boxUp = single(habits.box.upBodyLengths),
-            .persistence = single(habits.persistence),
             .habits = habits};
 }
 

@@ -28,7 +28,7 @@ constexpr std::size_t kSlotsInSlice = 1024;
 constexpr std::size_t kFetchedAhead = 3;  // thoughts
 
 float meanLengthMetres(const WorldOptions& options) {
-    return options.cast.empty() ? 0.24F : options.cast.front().lengths.meanMetres;
+    return options.cast.empty() ? 0.24F : options.cast.front().size.meanMetres;
 }
 
 // Of a fish that will think soon, what lies apart from all that others of its cell have: so that it

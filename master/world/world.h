@@ -12,6 +12,7 @@
 
 #include "common/config/habits.h"
 #include "common/config/scene.h"
+#include "common/config/species.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
 #include "common/units/ids.h"
@@ -31,19 +32,11 @@
 
 namespace aquarama::world {
 
-// How long the fish of a species are: a bell curve, cut off.
-struct FishLengths {
-    float meanMetres = 0.24F;
-    float deviationMetres = 0.012F;
-    float leastMetres = 0.20F;
-    float mostMetres = 0.28F;
-};
-
 // The fish of one species.
 struct WorldSpecies {
     std::shared_ptr<const motion::MotorTables> tables;
     std::uint32_t fish = 0;
-    FishLengths lengths = {};
+    config::SizeRange size = {};
     std::string name = {};  // as Habits::hunts has it
     config::Habits habits = {};
     std::optional<config::Start> start = {};

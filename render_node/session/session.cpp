@@ -17,14 +17,13 @@ std::string textOf(const net::ByteVector& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::vector<AdmittedSpecies> castOf(const Admitted& admitted) {
-    std::vector<AdmittedSpecies> cast;
+std::vector<wire::SpeciesAssets> castOf(const Admitted& admitted) {
+    std::vector<wire::SpeciesAssets> cast;
     for (const auto& [species, repertoire, fish] : admitted.welcome.cast)
-        cast.push_back(
-            {textOf(admitted.blobs.at(species)),
-             motion::decodeRepertoire(admitted.blobs.at(repertoire), "the master's repertoire"),
-             fish,
-             digestOf(toHex(species) + toHex(repertoire))});
+        cast.push_back({"the master's species file",
+                        textOf(admitted.blobs.at(species)),
+                        admitted.blobs.at(repertoire),
+                        fish});
     return cast;
 }
 

@@ -12,9 +12,8 @@
 
 #include "common/config/rig.h"
 #include "common/config/scene.h"
-#include "common/motion/repertoire.h"
-#include "common/units/digest.h"
 #include "common/wire/envelope.h"
+#include "common/wire/recording.h"
 
 namespace aquarama::session {
 
@@ -28,19 +27,11 @@ enum class Release : std::uint8_t {
     Quit,     // the show is over
 };
 
-// The fish of one species: in the school they follow those of the species before it.
-struct AdmittedSpecies {
-    std::string text;  // of the species file
-    motion::Repertoire repertoire;
-    std::uint32_t fish = 0;
-    std::optional<Digest> source = {};  // of text and repertoire as they came
-};
-
 struct Admission {
     wire::Welcome welcome;
     config::Rig rig;
     config::Scene scene;
-    std::vector<AdmittedSpecies> cast;
+    std::vector<wire::SpeciesAssets> cast;  // as in the welcome
 };
 
 // Called from the render thread; every wait also ends when stop() was called from a signal

@@ -12,6 +12,8 @@
 
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
+#include "common/motion/repertoire.h"
+#include "common/units/digest.h"
 #include "common/units/error.h"
 #include "render_node/gl/debug.h"
 #include "render_node/shaders/post_radii.h"
@@ -53,16 +55,16 @@ std::vector<Label> helpLabels(float dot) {
 std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) {
     std::vector<surface::SchoolSpecies> cast;
     std::span<const motion::FishTraits> rest = admission.welcome.school;
-    for (const session::AdmittedSpecies& admitted : admission.cast) {
-        const config::Species species =
-            config::parseSpecies(admitted.text, "the master's species file");
-        const auto own = rest.first(std::min<std::size_t>(admitted.fish, rest.size()));
+    for (const wire::SpeciesAssets& assets : admission.cast) {
+        const config::Species species = config::parseSpecies(assets.text, assets.file);
+        const auto own = rest.first(std::min<std::size_t>(assets.fish, rest.size()));
         rest = rest.subspan(own.size());
         cast.push_back({body::makeBody(species),
                         body::skinOf(species),
-                        admitted.repertoire,
+                        motion::decodeRepertoire(assets.repertoire, "the master's repertoire"),
                         {own.begin(), own.end()},
-                        admitted.source});
+                        digestOf(toHex(digestOf(assets.text)) +
+                                 toHex(digestOf(std::span{assets.repertoire})))});
     }
     return cast;
 }

@@ -84,7 +84,7 @@ world::WorldOptions openSea(std::uint32_t fish, unsigned threads) {
     const std::uint32_t sharks = fish < 1000 ? 0 : std::max(1U, fish / kFishPerShark);
     options.cast.push_back(
         member(test::castMember("blacktip_reef_shark"), sharkTables(), sharks, start));
-    options.cast.back().lengths = {1.2F, 0.05F, 1.1F, 1.3F};
+    options.cast.back().size = {1.2F, 0.05F, 1.1F, 1.3F};
     return options;
 }
 

@@ -34,8 +34,9 @@ session::Admission admissionToTheSea() {
     }
     admission.welcome.school = {{.id = 17, .lengthMillimetres = 400}};
     admission.cast = {
-        {.text = show::fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
-         .repertoire = test::swaying(test::scad(), 0.05F),
+        {.file = "bigeye_scad.txtpb",
+         .text = show::fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
+         .repertoire = motion::encodeRepertoire(test::swaying(test::scad(), 0.05F)),
          .fish = 1}};
     return admission;
 }

@@ -27,7 +27,7 @@ int fuzzRecording(const std::uint8_t* bytes, std::size_t size) {
         const wire::Recording recording =
             wire::decodeRecording(std::as_bytes(std::span(bytes, size)), "fuzzed");
         std::size_t fish = 0;
-        for (const wire::ProducedSpecies& species : recording.production.cast) fish += species.fish;
+        for (const wire::SpeciesAssets& species : recording.production.cast) fish += species.fish;
         promise(fish <= kMostFish, "the fish of a recording are bounded");
         for (const wire::RecordedInput& input : recording.inputs)
             promise(input.tick <= recording.lastTick(), "nothing comes after the last tick");

@@ -22,8 +22,9 @@ fish::Course act(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
         case fish::Intention::Escape:
             return escape(situation, mind);
         case fish::Intention::Eat:
-            return situation.nature.role == config::Role::Predator ? hunt(situation, mind, deeds)
-                                                                   : eat(situation, mind, deeds);
+            return situation.nature.habits.role == config::Role::Predator
+                       ? hunt(situation, mind, deeds)
+                       : eat(situation, mind, deeds);
         case fish::Intention::Mate:
             return mate(situation, mind, deeds);
         case fish::Intention::School:

@@ -72,8 +72,8 @@ fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
     const glm::vec3 theirs = view.heading(threat.object) * view.fish[threat.object].speed;
     const glm::vec3 miss = missOf(threat.offset, theirs - senses.heading * senses.speed);
     const glm::vec3 aside = asideFrom(miss, senses.heading, senses.length);
-    const bool schooling =
-        situation.nature.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
+    const bool schooling = situation.nature.habits.role == config::Role::Prey &&
+                           (mind.likes & fish::kLikesSchooling) != 0;
     if (schooling && view.kind[threat.object] == situation.nature.kind)
         return leanAway(situation, aside);
     const glm::vec3 wish = senses.heading + aside * kTurnAway + roomFrom(situation);

@@ -41,7 +41,8 @@ glm::vec3 wayRound(const Situation& situation) {
 }
 
 fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
-    if ((mind.likes & fish::kLikesSchooling) != 0 && situation.nature.role == config::Role::Prey)
+    if ((mind.likes & fish::kLikesSchooling) != 0 &&
+        situation.nature.habits.role == config::Role::Prey)
         return school(situation);
     const Senses& senses = situation.senses;
     const float back = std::max(0.0F, -place::dot(senses.push, senses.heading));

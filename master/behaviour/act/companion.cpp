@@ -46,7 +46,7 @@ bool isWithin(const Situation& situation, std::uint32_t other, float metres) {
 }
 
 float sightOf(const Situation& situation) {
-    return std::min(situation.nature.visionBodyLengths * situation.senses.length,
+    return std::min(situation.nature.habits.visionBodyLengths * situation.senses.length,
                     situation.environment.surroundings->clarityMetres);
 }
 

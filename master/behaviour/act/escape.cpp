@@ -18,8 +18,8 @@ constexpr float kSharpStart = 1.0F;  // urgency from which the motor turns sharp
 
 // 0 where it only just leaves its school, 1 where the predator is so near that nothing else counts.
 float dread(const fish::Nature& nature, const Feelings& feelings) {
-    const float more = feelings.greatestFear - nature.fearAlone;
-    return std::clamp(more / std::max(1 - nature.fearAlone, 0.01F), 0.0F, 1.0F);
+    const float more = feelings.greatestFear - nature.habits.fearAlone;
+    return std::clamp(more / std::max(1 - nature.habits.fearAlone, 0.01F), 0.0F, 1.0F);
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ Bound boundFor(const Environment& environment,
     const config::Home& home = nature.habits.home;
     const surroundings::Obstacles& obstacles = environment.surroundings->obstacles;
     const auto depth = static_cast<float>(nature.habits.bestDepthMetres);
-    if (nature.role == config::Role::Predator && home.kind == config::HomeKind::None)
+    if (nature.habits.role == config::Role::Predator && home.kind == config::HomeKind::None)
         return {beatGoal(environment, nature, fish, position) - position, 0};
     const glm::vec3 goal =
         wanderingGoal(environment.seed, obstacles.water, depth, fish, environment.tick);

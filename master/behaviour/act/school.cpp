@@ -139,16 +139,18 @@ glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm
 // 0 up to the fear that is heeded, 1 from that on with which each flees for itself: a predator that
 // only goes about far off does not press a school together.
 float alarmOf(const fish::Nature& nature, const Feelings& feelings) {
-    const float more = feelings.fear - nature.fearFrom;
-    return std::clamp(more / std::max(nature.fearAlone - nature.fearFrom, 0.01F), 0.0F, 1.0F);
+    const float more = feelings.fear - nature.habits.fearFrom;
+    return std::clamp(
+        more / std::max(nature.habits.fearAlone - nature.habits.fearFrom, 0.01F), 0.0F, 1.0F);
 }
 
 // Schoolmates give way to a predator before it comes so near that each flees for itself.
 glm::vec3 clearing(const Situation& situation) {
     const fish::Nature& nature = situation.nature;
-    const float fear = situation.feelings.greatestFear - nature.fearFrom;
+    const float fear = situation.feelings.greatestFear - nature.habits.fearFrom;
     if (fear <= 0) return {};
-    const float share = std::min(1.0F, fear / std::max(nature.fearAlone - nature.fearFrom, 0.01F));
+    const float share =
+        std::min(1.0F, fear / std::max(nature.habits.fearAlone - nature.habits.fearFrom, 0.01F));
     return flightFrom(situation) * (kGiveWayToHunter * share);
 }
 

@@ -22,7 +22,7 @@ float seconds(std::uint32_t ticks) {
 }
 
 bool likesSchooling(const fish::Nature& nature, const fish::Mind& mind) {
-    return nature.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
+    return nature.habits.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
 }
 
 // Prey alone heeds its fear. A school shelters from a lesser one, where there is a school.
@@ -30,12 +30,12 @@ fish::Alarm alarmOf(const fish::Nature& nature,
                     const fish::Mind& mind,
                     const Senses& senses,
                     const Feelings& feelings) {
-    if (nature.role != config::Role::Prey) return fish::Alarm::Calm;
+    if (nature.habits.role != config::Role::Prey) return fish::Alarm::Calm;
     const float heeded =
-        nature.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
+        nature.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
     if (feelings.fear <= heeded) return fish::Alarm::Calm;
     const float alone =
-        nature.fearAlone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
+        nature.habits.fearAlone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
     const bool together = feelings.greatestFear < alone && likesSchooling(nature, mind) &&
                           senses.schoolmates.count > 0;
     return together ? fish::Alarm::Together : fish::Alarm::Alone;
@@ -74,8 +74,8 @@ struct Case {
             alarm == fish::Alarm::Together ? fish::kNobody : senses.predators[0].object,
             Verdict::Wins,
             feelings.fear,
-            nature.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
-        if (nature.role != config::Role::Prey)
+            nature.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
+        if (nature.habits.role != config::Role::Prey)
             rung.verdict = Verdict::AgainstNature;
         else if (alarm == fish::Alarm::Calm)
             rung.verdict = Verdict::TooWeak;
@@ -113,11 +113,11 @@ struct Case {
     }
 
     [[nodiscard]] const Sighting& meal() const {
-        return nature.role == config::Role::Predator ? senses.prey : senses.food;
+        return nature.habits.role == config::Role::Predator ? senses.prey : senses.food;
     }
 
     [[nodiscard]] bool isRestingFromAChase() const {
-        if (nature.role != config::Role::Predator) return false;
+        if (nature.habits.role != config::Role::Predator) return false;
         const float since = seconds(mind.sinceChase);
         return aim.intention == fish::Intention::Eat
                    ? since > static_cast<float>(nature.habits.hunt.chaseSeconds)
@@ -179,7 +179,7 @@ struct Case {
         const float threshold = aim.intention == fish::Intention::Leave ? kAtEase : kUneasy;
         Weighed rung{
             fish::Intention::Leave, fish::kNobody, Verdict::Wins, senses.discomfort, threshold};
-        if (nature.role == config::Role::Predator)
+        if (nature.habits.role == config::Role::Predator)
             rung.verdict = Verdict::AgainstNature;
         else if (senses.discomfort <= threshold)
             rung.verdict = Verdict::TooWeak;

@@ -9,7 +9,7 @@ constexpr float kCalm = 0.15F;                 // urgency up to which there is r
 constexpr float kMealIsFarBodyLengths = 6.0F;  // beyond, it merely swims in its direction
 
 bool isFarFromMeal(const fish::Nature& nature, const Senses& senses) {
-    const Sighting& meal = nature.role == config::Role::Predator ? senses.prey : senses.food;
+    const Sighting& meal = nature.habits.role == config::Role::Predator ? senses.prey : senses.food;
     return meal.distance > kMealIsFarBodyLengths * senses.length;
 }
 
@@ -19,7 +19,7 @@ bool acceptsRecommendation(const fish::Nature& nature,
                            const fish::Mind& mind,
                            const Senses& senses,
                            const Feelings& feelings) {
-    if (senses.urgency > kCalm || feelings.fear > nature.fearFrom) return false;
+    if (senses.urgency > kCalm || feelings.fear > nature.habits.fearFrom) return false;
     switch (mind.intention) {
         case fish::Intention::Wander:
         case fish::Intention::Leave:

@@ -26,7 +26,7 @@ float libidoOf(const fish::Nature& nature,
 float hungerOf(const fish::Nature& nature, const fish::Mind& mind, const Senses& senses) {
     if (fish::isGorged(nature, mind)) return 0;
     const float inner = fish::innerHunger(nature, mind);
-    if (nature.role == config::Role::Predator) return inner;
+    if (nature.habits.role == config::Role::Predator) return inner;
     const float stimulus = stimulusOf(kFoodStimulus, senses.food.distance / senses.length);
     return std::min(1.0F, inner + kHungerStimulus * stimulus);
 }
@@ -35,7 +35,7 @@ float hungerOf(const fish::Nature& nature, const fish::Mind& mind, const Senses&
 // it and go on eating (threat sensitivity: Helfman 1989, Behav. Ecol. Sociobiol. 24:47).
 float fearOf(const fish::Nature& nature, const Sighting& predator) {
     const float heeded = predator.hunting ? 1.0F : kFearOfIdle;
-    return heeded * std::min(nature.fearMetres / predator.distance, 1.0F);
+    return heeded * std::min(nature.habits.fearMetres / predator.distance, 1.0F);
 }
 
 }  // namespace

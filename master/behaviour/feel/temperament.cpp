@@ -39,13 +39,14 @@ fish::Mind freshMind(const fish::Nature& nature, std::uint32_t seed, std::uint32
     fish::Mind mind;
     mind.likes = likesOf(nature, seed, fish);
     // Who finds enough eats until it is gorged, then digests; who hunts is seldom so lucky.
-    const bool grazes = nature.role != config::Role::Predator;
-    mind.eaten = static_cast<std::uint16_t>(grazes ? 2 * nature.appetite + 1 : nature.appetite);
-    const float digested = kTicks / nature.digestion;
+    const bool grazes = nature.habits.role != config::Role::Predator;
+    mind.eaten = static_cast<std::uint16_t>(grazes ? 2 * nature.habits.appetiteParticles + 1
+                                                   : nature.habits.appetiteParticles);
+    const float digested = kTicks / nature.habits.digestionPerSecond;
     mind.sinceMeal = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceMeal) * digested);
-    if (nature.libido > 0)
+    if (nature.habits.libidoPerSecond > 0)
         mind.sinceSpawning = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceSpawning) *
-                                                        kTicks / nature.libido);
+                                                        kTicks / nature.habits.libidoPerSecond);
     return mind;
 }
 

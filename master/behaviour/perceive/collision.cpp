@@ -64,17 +64,17 @@ struct Watch {
     [[nodiscard]] Box boxOf() const {
         const float scale =
             senses.length * (environment.adaptation.enlargedRegions ? kEnlarged : 1.0F);
-        return {nature.boxAhead * scale,
+        return {nature.habits.box.aheadBodyLengths * scale,
                 kBoxBehind * senses.length,
-                nature.boxUp * scale,
-                nature.boxAside * scale};
+                nature.habits.box.upBodyLengths * scale,
+                nature.habits.box.asideBodyLengths * scale};
     }
 
     // Whom it courts, hunts or follows it wants near; from its hunter prey flees instead.
     [[nodiscard]] bool isHeeded(std::uint32_t other) const {
         if (other == aim.target && aim.intention == fish::Intention::Mate) return false;
         std::uint64_t unheeded = nature.hunts | nature.shadows;
-        if (nature.role == config::Role::Prey) unheeded |= nature.huntedBy;
+        if (nature.habits.role == config::Role::Prey) unheeded |= nature.huntedBy;
         return (unheeded >> view.kind[other] & 1U) == 0;
     }
 
@@ -179,7 +179,7 @@ void feelCollision(const Environment& environment,
     Watch watch{environment, nature, mind, senses};
     // Those who like to school bear one another near: also while they feed among the others.
     const bool bearsMates =
-        nature.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
+        nature.habits.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
         const std::uint32_t other = senses.schoolmates.fish[i];
         if (bearsMates)

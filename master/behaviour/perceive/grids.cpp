@@ -28,7 +28,7 @@ SpatialGrid farSeen(const place::Region& water, std::size_t points) {
 bool isPredator(const fish::FishView& view,
                 std::span<const fish::Nature> natures,
                 std::size_t fish) {
-    return natures[view.kind[fish]].role == config::Role::Predator;
+    return natures[view.kind[fish]].habits.role == config::Role::Predator;
 }
 
 }  // namespace

@@ -164,7 +164,8 @@ void seePredators(const Onlooker& onlooker) {
 }
 
 bool mayHunt(const Onlooker& onlooker) {
-    if (onlooker.nature.role != config::Role::Predator || onlooker.nature.hunts == 0) return false;
+    if (onlooker.nature.habits.role != config::Role::Predator || onlooker.nature.hunts == 0)
+        return false;
     return fish::innerHunger(onlooker.nature, onlooker.mind) > fish::kDesire * fish::kHysteresis;
 }
 
@@ -196,7 +197,7 @@ Sighting attend(const Onlooker& onlooker,
         const float cost = costOf(present.object, present.offset, present.distance);
         if (present.distance <= sight && cost < kNever && !onlooker.isHidden(present)) {
             kept = present;
-            best = std::min(best, cost * (1 - onlooker.nature.persistence));
+            best = std::min(best, cost * (1 - onlooker.nature.habits.persistence));
         }
     }
     const Sighting other = cheapestIn(grid, onlooker.senses.position, sight, best, costOf);
@@ -226,7 +227,7 @@ float worthLooking(
 }
 
 bool isInASchool(const Onlooker& onlooker) {
-    return onlooker.nature.role == config::Role::Prey &&
+    return onlooker.nature.habits.role == config::Role::Prey &&
            (onlooker.mind.likes & fish::kLikesSchooling) != 0 &&
            onlooker.senses.schoolmates.count > 0;
 }
@@ -253,12 +254,12 @@ float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
 // Food is sensed in all directions, and never hidden: it smells.
 void senseFood(const Onlooker& onlooker) {
     const fish::Nature& nature = onlooker.nature;
-    if (!nature.habits.eatsPlankton || nature.role == config::Role::Predator ||
+    if (!nature.habits.eatsPlankton || nature.habits.role == config::Role::Predator ||
         fish::isGorged(nature, onlooker.mind))
         return;
     Senses& senses = onlooker.senses;
     const surroundings::Food& food = onlooker.environment.surroundings->food;
-    float smell = std::min(nature.smellBodyLengths * senses.length, onlooker.clarity());
+    float smell = std::min(nature.habits.smellBodyLengths * senses.length, onlooker.clarity());
     if (isInASchool(onlooker) && food.pellets == 0)
         smell = std::min(smell, kDartBodyLengths * senses.length);
     const float reach = worthLooking(
@@ -271,7 +272,7 @@ void senseFood(const Onlooker& onlooker) {
         const float distance = place::lengthOf(offset);
         if (distance <= reach) {
             senses.food = {pursued, offset, distance};
-            best = costOfFood(senses, offset, distance) * (1 - nature.persistence);
+            best = costOfFood(senses, offset, distance) * (1 - nature.habits.persistence);
         }
     }
     const Sighting better =

@@ -66,7 +66,7 @@ float sightMetres(const fish::Nature& nature,
                   float lengthMetres,
                   float conspicuous,
                   float clarityMetres) {
-    return std::min(nature.visionBodyLengths * lengthMetres * conspicuous, clarityMetres);
+    return std::min(nature.habits.visionBodyLengths * lengthMetres * conspicuous, clarityMetres);
 }
 
 bool SightLine::passes(glm::vec3 centre, float radius) const {

@@ -12,19 +12,17 @@ namespace aquarama::bench {
 
 namespace {
 
-session::Admission admissionTo(const wire::Production& production, const world::World& world) {
+session::Admission admissionTo(const wire::AssetBundle& production, const world::World& world) {
     session::Admission admission;
     admission.welcome.seed = production.seed;
     const auto school = world.traits();
     admission.welcome.school.assign(school.begin(), school.end());
     admission.scene = config::parseScene(production.scene, production.sceneFile);
-    for (const wire::ProducedSpecies& species : production.cast) {
+    for (const wire::SpeciesAssets& species : production.cast) {
         const auto text = std::as_bytes(std::span{species.text});
         admission.welcome.cast.push_back(
             {digestOf(text), digestOf(species.repertoire), species.fish});
-        admission.cast.push_back({species.text,
-                                  motion::decodeRepertoire(species.repertoire, species.file),
-                                  species.fish});
+        admission.cast.push_back(species);
     }
     return admission;
 }
@@ -52,7 +50,7 @@ Sea makeSea(const std::string& scenePath,
             std::optional<std::uint32_t> fish,
             int ticksBefore,
             int frames) {
-    const wire::Production production =
+    const wire::AssetBundle production =
         production::readProduction(scenePath, {.seed = 1, .fish = fish});
     production::LivingWorld world(production::worldOptionsOf(production));
     for (int i = 0; i < ticksBefore; ++i) world.advance();

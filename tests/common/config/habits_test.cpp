@@ -28,12 +28,12 @@ std::string fileOf(const std::string& species) {
 TEST(Habits, ofThePreyAreRead) {
     const Habits scad = test::castMember("bigeye_scad").habits;
     EXPECT_EQ(scad.role, Role::Prey);
-    EXPECT_DOUBLE_EQ(scad.appetiteParticles, 4);
-    EXPECT_DOUBLE_EQ(scad.digestionPerSecond, 0.004);
-    EXPECT_DOUBLE_EQ(scad.libidoPerSecond, 0);
-    EXPECT_DOUBLE_EQ(scad.fearMetres, 1.6);
-    EXPECT_DOUBLE_EQ(scad.fearFrom, 0.25);
-    EXPECT_DOUBLE_EQ(scad.fearAlone, 0.6);
+    EXPECT_FLOAT_EQ(scad.appetiteParticles, 4.0F);
+    EXPECT_FLOAT_EQ(scad.digestionPerSecond, 0.004F);
+    EXPECT_FLOAT_EQ(scad.libidoPerSecond, 0.0F);
+    EXPECT_FLOAT_EQ(scad.fearMetres, 1.6F);
+    EXPECT_FLOAT_EQ(scad.fearFrom, 0.25F);
+    EXPECT_FLOAT_EQ(scad.fearAlone, 0.6F);
     EXPECT_DOUBLE_EQ(scad.shares.schooling, 1);
     EXPECT_DOUBLE_EQ(scad.shares.darkness, 0);
     EXPECT_DOUBLE_EQ(scad.depthMetres.most, 30);
@@ -42,9 +42,9 @@ TEST(Habits, ofThePreyAreRead) {
     EXPECT_DOUBLE_EQ(scad.waterCelsius.most, 30);
     EXPECT_DOUBLE_EQ(scad.paces.medium, 0.65);
     EXPECT_DOUBLE_EQ(scad.gradualShare, 0.85);
-    EXPECT_DOUBLE_EQ(scad.visionBodyLengths, 14);
-    EXPECT_DOUBLE_EQ(scad.box.aheadBodyLengths, 1.2);
-    EXPECT_DOUBLE_EQ(scad.persistence, 0.2);
+    EXPECT_FLOAT_EQ(scad.visionBodyLengths, 14.0F);
+    EXPECT_FLOAT_EQ(scad.box.aheadBodyLengths, 1.2F);
+    EXPECT_FLOAT_EQ(scad.persistence, 0.2F);
     EXPECT_EQ(scad.home.kind, HomeKind::School);
     EXPECT_TRUE(scad.eatsPlankton);
     EXPECT_TRUE(scad.hunts.empty());
@@ -53,7 +53,7 @@ TEST(Habits, ofThePreyAreRead) {
 TEST(Habits, ofAPacifistAreRead) {
     const Habits tang = test::castMember("blue_tang").habits;
     EXPECT_EQ(tang.role, Role::Pacifist);
-    EXPECT_DOUBLE_EQ(tang.libidoPerSecond, 0.003);
+    EXPECT_FLOAT_EQ(tang.libidoPerSecond, 0.003F);
     EXPECT_EQ(tang.home.kind, HomeKind::Place);
     EXPECT_LT(tang.home.radiusMetres, tang.home.leashMetres);
     EXPECT_TRUE(tang.home.onTheReef);
@@ -69,7 +69,7 @@ TEST(Habits, ofThePredatorAreReadWithItsPreyInOrder) {
     EXPECT_DOUBLE_EQ(shark.hunt.chaseSeconds, 8);
     EXPECT_DOUBLE_EQ(shark.hunt.giveUpMetres, 6);
     EXPECT_DOUBLE_EQ(shark.hunt.restSeconds, 60);
-    EXPECT_DOUBLE_EQ(shark.fearMetres, 0) << "it fears nobody";
+    EXPECT_FLOAT_EQ(shark.fearMetres, 0.0F) << "it fears nobody";
     EXPECT_FALSE(shark.eatsPlankton);
 }
 

@@ -45,7 +45,7 @@ std::string refusalOf(const std::string& text) {
 TEST(Species, theScadIsReadInItsUnits) {
     const Species scad = readSpecies(kPath);
     EXPECT_EQ(scad.name, "bigeye_scad");
-    EXPECT_DOUBLE_EQ(scad.size.meanMetres, 0.24);
+    EXPECT_FLOAT_EQ(scad.size.meanMetres, 0.24F);
     EXPECT_EQ(scad.profile.stations.size(), 15U);
     EXPECT_FLOAT_EQ(scad.fins.pelvic.angleRadians, 0.34906585F);
     EXPECT_NEAR(scad.swim.backLagRadians, 123.7 * 3.14159265358979 / 180, 1e-9);

@@ -126,7 +126,7 @@ TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
 }
 
 TEST(RecordingFormat, moreFishThanAWorldHoldsAreRefused) {
-    Production production = sampleProduction();
+    AssetBundle production = sampleProduction();
     production.cast[1].fish = kMostFish - 50;
     EXPECT_THAT(refusalOf(beginningOf(production)), HasSubstr("damaged species"));
 }

@@ -8,7 +8,7 @@
 
 namespace aquarama::wire {
 
-inline Production sampleProduction() {
+inline AssetBundle sampleProduction() {
     const std::vector<std::byte> repertoire(300, std::byte{0x5A});
     return {4000000000U,
             "scene.txtpb",

@@ -34,7 +34,7 @@ class Record : public testing::Test {
 
     // Returns the hash of the world at every tick.
     std::vector<std::uint64_t> recordAShow() {
-        const wire::Production production = test::syntheticProduction();
+        const wire::AssetBundle production = test::syntheticProduction();
         production::LivingWorld world(production::worldOptionsOf(production));
         RecordingFile file(path(), production);
         RecordedWorld recorded(world, file);
@@ -162,7 +162,7 @@ TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
 
 // A limit of the file's size stands for a full disk.
 TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
-    const wire::Production production = test::syntheticProduction();
+    const wire::AssetBundle production = test::syntheticProduction();
     production::LivingWorld world(production::worldOptionsOf(production));
     RecordingFile file(path(), production);
     RecordedWorld recorded(world, file);

@@ -12,7 +12,7 @@ namespace aquarama::world {
 namespace {
 
 constexpr std::uint32_t kSchool = 51;
-constexpr FishLengths kLarge{
+constexpr config::SizeRange kLarge{
     .meanMetres = 0.5F, .deviationMetres = 0.05F, .leastMetres = 0.4F, .mostMetres = 0.6F};
 
 WorldOptions reef(unsigned threads) {
@@ -22,7 +22,7 @@ WorldOptions reef(unsigned threads) {
     school.habits.shares.schooling = 1;
     WorldSpecies few{.tables = syntheticTables(), .fish = 8};
     few.habits.role = config::Role::Pacifist;
-    WorldSpecies one{.tables = syntheticTables(), .fish = 1, .lengths = kLarge};
+    WorldSpecies one{.tables = syntheticTables(), .fish = 1, .size = kLarge};
     one.habits.role = config::Role::Pacifist;
     options.cast = {school, few, one};
     return options;

@@ -55,18 +55,18 @@ inline WorldSpecies sharks(std::uint32_t fish) {
     WorldSpecies sharks{
         .tables = sharkTables(),
         .fish = fish,
-        .lengths = {
+        .size = {
             .meanMetres = 1.3F, .deviationMetres = 0, .leastMetres = 1.3F, .mostMetres = 1.3F}};
     sharks.name = "synthetic shark";
     config::Habits& habits = sharks.habits;
     habits.role = config::Role::Predator;
     habits.eatsPlankton = false;
-    habits.digestionPerSecond = 0.002;
+    habits.digestionPerSecond = 0.002F;
     habits.shares = {};
     habits.hunts = {"synthetic scad"};
     habits.visionBodyLengths = 10;
-    habits.box = {1.5, 0.5, 0.4};
-    habits.persistence = 0.7;
+    habits.box = {1.5F, 0.5F, 0.4F};
+    habits.persistence = 0.7F;
     return sharks;
 }
 
@@ -76,7 +76,7 @@ inline WorldSpecies pacifists(std::uint32_t fish) {
     pacifists.name = "synthetic tang";
     config::Habits& habits = pacifists.habits;
     habits.role = config::Role::Pacifist;
-    habits.libidoPerSecond = 0.004;
+    habits.libidoPerSecond = 0.004F;
     return pacifists;
 }
 

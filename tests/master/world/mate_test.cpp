@@ -84,7 +84,7 @@ TEST(Mate, NobodyCourtsItsOwnSexNorWhoIsNotWillingNorAnotherSpecies) {
         }
     }
     WorldSpecies unwilling = inTheMood(pacifists(kFish), 0.0);
-    unwilling.habits.libidoPerSecond = 1.0e-6;
+    unwilling.habits.libidoPerSecond = 1.0e-6F;
     World world(openWater(3, {unwilling}));
     for (int i = 0; i < 1800; ++i) world.advance();
     for (std::uint32_t fish = 0; fish < kFish; ++fish)
@@ -93,7 +93,7 @@ TEST(Mate, NobodyCourtsItsOwnSexNorWhoIsNotWillingNorAnotherSpecies) {
 
 TEST(Mate, ThoseTooDifferentInSizeNever) {
     WorldSpecies species = inTheMood(pacifists(20), 0.9);
-    species.lengths = {
+    species.size = {
         .meanMetres = 0.24F, .deviationMetres = 0.2F, .leastMetres = 0.12F, .mostMetres = 0.36F};
     World world(openWater(2, {species}));
     int courting = 0;

@@ -82,7 +82,7 @@ WorldOptions scadBeforeAShark(std::uint32_t scad) {
     options.cast[0].fish = scad;
     options.cast[0].start->centre = {-1.2F, -9, -5};
     options.cast[1].start->hunger = 0;
-    options.cast[1].habits.digestionPerSecond = 1e-6;
+    options.cast[1].habits.digestionPerSecond = 1e-6F;
     options.cast[1].habits.paces = {0, 1, 0, 0};
     return options;
 }
@@ -330,7 +330,7 @@ TEST(Reef, allMakeWayForASubmarineOnItsTour) {
 TEST(BaitBall, millsOpensBeforeASharkAndClosesBehindIt) {
     WorldOptions options = syntheticScene("bait_ball");
     options.scene.plankton = 0;
-    options.cast[1].habits.digestionPerSecond = 1e-6;
+    options.cast[1].habits.digestionPerSecond = 1e-6F;
     options.cast[1].habits.paces = {0, 0, 1, 0};
     options.cast[1].start = config::Start{.centre = {4.5F, -11, -7}, .radiusMetres = 1.5};
     World world(options);

@@ -23,7 +23,7 @@ WorldOptions livingSea() {
     WorldSpecies hunter = sharks(1);
     hunter.habits.hunts.emplace_back("synthetic tang");
     WorldSpecies prey = scads(kScads);
-    prey.habits.fearMetres = 0.8;  // in so little water farther sight would be endless fear
+    prey.habits.fearMetres = 0.8F;  // in so little water farther sight would be endless fear
     WorldOptions options = openWater(4, {prey, pacifists(kTangs), hunter});
     options.scene.gathering = config::Gathering::Journey;
     options.scene.plankton = 300;

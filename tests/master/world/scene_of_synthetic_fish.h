@@ -57,10 +57,10 @@ inline WorldOptions syntheticScene(const std::string& name, std::uint32_t seed =
                                               ? syntheticShark()
                                               : syntheticTables(),
                                 .fish = options.scene.cast[i].fish,
-                                .lengths = {metres(read.size.meanMetres),
-                                            metres(read.size.deviationMetres),
-                                            metres(read.size.leastMetres),
-                                            metres(read.size.mostMetres)},
+                                .size = {metres(read.size.meanMetres),
+                                         metres(read.size.deviationMetres),
+                                         metres(read.size.leastMetres),
+                                         metres(read.size.mostMetres)},
                                 .name = read.name,
                                 .habits = read.habits,
                                 .start = options.scene.cast[i].start});

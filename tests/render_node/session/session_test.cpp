@@ -146,7 +146,7 @@ TEST_F(SessionTest, joinsWithRigSpeciesAndRepertoire) {
     ASSERT_TRUE(admission);
     EXPECT_EQ(admission->rig.channels.size(), 3U);
     EXPECT_EQ(admission->cast.at(0).text, "name: \"scad\"");
-    EXPECT_EQ(admission->cast.at(0).repertoire.species, "scad");
+    EXPECT_EQ(admission->cast.at(0).repertoire, test::StageMaster::repertoire());
     EXPECT_EQ(admission->welcome.school.size(), 3U);
     EXPECT_GT(master_.chunksGiven, 3);
 }

@@ -11,10 +11,10 @@ namespace aquarama::behaviour {
 
 struct FishInMind {
     explicit FishInMind(config::Role role = config::Role::Prey) {
-        nature.role = role;
-        nature.fearFrom = 0.25F;
-        nature.fearAlone = 0.6F;
-        if (role == config::Role::Pacifist) nature.libido = 0.003F;
+        nature.habits.role = role;
+        nature.habits.fearFrom = 0.25F;
+        nature.habits.fearAlone = 0.6F;
+        if (role == config::Role::Pacifist) nature.habits.libidoPerSecond = 0.003F;
         if (role == config::Role::Predator) nature.hunts = 1;
         if (role == config::Role::Prey) {
             mind.likes = fish::kLikesSchooling;

@@ -89,7 +89,7 @@ TEST(IntentionGenerator, aPacifistNeitherEscapesNorSchoolsButMates) {
 
 TEST(IntentionGenerator, preyDoesNotMate) {
     FishInMind scad;
-    scad.nature.libido = 0.003F;
+    scad.nature.habits.libidoPerSecond = 0.003F;
     scad.feelings.libido = 0.9F;
     scad.showMate(3);
     EXPECT_EQ(scad.think(), fish::Intention::School);

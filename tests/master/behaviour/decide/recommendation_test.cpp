@@ -45,14 +45,14 @@ TEST(Recommendation, isRefusedNearAnObstacle) {
 
 TEST(Recommendation, isRefusedByASchoolInFear) {
     Moment moment(fish::Intention::School);
-    moment.feelings.fear = moment.nature.fearFrom + 0.1F;
+    moment.feelings.fear = moment.nature.habits.fearFrom + 0.1F;
     EXPECT_FALSE(moment.accepts());
 }
 
 TEST(Recommendation, isRefusedNearAMealButNotOnTheLongWayThere) {
     for (const config::Role role : {config::Role::Pacifist, config::Role::Predator}) {
         Moment moment(fish::Intention::Eat);
-        moment.nature.role = role;
+        moment.nature.habits.role = role;
         Sighting& meal = role == config::Role::Predator ? moment.senses.prey : moment.senses.food;
         meal = {0, {0.3F, 0, 0}, 0.3F};
         EXPECT_FALSE(moment.accepts());

@@ -18,11 +18,11 @@ constexpr float kThoughtSeconds = static_cast<float>(fish::kTicksBetweenThoughts
 
 fish::Nature tang() {
     fish::Nature nature;
-    nature.role = config::Role::Pacifist;
-    nature.appetite = 3;
-    nature.digestion = 0.0045F;
-    nature.libido = 0.003F;
-    nature.fearMetres = 0.9F;
+    nature.habits.role = config::Role::Pacifist;
+    nature.habits.appetiteParticles = 3;
+    nature.habits.digestionPerSecond = 0.0045F;
+    nature.habits.libidoPerSecond = 0.003F;
+    nature.habits.fearMetres = 0.9F;
     return nature;
 }
 
@@ -50,7 +50,7 @@ TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
     for (int thought = 1; thought < 2500; ++thought) {
         fish::passTime(nature, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
-        const float expected = std::min(1.0F, nature.digestion * seconds);
+        const float expected = std::min(1.0F, nature.habits.digestionPerSecond * seconds);
         ASSERT_NEAR(feel(nature, mind, lonely()).hunger, expected, 2e-5F) << seconds << " s";
     }
     EXPECT_EQ(mind.eaten, 0) << "a digested meal does not count again with the next";
@@ -77,7 +77,7 @@ TEST(Hunger, isTemptedByFoodNearbyUntilGorged) {
 
 TEST(Hunger, aPredatorIsNotTempted) {
     fish::Nature nature = tang();
-    nature.role = config::Role::Predator;
+    nature.habits.role = config::Role::Predator;
     Senses senses = lonely();
     senses.food = {5, {0.2F, 0, 0}, senses.length};
     EXPECT_EQ(feel(nature, fed(3), senses).hunger, 0);
@@ -104,7 +104,7 @@ TEST(Libido, growsToOneWithTimeAndIsSuppressedByHunger) {
         fish::passTime(nature, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
         const Feelings feelings = feel(nature, mind, lonely());
-        const float grown = std::min(1.0F, nature.libido * seconds);
+        const float grown = std::min(1.0F, nature.habits.libidoPerSecond * seconds);
         ASSERT_NEAR(feelings.libido, grown * (1 - feelings.hunger), 2e-5F) << seconds << " s";
     }
     mind.eaten = 0;
@@ -121,7 +121,7 @@ TEST(Libido, isRaisedByAMateInSight) {
 TEST(Libido, isAPacifistsAlone) {
     for (const config::Role role : {config::Role::Prey, config::Role::Predator}) {
         fish::Nature nature = tang();
-        nature.role = role;
+        nature.habits.role = role;
         fish::Mind mind = fed(3);
         mind.sinceSpawning = fish::kLongAgo;
         EXPECT_EQ(feel(nature, mind, lonely()).libido, 0);

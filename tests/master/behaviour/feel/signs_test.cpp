@@ -17,8 +17,8 @@ struct Shown {
 
 Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0) {
     fish::Nature nature;
-    nature.role = role;
-    nature.libido = 0.003F;
+    nature.habits.role = role;
+    nature.habits.libidoPerSecond = 0.003F;
     fish::FishView view;
     view.resize(1);
     view.signs[0] = before;

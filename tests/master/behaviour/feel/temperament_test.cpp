@@ -74,8 +74,8 @@ TEST(Temperament, notAllHungerAtOnce) {
 
 TEST(Mood, beginsAsTheSceneWantsIt) {
     fish::Nature nature;
-    nature.role = config::Role::Pacifist;
-    nature.libido = 0.003F;
+    nature.habits.role = config::Role::Pacifist;
+    nature.habits.libidoPerSecond = 0.003F;
     for (const float hunger : {0.0F, 0.2F, 0.7F, 1.0F}) {
         for (const float libido : {0.0F, 0.3F, 0.8F}) {
             fish::Mind mind;
@@ -92,7 +92,7 @@ TEST(Mood, beginsAsTheSceneWantsIt) {
 TEST(Mood, holdsForEveryAppetite) {
     for (const float appetite : {0.5F, 1.0F, 2.5F, 6.0F}) {
         fish::Nature nature;
-        nature.appetite = appetite;
+        nature.habits.appetiteParticles = appetite;
         fish::Mind mind;
         fish::setMood(nature, 0.4F, 0, mind);
         EXPECT_NEAR(feel(nature, mind, {}).hunger, 0.4F, 0.01F) << appetite;

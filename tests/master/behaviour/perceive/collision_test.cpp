@@ -24,7 +24,7 @@ Senses perceived(const Aquarium& scene,
 // Two kinds that keep to themselves, in body lengths of the first.
 Aquarium strangers(glm::vec3 offsetLengths) {
     Aquarium scene;
-    scene.natures[0].role = config::Role::Pacifist;
+    scene.natures[0].habits.role = config::Role::Pacifist;
     fish::Nature other;
     other.kind = 1;
     scene.natures.push_back(other);
@@ -97,7 +97,7 @@ TEST(Collision, preyHuntersAndThoseItFollowsAreHeededOtherwise) {
     EXPECT_TRUE(perceived(scene, 0).collision.seen());
     scene.natures[0].huntedBy = 2;
     EXPECT_TRUE(perceived(scene, 0).collision.seen()) << "a pacifist does not flee";
-    scene.natures[0].role = config::Role::Prey;
+    scene.natures[0].habits.role = config::Role::Prey;
     EXPECT_FALSE(perceived(scene, 0).collision.seen()) << "prey does";
 }
 

@@ -23,7 +23,7 @@ struct Sea {
     std::vector<fish::Nature> natures = std::vector<fish::Nature>(2);
 
     Sea() {
-        natures[1].role = config::Role::Predator;
+        natures[1].habits.role = config::Role::Predator;
         for (std::size_t fish = 0; fish < kFish; ++fish) {
             if (fish % 5 == 0) view.signs[fish] = fish::kAway;
             if (fish % 7 == 0) view.signs[fish] |= fish::kWilling;

@@ -20,10 +20,10 @@ struct Sea : Aquarium {
     Sea() {
         natures[kScad].huntedBy = 1U << kShark;
         fish::Nature shark;
-        shark.role = config::Role::Predator;
+        shark.habits.role = config::Role::Predator;
         shark.kind = kShark;
         shark.hunts = 1U << kScad;
-        shark.visionBodyLengths = 10;
+        shark.habits.visionBodyLengths = 10;
         natures.push_back(shark);
         addFish({});
     }
@@ -165,7 +165,7 @@ TEST(Prey, isKeptUnlessAnotherIsBetterByThePersistence) {
     const std::uint32_t shark = sea.addShark({3, 0, 0});
     sea.head(shark, {-1, 0, 0});
     const std::uint32_t other = sea.addFish({0.6F, 0, 0});
-    sea.natures[kShark].persistence = 0.3F;
+    sea.natures[kShark].habits.persistence = 0.3F;
     EXPECT_EQ(sea.perceived(shark).prey.object, other);
     sea.alter(shark, [](fish::Mind& mind) {
         mind.intention = fish::Intention::Eat;
