@@ -73,7 +73,7 @@ report() {
 }
 # Prints the tables of docs/fidelity.md besides.
 fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
-# Prints the tables of docs/adaptation.md besides.
+# Prints the tables of docs/appendices/adaptation.md besides.
 adaptation() { $bin/aquarama study --seeds 16 --minutes 4 --out "$drawn"; }
 
 mapfile -t names < <(printf '%s\n' "${!way[@]}" | sort)

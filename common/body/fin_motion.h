@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fins that row, flutter, ripple and fold beside the body that bears them: a pure function of time
-// and of what a node knows of a fish. The reference of fish_fins.glsl. (docs/look.md, "Fish")
+// and of what a node knows of a fish. The reference of fish_fins.glsl.
+// (docs/appendices/look.md, "Fins")
 #pragma once
 
 #include <array>

@@ -9,7 +9,8 @@
 
 namespace aquarama::study {
 
-// The tables of docs/adaptation.md: for each scenario a row a quantity and a column a condition.
+// The tables of docs/appendices/adaptation.md: for each scenario a row a quantity and a column a
+// condition.
 [[nodiscard]] std::string studyMarkdown(const StudyPlan& plan, const std::vector<Sample>& samples);
 
 // A line for each scenario, condition and seed.
