@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the tables of docs/adaptation.md and draws the figure: draw_study.py adaptation|chronicle DIR [--figure].
+"""Prints the tables of docs/adaptation.md and draws the figure: draw_study.py adaptation DIR [figure], or
+draw_study.py chronicle DIR HOURS.
 
-DIR holds the files of CSV that `aquarama study` or `aquarama study chronicle` writes (study_csv.h says what is in them).
+DIR holds the files of CSV that `aquarama study` or `aquarama study chronicle` writes (see study_csv.h).
 """
 
 import sys
@@ -27,7 +28,8 @@ QUANTITIES = {
     "same_segment_percent": ("pairs of the school on one segment, %", 1, ""),
     "in_step_percent": ("pairs in step (same segment, a sixteenth of a beat), %", 2, ""),
     "phase_resultant": ("mean resultant length of the phases", 3, "0.12: 51 at random"),
-    "nearest_neighbour_lengths": ("nearest neighbour, body lengths", 2, "0.5-1.5 (Partridge 1980; Pitcher & Parrish 1993)"),
+    "nearest_neighbour_lengths": ("nearest neighbour, body lengths", 2,
+                                  "0.5-1.5 (Partridge 1980; Pitcher & Parrish 1993)"),
     "polarisation": ("polarisation", 2, "> 0.65 schooling (Tunstrom 2013)"),
     "rotation": ("rotation", 2, "> 0.65 milling (Tunstrom 2013)"),
     "intention_changes_per_minute": ("changes of intention, a fish and minute", 2, ""),
@@ -72,15 +74,16 @@ def cell(values, digits, is_bold):
 
 
 def print_adaptation(runs):
-    """For each scenario a row a quantity and a column a condition; bold where it clearly differs from the first, "all"."""
+    """For each scenario a row a quantity and a column a condition; bold differs clearly from the first, "all"."""
     for scenario, conditions in runs.items():
         with_all = next(iter(conditions.values()))
         rows = []
         for quantity, (words, digits, published) in QUANTITIES.items():
             if all(np.isnan(of[quantity]).all() for of in conditions.values()):
                 continue
-            rows.append([words, *(cell(of[quantity], digits, of is not with_all and is_clear(of[quantity], with_all[quantity]))
-                                  for of in conditions.values()), published])
+            cells = [cell(of[quantity], digits, of is not with_all and is_clear(of[quantity], with_all[quantity]))
+                     for of in conditions.values()]
+            rows.append([words, *cells, published])
         print(f"### {scenario}\n\n{markdown_table(['', *conditions, 'published'], rows)}")
 
 
@@ -95,28 +98,32 @@ def draw_adaptation(runs):
         without, with_all = runs[scenario][condition][quantity], runs[scenario]["all"][quantity]
         axes.plot([1, 2], [without, with_all], color="#c3cdd4", linewidth=0.8)
         for place, values, colour in [(1, without, WITHOUT), (2, with_all, WITH)]:
-            axes.plot(np.full(len(values), place), values, "o", color=colour, markersize=4.5, alpha=0.6, markeredgewidth=0)
+            axes.plot(np.full(len(values), place), values, "o", color=colour, markersize=4.5, alpha=0.6,
+                      markeredgewidth=0)
             if not np.isnan(values).all():
                 axes.plot([place - 0.25, place + 0.25], [np.nanmean(values)] * 2, color=colour, linewidth=2)
         axes.set(xlim=(0.4, 2.6), ylim=(0, None), xticks=[1, 2], xticklabels=["without", "with"])
         axes.grid(axis="x", color="none")
         axes.set_title(f"{adaptation}, {scenario}\n", fontsize=9.5)
-        axes.annotate(QUANTITIES[quantity][0], (0, 1), (0, 5), "axes fraction", "offset points", color=QUIET, fontsize=7.5)
+        axes.annotate(QUANTITIES[quantity][0], (0, 1), (0, 5), "axes fraction", "offset points", color=QUIET,
+                      fontsize=7.5)
     return figure
 
 
 def print_hours(hours):
     routines = [key for key in hours[0] if key.endswith(" share")]
-    head = ["hour", "fewest fish", "meals", "catches", "returns", "spawnings",
-            " / ".join(key.removesuffix(" share") for key in routines) + ", %", "changes of intention, a fish and minute",
-            "overlaps, a fish and minute", "in another fish, %", "into terrain", "shortest way, m", "longest stay, s (fish)",
-            "farthest out, m", "spread, m", "water used, %"]
+    shares = " / ".join(key.removesuffix(" share") for key in routines) + ", %"
+    head = ["hour", "fewest fish", "meals", "catches", "returns", "spawnings", shares,
+            "changes of intention, a fish and minute", "overlaps, a fish and minute", "in another fish, %",
+            "into terrain", "shortest way, m", "longest stay, s (fish)", "farthest out, m", "spread, m",
+            "water used, %"]
     print(markdown_table(head, [[
         *(f"{hour[key]:.0f}" for key in ["hour", "fewest_fish", "meals", "catches", "returns", "spawnings"]),
         " / ".join(f"{100 * hour[key]:.1f}" for key in routines), f"{hour['changes_per_fish_minute']:.1f}",
         f"{hour['touches_per_fish_minute']:.3f}", f"{hour['overlap_percent']:.2f}", f"{hour['into_terrain']:.0f}",
         f"{hour['shortest_way_m']:.0f}", f"{hour['longest_stay_s']:.0f} ({hour['who_stayed']:.0f})",
-        f"{hour['farthest_out_m']:.2f}", f"{hour['spread_m']:.2f}", f"{hour['water_used_percent']:.0f}"] for hour in hours]))
+        f"{hour['farthest_out_m']:.2f}", f"{hour['spread_m']:.2f}", f"{hour['water_used_percent']:.0f}"]
+        for hour in hours]))
 
 
 def print_overlaps(overlaps, key, words, hours):
@@ -134,19 +141,18 @@ def print_overlaps(overlaps, key, words, hours):
         for pair in sorted(totals, key=lambda pair: (-totals[pair], pair))]))
 
 
-def main(what, folder, wants_figure):
+def main(what, folder, more):
     if what == "adaptation":
         runs = runs_of(read_csv(folder / "adaptation.csv"))
         print_adaptation(runs)
-        if wants_figure:
+        if more == "figure":
             print(save(draw_adaptation(runs), folder / "adaptation.svg"), file=sys.stderr)
     else:
         hours, overlaps = read_csv(folder / "hours.csv"), read_csv(folder / "overlaps.csv")
         if hours:
             print_hours(hours)
-            lasted = sum(hour["lasts_s"] for hour in hours) / 3600
-            print_overlaps(overlaps, "species", "species", lasted)
-            print_overlaps(overlaps, "routine", "as it began they would", lasted)
+        print_overlaps(overlaps, "species", "species", float(more))
+        print_overlaps(overlaps, "routine", "as it began they would", float(more))
 
 
-main(sys.argv[1], Path(sys.argv[2]), "--figure" in sys.argv[3:])
+main(sys.argv[1], Path(sys.argv[2]), sys.argv[3])

@@ -57,11 +57,11 @@ class DataFolder {
         files::writeWhole(path_ / name, std::as_bytes(std::span(text)));
         if (isKept_) std::cerr << (path_ / name).string() << '\n';
     }
-    // Prints the tables and, where the data are kept, draws the figure beside them.
-    void show(const std::string& what) const {
-        std::vector<std::string> arguments{what, path_.string()};
-        if (isKept_) arguments.emplace_back("--figure");
-        cli::runPython(kModules, "master/study/draw_study.py", arguments);
+    [[nodiscard]] bool isKept() const { return isKept_; }
+    // Prints the tables: "adaptation", and with "figure" draws it beside the data; or "chronicle"
+    // and its hours.
+    void show(const std::string& what, const std::string& more) const {
+        cli::runPython(kModules, "master/study/draw_study.py", {what, path_.string(), more});
     }
 
   private:
@@ -88,7 +88,7 @@ void runStudy(const StudyOptions& options) {
                                 .seeds = options.seeds,
                                 .threads = std::max(std::thread::hardware_concurrency(), 1U)};
     folder.write("adaptation.csv", study::runsCsv(plan, watched(plan)));
-    folder.show("adaptation");
+    folder.show("adaptation", folder.isKept() ? "figure" : "");
 }
 
 struct ChronicleOptions {
@@ -117,7 +117,7 @@ void chronicle(const ChronicleOptions& options) {
     folder.write("hours.csv", study::hoursCsv(chronicle.hours()));
     folder.write("overlaps.csv",
                  study::overlapsCsv(chronicle.overlaps(), world, scenario.world.cast));
-    folder.show("chronicle");
+    folder.show("chronicle", std::to_string(options.hours));
     std::cout << "\nhash of the world: " << std::hex << world.hash() << '\n';
 }
 

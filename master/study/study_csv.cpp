@@ -40,15 +40,14 @@ std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {
 
 std::string hoursCsv(std::span<const Hour> hours) {
     std::ostringstream csv;
-    csv << "hour,lasts_s,fewest_fish,meals,catches,returns,spawnings";
+    csv << "hour,fewest_fish,meals,catches,returns,spawnings";
     for (const char* routine : kRoutines) csv << ',' << routine << " share";
     csv << ",changes_per_fish_minute,touches_per_fish_minute,overlap_percent,into_terrain,"
            "shortest_way_m,longest_stay_s,who_stayed,farthest_out_m,spread_m,water_used_percent\n";
     int number = 0;
     for (const Hour& hour : hours) {
-        csv << ++number << ',' << secondsOf(hour.ticks) << ',' << hour.fewest << ','
-            << hour.counts.meals << ',' << hour.counts.catches << ',' << hour.counts.returns << ','
-            << hour.counts.spawnings;
+        csv << ++number << ',' << hour.fewest << ',' << hour.counts.meals << ','
+            << hour.counts.catches << ',' << hour.counts.returns << ',' << hour.counts.spawnings;
         for (const double share : hour.intentionShare) csv << ',' << share;
         csv << ',';
         report::addRow(csv,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the page fidelity.html, its pictures and the tables of docs/fidelity.md, which it prints: draw_fidelity.py DIR SEED.
+"""Makes the page fidelity.html with its pictures and prints the tables of docs/fidelity.md: draw_fidelity.py DIR SEED.
 
 DIR holds the files of CSV that `aquarama fidelity` writes (fidelity_csv.h says what is in them).
 """
@@ -12,11 +12,18 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "report"))
-from figures import (GRID, INK, PX, from_above, hide_axes, html_table, markdown_table, picture, plt, read_csv, save, write_page)
+from figures import (INK, PX, from_above, hide_axes, html_table, markdown_table, picture, plt, read_csv, save,
+                     write_page)
 
 KINDS = {"slow": "#9fc9e8", "medium": "#5b9fd0", "fast": "#1f6aa5", "gradual turn": "#f2b35c", "sharp turn": "#e0702c",
          "glide": "#9bbf7a", "up, down, level": "#b59ad6", "brake, retreat": "#8a969e"}
 ALONE, SPECIES, GOAL, OURS = "#7b3f00", "#b9c6cd", "#c0392b", "#e0702c"
+INTRODUCTION = """<p>The biomechanical fish and its kinematic replica obey the same commands. Shape: root mean square
+distance of the 23 nodal points in the body frame, in per cent of a body length (BL); within a segment, after the
+first beat, at the lag of its beat; and in the transition, the first beat as it was played. Path: distance at the end
+of a command, in per cent of the way, laid over each other at its start by place and heading; along the way it is the
+speed's, across it the heading's (medians). <span class="over">Over the goal</span>: shape 1 % within a segment, path
+5 %.</p>"""
 SHAPE_GOAL, PATH_GOAL = 0.01, 0.05
 
 
@@ -40,8 +47,9 @@ def kind_marks():
 
 
 def draw_ways(axes, ticks, width, every):
-    """The way of the fish from above, lying so that the longer side is across; each command in its colour. Over it, thin, the
-    replica's, laid over it anew at each command, and dashed the one that was left alone. Drawn is every so manieth tick."""
+    """The way of the fish from above, lying so that the longer side is across; each command in its colour. Over it,
+    thin, the replica's, laid over it anew at each command, and dashed the one that was left alone. Of `every` ticks one
+    is drawn."""
     seen = np.concatenate([from_above(column(ticks, f"{who}_x", f"{who}_z")) for who in ["fish", "alone"]])
     is_turned = np.ptp(seen[:, 1]) > np.ptp(seen[:, 0])
 
@@ -52,8 +60,8 @@ def draw_ways(axes, ticks, width, every):
         plot(rows, "fish", color=colour_of(rows[0]["command"]), linewidth=width, solid_capstyle="butt")
     plot(ticks, "alone", color=ALONE, linewidth=max(0.6, width / 6), dashes=(5, 3), zorder=3)
     for rows in commands_of(ticks):
-        plot(rows, "replica", color="#10202b", linewidth=max(0.6, width / 6), marker="o", markersize=width / 3, markevery=[0],
-             markeredgewidth=0, zorder=4)
+        plot(rows, "replica", color="#10202b", linewidth=max(0.6, width / 6), zorder=4,
+             marker="o", markersize=width / 3, markevery=[0], markeredgewidth=0)
     axes.set_aspect("equal", adjustable="datalim")
     hide_axes(axes)
 
@@ -61,7 +69,7 @@ def draw_ways(axes, ticks, width, every):
 def draw_scale(axes, height):
     """Ten body lengths, at the left; when the limits are known."""
     length = 10 / np.ptp(axes.get_xlim())
-    axes.plot([0.03, 0.03 + length], [height, height], color=INK, linewidth=1.6, transform=axes.transAxes, clip_on=False)
+    axes.plot([0.03, 0.03 + length], [height] * 2, color=INK, linewidth=1.6, transform=axes.transAxes, clip_on=False)
     axes.text(0.03 + length + 0.015, height, "10 BL", transform=axes.transAxes, va="center")
 
 
@@ -83,10 +91,11 @@ def draw_ways_of_one(ticks):
 
 
 def draw_ways_of_all(by_species):
-    rows = -(-len(by_species) // 4)
-    figure, panels = plt.subplots(rows, min(4, len(by_species)), squeeze=False, figsize=(1080 * PX, (215 * rows + 32) * PX),
-                                  gridspec_kw={"left": 0.01, "right": 0.99, "bottom": 0.01, "top": 1 - 32 / (215 * rows + 32),
-                                               "wspace": 0.05, "hspace": 0.07})
+    columns = 4
+    rows = -(-len(by_species) // columns)
+    high = 215 * rows + 32
+    figure, panels = plt.subplots(rows, columns, squeeze=False, figsize=(1080 * PX, high * PX), gridspec_kw={
+        "left": 0.01, "right": 0.99, "bottom": 0.01, "top": 1 - 32 / high, "wspace": 0.05, "hspace": 0.07})
     for axes in panels.flat[len(by_species):]:
         axes.set_visible(False)
     for axes, (species, ticks) in zip(panels.flat, by_species.items()):
@@ -103,10 +112,11 @@ def draw_ways_of_all(by_species):
 def draw_times(ticks):
     """Error of the shape over time, the commands, and the speeds of both."""
     figure, (shape, commands, speed) = plt.subplots(
-        3, 1, sharex=True, figsize=(1080 * PX, 480 * PX), gridspec_kw={"height_ratios": [19, 1, 15]}, layout="constrained")
+        3, 1, sharex=True, figsize=(1080 * PX, 480 * PX), layout="constrained", height_ratios=[19, 1, 15])
     seconds = column(ticks, "seconds")
-    shape.semilogy(seconds, 100 * column(ticks, "shape_as_played_bl"), color=SPECIES, linewidth=0.8, label="as played")
-    shape.semilogy(seconds, 100 * column(ticks, "shape_in_phase_bl"), color=INK, linewidth=1, label="in the fish's phase")
+    for key, colour, label in [("shape_as_played_bl", SPECIES, "as played"),
+                               ("shape_in_phase_bl", INK, "in the fish's phase")]:
+        shape.semilogy(seconds, 100 * column(ticks, key), color=colour, linewidth=0.9, label=label)
     shape.axhline(100 * SHAPE_GOAL, color=GOAL, linewidth=0.8, dashes=(5, 4), label="1 %, the goal within a segment")
     shape.set(ylim=(0.01, 10), yticks=[0.01, 0.1, 1, 10], yticklabels=["0.01", "0.1", "1", "10"],
               title="error of the shape, root mean square over 23 nodal points, % of a body length")
@@ -136,9 +146,9 @@ def draw_vocabularies(vocabularies):
         median = np.sort(values, axis=0)[len(values) // 2]
         axes.plot(places, values.T, color=SPECIES, linewidth=1, label="one species")
         axes.plot(places, median, color=INK, linewidth=2, marker="o", markersize=5, label="their median")
-        ours = [row["segments"] for row in known].index(7) if any(row["segments"] == 7 for row in known) else None
-        if ours is not None:
-            axes.plot(ours, median[ours], "o", color=OURS, markersize=8, zorder=4, label="the seven of every repertoire here")
+        ours = [row["segments"] for row in known].index(7)
+        axes.plot(ours, median[ours], "o", color=OURS, markersize=8, zorder=4,
+                  label="the seven of every repertoire here")
         axes.set(ylim=(0, None), title=title, xticks=places,
                  xticklabels=[f"{row['segments']:.0f}\n{row['bytes'] / 1e6:.1f}" for row in known])
         axes.grid(axis="x", color="none")
@@ -154,10 +164,11 @@ def percent(share, goal=None):
 
 
 def summary_table(rows, name):
-    head = ["command", "count", "shape within, %", "in transition, %", "agrees after, s", "path, median, %", "9 of 10 within, %",
-            "worst, %", "along, %", "across, %", "heading, rms, deg"]
+    head = ["command", "count", "shape within, %", "in transition, %", "agrees after, s", "path, median, %",
+            "9 of 10 within, %", "worst, %", "along, %", "across, %", "heading, rms, deg"]
     return html_table(head, [[
-        row[name], f"{row['count']:.0f}", percent(row["shape_within_bl"], SHAPE_GOAL), percent(row["shape_transition_bl"]),
+        row[name], f"{row['count']:.0f}", percent(row["shape_within_bl"], SHAPE_GOAL),
+        percent(row["shape_transition_bl"]),
         "never" if row["never_agree"] == row["count"] else f"{row['agrees_after_s']:.2f}",
         *(percent(row[key], PATH_GOAL) for key in ["path_median", "path_ninth", "path_worst"]),
         percent(row["path_along"]), percent(row["path_across"]), f"{row['heading_rms_deg']:.1f}"] for row in rows])
@@ -175,23 +186,26 @@ def command_table(rows):
 
 def print_tables(summaries, alone):
     """The tables of docs/fidelity.md: species by species, and command by command over all of them."""
-    head = ["species", "commands", "shape within a segment, % BL", "shape in transitions, % BL", "path, median, %",
-            "along, across, %", "path, 9 of 10 within, %", "heading, rms, deg", "open loop: way, BL", "off at the end, BL",
-            "heading off, deg"]
+    def tenths(number, factor=1):
+        return f"{factor * number:.1f}"
     rows = [["*goal*", "", "*1*", "", "*5*", "", "*5*", "", "", "", ""]]
     for row in summaries:
         if row["command"] == "all":
             way = alone[row["species"]]
-            rows.append([row["species"], f"{row['count']:.0f}", percent(row["shape_within_bl"]),
-                         percent(row["shape_transition_bl"]), f"{100 * row['path_median']:.1f}",
-                         f"{100 * row['path_along']:.1f}, {100 * row['path_across']:.1f}", f"{100 * row['path_ninth']:.1f}",
-                         f"{row['heading_rms_deg']:.1f}", f"{way['path_bl']:.0f}",
-                         f"{way['path_error_end'] * way['path_bl']:.1f}", f"{way['heading_error_deg']:.1f}"])
-    print(markdown_table(head, rows))
-    head = ["command", "count", "path, median, %", "% of them within 5 %", "shape within a segment, % BL", "heading, rms, deg"]
-    print(markdown_table(head, [[row["command"], f"{row['count']:.0f}", f"{100 * row['path_median']:.1f}",
-                                 f"{100 * row['paths_within_goal'] / row['count']:.0f}", percent(row["shape_within_bl"]),
-                                 f"{row['heading_rms_deg']:.1f}"] for row in summaries if row["species"] == "all"]), end="")
+            rows.append([
+                row["species"], f"{row['count']:.0f}", percent(row["shape_within_bl"]),
+                percent(row["shape_transition_bl"]), tenths(row["path_median"], 100),
+                f"{tenths(row['path_along'], 100)}, {tenths(row['path_across'], 100)}", tenths(row["path_ninth"], 100),
+                tenths(row["heading_rms_deg"]), f"{way['path_bl']:.0f}",
+                tenths(way["path_error_end"], way["path_bl"]), tenths(way["heading_error_deg"])])
+    print(markdown_table(["species", "commands", "shape within a segment, % BL", "shape in transitions, % BL",
+                          "path, median, %", "along, across, %", "path, 9 of 10 within, %", "heading, rms, deg",
+                          "open loop: way, BL", "off at the end, BL", "heading off, deg"], rows))
+    rows = [[row["command"], f"{row['count']:.0f}", tenths(row["path_median"], 100),
+             f"{100 * row['paths_within_goal'] / row['count']:.0f}", percent(row["shape_within_bl"]),
+             tenths(row["heading_rms_deg"])] for row in summaries if row["species"] == "all"]
+    print(markdown_table(["command", "count", "path, median, %", "% of them within 5 %", "shape within a segment, % BL",
+                          "heading, rms, deg"], rows), end="")
 
 
 def main(folder, seed):
@@ -204,21 +218,18 @@ def main(folder, seed):
         return picture(save(figure, folder / f"fidelity_{name}.svg"))
     show("ways", draw_ways_of_all(by_species))
     body = [
-        "<p>The biomechanical fish and its kinematic replica obey the same commands. Shape: root mean square distance of the 23 "
-        "nodal points in the body frame, in per cent of a body length (BL); within a segment, after the first beat, at the lag of "
-        "its beat; and in the transition, the first beat as it was played. Path: distance at the end of a command, in per cent of "
-        "the way, laid over each other at its start by place and heading; along the way it is the speed's, across it the "
-        'heading\'s (medians). <span class="over">Over the goal</span>: shape 1 % within a segment, path 5 %.</p>'
-        f"<p>Script {seed}.</p>", summary_table([row for row in summaries if row["command"] == "all"], "species"),
+        INTRODUCTION, f"<p>Script {seed}.</p>",
+        summary_table([row for row in summaries if row["command"] == "all"], "species"),
         "<h2>How few segments are enough</h2>", show("segments", draw_vocabularies(vocabularies))]
     for species, rows in by_species.items():
         way = alone[species]
+        length = way["path_bl"]
         own = [row for row in summaries if row["species"] == species]
         body += [
             f"<h2>{species}</h2>", show(f"ways_{species}", draw_ways_of_one(rows)),
-            f"<p>Left alone for the whole script, the replica ends {way['path_error_end'] * way['path_bl']:.1f} BL from the fish "
-            f"after a way of {way['path_bl']:.1f} BL ({percent(way['path_error_end'])} %; at most "
-            f"{way['path_error_most'] * way['path_bl']:.1f} BL) and heads {way['heading_error_deg']:.1f} degrees from it.</p>",
+            f"<p>Left alone for the whole script, the replica ends {way['path_error_end'] * length:.1f} BL from the "
+            f"fish after a way of {length:.1f} BL ({percent(way['path_error_end'])} %; at most "
+            f"{way['path_error_most'] * length:.1f} BL) and heads {way['heading_error_deg']:.1f} degrees from it.</p>",
             show(f"times_{species}", draw_times(rows)), summary_table(own[1:] + own[:1], "command"),
             command_table([row for row in commands if row["species"] == species and row["command"] != "open_loop"])]
     write_page(folder / "fidelity.html", "Fidelity of the replicas", "\n".join(body))

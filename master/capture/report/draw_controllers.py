@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the sheet of the nine motor controllers: draw_controllers.py controllers.json; controllers.svg comes beside it."""
+"""Draws the sheet of the nine motor controllers beside its data: draw_controllers.py controllers.json."""
 
 import json
 import sys
@@ -48,7 +48,8 @@ def draw_map(axes, trial, name):
     """The way itself."""
     heading, pitch = trial["heading_degrees"], trial["pitch_degrees"]
     is_above = trial["view"] == "above"
-    tells = f"turns by {heading[-1] - heading[0]:.0f}°" if is_above else f"pitch {np.mean(pitch[-(len(pitch) // 4):]):.0f}°"
+    last = np.mean(pitch[-(len(pitch) // 4):])
+    tells = f"turns by {heading[-1] - heading[0]:.0f}°" if is_above else f"pitch {last:.0f}°"
     axes.set(xlim=np.array([0, WIDE / BODY]) - 1, xlabel="ahead, BL", ylim=np.array([0, HIGH / BODY]) + LEAST[name],
              ylabel="to the left, BL" if is_above else "up, BL",
              title=f"{name.capitalize()}, from {'above' if is_above else 'the side'}: {tells}")
@@ -84,10 +85,11 @@ def main(path):
     data = json.loads(path.read_text(encoding="utf-8"))
     wide, high = 3 * (WIDE + 76) + 24, 3 * (HIGH + 94) + 58
     figure = plt.figure(figsize=(wide * PX, high * PX))
-    figure.text(62 / wide, 1 - 36 / high, f"Nine motor controllers: the biomechanical {data['species'].replace('_', ' ')}, in its "
-                "stride at medium speed, then so ordered", fontsize=13.5)
-    figure.text(62 / wide, 1 - 56 / high, "Dark is late; pectoral fins in red; lengths in body lengths (BL). Balance begins rolled "
-                "by 40°, retreat at rest.", color=QUIET)
+    species = data["species"].replace("_", " ")
+    figure.text(62 / wide, 1 - 36 / high, f"Nine motor controllers: the biomechanical {species}, in its stride at "
+                "medium speed, then so ordered", fontsize=13.5)
+    figure.text(62 / wide, 1 - 56 / high, "Dark is late; pectoral fins in red; lengths in body lengths (BL). Balance "
+                "begins rolled by 40°, retreat at rest.", color=QUIET)
     for i, trial in enumerate(data["trials"]):
         left, top = 62 + i % 3 * (WIDE + 76), 96 + i // 3 * (HIGH + 94)
         axes = figure.add_axes([left / wide, 1 - (top + HIGH) / high, WIDE / wide, HIGH / high])

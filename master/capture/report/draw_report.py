@@ -13,12 +13,27 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
-from figures import (AMBER, INK, PUBLISHED, PX, QUIET, from_above, hide_axes, html_table, picture, plt, save, write_page)
+from figures import (AMBER, INK, PUBLISHED, PX, QUIET, from_above, hide_axes, html_table, picture, plt, save,
+                     write_page)
 
 # One colour a segment: straight on in blues, turns in warm colours for the left and greens for the right.
 COLOURS = dict(zip(["forward_slow", "forward_medium", "forward_fast", "turn_left_gradual", "turn_left_sharp",
                     "turn_right_gradual", "turn_right_sharp"],
                    ["#7fb2d6", "#2f77b4", "#143d6b", "#e2a33b", "#bf4a24", "#7fb069", "#2e7d4f"]))
+INTRODUCTION = """<p class="quiet">A repertoire of motion captured from a simulated fish. Lengths are in body lengths
+(BL), so that they hold for a fish of any size; a tick is 1/60 s.</p>"""
+MIDLINES = """<p class="quiet">Midlines at 16 phases of one beat, dark to light; thick: how far each point of them
+swings; dashed: how far a saithe's does (Videler &amp; Hess 1984), a carangiform swimmer.</p>"""
+SPEED = """<p class="quiet">The three captured gaits, and the straight line through them by least squares.
+Bainbridge's line is for beats above 5 Hz; for slower and larger fish it is a guide only.</p>"""
+TURNING = """<p>To the left is positive. Living fish turn at 100 to 500 deg/s in routine turns (Domenici 2004), at the
+tightest with a radius of 0.11 (bass) to 0.18 BL (trout; Webb 1983).</p>"""
+CLOSURE = """<p>How a segment meets itself when it is repeated. Pose: by how much the farthest nodal point is off the
+smooth way of its neighbours in time, where the last phase meets the first and at most elsewhere. Heading: after one
+and after a hundred repetitions, from the course of a gait, or beyond so many times the angle of a turn. Lean is roll
+and pitch together.</p>"""
+SEGMENTS = """<p>In each frame the body as it bends, and the body frame up to then (as in Figs. 3 and 4 of Yu &amp;
+Terzopoulos 1998).</p>"""
 X_AXIS, Z_AXIS = "#10202b", "#e08a2c"
 X_LENGTH, Z_LENGTH = 0.22, 0.16  # of the axes of the body frame, body lengths
 
@@ -31,7 +46,8 @@ def draw_body(body):
     spans = [np.ptp(everything[:, side], axis=0) for side in sides]
     high = 940 * PX * max(span[1] for span in spans) / sum(span[0] for span in spans) + 0.4
     figure, panels = plt.subplots(1, 2, figsize=(940 * PX, high), gridspec_kw={
-        "width_ratios": [span[0] for span in spans], "left": 0.01, "right": 0.99, "bottom": 0.3 / high, "top": 1, "wspace": 0.05})
+        "width_ratios": [span[0] for span in spans], "wspace": 0.05,
+        "left": 0.01, "right": 0.99, "bottom": 0.3 / high, "top": 1})
     for axes, side, up in zip(panels, sides, [1, -1]):
         def lines(pairs, side=side, up=up):
             return [nodes[pair][:, side] * (1, up) for pair in pairs]
@@ -83,8 +99,9 @@ def draw_segment(segment):
         seconds = segment["period_seconds"] * view["phase"] / (len(segment["frames"]) - 1)
         axes.annotate(f"{seconds:.3f} s", (0, 1), (5, -5), "axes fraction", "offset points", va="top")
     length = 0.24 / (most[0] - least[0])  # of a body, as a share of the figure's width
-    figure.legend(handles=[Line2D([], [], color=X_AXIS, marker=">", markevery=[1], markersize=4, linewidth=1, label="x axis of the body frame, anterior"),
-                           Line2D([], [], color=Z_AXIS, marker=">", markevery=[1], markersize=4, linewidth=1, label="z axis, to the right")],
+    figure.legend(handles=[
+        Line2D([], [], color=colour, marker=">", markevery=[1], markersize=4, linewidth=1, label=label)
+        for colour, label in [(X_AXIS, "x axis of the body frame, anterior"), (Z_AXIS, "z axis, to the right")]],
                   loc="lower left", ncols=2, bbox_to_anchor=(0, -0.01))
     foot = 0.15 / tall
     figure.add_artist(Line2D([0.995 - length, 0.995], [foot, foot], color=INK, linewidth=1.6))
@@ -143,10 +160,11 @@ def draw_speed(gaits, line):
     beats, speeds = [gait["beat_hertz"] for gait in gaits], [gait["speed"] for gait in gaits]
     figure, axes = plt.subplots(figsize=(520 * PX, 380 * PX), layout="constrained")
     hertz = np.linspace(0, 1.12 * max(beats), 200)
+    sign = "−" if line["intercept"] < 0 else "+"
     for speed, style in [(line["slope"] * hertz + line["intercept"], {
             "color": QUIET, "linewidth": 1.3,
-            "label": f"speed = {line['slope']:.2f} f {'−' if line['intercept'] < 0 else '+'} {abs(line['intercept']):.2f},"
-                     f"  R² = {line['r_squared']:.3f}"}),
+            "label": f"speed = {line['slope']:.2f} f {sign} {abs(line['intercept']):.2f}, "
+                     f"R² = {line['r_squared']:.3f}"}),
             ((3 * hertz - 4) / 4, PUBLISHED | {"label": "dace, trout, goldfish: (3 f − 4) / 4 (Bainbridge 1958)"})]:
         axes.plot(hertz, speed, **style)
     for gait in gaits:
@@ -209,7 +227,8 @@ def gait_table(gaits):
 
 
 def turn_table(turns):
-    head = ["segment", "lasts, s", "turns, deg", "mean radius, BL", "mean rate, deg/s", "peak rate, deg/s", "mean speed, BL/s"]
+    head = ["segment", "lasts, s", "turns, deg", "mean radius, BL", "mean rate, deg/s", "peak rate, deg/s",
+            "mean speed, BL/s"]
     return html_table(head, [[swatch(turn), f"{turn['period_seconds']:.3f}", f"{turn['turn_degrees']:.1f}",
                               f"{turn['radius']:.2f}", f"{turn['turn_rate']:.0f}", f"{turn['peak_turn_rate']:.0f}",
                               f"{turn['speed']:.2f}"] for turn in turns])
@@ -218,12 +237,13 @@ def turn_table(turns):
 def closure_table(segments):
     def exact(value):  # what is zero but for rounding is no exponent to read
         return "0" if abs(value) < 1e-9 else f"{abs(value):.0e}"
-    drifts = ["heading_degrees", "lean_degrees", "climb"]
+    def drifts(segment):
+        return [exact(segment[f"drift_after_{times}"][drift]) for drift in ["heading_degrees", "lean_degrees", "climb"]
+                for times in [1, 100]]
     head = ["segment", "pose at the join, BL off a smooth way", "elsewhere", "heading after 1, deg", "after 100",
             "lean after 1, deg", "after 100", "climb after 1, BL", "after 100", "largest step, BL a tick"]
     return html_table(head, [[swatch(segment), f"{segment['seam_at_the_join']:.5f}", f"{segment['seam_elsewhere']:.5f}",
-                              *(exact(segment[f"drift_after_{times}"][drift]) for drift in drifts for times in [1, 100]),
-                              f"{segment['largest_step']:.4f}"] for segment in segments])
+                              *drifts(segment), f"{segment['largest_step']:.4f}"] for segment in segments])
 
 
 def report(path):
@@ -235,26 +255,15 @@ def report(path):
     def show(name, figure, caption=""):
         return picture(save(figure, path.with_name(f"{path.stem}_{name}.svg")), caption)
     body = [
-        '<p class="quiet">A repertoire of motion captured from a simulated fish. Lengths are in body lengths (BL), so that they '
-        "hold for a fish of any size; a tick is 1/60 s.</p>",
-        show("body", draw_body(data["body"]), "The fish when it glides, from its right and from above."),
+        INTRODUCTION, show("body", draw_body(data["body"]), "The fish when it glides, from its right and from above."),
         file_table(data["file"]), "<h2>Swimming straight</h2>", gait_table(gaits), "<h3>Body wave</h3>",
-        *(show(f"midlines_{gait['name']}", draw_midlines(gait), gait["name"]) for gait in gaits),
-        '<p class="quiet">Midlines at 16 phases of one beat, dark to light; thick: how far each point of them swings; dashed: how '
-        "far a saithe's does (Videler &amp; Hess 1984), a carangiform swimmer.</p><h3>Speed, Strouhal number and stride</h3>",
-        show("speed", draw_speed(gaits, data["speed_line"])), show("strouhal", draw_strouhal_and_stride(gaits)),
-        '<p class="quiet">The three captured gaits, and the straight line through them by least squares. Bainbridge\'s line is for '
-        "beats above 5 Hz; for slower and larger fish it is a guide only.</p>",
-        "<h2>Turning</h2><p>To the left is positive. Living fish turn at 100 to 500 deg/s in routine turns (Domenici 2004), at the "
-        "tightest with a radius of 0.11 (bass) to 0.18 BL (trout; Webb 1983).</p>", turn_table(turns),
+        *(show(f"midlines_{gait['name']}", draw_midlines(gait), gait["name"]) for gait in gaits), MIDLINES,
+        "<h3>Speed, Strouhal number and stride</h3>",
+        show("speed", draw_speed(gaits, data["speed_line"])), show("strouhal", draw_strouhal_and_stride(gaits)), SPEED,
+        "<h2>Turning</h2>", TURNING, turn_table(turns),
         show("turns", draw_turns(turns), "The way of the body frame's origin, and the heading at its end."),
         show("headings", draw_headings(turns), "The heading of the body frame over the turn."),
-        "<h2>Closure</h2><p>How a segment meets itself when it is repeated. Pose: by how much the farthest nodal point is off the "
-        "smooth way of its neighbours in time, where the last phase meets the first and at most elsewhere. Heading: after one and "
-        "after a hundred repetitions, from the course of a gait, or beyond so many times the angle of a turn. Lean is roll and "
-        "pitch together.</p>", closure_table(segments),
-        "<h2>Segments from above</h2><p>In each frame the body as it bends, and the body frame up to then (as in Figs. 3 and 4 of "
-        "Yu &amp; Terzopoulos 1998).</p>",
+        "<h2>Closure</h2>", CLOSURE, closure_table(segments), "<h2>Segments from above</h2>", SEGMENTS,
         *(f"<h3>{segment['name']}</h3>" + show(segment["name"], draw_segment(segment)) for segment in segments)]
     title = data["species"].replace("_", " ").capitalize() + ": repertoire"
     write_page(path.with_suffix(".html"), title, "\n".join(body))

@@ -26,7 +26,8 @@ plt.rcParams.update({
 })
 
 STYLE = """
-body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36; max-width: 1120px; margin: 2em auto; padding: 0 1em; }
+body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36;
+       max-width: 1120px; margin: 2em auto; padding: 0 1em; }
 h1, h2, h3 { font-weight: 600; line-height: 1.2; } h2 { margin-top: 2.2em; } p { max-width: 62em; }
 .quiet, figcaption, th { color: #4a606c; } .over { color: #c0392b; } code { font-size: 12px; overflow-wrap: anywhere; }
 table { border-collapse: collapse; margin: 1em 0; font-size: 14px; font-variant-numeric: tabular-nums; }
@@ -85,8 +86,9 @@ def markdown_table(head, rows):
 
 def write_page(path, title, body):
     """A page of HTML; prints its path."""
-    Path(path).write_text(f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}'
-                          f"</style></head><body>\n<h1>{title}</h1>\n{body}</body></html>\n", encoding="utf-8")
+    head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>'
+    Path(path).write_text(f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{title}</h1>\n{body}</body>'
+                          "</html>\n", encoding="utf-8")
     print(path, flush=True)
 
 
