@@ -84,11 +84,11 @@ void requirePython(const std::vector<std::string>& modules) {
 void runPython(const std::vector<std::string>& modules,
                const std::string& script,
                const std::vector<std::string>& arguments) {
-    std::vector<std::string> all{findScript(script).string()};
+    std::vector<std::string> all{"-B", findScript(script).string()};  // leaves no bytecode there
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::cout.flush();
     if (!succeeds(pythonWith(modules), all, Output::Shown))
-        throw Error(all.front() + " failed; its data are written");
+        throw Error(all[1] + " failed; its data are written");
 }
 
 }  // namespace aquarama::cli

@@ -38,9 +38,12 @@ struct StudyOptions {
 // Where the data go: into the folder that was asked for, or into one that goes again.
 class DataFolder {
   public:
-    explicit DataFolder(const std::string& asked) : path_(asked), isKept_(!asked.empty()) {
+    // Asked before the work.
+    static void require(const std::string& asked) {
         cli::requireFolder("--out", asked);
         cli::requirePython(kModules);
+    }
+    explicit DataFolder(const std::string& asked) : path_(asked), isKept_(!asked.empty()) {
         if (isKept_) return;
         std::string made = (fs::temp_directory_path() / "aquarama-study-XXXXXX").string();
         if (mkdtemp(made.data()) == nullptr) throw Error(made + ": cannot be made");
@@ -80,14 +83,16 @@ std::vector<study::Sample> watched(const study::StudyPlan& plan) {
 }
 
 void runStudy(const StudyOptions& options) {
-    const DataFolder folder(options.out);
+    DataFolder::require(options.out);
     const fs::path config =
         options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
     const study::StudyPlan plan{.scenarios = study::scenariosOf(config),
                                 .minutes = options.minutes,
                                 .seeds = options.seeds,
                                 .threads = std::max(std::thread::hardware_concurrency(), 1U)};
-    folder.write("adaptation.csv", study::runsCsv(plan, watched(plan)));
+    const std::string runs = study::runsCsv(plan, watched(plan));
+    const DataFolder folder(options.out);
+    folder.write("adaptation.csv", runs);
     folder.show("adaptation", folder.isKept() ? "figure" : "");
 }
 
@@ -99,7 +104,7 @@ struct ChronicleOptions {
 };
 
 void chronicle(const ChronicleOptions& options) {
-    const DataFolder folder(options.out);
+    DataFolder::require(options.out);
     study::Scenario scenario = study::readScenario(options.scene);
     scenario.world.seed = options.seed;
     world::World world(scenario.world);
@@ -114,6 +119,7 @@ void chronicle(const ChronicleOptions& options) {
         if (tick % kTicksOfMinute == 0)
             bar.show(static_cast<double>(tick) / static_cast<double>(ticks));
     }
+    const DataFolder folder(options.out);
     folder.write("hours.csv", study::hoursCsv(chronicle.hours()));
     folder.write("overlaps.csv",
                  study::overlapsCsv(chronicle.overlaps(), world, scenario.world.cast));

@@ -232,7 +232,8 @@ def main(folder, seed):
             f"{way['path_error_most'] * length:.1f} BL) and heads {way['heading_error_deg']:.1f} degrees from it.</p>",
             show(f"times_{species}", draw_times(rows)), summary_table(own[1:] + own[:1], "command"),
             command_table([row for row in commands if row["species"] == species and row["command"] != "open_loop"])]
-    write_page(folder / "fidelity.html", "Fidelity of the replicas", "\n".join(body))
+    page = write_page(folder / "fidelity.html", "Fidelity of the replicas", "\n".join(body))
+    print(page, file=sys.stderr)
     print_tables(summaries, alone)
 
 

@@ -266,7 +266,7 @@ def report(path):
         "<h2>Closure</h2>", CLOSURE, closure_table(segments), "<h2>Segments from above</h2>", SEGMENTS,
         *(f"<h3>{segment['name']}</h3>" + show(segment["name"], draw_segment(segment)) for segment in segments)]
     title = data["species"].replace("_", " ").capitalize() + ": repertoire"
-    write_page(path.with_suffix(".html"), title, "\n".join(body))
+    print(write_page(path.with_suffix(".html"), title, "\n".join(body)), flush=True)
 
 
 for name in sys.argv[1:]:

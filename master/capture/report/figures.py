@@ -85,11 +85,11 @@ def markdown_table(head, rows):
 
 
 def write_page(path, title, body):
-    """A page of HTML; prints its path."""
+    """Writes a page of HTML; returns its path."""
     head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>'
     Path(path).write_text(f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{title}</h1>\n{body}</body>'
                           "</html>\n", encoding="utf-8")
-    print(path, flush=True)
+    return path
 
 
 def from_above(points):
