@@ -68,7 +68,7 @@ report() {
     local figure
     $bin/aquarama capture --species bigeye_scad --out "$drawn" --report "$drawn/report"
     for figure in forward_medium turn_right_sharp midlines_forward_medium; do
-        sed -n "/<figure id=\"$figure\">/,/<\/svg>/p" "$drawn/report/bigeye_scad.html" | sed 1d >"$drawn/$figure.svg"
+        mv "$drawn/report/bigeye_scad_$figure.svg" "$drawn/$figure.svg"
     done
 }
 # Prints the tables of docs/fidelity.md besides.

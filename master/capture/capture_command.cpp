@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
+#include "common/cli/python.h"
 #include "common/cli/signals.h"
 #include "common/files/files.h"
 #include "common/units/error.h"
@@ -16,7 +17,7 @@
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/report/report.h"
+#include "master/capture/report/report_data.h"
 
 namespace aquarama {
 
@@ -41,13 +42,14 @@ std::vector<capture::RepertoireFile> captured(const std::vector<capture::Species
                                     .isStopped = [&] { return isStopped.load(); }});
 }
 
-void write(const capture::RepertoireFile& file, const CaptureOptions& options) {
+// With the data of its report, where one is asked for; returns their path.
+fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
     const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
     files::writeWhole(path, file.bytes);
     std::cout << path.string() << '\n';
-    if (options.report.empty()) return;
+    if (options.report.empty()) return {};
     const motion::Repertoire repertoire = motion::decodeRepertoire(file.bytes, path.string());
-    std::cout << report::writeReport(repertoire, options.report).string() << '\n';
+    return report::writeReport(repertoire, options.report);
 }
 
 // A species that fails is named, and the others still come out. Returns the exit status.
@@ -55,6 +57,7 @@ int captureAll(const CaptureOptions& options) {
     cli::holdSignals();
     cli::requireFolder("--out", options.out);
     cli::requireFolder("--report", options.report);
+    if (!options.report.empty()) cli::requirePython({"matplotlib"});
     const fs::path config =
         options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
     std::vector<capture::SpeciesText> texts;
@@ -62,14 +65,17 @@ int captureAll(const CaptureOptions& options) {
         texts.push_back(capture::readSpeciesText(file));
     const std::vector<capture::RepertoireFile> files = captured(texts);
     int status = 0;
+    std::vector<std::string> reports;
     for (const capture::RepertoireFile& file : files) {
         if (file.error.empty()) {
-            write(file, options);
+            reports.push_back(write(file, options));
         } else {
             cli::sayError("aquarama-capture", file.error);
             status = 1;
         }
     }
+    if (!options.report.empty() && !reports.empty())
+        cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", reports);
     return status;
 }
 

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
-#include "common/files/files.h"
+#include "common/cli/python.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/config_folder.h"
-#include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/report/controllers_figure.h"
+#include "master/capture/report/report_data.h"
 
 namespace aquarama {
 
@@ -26,13 +24,12 @@ struct ControllersOptions {
 void draw(const ControllersOptions& options) {
     namespace fs = std::filesystem;
     cli::requireFolder("--out", options.out);
+    cli::requirePython({"matplotlib"});
     const fs::path config =
         options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
     const fs::path file = capture::speciesFiles({options.species}, config).front();
-    const std::string svg = report::drawControllers(config::readSpecies(file.string()));
-    const fs::path path = fs::path(options.out) / "controllers.svg";
-    files::writeWhole(path, std::as_bytes(std::span(svg.data(), svg.size())));
-    std::cout << path.string() << '\n';
+    const fs::path data = report::writeControllers(config::readSpecies(file.string()), options.out);
+    cli::runPython({"matplotlib"}, "master/capture/report/draw_controllers.py", {data.string()});
 }
 
 }  // namespace
@@ -47,7 +44,8 @@ void addControllersCommand(CLI::App& app, cli::Job& job) {
         options->species,
         "name of a species in the config folder, or a file; bigeye_scad when not "
         "given");
-    controllers.add_option("--out", options->out, "folder for controllers.svg")->required();
+    controllers.add_option("--out", options->out, "folder for controllers.svg and its data")
+        ->required();
     controllers.add_option("--config", options->config, "folder that holds species/*.txtpb");
     controllers.callback([options, &job] {
         job = [options] {

@@ -8,14 +8,14 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
+#include "common/cli/python.h"
 #include "common/files/files.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/capture_repertoire.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/fidelity/fidelity_figures.h"
-#include "master/capture/fidelity/fidelity_report.h"
+#include "master/capture/fidelity/fidelity_csv.h"
 
 namespace aquarama {
 
@@ -38,6 +38,7 @@ void writeText(const fs::path& path, const std::string& text) {
 
 void compareAll(const FidelityOptions& options) {
     cli::requireFolder("--out", options.out);
+    cli::requirePython({"matplotlib"});
     const fs::path config =
         options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
     std::vector<fidelity::Fidelity> fidelities;
@@ -56,12 +57,13 @@ void compareAll(const FidelityOptions& options) {
         bar.show(1);
     }
     const fs::path out = options.out;
-    writeText(out / "fidelity.html",
-              fidelity::fidelityPage(fidelities, vocabularies, options.seed));
-    writeText(out / "fidelity.csv", fidelity::fidelityCsv(fidelities));
-    writeText(out / "fidelity_ways.svg", fidelity::drawWaysOfAll(fidelities));
-    writeText(out / "fidelity_segments.svg", fidelity::drawVocabularies(vocabularies));
-    std::cout << fidelity::fidelityMarkdown(fidelities);
+    writeText(out / "fidelity.csv", fidelity::commandsCsv(fidelities));
+    writeText(out / "fidelity_summaries.csv", fidelity::summariesCsv(fidelities));
+    writeText(out / "fidelity_ticks.csv", fidelity::ticksCsv(fidelities));
+    writeText(out / "fidelity_vocabularies.csv", fidelity::vocabulariesCsv(vocabularies));
+    cli::runPython({"matplotlib"},
+                   "master/capture/fidelity/draw_fidelity.py",
+                   {options.out, std::to_string(options.seed)});
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ void addFidelityCommand(CLI::App& app, cli::Job& job) {
         ->check(cli::wholeNumber(0, cli::kMostSeed));
     fidelity.add_option("--seconds", options->seconds, "how long the script is; 60 when not given")
         ->check(cli::number(1, 3600));
-    fidelity.add_option("--out", options->out, "folder for the page, the table and the pictures")
+    fidelity.add_option("--out", options->out, "folder for the page, its data and the pictures")
         ->required();
     fidelity.add_option("--config", options->config, "folder that holds species/*.txtpb");
     fidelity.callback([options, &job] {

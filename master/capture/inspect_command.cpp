@@ -6,10 +6,11 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
+#include "common/cli/python.h"
 #include "master/capture/commands.h"
 #include "master/capture/compile/repertoire_cache.h"
 #include "master/capture/report/inspect.h"
-#include "master/capture/report/report.h"
+#include "master/capture/report/report_data.h"
 
 namespace aquarama {
 
@@ -22,11 +23,14 @@ struct InspectOptions {
 
 void inspect(const InspectOptions& options) {
     cli::requireFolder("--report", options.report);
+    if (!options.report.empty()) cli::requirePython({"matplotlib"});
     const std::vector<std::byte> bytes = capture::readRepertoireFile(options.file);
     std::cout << report::inspectRepertoire(bytes, options.file);
     if (options.report.empty()) return;
     const motion::Repertoire repertoire = motion::decodeRepertoire(bytes, options.file);
-    std::cout << '\n' << report::writeReport(repertoire, options.report).string() << '\n';
+    const std::string data = report::writeReport(repertoire, options.report).string();
+    std::cout << '\n';
+    cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", {data});
 }
 
 }  // namespace

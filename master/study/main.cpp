@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama study: with and without each adaptation of the mind to its motor.
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <mutex>
@@ -11,14 +12,15 @@
 
 #include "common/cli/outputs.h"
 #include "common/cli/program.h"
+#include "common/cli/python.h"
 #include "common/files/files.h"
+#include "common/units/error.h"
 #include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
 #include "master/study/chronicle.h"
-#include "master/study/chronicle_report.h"
 #include "master/study/scenarios.h"
-#include "master/study/study_report.h"
+#include "master/study/study_csv.h"
 
 namespace aquarama {
 
@@ -33,10 +35,43 @@ struct StudyOptions {
     std::uint32_t seeds = 5;
 };
 
-void writeText(const fs::path& path, const std::string& text) {
-    files::writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
-    std::cerr << path.string() << '\n';
-}
+// Where the data go: into the folder that was asked for, or into one that goes again.
+class DataFolder {
+  public:
+    // Asked before the work.
+    static void require(const std::string& asked) {
+        cli::requireFolder("--out", asked);
+        cli::requirePython(kModules);
+    }
+    explicit DataFolder(const std::string& asked) : path_(asked), isKept_(!asked.empty()) {
+        if (isKept_) return;
+        std::string made = (fs::temp_directory_path() / "aquarama-study-XXXXXX").string();
+        if (mkdtemp(made.data()) == nullptr) throw Error(made + ": cannot be made");
+        path_ = made;
+    }
+    DataFolder(const DataFolder&) = delete;
+    DataFolder& operator=(const DataFolder&) = delete;
+    ~DataFolder() {
+        std::error_code ignored;
+        if (!isKept_) fs::remove_all(path_, ignored);
+    }
+
+    void write(const std::string& name, const std::string& text) const {
+        files::writeWhole(path_ / name, std::as_bytes(std::span(text)));
+        if (isKept_) std::cerr << (path_ / name).string() << '\n';
+    }
+    [[nodiscard]] bool isKept() const { return isKept_; }
+    // Prints the tables: "adaptation", and with "figure" draws it beside the data; or "chronicle"
+    // and its hours.
+    void show(const std::string& what, const std::string& more) const {
+        cli::runPython(kModules, "master/study/draw_study.py", {what, path_.string(), more});
+    }
+
+  private:
+    inline static const std::vector<std::string> kModules{"matplotlib", "scipy"};
+    fs::path path_;
+    bool isKept_;
+};
 
 std::vector<study::Sample> watched(const study::StudyPlan& plan) {
     capture::ProgressBar bar("studying");
@@ -48,28 +83,28 @@ std::vector<study::Sample> watched(const study::StudyPlan& plan) {
 }
 
 void runStudy(const StudyOptions& options) {
-    cli::requireFolder("--out", options.out);
+    DataFolder::require(options.out);
     const fs::path config =
         options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
     const study::StudyPlan plan{.scenarios = study::scenariosOf(config),
                                 .minutes = options.minutes,
                                 .seeds = options.seeds,
                                 .threads = std::max(std::thread::hardware_concurrency(), 1U)};
-    const std::vector<study::Sample> samples = watched(plan);
-    std::cout << study::studyMarkdown(plan, samples);
-    if (options.out.empty()) return;
-    writeText(fs::path(options.out) / "adaptation.csv", study::studyCsv(plan, samples));
-    writeText(fs::path(options.out) / "adaptation.svg", study::drawStudy(plan, samples));
+    const std::string runs = study::runsCsv(plan, watched(plan));
+    const DataFolder folder(options.out);
+    folder.write("adaptation.csv", runs);
+    folder.show("adaptation", folder.isKept() ? "figure" : "");
 }
 
 struct ChronicleOptions {
     std::string scene;
+    std::string out;
     double hours = 1;
     std::uint32_t seed = 1;
 };
 
-// Prints what happened as Markdown.
 void chronicle(const ChronicleOptions& options) {
+    DataFolder::require(options.out);
     study::Scenario scenario = study::readScenario(options.scene);
     scenario.world.seed = options.seed;
     world::World world(scenario.world);
@@ -84,10 +119,12 @@ void chronicle(const ChronicleOptions& options) {
         if (tick % kTicksOfMinute == 0)
             bar.show(static_cast<double>(tick) / static_cast<double>(ticks));
     }
-    std::cout << study::hoursMarkdown(chronicle.hours()) << '\n'
-              << study::overlapsMarkdown(
-                     chronicle.overlaps(), world, scenario.world.cast, options.hours)
-              << "\nhash of the world: " << std::hex << world.hash() << '\n';
+    const DataFolder folder(options.out);
+    folder.write("hours.csv", study::hoursCsv(chronicle.hours()));
+    folder.write("overlaps.csv",
+                 study::overlapsCsv(chronicle.overlaps(), world, scenario.world.cast));
+    folder.show("chronicle", std::to_string(options.hours));
+    std::cout << "\nhash of the world: " << std::hex << world.hash() << '\n';
 }
 
 }  // namespace
@@ -109,6 +146,7 @@ int main(int count, char** arguments) {
     CLI::App& chronicled =
         *app.add_subcommand("chronicle", "what happens in a scene, hour by hour");
     chronicled.add_option("SCENE", life.scene, "the scene's file")->required();
+    chronicled.add_option("--out", life.out, "folder for the hours and overlaps as tables");
     chronicled.add_option("--hours", life.hours, "of the scene; 1 when not given")
         ->check(cli::number(0.01, 1000));
     chronicled.add_option("--seed", life.seed, "of the world; 1 when not given")

@@ -12,26 +12,23 @@ namespace {
 
 constexpr double kTicksOfMinute = 60.0 * kTicksPerSecond;
 
-constexpr std::array<QuantityInfo, kQuantities> kInfo{{
-    {"touches_per_fish_minute", "overlaps that begin, a fish and minute", 3, ""},
-    {"deep_touches_per_fish_minute", "of them deeper than a quarter of a body", 4, ""},
-    {"overlap_share_percent", "time in another fish, %", 2, ""},
-    {"bumps_per_fish_minute", "into rock, sand or surface, a fish and minute", 4, ""},
-    {"meals_per_try", "particles eaten a target gone for", 3, ""},
-    {"particles_per_fish_minute", "particles eaten a fish and minute", 3, ""},
-    {"half_pinch_seconds", "until half a pinch is eaten, s", 2, ""},
-    {"catches_per_rush", "prey caught a rush", 3, ""},
-    {"same_segment_percent", "pairs of the school on one segment, %", 1, ""},
-    {"in_step_percent", "pairs in step (same segment, a sixteenth of a beat), %", 2, ""},
-    {"phase_resultant", "mean resultant length of the phases", 3, "0.12: 51 at random"},
-    {"nearest_neighbour_lengths",
-     "nearest neighbour, body lengths",
-     2,
-     "0.5-1.5 (Partridge 1980; Pitcher & Parrish 1993)"},
-    {"polarisation", "polarisation", 2, "> 0.65 schooling (Tunstrom 2013)"},
-    {"rotation", "rotation", 2, "> 0.65 milling (Tunstrom 2013)"},
-    {"intention_changes_per_minute", "changes of intention, a fish and minute", 2, ""},
-}};
+constexpr std::array<const char*, kQuantities> kKeys{
+    "touches_per_fish_minute",
+    "deep_touches_per_fish_minute",
+    "overlap_share_percent",
+    "bumps_per_fish_minute",
+    "meals_per_try",
+    "particles_per_fish_minute",
+    "half_pinch_seconds",
+    "catches_per_rush",
+    "same_segment_percent",
+    "in_step_percent",
+    "phase_resultant",
+    "nearest_neighbour_lengths",
+    "polarisation",
+    "rotation",
+    "intention_changes_per_minute",
+};
 
 double share(double part, double whole) {
     return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
@@ -43,8 +40,8 @@ double count(std::uint64_t number) {
 
 }  // namespace
 
-const QuantityInfo& infoOf(Quantity quantity) {
-    return kInfo.at(static_cast<std::size_t>(quantity));
+const char* keyOf(Quantity quantity) {
+    return kKeys.at(static_cast<std::size_t>(quantity));
 }
 
 Figures figuresOf(const Diary& diary, double pinchSeconds) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the study measures of a run, and what was published of it.
+// What the study measures of a run.
 #pragma once
 
 #include <array>
@@ -29,13 +29,8 @@ enum class Quantity : std::uint8_t {
 };
 inline constexpr std::size_t kQuantities = 15;
 
-struct QuantityInfo {
-    const char* key;        // in the CSV file
-    const char* words;      // with the unit
-    int digits;             // after the point
-    const char* published;  // empty: nothing to compare with
-};
-[[nodiscard]] const QuantityInfo& infoOf(Quantity quantity);
+// Its column in the CSV file; draw_study.py knows the words for it.
+[[nodiscard]] const char* keyOf(Quantity quantity);
 
 // NaN where a run has none of it: a share of no tries, the seconds of a pinch that nobody threw.
 using Figures = std::array<double, kQuantities>;

@@ -79,19 +79,6 @@ class Export(unittest.TestCase):
             self.assertEqual(len(frames), len(table))
             self.assert_same(table, lambda frame, node, axis: frames[frame][node][axis])
 
-    def test_inspect_writes_one_page_from_the_file_alone(self):
-        alone = self.folder / "elsewhere.file"  # told by its first bytes
-        alone.write_bytes(self.repertoire.read_bytes())
-        run = aquarama("inspect", "--report", self.folder / "report", alone)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        pages = list((self.folder / "report").iterdir())
-        self.assertEqual([page.name for page in pages], ["bigeye_scad.html"])
-        self.assertIn(str(pages[0]), run.stdout)
-        page = pages[0].read_text()
-        for segment in SEGMENTS:
-            self.assertIn(segment, run.stdout)
-            self.assertIn(f'<figure id="{segment}">', page)
-
     def test_a_report_that_cannot_be_written_is_an_error(self):
         blocked = self.folder / "not-a-folder"
         blocked.write_text("")

@@ -9,7 +9,7 @@
 #include "common/units/angle.h"
 #include "common/units/digest.h"
 #include "master/capture/measure/measure.h"
-#include "master/capture/report/tables.h"
+#include "master/capture/report/segment_measures.h"
 
 namespace aquarama::report {
 

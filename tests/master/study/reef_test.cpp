@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "master/study/chronicle.h"
-#include "master/study/chronicle_report.h"
 #include "master/study/scenarios.h"
+#include "master/study/study_csv.h"
 
 namespace aquarama::study {
 namespace {
@@ -26,15 +26,9 @@ bool isSoak() {
 struct Life {
     std::vector<Hour> hours;
     std::vector<BodyOverlap> overlaps;
+    std::string overlapsCsv;
     std::uint64_t hash = 0;
 };
-
-void print(const Chronicle& chronicle, const world::World& world, const Scenario& scenario) {
-    const auto hours = static_cast<double>(world.tick().value) / (60.0 * kTicksOfMinute);
-    std::cout << hoursMarkdown(chronicle.hours()) << '\n'
-              << overlapsMarkdown(chronicle.overlaps(), world, scenario.world.cast, hours)
-              << "\nhash of the world: " << std::hex << world.hash() << std::dec << '\n';
-}
 
 Life lived() {
     const Scenario scenario = readScenario(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
@@ -46,8 +40,13 @@ Life lived() {
         world.advance();
         chronicle.note(world);
     }
-    if (isSoak()) print(chronicle, world, scenario);
-    return {chronicle.hours(), chronicle.overlaps().all(), world.hash()};
+    if (isSoak())
+        std::cout << hoursCsv(chronicle.hours()) << "hash of the world: " << std::hex
+                  << world.hash() << std::dec << '\n';
+    return {chronicle.hours(),
+            chronicle.overlaps().all(),
+            overlapsCsv(chronicle.overlaps(), world, scenario.world.cast),
+            world.hash()};
 }
 
 class Reef : public testing::Test {
@@ -96,6 +95,14 @@ TEST_F(Reef, nobodyIsStuckAndNothingCollapsesIntoACorner) {
         EXPECT_GT(hour.spreadMetres, 1.0F);
         EXPECT_GT(hour.waterUsedPercent, 50);
     });
+}
+
+TEST_F(Reef, theChronicleHasALineForEachHourAndOverlap) {
+    const auto lines = [](const std::string& csv) {
+        return static_cast<std::size_t>(std::ranges::count(csv, '\n'));
+    };
+    EXPECT_EQ(lines(hoursCsv(life().hours)), 1 + life().hours.size());
+    EXPECT_EQ(lines(life().overlapsCsv), 1 + life().overlaps.size());
 }
 
 TEST_F(Reef, noSpeciesDiesOut) {

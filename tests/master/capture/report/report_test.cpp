@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/report/report.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,19 +6,22 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "master/capture/measure/course.h"
 #include "master/capture/report/closure.h"
+#include "master/capture/report/controller_trial.h"
 #include "master/capture/report/fish_view.h"
-#include "master/capture/report/gait_figures.h"
 #include "master/capture/report/inspect.h"
-#include "master/capture/report/tables.h"
+#include "master/capture/report/report_data.h"
+#include "master/capture/report/segment_measures.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::report {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 std::string contentOf(const fs::path& path) {
     std::ostringstream text;
@@ -33,6 +34,11 @@ std::size_t countOf(const std::string& words, const std::string& text) {
     for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
         ++count;
     return count;
+}
+
+bool hasNull(const json& data) {
+    if (!data.is_structured()) return data.is_null();
+    return std::ranges::any_of(data, hasNull);
 }
 
 // As it is read from a file of a species whose control points are not recorded.
@@ -52,28 +58,69 @@ motion::ActionSegment evenSegment(float periodSeconds, float stride, float turnR
     return segment;
 }
 
-TEST(Report, isOnePageWithAllItsPicturesInside) {
+TEST(Report, holdsTheDataOfAllItsPictures) {
     for (const motion::Repertoire& repertoire : {test::scadRepertoire(), withoutControlPoints()}) {
-        const std::string page = reportPage(repertoire);
-        EXPECT_EQ(countOf("<svg ", page), motion::kCapturedActions + kGaits + 5);
-        EXPECT_EQ(countOf("</svg>", page), countOf("<svg ", page));
-        EXPECT_EQ(countOf("<figure", page), countOf("</figure>", page));
-        EXPECT_EQ(page.find("src="), std::string::npos) << "something lies outside";
-        for (const char* nonsense : {"nan", "inf\"", "inf<", "(null)"})
-            EXPECT_EQ(page.find(nonsense), std::string::npos) << nonsense;
-        EXPECT_NE(page.find(repertoire.species.substr(1, 5)), std::string::npos);
-        for (int i = 0; i < motion::kCapturedActions; ++i)
-            EXPECT_NE(page.find(motion::nameOf(static_cast<motion::Action>(i))), std::string::npos);
-        EXPECT_EQ(page.find(">glide<"), std::string::npos) << "a glide is derived, not captured";
+        const json data = json::parse(reportData(repertoire));
+        const bool hasSkin = !repertoire.segments[0].controlPoints.empty();
+        EXPECT_EQ(data["species"], repertoire.species);
+        EXPECT_FALSE(hasNull(data)) << "what is not a number has no JSON";
+        EXPECT_EQ(data["body"]["nodes"].size(), std::size_t{body::kNodalPoints});
+        EXPECT_EQ(data["body"]["springs"].size(), 79U);
+        EXPECT_EQ(data["body"]["muscles"].size(), 12U);
+        EXPECT_EQ(data["body"]["skin"].size(), hasSkin ? std::size_t{body::kControlPoints} : 0U);
+        EXPECT_EQ(data["body"]["faces"].empty(), !hasSkin);
+        EXPECT_EQ(data["file"]["bytes"], motion::encodeRepertoire(repertoire).size());
+        ASSERT_EQ(data["segments"].size(), std::size_t{motion::kCapturedActions})
+            << "a glide is derived, not captured";
+        for (std::size_t i = 0; i < motion::kCapturedActions; ++i) {
+            const json& segment = data["segments"][i];
+            EXPECT_EQ(segment["name"], motion::nameOf(static_cast<motion::Action>(i)));
+            EXPECT_EQ(segment["frames"].size(), motion::kPhases + 1);
+            EXPECT_EQ(segment["views"].size(), 8U);
+            EXPECT_EQ(segment["views"].back()["phase"], motion::kPhases);
+            EXPECT_EQ(segment.contains("midlines"), i < kGaits);
+            EXPECT_EQ(segment.contains("turn_degrees"), i >= kGaits);
+        }
     }
+}
+
+TEST(Report, tellsWhatIsMeasured) {
+    const motion::Repertoire& repertoire = test::scadRepertoire();
+    const json data = json::parse(reportData(repertoire));
+    const json& medium = data["segments"][1];
+    const capture::SegmentMeasures m = capture::measure(repertoire.segments[1]);
+    EXPECT_EQ(medium["speed"], m.speedBodyLengths);
+    EXPECT_EQ(medium["strouhal"], m.strouhal);
+    EXPECT_EQ(medium["seam_at_the_join"], seamOf(repertoire.segments[1]).atTheJoin);
+    EXPECT_EQ(data["segments"][4]["radius"], turnRadius(repertoire.segments[4]));
+    EXPECT_EQ(data["speed_line"]["slope"], fitSpeed(repertoire).slope);
+    const double nose = medium["views"][0]["midline"][0][0];
+    EXPECT_NEAR(nose, 0.385, 0.03) << "before the body frame's origin";
 }
 
 TEST(Report, isWrittenUnderTheNameOfTheSpecies) {
     const fs::path folder = fs::path(testing::TempDir()) / "aquarama_report";
-    const fs::path page = writeReport(test::scadRepertoire(), folder);
-    EXPECT_EQ(page.filename(), "bigeye_scad.html");
-    EXPECT_EQ(contentOf(page), reportPage(test::scadRepertoire()));
+    const fs::path file = writeReport(test::scadRepertoire(), folder);
+    EXPECT_EQ(file.filename(), "bigeye_scad.json");
+    EXPECT_EQ(contentOf(file), reportData(test::scadRepertoire()));
     fs::remove_all(folder);
+}
+
+TEST(Controllers, eachOfTheNineHasATrial) {
+    const json data = json::parse(controllersData(test::scad()));
+    EXPECT_FALSE(hasNull(data));
+    ASSERT_EQ(data["trials"].size(), 9U);
+    for (const json& trial : data["trials"]) {
+        EXPECT_EQ(trial["seconds"].size(), std::size_t{kMoments + 1});
+        EXPECT_EQ(trial["way"].size(), trial["seconds"].size());
+        for (const json& fish : trial["fish"]) EXPECT_EQ(fish["fins"].size(), 2U);
+    }
+    const auto turnOf = [&](std::size_t trial) {
+        const json& heading = data["trials"][trial]["heading_degrees"];
+        return heading.back().get<double>() - heading.front().get<double>();
+    };
+    EXPECT_GT(turnOf(1), 30) << "the left turn";
+    EXPECT_NEAR(turnOf(2), -turnOf(1), 3) << "the right turn is its mirror image";
 }
 
 TEST(Inspect, listsTheSevenCapturedSegmentsAndWhatTheFileHolds) {

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/report/report_data.h"
+
+#include <span>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "common/body/cage_topology.h"
+#include "common/files/files.h"
+#include "common/units/angle.h"
+#include "common/units/digest.h"
+#include "master/capture/dynamics/anatomy.h"
+#include "master/capture/measure/body_wave.h"
+#include "master/capture/measure/course.h"
+#include "master/capture/report/closure.h"
+#include "master/capture/report/fish_view.h"
+#include "master/capture/report/inspect.h"
+#include "master/capture/report/json_points.h"
+#include "master/capture/report/midlines.h"
+#include "master/capture/report/segment_measures.h"
+
+namespace aquarama::report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kViews = 8;  // of each segment, evenly from its start to its end
+
+double degrees(double radians) {
+    return radians / kRadiansPerDegree<double>;
+}
+
+json fileData(const motion::Repertoire& repertoire) {
+    const std::vector<std::byte> bytes = motion::encodeRepertoire(repertoire);
+    return {
+        {"recorded_metres", repertoire.recordedLengthMetres},
+        {"phases", motion::kPhases},
+        {"nodal_points", body::kNodalPoints},
+        {"control_points", repertoire.segments[0].controlPoints.empty() ? 0 : body::kControlPoints},
+        {"swim_drag", repertoire.response.swimDrag},
+        {"glide_drag", repertoire.response.glideDrag},
+        {"brake_rate", repertoire.response.brakeRate},
+        {"bytes", bytes.size()},
+        {"format_version", formatVersionOf(bytes)},
+        {"sha256", toHex(digestOf(bytes))}};
+}
+
+// The straight fish: nodal points, springs and muscles between them, and the skin where control
+// points are recorded.
+json bodyData(const motion::Repertoire& repertoire) {
+    const motion::ActionSegment& straight =
+        repertoire.segments.at(static_cast<std::size_t>(motion::Action::Glide));
+    const bool hasSkin = !straight.controlPoints.empty();
+    json springs = json::array();
+    json muscles = json::array();
+    for (const capture::Unit& unit : capture::anatomy().units)
+        (unit.kind >= capture::UnitKind::FrontMuscle ? muscles : springs)
+            .push_back({unit.first, unit.second});
+    return {{"nodes", listOf(capture::poseAt(straight, 0))},
+            {"springs", springs},
+            {"muscles", muscles},
+            {"skin", hasSkin ? listOf(controlPointsAt(straight, 0)) : json::array()},
+            {"faces", hasSkin ? json(body::makeCageTopology().faces) : json::array()}};
+}
+
+json driftData(const motion::ActionSegment& segment, int repetitions) {
+    const Drift drift = driftAfter(segment, repetitions);
+    return {{"heading_degrees", degrees(drift.headingRadians)},
+            {"lean_degrees", degrees(drift.leanRadians)},
+            {"climb", drift.climb}};
+}
+
+json measuresData(const motion::ActionSegment& segment, bool isGait) {
+    const capture::SegmentMeasures m = capture::measure(segment);
+    const Seam seam = seamOf(segment);
+    json data{{"period_seconds", m.periodSeconds},
+              {"speed", m.speedBodyLengths},
+              {"largest_step", m.largestStep},
+              {"seam_at_the_join", seam.atTheJoin},
+              {"seam_elsewhere", seam.elsewhere},
+              {"drift_after_1", driftData(segment, 1)},
+              {"drift_after_100", driftData(segment, 100)}};
+    if (isGait)
+        data.update(json{{"beat_hertz", 1 / m.periodSeconds},
+                         {"stride", m.strideBodyLengths},
+                         {"tail", m.tailAmplitude},
+                         {"strouhal", m.strouhal},
+                         {"nose", m.noseAmplitude},
+                         {"wavelength", capture::bodyWave(segment).wavelength}});
+    else
+        data.update(json{{"turn_degrees", degrees(m.turnRadians)},
+                         {"turn_rate", degrees(m.turnRate)},
+                         {"peak_turn_rate", degrees(peakTurnRate(segment))},
+                         {"radius", turnRadius(segment)}});
+    return data;
+}
+
+// Midlines of one beat, and how far each of their points swings.
+json midlinesData(const motion::ActionSegment& gait) {
+    const std::vector<Midline> lines = midlinesOf(gait);
+    const Swing swing = swingOf(lines);
+    json data = json::array();
+    for (const Midline& line : lines)
+        data.push_back({{"station", listOf(line.station)}, {"left", listOf(line.left)}});
+    return {{"lines", data},
+            {"swing", {{"station", listOf(swing.station)}, {"half", listOf(swing.half)}}}};
+}
+
+// From above: the body frame at each phase, and the fish at some of them.
+void addViews(const motion::ActionSegment& segment, json& data) {
+    const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, 1);
+    for (const capture::ReplayedPhase& phase : phases)
+        data["frames"].push_back(
+            {{"origin", pointOf(fromAbove(phase.origin))},
+             {"x_axis", pointOf(fromAbove(phase.worldFromBody * glm::dvec3(1, 0, 0)))},
+             {"z_axis", pointOf(fromAbove(phase.worldFromBody * glm::dvec3(0, 0, 1)))}});
+    for (std::size_t i = 0; i < kViews; ++i) {
+        const std::size_t phase = i * motion::kPhases / (kViews - 1);
+        const FishOutline view = viewFromAbove(segment, phases.at(phase), phase);
+        json pectorals = json::array();
+        for (const auto& fin : view.pectorals) pectorals.push_back(listOf(fin));
+        data["views"].push_back({{"phase", phase},
+                                 {"outline", listOf(view.outline)},
+                                 {"midline", listOf(view.midline)},
+                                 {"pectorals", pectorals}});
+    }
+}
+
+fs::path written(const std::string& text, fs::path path) {
+    files::writeWhole(path, std::as_bytes(std::span(text)));
+    return path;
+}
+
+}  // namespace
+
+std::string reportData(const motion::Repertoire& repertoire) {
+    const SpeedLine line = fitSpeed(repertoire);
+    json data{
+        {"species", repertoire.species},
+        {"file", fileData(repertoire)},
+        {"body", bodyData(repertoire)},
+        {"speed_line",
+         {{"slope", line.slope}, {"intercept", line.intercept}, {"r_squared", line.rSquared}}}};
+    for (std::size_t i = 0; i < motion::kCapturedActions; ++i) {
+        const motion::ActionSegment& segment = repertoire.segments.at(i);
+        const bool isGait = i < kGaits;
+        json one = measuresData(segment, isGait);
+        one["name"] = motion::nameOf(static_cast<motion::Action>(i));
+        if (isGait) one["midlines"] = midlinesData(segment);
+        addViews(segment, one);
+        data["segments"].push_back(one);
+    }
+    return data.dump() + "\n";
+}
+
+fs::path writeReport(const motion::Repertoire& repertoire, const fs::path& folder) {
+    return written(reportData(repertoire), folder / (repertoire.species + ".json"));
+}
+
+fs::path writeControllers(const config::Species& species, const fs::path& folder) {
+    return written(controllersData(species), folder / "controllers.json");
+}
+
+}  // namespace aquarama::report
