@@ -45,7 +45,7 @@ void print(const wire::Explanation& explanation) {
 }
 
 void explainLive(const ExplainOptions& options) {
-    conductor::MasterLine master(
+    conductor::RequestClient master(
         options.address.empty() ? config::readRig(options.rig).controlAddress : options.address);
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
     do {

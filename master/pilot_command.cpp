@@ -15,7 +15,7 @@
 #include "master/commands.h"
 #include "master/conductor/ask.h"
 #include "master/conductor/status.h"
-#include "master/conductor/telegraph.h"
+#include "master/conductor/terminal_steering.h"
 
 namespace aquarama {
 
@@ -57,15 +57,15 @@ class Keyboard {
 };
 
 void steer(const std::string& address) {
-    conductor::MasterLine master(address);
+    conductor::RequestClient master(address);
     Keyboard keyboard;
-    conductor::Telegraph telegraph;
+    conductor::TerminalSteering terminal;
     const bool onScreen = isatty(STDOUT_FILENO) != 0;
-    std::cout << conductor::kTelegraphHelp << '\n';
+    std::cout << conductor::kTerminalSteeringHelp << '\n';
     Steering said;
-    for (std::string keys; keyboard.read(keys) && !telegraph.ended();) {
-        telegraph.press(keys);
-        const Steering& held = telegraph.steering();
+    for (std::string keys; keyboard.read(keys) && !terminal.ended();) {
+        terminal.press(keys);
+        const Steering& held = terminal.steering();
         if (held != said || held != Steering{})
             master.tell(wire::Input{wire::InputKind::Steer, {}, held});
         said = held;
@@ -74,7 +74,7 @@ void steer(const std::string& address) {
         std::cout << fmt::format("{}{}   {}{}",
                                  onScreen ? "\r\x1b[K" : "",
                                  conductor::submarineText(status),
-                                 telegraph.text(),
+                                 terminal.text(),
                                  onScreen ? "" : "\n")
                   << std::flush;
     }

@@ -14,7 +14,7 @@ struct Species;
 namespace aquarama::body {
 
 struct FishSkin {
-    std::string species;  // whose painter is render_node/shaders/skin_SPECIES.glsl
+    std::string species;  // whose skin shader is render_node/shaders/skin_SPECIES.glsl
     // Linear Rec. 709.
     glm::vec3 back{}, flank{}, belly{};
 };

@@ -29,7 +29,8 @@ struct StencilEntry {
 };
 static_assert(sizeof(StencilEntry) == 16);
 
-// What never changes about a vertex: where it is on the fish at rest. The painter's coordinates.
+// What never changes about a vertex: where it is on the fish at rest. The skin shader's
+// coordinates.
 struct SkinPlace {
     glm::vec4 rest{};        // s, y, z in body lengths; w: height v, -1 belly .. +1 back
     glm::vec2 fin{};         // p along a fin's base, q from base to edge; zero on the body

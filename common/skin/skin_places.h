@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where each vertex and triangle of the surface is on the fish: the painter's coordinates.
+// Where each vertex and triangle of the surface is on the fish: the skin shader's coordinates.
 #pragma once
 
 #include "common/skin/face_grid.h"

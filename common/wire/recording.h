@@ -34,7 +34,7 @@ struct SpeciesAssets {
     std::uint32_t fish = 0;
 };
 
-// All that a show is made of, as bytes: the same production is the same world on any machine.
+// All that a show is made of, as bytes: the same bundle is the same world on any machine.
 struct AssetBundle {
     std::uint32_t seed = 1;
     std::string sceneFile;            // for messages

@@ -14,16 +14,17 @@ void think(const Environment& environment,
            std::uint32_t fish,
            fish::Minds& minds,
            fish::Courses& courses,
-           Deeds& deeds) {
-    const fish::Nature& nature = environment.natures[environment.view->kind[fish]];
+           DeferredEvents& events) {
+    const fish::SpeciesParameters& parameters =
+        environment.speciesParameters[environment.view->kind[fish]];
     fish::Mind mind = minds[fish];
-    fish::passTime(nature, mind);
-    const Senses senses = perceive(environment, nature, fish, mind);
-    const Feelings feelings = feel(nature, mind, senses);
-    remember(mind, decide(nature, mind, senses, feelings));
-    fish::Course course = act({environment, nature, fish, senses, feelings}, mind, deeds);
+    fish::passTime(parameters, mind);
+    const Senses senses = perceive(environment, parameters, fish, mind);
+    const Feelings feelings = feel(parameters, mind, senses);
+    remember(mind, decide(parameters, mind, senses, feelings));
+    fish::Course course = act({environment, parameters, fish, senses, feelings}, mind, events);
     course.openToChange = environment.adaptation.recommendations &&
-                          acceptsRecommendation(nature, mind, senses, feelings);
+                          acceptsRecommendation(parameters, mind, senses, feelings);
     courses[fish] = course;
     minds[fish] = mind;
 }

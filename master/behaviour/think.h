@@ -11,11 +11,11 @@
 
 namespace aquarama::behaviour {
 
-// Writes the fish's own mind and course, and adds to the deeds; nothing else changes.
+// Writes the fish's own mind and course, and adds to the events; nothing else changes.
 void think(const Environment& environment,
            std::uint32_t fish,
            fish::Minds& minds,
            fish::Courses& courses,
-           Deeds& deeds);
+           DeferredEvents& events);
 
 }  // namespace aquarama::behaviour

@@ -14,9 +14,9 @@
 
 namespace aquarama::conductor {
 
-class MasterLine {
+class RequestClient {
   public:
-    explicit MasterLine(const std::string& controlAddress)
+    explicit RequestClient(const std::string& controlAddress)
         : address_(controlAddress), channels_(net::connectNode(controlAddress)) {}
 
     // The newest answer; the question is repeated until there is one, since the connection may not

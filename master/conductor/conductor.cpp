@@ -76,7 +76,7 @@ Conductor::Conductor(const config::Rig& rig,
       barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
       refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
       trace_(openTrace(options_.traceDirectory)) {
-    for (const std::string& name : namesOf(rig, options_)) seats_.emplace_back().name = name;
+    for (const std::string& name : namesOf(rig, options_)) slots_.emplace_back().name = name;
     welcome_.stateAddress = channels_->stateAddress();
     welcome_.seed = options_.seed;
     welcome_.pace = options_.pace;
@@ -93,7 +93,7 @@ ShowReport Conductor::run() {
     std::optional<Tick> lastTick;
     if (isLockstep() && options_.frames) lastTick = Tick{*options_.frames - 1};
     over_ = options_.frames == 0U;
-    ticker_ = std::make_unique<Ticker>(
+    simulationThread_ = std::make_unique<SimulationThread>(
         simulation_, options_.pace, lastTick, [this] { channels_->wake(); });
     while (!over_ && !stopped_) {
         const net::Instant now = net::monotonicNow();
@@ -107,7 +107,7 @@ ShowReport Conductor::run() {
         }
         channels_->wait(kLongestWait);
     }
-    ticker_.reset();
+    simulationThread_.reset();
     sayFarewell();
     if (!failure_.empty()) throw Error(failure_);
     return report_;
@@ -120,7 +120,8 @@ void Conductor::sayFarewell() {
     constexpr net::Instant kRepeat = std::chrono::milliseconds(100);
     const net::Instant begin = net::monotonicNow();
     net::Instant lastSaid = begin - kRepeat;
-    while (std::ranges::any_of(seats_, [](const Seat& seat) { return !seat.peer.empty(); })) {
+    while (
+        std::ranges::any_of(slots_, [](const ChannelSlot& slot) { return !slot.peer.empty(); })) {
         const net::Instant now = net::monotonicNow();
         if (now - begin > kLongest) return;
         if (now - lastSaid >= kRepeat) {
@@ -134,10 +135,10 @@ void Conductor::sayFarewell() {
 
 // Lockstep takes a tick when its frame comes up, so that the tick thread waits for the frames.
 void Conductor::takeTicks() {
-    while (!isLockstep() || timeline_.newest() < Tick{unpublished_.value}) {
-        auto snapshot = ticker_->take();
+    while (!isLockstep() || snapshots_.newest() < Tick{unpublished_.value}) {
+        auto snapshot = simulationThread_->take();
         if (!snapshot) return;
-        timeline_.add(std::move(*snapshot));
+        snapshots_.add(std::move(*snapshot));
     }
 }
 
@@ -147,12 +148,12 @@ bool Conductor::isLast(Frame frame) const {
 
 void Conductor::conduct(net::Instant now) {
     for (const std::size_t node : barrier_.expelSilent(now)) {
-        ++seats_[node].dropped;
+        ++slots_[node].dropped;
         vacate(node, "you were silent for too long");
     }
     const auto decision = barrier_.decide(now);
     if (decision.verdict == net::PresentBarrier::Verdict::Silent) {
-        failure_ = "node \"" + seats_[decision.node].name + "\" has been silent for " +
+        failure_ = "node \"" + slots_[decision.node].name + "\" has been silent for " +
                    std::to_string(options_.patience / std::chrono::seconds(1)) +
                    " s; see its own output, and start the show again";
         over_ = true;
@@ -185,8 +186,8 @@ void Conductor::release(net::Instant now) {
     lastPresent_ = wire::Present{next_, 0};
     const net::Instant at = nextRelease(now);
     if (!isLockstep()) lastPresent_->atNs = at.count();
-    for (const Seat& seat : seats_) {
-        if (seat.prepared) say(seat.peer, *lastPresent_);
+    for (const ChannelSlot& slot : slots_) {
+        if (slot.prepared) say(slot.peer, *lastPresent_);
     }
     if (report_.frames++ > 0) frameTimes_.add(at - lastRelease_);
     lastRelease_ = at;
@@ -200,8 +201,8 @@ void Conductor::release(net::Instant now) {
 bool Conductor::publish(Frame frame, net::Instant now) {
     if (frame < unpublished_) return true;
     takeTicks();
-    auto state = isLockstep() ? timeline_.showing(frame, Tick{frame.value})
-                              : timeline_.showing(frame, nextRelease(now) - kShownAge);
+    auto state = isLockstep() ? snapshots_.showing(frame, Tick{frame.value})
+                              : snapshots_.showing(frame, nextRelease(now) - kShownAge);
     if (!state) return false;
     state->quality = quality();
     const wire::Packet& packet = published_[frame] = wire::encodeState(session_, *state);
@@ -236,8 +237,8 @@ void Conductor::say(const net::PeerId& peer, const wire::Message& message) {
 }
 
 void Conductor::sayToAll(const wire::Message& message) {
-    for (const Seat& seat : seats_) {
-        if (!seat.peer.empty()) say(seat.peer, message);
+    for (const ChannelSlot& slot : slots_) {
+        if (!slot.peer.empty()) say(slot.peer, message);
     }
 }
 

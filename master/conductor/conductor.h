@@ -18,11 +18,11 @@
 #include "common/net/channels.h"
 #include "common/net/present_barrier.h"
 #include "common/wire/envelope.h"
-#include "master/conductor/helm.h"
+#include "master/conductor/input_arbitration.h"
 #include "master/conductor/meters.h"
 #include "master/conductor/simulation.h"
-#include "master/conductor/ticker.h"
-#include "master/conductor/timeline.h"
+#include "master/conductor/simulation_thread.h"
+#include "master/conductor/snapshot_buffer.h"
 
 namespace aquarama::conductor {
 
@@ -66,7 +66,7 @@ class Conductor {
 
   private:
     // A channel of the rig, and who drives it.
-    struct Seat {
+    struct ChannelSlot {
         std::string name;
         net::PeerId peer;  // empty: nobody
         bool prepared = false;
@@ -83,7 +83,7 @@ class Conductor {
     void admit(std::size_t node);
     void giveChunk(const net::PeerId& peer, const wire::BlobRequest& request);
     void vacate(std::size_t node, const std::string& why);
-    void obey(std::size_t node, const wire::Input& input, net::Instant now);
+    void handle(std::size_t node, const wire::Input& input, net::Instant now);
     void feed(std::size_t node, glm::vec3 positionMetres, net::Instant now);
     void steer(const net::PeerId& peer, const Steering& steering, net::Instant now);
     void ask(const net::PeerId& peer, const wire::ExplainRequest& question);
@@ -115,7 +115,7 @@ class Conductor {
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;
-    std::vector<Seat> seats_;
+    std::vector<ChannelSlot> slots_;
     net::PresentBarrier barrier_;
     net::Instant refresh_;
     std::ofstream trace_;
@@ -125,15 +125,15 @@ class Conductor {
 
     // From the tick thread; whoever hears no answer asks again.
     net::BoundedQueue<std::pair<net::PeerId, wire::Explanation>> explanations_{256};
-    std::unique_ptr<Ticker> ticker_;
-    Timeline timeline_;
+    std::unique_ptr<SimulationThread> simulationThread_;
+    SnapshotBuffer snapshots_;
     Frame next_;                               // is drawn, or will be as soon as it can
     bool drawing_ = false;                     // next_ is
     Frame unpublished_;                        // the first
     std::map<Frame, wire::Packet> published_;  // the last two: sent again to whoever may lack them
     net::Instant lastPublished_{};             // of anything, also of a beacon
     net::Instant lastRepeat_{};
-    Helm helm_;
+    InputArbitration arbitration_;
     wire::Eye eye_;        // of the last state that was published
     double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
     float speedMetresPerSecond_ = 0;

@@ -35,15 +35,15 @@ wire::NodeCondition conditionOf(bool present, bool prepared, bool waitedFor) {
 }  // namespace
 
 std::optional<std::size_t> Conductor::seatNamed(const std::string& name) const {
-    const auto seat = std::ranges::find(seats_, name, &Seat::name);
-    if (seat == seats_.end()) return std::nullopt;
-    return static_cast<std::size_t>(seat - seats_.begin());
+    const auto slot = std::ranges::find(slots_, name, &ChannelSlot::name);
+    if (slot == slots_.end()) return std::nullopt;
+    return static_cast<std::size_t>(slot - slots_.begin());
 }
 
 std::optional<std::size_t> Conductor::seatOf(const net::PeerId& peer) const {
-    const auto seat = std::ranges::find(seats_, peer, &Seat::peer);
-    if (seat == seats_.end()) return std::nullopt;
-    return static_cast<std::size_t>(seat - seats_.begin());
+    const auto slot = std::ranges::find(slots_, peer, &ChannelSlot::peer);
+    if (slot == slots_.end()) return std::nullopt;
+    return static_cast<std::size_t>(slot - slots_.begin());
 }
 
 void Conductor::hear(net::Instant now) {
@@ -64,7 +64,7 @@ void Conductor::hear(net::Instant now) {
                    input && input->kind == wire::InputKind::Steer && !seatOf(from->peer)) {
             steer(from->peer, input->steering, now);
         } else if (const auto node = seatOf(from->peer); node && envelope->session == session_) {
-            seats_[*node].lastHeard = now;
+            slots_[*node].lastHeard = now;
             barrier_.heard(*node, now);
             heed(*node, envelope->message, now);
         } else {
@@ -88,25 +88,25 @@ void Conductor::greet(const net::PeerId& peer, const wire::Hello& hello, net::In
     const auto node = seatNamed(hello.channel);
     if (!node) {
         std::vector<std::string> names;
-        for (const Seat& seat : seats_) names.push_back(seat.name);
+        for (const ChannelSlot& slot : slots_) names.push_back(slot.name);
         return refuse("the rig has no such channel, only " + listed(names));
     }
-    Seat& seat = seats_[*node];
-    const bool another = !seat.peer.empty() && seat.peer != peer;
-    if (another && now - seat.lastHeard < kSilenceOfTheDead) {
+    ChannelSlot& slot = slots_[*node];
+    const bool another = !slot.peer.empty() && slot.peer != peer;
+    if (another && now - slot.lastHeard < kSilenceOfTheDead) {
         return say(peer, wire::Dismissed{"another node of this name takes part already"});
     }
-    if (seat.peer != peer) logInfo("welcomed node {}", seat.name);
+    if (slot.peer != peer) logInfo("welcomed node {}", slot.name);
     barrier_.leave(*node);
     barrier_.heard(*node, now);
-    seat.peer = peer;
-    seat.prepared = false;
-    seat.lastHeard = now;
+    slot.peer = peer;
+    slot.prepared = false;
+    slot.lastHeard = now;
     say(peer, welcome_);
 }
 
 void Conductor::heed(std::size_t node, const wire::Message& message, net::Instant now) {
-    const net::PeerId& peer = seats_[node].peer;
+    const net::PeerId& peer = slots_[node].peer;
     if (const auto* ping = std::get_if<wire::Ping>(&message)) {
         say(peer, wire::Pong{ping->sentNs, net::monotonicNow().count()});
     } else if (const auto* ready = std::get_if<wire::Ready>(&message)) {
@@ -114,15 +114,15 @@ void Conductor::heed(std::size_t node, const wire::Message& message, net::Instan
     } else if (const auto* request = std::get_if<wire::BlobRequest>(&message)) {
         giveChunk(peer, *request);
     } else if (const auto* prepared = std::get_if<wire::Prepared>(&message)) {
-        seats_[node].bears = prepared->quality;
+        slots_[node].bears = prepared->quality;
         admit(node);
     } else if (const auto* input = std::get_if<wire::Input>(&message)) {
-        obey(node, *input, now);
+        handle(node, *input, now);
     } else if (std::holds_alternative<wire::Farewell>(message)) {
         barrier_.leave(node);
-        seats_[node].peer.clear();
-        seats_[node].prepared = false;
-        logInfo("node {} has left", seats_[node].name);
+        slots_[node].peer.clear();
+        slots_[node].prepared = false;
+        logInfo("node {} has left", slots_[node].name);
     } else {
         ++report_.refusedPackets;
     }
@@ -132,18 +132,18 @@ void Conductor::heed(std::size_t node, const wire::Ready& ready, net::Instant no
     barrier_.ready(node, ready.frame, now);
     if (ready.released) skew_.add(*ready.released);
     // It asks again for a release that never came.
-    if (lastPresent_ && ready.frame <= lastPresent_->frame) say(seats_[node].peer, *lastPresent_);
+    if (lastPresent_ && ready.frame <= lastPresent_->frame) say(slots_[node].peer, *lastPresent_);
 }
 
 // Lockstep: it takes part in the frame that is drawn now. Live: in the first that it surely sees.
 void Conductor::admit(std::size_t node) {
-    if (seats_[node].prepared) return;
+    if (slots_[node].prepared) return;
     const Frame first = isLockstep() ? next_ : unpublished_;
-    seats_[node].prepared = true;
+    slots_[node].prepared = true;
     barrier_.join(node, first);
-    say(seats_[node].peer, wire::Joined{first});
+    say(slots_[node].peer, wire::Joined{first});
     if (isLockstep()) publishAgain(net::monotonicNow());
-    logInfo("node {} takes part from frame {}", seats_[node].name, first.value);
+    logInfo("node {} takes part from frame {}", slots_[node].name, first.value);
 }
 
 void Conductor::giveChunk(const net::PeerId& peer, const wire::BlobRequest& request) {
@@ -159,18 +159,18 @@ void Conductor::giveChunk(const net::PeerId& peer, const wire::BlobRequest& requ
 }
 
 void Conductor::vacate(std::size_t node, const std::string& why) {
-    Seat& seat = seats_[node];
-    logWarning("node {} is not counted any more: silent", seat.name);
-    say(seat.peer, wire::Dismissed{why});
-    seat.peer.clear();
-    seat.prepared = false;
+    ChannelSlot& slot = slots_[node];
+    logWarning("node {} is not counted any more: silent", slot.name);
+    say(slot.peer, wire::Dismissed{why});
+    slot.peer.clear();
+    slot.prepared = false;
 }
 
 // Minds are looked into between two ticks.
 void Conductor::ask(const net::PeerId& peer, const wire::ExplainRequest& question) {
-    if (!ticker_) return;  // farewells are being said
-    const bool asked =
-        ticker_->betweenTicks([this, peer, fish = question.fish](const Simulation& simulation) {
+    if (!simulationThread_) return;  // farewells are being said
+    const bool asked = simulationThread_->betweenTicks(
+        [this, peer, fish = question.fish](const Simulation& simulation) {
             explanations_.tryPut({peer, simulation.explain(fish)});
             channels_->wake();
         });
@@ -182,28 +182,29 @@ void Conductor::answer() {
         say(explanation->first, explanation->second);
 }
 
-void Conductor::obey(std::size_t node, const wire::Input& input, net::Instant now) {
+void Conductor::handle(std::size_t node, const wire::Input& input, net::Instant now) {
     if (input.kind == wire::InputKind::Quit) {
         over_ = true;
     } else if (input.kind == wire::InputKind::DropFood) {
         feed(node, input.positionMetres, now);
     } else if (input.kind == wire::InputKind::Steer) {
-        steer(seats_[node].peer, input.steering, now);
-    } else if (!isLockstep() && ticker_) {  // there is none any more while farewells are said
-        ticker_->togglePause();
+        steer(slots_[node].peer, input.steering, now);
+    } else if (!isLockstep() &&
+               simulationThread_) {  // there is none any more while farewells are said
+        simulationThread_->togglePause();
     }
 }
 
 // The world says how many pellets there may be; here a key that is stuck is slowed down, and nobody
 // feeds what he cannot reach.
 void Conductor::feed(std::size_t node, glm::vec3 positionMetres, net::Instant now) {
-    net::Instant& lastFed = seats_[node].lastFed;
-    if (now - lastFed < kBetweenPinches || !ticker_) return;
+    net::Instant& lastFed = slots_[node].lastFed;
+    if (now - lastFed < kBetweenPinches || !simulationThread_) return;
     const bool isInReach = glm::distance(positionMetres, eye_.positionMetres) < kReachMetres;
     const auto drop = [positionMetres](Simulation& simulation) {
         simulation.apply(world::DropFood{.position = positionMetres});
     };
-    if (isInReach && ticker_->betweenTicks(drop))
+    if (isInReach && simulationThread_->betweenTicks(drop))
         lastFed = now;
     else
         ++report_.refusedPackets;
@@ -213,29 +214,29 @@ void Conductor::feed(std::size_t node, glm::vec3 positionMetres, net::Instant no
 config::QualityTier Conductor::quality() const {
     if (options_.quality) return *options_.quality;
     std::optional<config::QualityTier> least;
-    for (const Seat& seat : seats_)
-        if (seat.bears) least = std::min(least.value_or(*seat.bears), *seat.bears);
+    for (const ChannelSlot& slot : slots_)
+        if (slot.bears) least = std::min(least.value_or(*slot.bears), *slot.bears);
     return least.value_or(config::QualityTier::Low);
 }
 
 // Anybody may steer who can reach the control address, as anybody may ask.
 void Conductor::steer(const net::PeerId& peer, const Steering& steering, net::Instant now) {
-    if (!ticker_ || !helm_.heeds(peer, steering, now)) return;
+    if (!simulationThread_ || !arbitration_.accepts(peer, steering, now)) return;
     const auto hold = [steering](Simulation& simulation) { simulation.apply(steering); };
-    if (!ticker_->betweenTicks(hold)) ++report_.refusedPackets;
+    if (!simulationThread_->betweenTicks(hold)) ++report_.refusedPackets;
 }
 
 std::string Conductor::pilotName(net::Instant now) const {
-    const auto pilot = helm_.pilot(now);
+    const auto pilot = arbitration_.pilot(now);
     if (!pilot) return {};
-    const auto seat = seatOf(*pilot);
-    return seat ? seats_[*seat].name : "pilot";
+    const auto slot = seatOf(*pilot);
+    return slot ? slots_[*slot].name : "pilot";
 }
 
 wire::StatusReply Conductor::status(net::Instant now) const {
     wire::StatusReply reply;
     reply.pace = options_.pace;
-    reply.paused = ticker_ && ticker_->paused();
+    reply.paused = simulationThread_ && simulationThread_->paused();
     reply.frame = next_;
     reply.tick = report_.tick;
     reply.frameMedianMs = frameTimes_.quantileMs(0.5);
@@ -246,13 +247,13 @@ wire::StatusReply Conductor::status(net::Instant now) const {
     reply.eye = eye_;
     reply.speedMetresPerSecond = speedMetresPerSecond_;
     reply.pilot = pilotName(now);
-    for (std::size_t node = 0; node < seats_.size(); ++node) {
-        const Seat& seat = seats_[node];
+    for (std::size_t node = 0; node < slots_.size(); ++node) {
+        const ChannelSlot& slot = slots_[node];
         reply.nodes.push_back(
-            {seat.name,
-             conditionOf(!seat.peer.empty(), seat.prepared, barrier_.isWaitedFor(node)),
+            {slot.name,
+             conditionOf(!slot.peer.empty(), slot.prepared, barrier_.isWaitedFor(node)),
              barrier_.timesLate(node),
-             seat.dropped});
+             slot.dropped});
     }
     return reply;
 }

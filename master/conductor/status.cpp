@@ -74,7 +74,7 @@ std::string statusText(const wire::StatusReply& status) {
 }
 
 std::string runStatus(const std::string& controlAddress) {
-    return statusText(MasterLine(controlAddress).ask<wire::StatusReply>(wire::StatusRequest{}));
+    return statusText(RequestClient(controlAddress).ask<wire::StatusReply>(wire::StatusRequest{}));
 }
 
 }  // namespace aquarama::conductor

@@ -14,7 +14,7 @@ std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish
     Insight insight;
     insight.fish = fish;
     insight.tick = world.tick();
-    insight.nature = environment.natures[view.kind[fish]];
+    insight.parameters = environment.speciesParameters[view.kind[fish]];
     insight.lengthMetres = static_cast<float>(world.traits()[fish].lengthMillimetres) * 0.001F;
     insight.away = view.shows(fish, fish::kAway);
     insight.mind = world.minds()[fish];
@@ -23,10 +23,10 @@ std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish
     insight.phase = static_cast<float>(states.phase[fish]) / 65536.0F;
     insight.swims = motion::speedBodyLengths(states, fish);
     if (insight.away) return insight;
-    insight.senses = behaviour::perceive(environment, insight.nature, fish, insight.mind);
-    insight.feelings = behaviour::feel(insight.nature, insight.mind, insight.senses);
+    insight.senses = behaviour::perceive(environment, insight.parameters, fish, insight.mind);
+    insight.feelings = behaviour::feel(insight.parameters, insight.mind, insight.senses);
     insight.reasoning =
-        behaviour::reason(insight.nature, insight.mind, insight.senses, insight.feelings);
+        behaviour::reason(insight.parameters, insight.mind, insight.senses, insight.feelings);
     return insight;
 }
 

@@ -14,7 +14,7 @@
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/courses.h"
 #include "master/fish/minds.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 #include "master/world/world.h"
 
 namespace aquarama::explain {
@@ -22,7 +22,7 @@ namespace aquarama::explain {
 struct Insight {
     std::uint32_t fish = 0;
     Tick tick;
-    fish::Nature nature;
+    fish::SpeciesParameters parameters;
     float lengthMetres = 0;
     bool away = false;  // eaten, or not yet come: it thinks nothing
     fish::Mind mind;    // as its last thought left it

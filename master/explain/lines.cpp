@@ -117,7 +117,7 @@ class Screen {
         add("",
             format("{:.3f} m long (1 L), {}, {}",
                    of_.lengthMetres,
-                   wordFor(of_.nature.habits.role),
+                   wordFor(of_.parameters.habits.role),
                    likesOf(of_.mind)));
     }
 
@@ -174,8 +174,8 @@ class Screen {
 
     [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return wordFor(intention);
-        const bool isParticle =
-            intention == fish::Intention::Eat && of_.nature.habits.role != config::Role::Predator;
+        const bool isParticle = intention == fish::Intention::Eat &&
+                                of_.parameters.habits.role != config::Role::Predator;
         return format("{} {}",
                       wordFor(intention),
                       isParticle ? format("particle {}", target) : named(target));
@@ -215,7 +215,7 @@ class Screen {
                    course.speed));
     }
 
-    [[nodiscard]] std::string verdictOn(behaviour::Rung rung,
+    [[nodiscard]] std::string verdictOn(behaviour::PriorityRule rule,
                                         const behaviour::Weighed& weighed) const;
     void why();
 
@@ -225,25 +225,26 @@ class Screen {
     std::vector<std::string> lines_;
 };
 
-constexpr std::array<const char*, behaviour::kRungs> kRungNames{
+constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
     "obstacle", "other fish", "fear", "memory", "hunger", "libido", "climate", "company", "ease"};
 
-std::string notInView(behaviour::Rung rung) {
-    switch (rung) {
-        case behaviour::Rung::OtherFish:
+std::string notInView(behaviour::PriorityRule rule) {
+    switch (rule) {
+        case behaviour::PriorityRule::OtherFish:
             return "nobody is in its way";
-        case behaviour::Rung::Climate:
+        case behaviour::PriorityRule::Climate:
             return "it is nowhere better";
-        case behaviour::Rung::Memory:
+        case behaviour::PriorityRule::Memory:
             return "what was interrupted cannot be resumed";
         default:
             return "none is in view";
     }
 }
 
-std::string Screen::verdictOn(behaviour::Rung rung, const behaviour::Weighed& weighed) const {
+std::string Screen::verdictOn(behaviour::PriorityRule rule,
+                              const behaviour::Weighed& weighed) const {
     const bool shelters =
-        rung == behaviour::Rung::Fear && weighed.intention == fish::Intention::School;
+        rule == behaviour::PriorityRule::Fear && weighed.intention == fish::Intention::School;
     switch (weighed.verdict) {
         case behaviour::Verdict::Wins:
             return format("WINS: {}{}",
@@ -252,13 +253,13 @@ std::string Screen::verdictOn(behaviour::Rung rung, const behaviour::Weighed& we
         case behaviour::Verdict::Outranked:
             return format("{}: comes after {}",
                           targeted(weighed.intention, weighed.target),
-                          kRungNames[static_cast<std::size_t>(of_.reasoning.winner)]);
-        case behaviour::Verdict::AgainstNature:
+                          kPriorityRuleNames[static_cast<std::size_t>(of_.reasoning.winner)]);
+        case behaviour::Verdict::AgainstHabits:
             return "not in its nature";
         case behaviour::Verdict::TooWeak:
             return format("too weak, {:.2f} of {:.2f}", weighed.value, weighed.threshold);
         case behaviour::Verdict::NoTarget:
-            return notInView(rung);
+            return notInView(rule);
         case behaviour::Verdict::Nothing:
             return "nothing was interrupted";
         case behaviour::Verdict::TooOld:
@@ -269,16 +270,16 @@ std::string Screen::verdictOn(behaviour::Rung rung, const behaviour::Weighed& we
         case behaviour::Verdict::Yields:
             break;
     }
-    return rung == behaviour::Rung::Hunger ? "yields to libido" : "yields to hunger";
+    return rule == behaviour::PriorityRule::Hunger ? "yields to libido" : "yields to hunger";
 }
 
 void Screen::why() {
     const bool changes = of_.reasoning.decision.intention != of_.mind.intention;
-    for (std::size_t i = 0; i < behaviour::kRungs; ++i)
+    for (std::size_t i = 0; i < behaviour::kPriorityRules; ++i)
         add(i == 0 ? "WHY" : "",
             format("{:<12}{}",
-                   kRungNames[i],
-                   verdictOn(static_cast<behaviour::Rung>(i), of_.reasoning.rungs[i])) +
+                   kPriorityRuleNames[i],
+                   verdictOn(static_cast<behaviour::PriorityRule>(i), of_.reasoning.rules[i])) +
                 (changes && i == static_cast<std::size_t>(of_.reasoning.winner)
                      ? ", at its next thought"
                      : ""));

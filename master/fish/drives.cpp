@@ -23,32 +23,33 @@ std::uint32_t ticksOf(float seconds) {
 }
 
 // R of the thesis: 1 after a meal, 0 when it is digested.
-float undigested(const Nature& nature, const Mind& mind) {
-    return std::max(0.0F, 1 - nature.habits.digestionPerSecond * seconds(mind.sinceMeal));
+float undigested(const SpeciesParameters& parameters, const Mind& mind) {
+    return std::max(0.0F, 1 - parameters.habits.digestionPerSecond * seconds(mind.sinceMeal));
 }
 
 }  // namespace
 
-float innerHunger(const Nature& nature, const Mind& mind) {
-    const float stomach = static_cast<float>(mind.eaten) * undigested(nature, mind);
-    return std::clamp(1 - stomach / nature.habits.appetiteParticles, 0.0F, 1.0F);
+float innerHunger(const SpeciesParameters& parameters, const Mind& mind) {
+    const float stomach = static_cast<float>(mind.eaten) * undigested(parameters, mind);
+    return std::clamp(1 - stomach / parameters.habits.appetiteParticles, 0.0F, 1.0F);
 }
 
-bool isGorged(const Nature& nature, const Mind& mind) {
-    return static_cast<float>(mind.eaten) > 2 * nature.habits.appetiteParticles;
+bool isGorged(const SpeciesParameters& parameters, const Mind& mind) {
+    return static_cast<float>(mind.eaten) > 2 * parameters.habits.appetiteParticles;
 }
 
-float innerLibido(const Nature& nature, const Mind& mind, float hunger) {
-    if (!mates(nature)) return 0;
-    return std::min(1.0F, nature.habits.libidoPerSecond * seconds(mind.sinceSpawning)) *
+float innerLibido(const SpeciesParameters& parameters, const Mind& mind, float hunger) {
+    if (!mates(parameters)) return 0;
+    return std::min(1.0F, parameters.habits.libidoPerSecond * seconds(mind.sinceSpawning)) *
            (1 - hunger);
 }
 
-bool mates(const Nature& nature) {
-    return nature.habits.role == config::Role::Pacifist && nature.habits.libidoPerSecond > 0;
+bool mates(const SpeciesParameters& parameters) {
+    return parameters.habits.role == config::Role::Pacifist &&
+           parameters.habits.libidoPerSecond > 0;
 }
 
-void passTime(const Nature& nature, Mind& mind) {
+void passTime(const SpeciesParameters& parameters, Mind& mind) {
     for (std::uint32_t* ticks : {&mind.pursued,
                                  &mind.sinceRemembered,
                                  &mind.sinceMeal,
@@ -56,16 +57,16 @@ void passTime(const Nature& nature, Mind& mind) {
                                  &mind.sinceChase,
                                  &mind.sinceStage})
         if (*ticks < kLongAgo) *ticks += kTicksBetweenThoughts;
-    if (undigested(nature, mind) <= 0) mind.eaten = 0;
+    if (undigested(parameters, mind) <= 0) mind.eaten = 0;
 }
 
-void setMood(const Nature& nature, float hunger, float libido, Mind& mind) {
-    const float meal = std::max(1.0F, std::ceil(nature.habits.appetiteParticles));
+void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mind& mind) {
+    const float meal = std::max(1.0F, std::ceil(parameters.habits.appetiteParticles));
     const float left =
-        std::clamp((1 - hunger) * nature.habits.appetiteParticles / meal, 0.0F, 1.0F);
+        std::clamp((1 - hunger) * parameters.habits.appetiteParticles / meal, 0.0F, 1.0F);
     mind.eaten = static_cast<std::uint16_t>(meal);
-    mind.sinceMeal = ticksOf((1 - left) / nature.habits.digestionPerSecond);
-    const float growth = nature.habits.libidoPerSecond * std::max(1 - hunger, 0.0F);
+    mind.sinceMeal = ticksOf((1 - left) / parameters.habits.digestionPerSecond);
+    const float growth = parameters.habits.libidoPerSecond * std::max(1 - hunger, 0.0F);
     mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
 }
 

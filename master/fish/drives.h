@@ -4,7 +4,7 @@
 #pragma once
 
 #include "master/fish/minds.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::fish {
 
@@ -16,21 +16,23 @@ inline constexpr float kDesire = 0.25F;
 inline constexpr float kHysteresis = 0.8F;
 
 // 1 - n_e R / alpha, within 0 to 1: R is the share of the last meal that is not digested.
-[[nodiscard]] float innerHunger(const Nature& nature, const Mind& mind);
+[[nodiscard]] float innerHunger(const SpeciesParameters& parameters, const Mind& mind);
 
 // More than twice the appetite in the stomach: nothing makes it hungry.
-[[nodiscard]] bool isGorged(const Nature& nature, const Mind& mind);
+[[nodiscard]] bool isGorged(const SpeciesParameters& parameters, const Mind& mind);
 
 // p1 dt (1 - H), within 0 to 1; always 0 for those who never mate.
-[[nodiscard]] float innerLibido(const Nature& nature, const Mind& mind, float hunger);
+[[nodiscard]] float innerLibido(const SpeciesParameters& parameters,
+                                const Mind& mind,
+                                float hunger);
 
 // Only pacifists mate (Tu & Terzopoulos 1994).
-[[nodiscard]] bool mates(const Nature& nature);
+[[nodiscard]] bool mates(const SpeciesParameters& parameters);
 
 // Lets one thought's time pass: all clocks of the mind go on, a digested meal is forgotten.
-void passTime(const Nature& nature, Mind& mind);
+void passTime(const SpeciesParameters& parameters, Mind& mind);
 
 // So hungry and in such a mood, both 0 to 1, as a scene may want it to begin.
-void setMood(const Nature& nature, float hunger, float libido, Mind& mind);
+void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mind& mind);
 
 }  // namespace aquarama::fish

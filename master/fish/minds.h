@@ -97,11 +97,11 @@ class Minds {
     std::vector<Mind> minds_;
 };
 
-// What a fish did at this tick to something that others see too. Deeds are done after all have
+// What a fish did at this tick to something that others see too. Events are applied after all have
 // thought, in the order of the fish; of two that want the same the first has it.
-enum class DeedKind : std::uint8_t { EatParticle, EatFish, Spawn };
-struct Deed {
-    DeedKind kind = DeedKind::EatParticle;
+enum class DeferredEventKind : std::uint8_t { EatParticle, EatFish, Spawn };
+struct DeferredEvent {
+    DeferredEventKind kind = DeferredEventKind::EatParticle;
     std::uint32_t fish = kNobody;
     std::uint32_t object = kNobody;  // particle, prey or mate
 };

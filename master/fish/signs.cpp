@@ -7,9 +7,10 @@ namespace aquarama::fish {
 
 namespace {
 
-bool wouldMate(const Nature& nature, const Mind& mind, Intention aim) {
-    if (!mates(nature)) return false;
-    return aim == Intention::Mate || innerLibido(nature, mind, innerHunger(nature, mind)) > kDesire;
+bool wouldMate(const SpeciesParameters& parameters, const Mind& mind, Intention aim) {
+    if (!mates(parameters)) return false;
+    return aim == Intention::Mate ||
+           innerLibido(parameters, mind, innerHunger(parameters, mind)) > kDesire;
 }
 
 // Of a kind that neither mates nor hunts only this much differs from fish to fish.
@@ -20,10 +21,13 @@ unsigned moodOf(std::uint8_t likes, Intention aim) {
 
 }  // namespace
 
-void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, FishView& view) {
+void showMood(const SpeciesParameters& parameters,
+              const Minds& minds,
+              std::uint32_t fish,
+              FishView& view) {
     const unsigned away = view.signs[fish] & unsigned{kAway};
     const Mind& mind = minds[fish];
-    if (nature.habits.role ==
+    if (parameters.habits.role ==
         config::Role::Prey) {  // most fish are; they need but three bytes of their mind
         const bool schools =
             mind.intention == Intention::School || mind.remembered == Intention::School;
@@ -33,8 +37,8 @@ void showMood(const Nature& nature, const Minds& minds, std::uint32_t fish, Fish
     }
     const Aim aim = aimOf(mind);
     unsigned signs = away | moodOf(mind.likes, aim.intention);
-    if (wouldMate(nature, mind, aim.intention)) signs |= kWilling;
-    if (nature.habits.role == config::Role::Predator && aim.intention == Intention::Eat)
+    if (wouldMate(parameters, mind, aim.intention)) signs |= kWilling;
+    if (parameters.habits.role == config::Role::Predator && aim.intention == Intention::Eat)
         signs |= kHunting;
     view.signs[fish] = static_cast<std::uint8_t>(signs);
     view.stage[fish] = mind.stage;

@@ -40,7 +40,7 @@ void Playback::compareWith(const wire::RecordedHash& expected) {
 ReplayedWorld::ReplayedWorld(const wire::Recording& recording,
                              conductor::Simulation& world,
                              std::function<void()> onEnd)
-    : AroundWorld(world), playback_(recording, world), onEnd_(std::move(onEnd)) {}
+    : SimulationDecorator(world), playback_(recording, world), onEnd_(std::move(onEnd)) {}
 
 void ReplayedWorld::advance() {
     playback_.advance();

@@ -10,7 +10,7 @@
 
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
-#include "master/record/around_world.h"
+#include "master/record/simulation_decorator.h"
 
 namespace aquarama::record {
 
@@ -44,7 +44,7 @@ class Playback {
 };
 
 // The replay as the conductor shows it. What visitors do meanwhile does not reach the world.
-class ReplayedWorld final : public AroundWorld {
+class ReplayedWorld final : public SimulationDecorator {
   public:
     // onEnd is called once, from the tick thread, when all that was recorded has been replayed.
     ReplayedWorld(const wire::Recording& recording,

@@ -46,7 +46,7 @@ void RecordingFile::add(const wire::Packet& entry) {
 }
 
 RecordedWorld::RecordedWorld(conductor::Simulation& world, RecordingFile& file)
-    : AroundWorld(world), file_(file) {
+    : SimulationDecorator(world), file_(file) {
     file_.add(wire::entryOf(now()));
 }
 

@@ -9,7 +9,7 @@
 
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
-#include "master/record/around_world.h"
+#include "master/record/simulation_decorator.h"
 
 namespace aquarama::record {
 
@@ -37,7 +37,7 @@ class RecordingFile {
 
 // A world whose inputs are recorded. They reach it as its next tick begins, here as in a replay, so
 // that no snapshot tells the two apart.
-class RecordedWorld final : public AroundWorld {
+class RecordedWorld final : public SimulationDecorator {
   public:
     RecordedWorld(conductor::Simulation& world, RecordingFile& file);
     ~RecordedWorld() override;  // writes the end

@@ -57,7 +57,7 @@ void Diary::noteMind(const world::World& world, std::size_t fish) {
     const fish::Minds& minds = world.minds();
     const fish::Intention intention = minds[fish].intention;
     const bool hunts =
-        world.natures()[world.view().kind[fish]].habits.role == config::Role::Predator;
+        world.speciesParameters()[world.view().kind[fish]].habits.role == config::Role::Predator;
     const bool isNew = intention != intention_[fish];
     const bool another = isNew || minds[fish].target != target_[fish];
     ++tally_.fishTicks;
@@ -87,7 +87,7 @@ void Diary::noteBodies(const world::World& world) {
 }
 
 void Diary::noteSchool(const world::World& world) {
-    const fish::Nature& first = world.natures().front();
+    const fish::SpeciesParameters& first = world.speciesParameters().front();
     const SchoolFigures figures = schoolFigures(world.view(), first.first, first.last);
     tally_.nearestNeighbour += figures.nearestNeighbour;
     tally_.polarisation += figures.polarisation;

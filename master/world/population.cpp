@@ -37,10 +37,10 @@ bool isClear(const surroundings::Obstacles& obstacles, glm::vec3 place) {
 
 }  // namespace
 
-std::vector<Absence> makeAbsences(std::span<const fish::Nature> natures) {
+std::vector<Absence> makeAbsences(std::span<const fish::SpeciesParameters> speciesParameters) {
     std::size_t hunted = 0;
-    for (const fish::Nature& nature : natures)
-        if (nature.huntedBy != 0) hunted += nature.last - nature.first;
+    for (const fish::SpeciesParameters& parameters : speciesParameters)
+        if (parameters.huntedBy != 0) hunted += parameters.last - parameters.first;
     std::vector<Absence> absences;
     absences.reserve(hunted);
     return absences;

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/units/ids.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 #include "master/surroundings/surroundings.h"
 
 namespace aquarama::world {
@@ -31,7 +31,8 @@ struct Absence {
 };
 
 // With room for all fish that somebody hunts; in the order in which they were eaten.
-[[nodiscard]] std::vector<Absence> makeAbsences(std::span<const fish::Nature> natures);
+[[nodiscard]] std::vector<Absence> makeAbsences(
+    std::span<const fish::SpeciesParameters> speciesParameters);
 // 20 to 60 seconds from now.
 [[nodiscard]] Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now);
 

@@ -16,7 +16,7 @@
 #include "master/fish/drives.h"
 #include "master/fish/signs.h"
 #include "master/world/beginning.h"
-#include "master/world/nature_of.h"
+#include "master/world/make_species_parameters.h"
 
 namespace aquarama::world {
 
@@ -42,14 +42,14 @@ void fetch(const fish::Minds& minds,
     __builtin_prefetch(&courses[fish]);
 }
 
-fish::Mind beginningMind(const fish::Nature& nature,
+fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
                          const std::optional<config::Start>& start,
                          std::uint32_t seed,
                          std::uint32_t fish) {
-    fish::Mind mind = behaviour::freshMind(nature, seed, fish);
+    fish::Mind mind = behaviour::freshMind(parameters, seed, fish);
     if (start)
         fish::setMood(
-            nature, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
+            parameters, static_cast<float>(start->hunger), static_cast<float>(start->libido), mind);
     return mind;
 }
 
@@ -85,8 +85,8 @@ World::World(const WorldOptions& options)
     memory_.resize(traits_.size());
     view_.resize(traits_.size());
     meals_ = makeMeals(traits_.size());
-    absences_ = makeAbsences(natures_);
-    makeRoomForDeeds();
+    absences_ = makeAbsences(speciesParameters_);
+    makeRoomForEvents();
     begin(options);
 }
 
@@ -97,33 +97,35 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
         chunks_.push_back({kinds_.size(), at, std::min(last, at + kFishInChunk)});
     }
     kinds_.push_back({species.tables, fish::gaitsOf(*species.tables), first, last});
-    natures_.push_back(natureOf(cast, kinds_.size() - 1, kinds_.back().gaits, first, last));
+    speciesParameters_.push_back(
+        makeSpeciesParameters(cast, kinds_.size() - 1, kinds_.back().gaits, first, last));
 }
 
 void World::begin(const WorldOptions& options) {
     placeFish(options, goal_, surroundings_, states_);
-    for (const fish::Nature& nature : natures_) {
-        const Kind& kind = kinds_[nature.kind];
+    for (const fish::SpeciesParameters& parameters : speciesParameters_) {
+        const Kind& kind = kinds_[parameters.kind];
         fish::startCommands(kind.gaits, seed_, kind.first, kind.last, commands_, memory_);
-        for (std::uint32_t fish = nature.first; fish < nature.last; ++fish) {
-            motion::setSpeedBodyLengths(states_, fish, nature.medium);
-            minds_[fish] = beginningMind(nature, options.cast[nature.kind].start, seed_, fish);
-            view_.kind[fish] = nature.kind;
+        for (std::uint32_t fish = parameters.first; fish < parameters.last; ++fish) {
+            motion::setSpeedBodyLengths(states_, fish, parameters.medium);
+            minds_[fish] =
+                beginningMind(parameters, options.cast[parameters.kind].start, seed_, fish);
+            view_.kind[fish] = parameters.kind;
         }
         look(kind, kind.first, kind.last);
     }
-    grids_.expect(view_, natures_);
+    grids_.expect(view_, speciesParameters_);
     for (std::size_t fish = 0; fish < traits_.size(); ++fish)
         courses_[fish] = {view_.heading(fish), 1, 0};
 }
 
 // A tick's thoughts are about an eighth of the fish; each does one thing at most.
-void World::makeRoomForDeeds() {
+void World::makeRoomForEvents() {
     constexpr std::size_t kSlack = 32;
     slices_.resize((traits_.size() + kSlotsInSlice - 1) / kSlotsInSlice);
     for (Slice& slice : slices_)
-        slice.deeds.reserve(kSlotsInSlice / fish::kTicksBetweenThoughts * 2);
-    deeds_.reserve(traits_.size() / fish::kTicksBetweenThoughts + kSlack);
+        slice.events.reserve(kSlotsInSlice / fish::kTicksBetweenThoughts * 2);
+    events_.reserve(traits_.size() / fish::kTicksBetweenThoughts + kSlack);
 }
 
 void World::apply(const WorldInput& input) {
@@ -169,7 +171,7 @@ void World::advance() {
     advanceMeals(meals_, view_, surroundings_.food, tick_);
     thinkAll();
     pool_.run(chunks_.size(), [this](std::size_t i) { swim(chunks_[i]); });
-    performDeeds();
+    performEvents();
     ++tick_.value;
 }
 
@@ -179,7 +181,7 @@ void World::beginTick() {
     grids_.rebuild(
         view_,
         surroundings_.food,
-        natures_,
+        speciesParameters_,
         [this](std::size_t jobs, const auto& job) { pool_.run(jobs, job); },
         [this](std::size_t first, std::size_t last) {
             if (first == 0) surroundings::advanceSurroundings(surroundings_, tick_);
@@ -197,7 +199,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
     for (std::size_t from = first; from < last; from += kAtATime) {
         const std::size_t to = std::min(last, from + kAtATime);
         motion::meanHeadings(*kind.tables, states_, from, to, {x.data(), y.data(), z.data()});
-        const fish::Nature& nature = natures_[view_.kind[from]];
+        const fish::SpeciesParameters& parameters = speciesParameters_[view_.kind[from]];
         for (std::size_t fish = from; fish < to; ++fish) {
             const std::size_t i = fish - from;
             const float length = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
@@ -209,7 +211,7 @@ void World::look(const Kind& kind, std::size_t first, std::size_t last) {
                                 {x[i], y[i], z[i]},
                                 lengthsASecond * length,
                                 length};
-            fish::showMood(nature, minds_, static_cast<std::uint32_t>(fish), view_);
+            fish::showMood(parameters, minds_, static_cast<std::uint32_t>(fish), view_);
         }
     }
 }
@@ -218,7 +220,7 @@ behaviour::Environment World::environment() const {
     return {.view = &view_,
             .grids = &grids_,
             .surroundings = &surroundings_,
-            .natures = natures_,
+            .speciesParameters = speciesParameters_,
             .gathering = gathering_,
             .goal = goal_,
             .schoolRadiusMetres = schoolRadius_,
@@ -241,12 +243,12 @@ void World::thinkAll() {
             thinkers[count] = grid.index()[slot];
             count += fish::thinksAt(tick_, thinkers[count]) ? 1 : 0;
         }
-        behaviour::Deeds& deeds = slices_[i].deeds;
-        deeds.clear();
+        behaviour::DeferredEvents& events = slices_[i].events;
+        events.clear();
         for (std::size_t t = 0; t < count; ++t) {
             if (t + kFetchedAhead < count)
                 fetch(minds_, view_, courses_, thinkers[t + kFetchedAhead]);
-            behaviour::think(around, thinkers[t], minds_, courses_, deeds);
+            behaviour::think(around, thinkers[t], minds_, courses_, events);
         }
     });
 }
@@ -262,12 +264,12 @@ void World::swim(const Chunk& chunk) {
 }
 
 // In the order of the fish.
-void World::performDeeds() {
-    deeds_.clear();
+void World::performEvents() {
+    events_.clear();
     for (const Slice& slice : slices_)
-        deeds_.insert(deeds_.end(), slice.deeds.begin(), slice.deeds.end());
-    std::ranges::sort(deeds_, {}, &fish::Deed::fish);
-    for (const fish::Deed& deed : deeds_) perform(deed);
+        events_.insert(events_.end(), slice.events.begin(), slice.events.end());
+    std::ranges::sort(events_, {}, &fish::DeferredEvent::fish);
+    for (const fish::DeferredEvent& event : events_) perform(event);
 }
 
 // All that decides how the world goes on and is no function of seed, scene and tick.

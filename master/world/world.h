@@ -65,7 +65,9 @@ class World {
     [[nodiscard]] const fish::Courses& courses() const { return courses_; }
     [[nodiscard]] const surroundings::Surroundings& surroundings() const { return surroundings_; }
     [[nodiscard]] const pilot::Pilot& pilot() const { return pilot_; }
-    [[nodiscard]] std::span<const fish::Nature> natures() const { return natures_; }
+    [[nodiscard]] std::span<const fish::SpeciesParameters> speciesParameters() const {
+        return speciesParameters_;
+    }
     [[nodiscard]] const fish::FishView& view() const { return view_; }  // as the last tick began
     // As the fish saw it that thought in the last tick.
     [[nodiscard]] behaviour::Environment environment() const;
@@ -89,17 +91,17 @@ class World {
         std::size_t first = 0, last = 0;
     };
     struct Slice {  // a part of those in the grid, as they stand there
-        behaviour::Deeds deeds;
+        behaviour::DeferredEvents events;
     };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
     void begin(const WorldOptions& options);
     void beginTick();
     void look(const Kind& kind, std::size_t first, std::size_t last);
-    void makeRoomForDeeds();
+    void makeRoomForEvents();
     void thinkAll();
     void swim(const Chunk& chunk);
-    void performDeeds();
-    void perform(const fish::Deed& deed);
+    void performEvents();
+    void perform(const fish::DeferredEvent& event);
     void feed(std::uint32_t fish);
     void receive();
     void arrive(std::uint32_t fish);
@@ -113,10 +115,10 @@ class World {
     glm::vec3 middle_;  // of the scene's own water, before it grew
     fish::Adaptation adaptation_;
     std::vector<Kind> kinds_;
-    std::vector<fish::Nature> natures_;  // one for each kind
+    std::vector<fish::SpeciesParameters> speciesParameters_;  // one for each kind
     std::vector<Chunk> chunks_;
     std::vector<Slice> slices_;
-    behaviour::Deeds deeds_;  // of all slices
+    behaviour::DeferredEvents events_;  // of all slices
     std::vector<motion::FishTraits> traits_;
     surroundings::Surroundings surroundings_;
     pilot::Voyage voyage_;

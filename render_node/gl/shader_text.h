@@ -21,7 +21,7 @@ struct ShaderText {
 // The text of a file of this name; throws Error where there is none.
 using ReadShader = std::function<std::string_view(std::string_view name)>;
 
-// Includes `by` wherever a file says #include "file": so one shader serves several painters and
+// Includes `by` wherever a file says #include "file": so one shader serves several species and
 // tiers.
 struct Replacement {
     std::string file, by;

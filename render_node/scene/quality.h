@@ -12,7 +12,7 @@ struct LightQuality {
     int waveTexels = 96;
     int rippleTexels = 64;
     int surfaceTaps = 1;    // of the surface along a pixel's long side
-    int causticLayers = 1;  // depths at which the net of light is drawn
+    int causticLayers = 1;  // depths at which caustics are drawn
     int causticTexels = 256;
     int causticCells = 72;  // of the light front, a side
     int shaftTexels = 112;  // of the map of all directions
@@ -20,7 +20,7 @@ struct LightQuality {
     int shadowTexels = 64;  // of the place's shadows; drawn where isFine
     int fishShadowTexels = 128;
     int flakes = 6000;  // of marine snow
-    // Soft shadows, of fish too; a mirrored reef, clouds, coloured rims of the net of light.
+    // Soft shadows, of fish too; a mirrored reef, clouds, coloured rims of caustics.
     bool isFine = false;
 };
 

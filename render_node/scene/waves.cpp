@@ -17,9 +17,9 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kGravity = 9.81;
 constexpr double kTension = 7.4e-5;  // of water against air by density, m3/s2
-// Headings by the golden angle: a short sea from all sides, whose net of light has no grain.
+// Headings by the golden angle: a short sea from all sides, whose caustics have no grain.
 constexpr double kGoldenAngle = 2.39996;
-// Below 0.3 the net of light is faint, above 0.8 it breaks into cords and sheets.
+// Below 0.3 caustics are faint, above 0.8 they break into cords and sheets.
 constexpr double kSharpestNet = 0.56;
 // A light breeze: with the waves about 0.17, the slope of Cox and Munk 1954 at 5 m/s.
 constexpr double kRippleSteepness = 0.125;
@@ -29,7 +29,7 @@ constexpr double kLongSteepness = 0.055;
 struct Band {
     double longestMetres, shortestShare, steepening, pace;
 };
-// At the sea's own pace the net of light would flicker: it is another within a tenth of a second.
+// At the sea's own pace caustics would flicker: they change within a tenth of a second.
 constexpr Band kWaveBand{3.8, 0.14, 0.45, 0.55};
 constexpr Band kRippleBand{0.5, 0.10, 0.25, 1.0};
 constexpr Band kLongBand{15.0, 0.4, 0.0, 1.0};

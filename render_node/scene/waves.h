@@ -30,7 +30,7 @@ struct Sea {
     Waves ripples;                  // 0.5 to 0.05 m, a whole number of them on theirs
     WaveSet<kLongWaves> longWaves;  // 6 to 15 m
 };
-// Waves as steep as makes the net of light sharpest on sand at this depth: see focusNumber. Calm:
+// Waves as steep as makes caustics sharpest on sand at this depth: see focusNumber. Calm:
 // a mirror, without any wave.
 [[nodiscard]] Sea seaOf(std::uint32_t seed, float focusDepthMetres);
 [[nodiscard]] Sea calmSea();

@@ -27,23 +27,23 @@ constexpr int kSpoiltBlobs = 3;  // deliveries of a blob that fail before we giv
 MasterLink::MasterLink(std::string name,
                        net::Connect connect,
                        net::BlobCache cache,
-                       Meeting& meeting)
+                       Mailbox& mailbox)
     : name_(std::move(name)),
       connect_(std::move(connect)),
       cache_(std::move(cache)),
-      meeting_(meeting),
+      mailbox_(mailbox),
       channels_(connect_()) {}
 
-void MasterLink::wish(const Wish& wish) {
-    wishes_.put(wish);
+void MasterLink::post(const Request& request) {
+    requests_.put(request);
     const std::lock_guard lock(channelsMutex_);
     channels_->wake();
 }
 
 void MasterLink::stop() {
     stopped_ = true;
-    wishes_.close();
-    meeting_.interrupt(Release::Quit);
+    requests_.close();
+    mailbox_.interrupt(Release::Quit);
     const std::lock_guard lock(channelsMutex_);
     channels_->wake();
 }
@@ -55,14 +55,14 @@ void MasterLink::run() {
             channels_->wait(kPing / 2);
         }
     } catch (const Error& error) {  // no new connection could be made
-        meeting_.refuse(error.what());
+        mailbox_.refuse(error.what());
     }
     if (session_ != 0) say(wire::Farewell{});
 }
 
 void MasterLink::turn() {
-    while (const auto wish = wishes_.tryTake()) {
-        std::visit([&](const auto& what) { obey(what); }, *wish);
+    while (const auto request = requests_.tryTake()) {
+        std::visit([&](const auto& what) { handle(what); }, *request);
     }
     while (const auto bytes = channels_->receiveControl()) readControl(*bytes);
     while (const auto bytes = channels_->receiveState()) readState(*bytes);
@@ -73,10 +73,10 @@ void MasterLink::say(const wire::Message& message) {
     channels_->sendControl(wire::encode({session_, message}));
 }
 
-// --- what the render thread wishes
+// --- requests of the render thread
 
 // Every attempt has connections of its own: one that is dead without knowing it is left behind.
-void MasterLink::obey(const Join&) {
+void MasterLink::handle(const Join&) {
     if (std::exchange(connectionUsed_, true)) {
         auto fresh = connect_();
         const std::lock_guard lock(channelsMutex_);
@@ -90,22 +90,22 @@ void MasterLink::obey(const Join&) {
     lastComplaint_ = net::monotonicNow();
 }
 
-void MasterLink::obey(const wire::Prepared& prepared) {
+void MasterLink::handle(const wire::Prepared& prepared) {
     prepared_ = prepared;
     if (phase_ == Phase::Building) phase_ = Phase::Listening;
 }
 
-void MasterLink::obey(const Finished& finished) {
+void MasterLink::handle(const Finished& finished) {
     if (phase_ != Phase::Member) return;
     finished_ = finished;
     sayReady();
 }
 
-void MasterLink::obey(const wire::Input& input) {
+void MasterLink::handle(const wire::Input& input) {
     say(input);
 }
 
-void MasterLink::obey(const wire::ExplainRequest& request) {
+void MasterLink::handle(const wire::ExplainRequest& request) {
     if (session_ != 0) say(request);
 }
 
@@ -125,7 +125,7 @@ void MasterLink::readControl(const net::ByteVector& bytes) {
     if (const auto* welcome = std::get_if<wire::Welcome>(&envelope->message)) {
         if (phase_ == Phase::Greeting) beWelcomed(envelope->session, *welcome);
     } else if (const auto* refusal = std::get_if<wire::Refusal>(&envelope->message)) {
-        if (phase_ == Phase::Greeting) meeting_.refuse(refusal->reason);
+        if (phase_ == Phase::Greeting) mailbox_.refuse(refusal->reason);
     } else if (const auto* dismissed = std::get_if<wire::Dismissed>(&envelope->message)) {
         take(*dismissed);  // also from another run of the master: it does not know us
     } else if (session_ != 0 && envelope->session == session_) {
@@ -140,7 +140,7 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     hearsStates_ = true;
     lastHeard_ = net::monotonicNow();
     if (auto* state = std::get_if<wire::StateFrame>(&envelope->message)) {
-        meeting_.put({std::move(*state), lastHeard_});
+        mailbox_.put({std::move(*state), lastHeard_});
     }
 }
 
@@ -153,7 +153,7 @@ void MasterLink::beWelcomed(std::uint64_t session, const wire::Welcome& welcome)
     try {
         channels_->subscribeState(welcome.stateAddress);
     } catch (const Error& error) {
-        return meeting_.refuse(error.what());
+        return mailbox_.refuse(error.what());
     }
     fetchNext();
 }
@@ -186,7 +186,7 @@ void MasterLink::take(const wire::BlobChunk& chunk) {
     const auto blob = assembly_->checked();
     if (!blob) {
         if (++spoiltBlobs_ < kSpoiltBlobs) return requestChunk();
-        return meeting_.refuse("the master sends other bytes for blob " + toHex(chunk.digest) +
+        return mailbox_.refuse("the master sends other bytes for blob " + toHex(chunk.digest) +
                                " than its name says; restart the master");
     }
     cache_.keep(chunk.digest, *blob);
@@ -196,7 +196,7 @@ void MasterLink::take(const wire::BlobChunk& chunk) {
 
 void MasterLink::admit() {
     phase_ = Phase::Building;
-    meeting_.admit(admitted_);
+    mailbox_.admit(admitted_);
 }
 
 void MasterLink::take(const wire::Pong& pong) {
@@ -204,7 +204,7 @@ void MasterLink::take(const wire::Pong& pong) {
 }
 
 void MasterLink::take(const wire::Joined& joined) {
-    meeting_.start(admitted_.welcome.pace, joined.first);
+    mailbox_.start(admitted_.welcome.pace, joined.first);
 }
 
 void MasterLink::take(const wire::Present& present) {
@@ -213,7 +213,7 @@ void MasterLink::take(const wire::Present& present) {
     if (present.atNs != 0 && clock_.offset()) at = net::Instant{present.atNs} - *clock_.offset();
     if (at > now + kFarthest) at = now;
     if (finished_ && finished_->frame <= present.frame) finished_.reset();
-    meeting_.release({present.frame, at});
+    mailbox_.release({present.frame, at});
 }
 
 void MasterLink::take(const wire::Dismissed& dismissed) {
@@ -229,11 +229,11 @@ void MasterLink::take(const wire::Farewell&) {
     say(wire::Farewell{});
     phase_ = Phase::Outside;
     session_ = 0;
-    meeting_.interrupt(Release::Quit);
+    mailbox_.interrupt(Release::Quit);
 }
 
 void MasterLink::take(const wire::Explanation& explanation) {
-    meeting_.tellMind(explanation);
+    mailbox_.tellMind(explanation);
 }
 
 // A render thread that is still in join() is not told: it goes on waiting while we say hello again.
@@ -243,9 +243,9 @@ void MasterLink::lose(const std::string& why) {
     phase_ = Phase::Outside;
     session_ = 0;  // what is still on its way means nothing any more
     if (isJoining) {
-        obey(Join{});
+        handle(Join{});
     } else {
-        meeting_.interrupt(Release::Rejoin);
+        mailbox_.interrupt(Release::Rejoin);
     }
 }
 

@@ -13,23 +13,23 @@
 #include "common/net/bounded_queue.h"
 #include "common/net/channels.h"
 #include "common/wire/envelope.h"
-#include "render_node/session/meeting.h"
+#include "render_node/session/mailbox.h"
 
 namespace aquarama::session {
 
 class MasterLink {
   public:
     // Connects once, so that a malformed address is refused here.
-    MasterLink(std::string name, net::Connect connect, net::BlobCache cache, Meeting& meeting);
+    MasterLink(std::string name, net::Connect connect, net::BlobCache cache, Mailbox& mailbox);
 
-    // The render thread's wishes.
+    // Requests of the render thread.
     struct Join {};
     struct Finished {  // the picture of this frame
         Frame frame;
         std::optional<wire::ReleaseReport> released;  // in this machine's clock
     };
-    using Wish = std::variant<Join, wire::Prepared, Finished, wire::Input, wire::ExplainRequest>;
-    void wish(const Wish& wish);
+    using Request = std::variant<Join, wire::Prepared, Finished, wire::Input, wire::ExplainRequest>;
+    void post(const Request& request);
     void stop();  // from any thread
 
     // The net thread; returns after stop(), having said farewell.
@@ -40,11 +40,11 @@ class MasterLink {
 
     void turn();
     void say(const wire::Message& message);
-    void obey(const Join& join);
-    void obey(const wire::Prepared& prepared);
-    void obey(const Finished& finished);
-    void obey(const wire::Input& input);
-    void obey(const wire::ExplainRequest& request);
+    void handle(const Join& join);
+    void handle(const wire::Prepared& prepared);
+    void handle(const Finished& finished);
+    void handle(const wire::Input& input);
+    void handle(const wire::ExplainRequest& request);
 
     void readControl(const net::ByteVector& bytes);
     void readState(const net::ByteVector& bytes);
@@ -71,11 +71,11 @@ class MasterLink {
     std::string name_;
     net::Connect connect_;
     net::BlobCache cache_;
-    Meeting& meeting_;
+    Mailbox& mailbox_;
 
     std::mutex channelsMutex_;  // held to replace or wake the channels, never to use them
     std::unique_ptr<net::NodeChannels> channels_;
-    net::BoundedQueue<Wish> wishes_{64};
+    net::BoundedQueue<Request> requests_{64};
     std::atomic<bool> stopped_ = false;
 
     bool connectionUsed_ = false;

@@ -7,8 +7,8 @@
 #include "common/net/channels.h"
 #include "common/units/error.h"
 #include "render_node/session/link_session.h"
+#include "render_node/session/mailbox.h"
 #include "render_node/session/master_link.h"
-#include "render_node/session/meeting.h"
 
 namespace aquarama::session {
 namespace {
@@ -31,7 +31,7 @@ class LinkSession final : public Session {
   public:
     LinkSession(const std::string& name, net::Connect connect, const std::filesystem::path& blobs)
         : name_(name),
-          link_(name, std::move(connect), net::BlobCache(blobs), meeting_),
+          link_(name, std::move(connect), net::BlobCache(blobs), mailbox_),
           netThread_([this] { link_.run(); }) {}
 
     ~LinkSession() override {
@@ -43,9 +43,9 @@ class LinkSession final : public Session {
 
     std::optional<Admission> join() override {
         released_.reset();
-        meeting_.expectJoin();
-        link_.wish(MasterLink::Join{});
-        JoinOutcome outcome = meeting_.awaitJoin();
+        mailbox_.expectJoin();
+        link_.post(MasterLink::Join{});
+        JoinOutcome outcome = mailbox_.awaitJoin();
         if (const auto* refused = std::get_if<Refused>(&outcome)) {
             throw Error("the master refuses node \"" + name_ + "\": " + refused->reason);
         }
@@ -57,22 +57,22 @@ class LinkSession final : public Session {
                          castOf(*admitted)};
     }
 
-    void prepared(config::QualityTier quality) override { link_.wish(wire::Prepared{quality}); }
+    void prepared(config::QualityTier quality) override { link_.post(wire::Prepared{quality}); }
 
     std::optional<wire::StateFrame> nextFrame() override {
-        auto arrived = meeting_.takeState();
+        auto arrived = mailbox_.takeState();
         if (!arrived) return std::nullopt;
         stateArrival_ = arrived->arrival;
         return std::move(arrived->state);
     }
 
-    Release interruption() const override { return meeting_.interruption(); }
+    Release interruption() const override { return mailbox_.interruption(); }
     std::chrono::nanoseconds stateArrival() const override { return stateArrival_; }
 
     Release readyThenWait(Frame frame) override {
-        link_.wish(MasterLink::Finished{frame, std::exchange(released_, {})});
-        const auto order = meeting_.awaitRelease(frame);
-        if (!order) return meeting_.interruption();
+        link_.post(MasterLink::Finished{frame, std::exchange(released_, {})});
+        const auto order = mailbox_.awaitRelease(frame);
+        if (!order) return mailbox_.interruption();
         if (order->frame != frame && !std::exchange(skipped_, true)) return Release::Skip;
         // A node that is always late shows its late pictures: better than none.
         skipped_ = false;
@@ -82,25 +82,25 @@ class LinkSession final : public Session {
     }
 
     void send(NodeInput input) override {
-        link_.wish(wire::Input{
+        link_.post(wire::Input{
             input == NodeInput::Quit ? wire::InputKind::Quit : wire::InputKind::TogglePause,
             {},
             {}});
     }
     void dropFood(glm::vec3 positionMetres) override {
-        link_.wish(wire::Input{wire::InputKind::DropFood, positionMetres, {}});
+        link_.post(wire::Input{wire::InputKind::DropFood, positionMetres, {}});
     }
     void steer(const Steering& steering) override {
-        link_.wish(wire::Input{wire::InputKind::Steer, {}, steering});
+        link_.post(wire::Input{wire::InputKind::Steer, {}, steering});
     }
-    void askMind(std::uint32_t fish) override { link_.wish(wire::ExplainRequest{fish}); }
-    std::optional<wire::Explanation> latestMind() const override { return meeting_.latestMind(); }
+    void askMind(std::uint32_t fish) override { link_.post(wire::ExplainRequest{fish}); }
+    std::optional<wire::Explanation> latestMind() const override { return mailbox_.latestMind(); }
 
     void stop() override { link_.stop(); }
 
   private:
     std::string name_;
-    Meeting meeting_;
+    Mailbox mailbox_;
     MasterLink link_;
     std::optional<wire::ReleaseReport> released_;
     bool skipped_ = false;

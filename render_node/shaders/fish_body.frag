@@ -1,5 +1,5 @@
-// The skin of a near fish, lit and seen through the water. The painter's file takes the place of
-// the plain one where the species has a painter.
+// The skin of a near fish, lit and seen through the water. The skin shader's file takes the place of
+// the plain one where the species has a skin shader.
 #include "fish_light.glsl"
 #include "skin_eye.glsl"
 #include "skin_plain.glsl"

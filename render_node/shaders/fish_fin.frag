@@ -1,4 +1,4 @@
-// The fins: painted membranes between rays, growing out of the skin. Blended. The painter's file takes the place of the plain one where the species has a painter.
+// The fins: painted membranes between rays, growing out of the skin. Blended. The skin shader's file takes the place of the plain one where the species has a skin shader.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"
 

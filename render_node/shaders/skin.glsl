@@ -1,4 +1,4 @@
-// What a painter of skins gets and gives, and the words that all painters share. A species' file,
+// What a skin shader gets and gives, and the words that all skin shaders share. A species' file,
 // skin_NAME.glsl, has a function each for the ground of its pattern, for what is seen only from
 // near, and for its fins.
 // Coordinates: s from nose 0 to tail tip 1, y up and z to the right, in body lengths; v from belly
@@ -155,7 +155,7 @@ Scale scaleAt(vec2 at, float size, bool isSeen) {
 }
 
 // Lays scales over a skin: each a little of its own shade, tilted like a tile, darker at its edge.
-// on: where they are, 0 .. 1. Returns what a painter may colour by.
+// on: where they are, 0 .. 1. Returns what a skin shader may colour by.
 Scale layScales(inout Skin skin, SkinPoint at, float thickness, float size, float relief, float on) {
     float detail = seenAt(size, at.pixel) * on;
     Scale scale = scaleAt(vec2(at.s, girthOf(at, thickness)), size, detail > 0.0);

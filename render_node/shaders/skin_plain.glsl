@@ -1,4 +1,4 @@
-// A species without a painter: the colours of its file, dark above and pale below.
+// A species without a skin shader: the colours of its file, dark above and pale below.
 #ifndef SKIN_PLAIN_GLSL
 #define SKIN_PLAIN_GLSL
 #include "skin_anatomy.glsl"

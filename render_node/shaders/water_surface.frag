@@ -8,7 +8,7 @@ layout(location = 0) in vec3 place;
 layout(location = 0) out vec4 radiance;
 const float kBrightening = kIndex * kIndex;  // a beam narrows as it enters the water
 const float kCritical = 0.66566;             // cosine of the angle of total reflection
-// The net of light wants waves less steep than the sea's: seen from below they are as steep.
+// Caustics want waves less steep than the sea's: seen from below they are as steep.
 const float kSteeper = 1.5;
 
 struct Facets {

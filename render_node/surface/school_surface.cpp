@@ -79,12 +79,12 @@ void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::si
 
 namespace {
 
-std::vector<SkinPainter> paintersOf(std::span<const SchoolSpecies> cast,
-                                    const gl::Replacements& replacements) {
-    std::vector<SkinPainter> painters;
+std::vector<SkinShader> skinShadersOf(std::span<const SchoolSpecies> cast,
+                                      const gl::Replacements& replacements) {
+    std::vector<SkinShader> skinShaders;
     for (const SchoolSpecies& member : cast)
-        painters.emplace_back(member.skin, member.body.eye, replacements);
-    return painters;
+        skinShaders.emplace_back(member.skin, member.body.eye, replacements);
+    return skinShaders;
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ struct SchoolSurface::Parts {
           limits{detailLimits(options.fineness)},
           arrays{std::async(std::launch::async, fishArrays, members, surfaceOf(options.finest))},
           programs{std::move(skins)},
-          painters{paintersOf(members, programs->replacements)},
+          skinShaders{skinShadersOf(members, programs->replacements)},
           tables{arrays.get(), surfaceOf(options.finest)} {
         for (const SchoolSpecies& member : members) fish += member.fish.size();
         makeBuffers(members);
@@ -117,7 +117,7 @@ struct SchoolSurface::Parts {
     void drawTurns(bool isFins) const;
     void drawTails(std::size_t first,
                    std::size_t commands,
-                   gl::ProgramHandle SkinPainter::*program) const;
+                   gl::ProgramHandle SkinShader::*program) const;
     void drawPoints() const;
     void drawFew() const;
 
@@ -125,7 +125,7 @@ struct SchoolSurface::Parts {
     DetailLimits limits;
     std::future<FishArrays> arrays;  // made while this thread compiles shaders
     std::shared_ptr<const SkinPrograms> programs;
-    std::vector<SkinPainter> painters;  // one a species
+    std::vector<SkinShader> skinShaders;  // one a species
     FishTables tables;
     std::size_t fish = 0;
     std::size_t turns = 1;  // of the surface buffer, at most
@@ -197,7 +197,7 @@ void SchoolSurface::Parts::setConstants() const {
     }
     glProgramUniform1i(cull.name(), shaders::kCullsLocation, options.culling ? 1 : 0);
     glProgramUniform1ui(
-        planner.name(), shaders::kSpeciesCountLocation, static_cast<GLuint>(painters.size()));
+        planner.name(), shaders::kSpeciesCountLocation, static_cast<GLuint>(skinShaders.size()));
 }
 
 void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
@@ -239,7 +239,7 @@ void SchoolSurface::Parts::sort() const {
     glDispatchCompute(groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(scan.name());
-    glDispatchCompute(static_cast<GLuint>(painters.size()), kDetailLevels, 1);
+    glDispatchCompute(static_cast<GLuint>(skinShaders.size()), kDetailLevels, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(planner.name());
     glDispatchCompute(1, 1, 1);
@@ -271,15 +271,15 @@ void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) 
 // All levels of a species that one program draws go in one call.
 void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
     const std::size_t surfaces = 1 + surfaceOf(options.finest);
-    const auto programOf = [&](const SkinPainter& painter, std::size_t surfaceLevel) {
-        return isFins ? painter.fins.name() : painter.bodyOf(static_cast<int>(surfaceLevel));
+    const auto programOf = [&](const SkinShader& skinShader, std::size_t surfaceLevel) {
+        return isFins ? skinShader.fins.name() : skinShader.bodyOf(static_cast<int>(surfaceLevel));
     };
     const std::size_t table = isFins ? offsetof(FishPlan, fins) : offsetof(FishPlan, bodies);
-    for (std::size_t s = 0; s < painters.size(); ++s) {
+    for (std::size_t s = 0; s < skinShaders.size(); ++s) {
         for (std::size_t first = 0; first < surfaces;) {
-            const unsigned program = programOf(painters[s], first);
+            const unsigned program = programOf(skinShaders[s], first);
             std::size_t last = first + 1;
-            while (last < surfaces && programOf(painters[s], last) == program) ++last;
+            while (last < surfaces && programOf(skinShaders[s], last) == program) ++last;
             glUseProgram(program);
             const std::size_t piece = (turn * shaders::kMostSpecies + s) * kSurfaces + first;
             glMultiDrawElementsIndirect(GL_TRIANGLES,
@@ -308,10 +308,10 @@ void SchoolSurface::Parts::drawTurns(bool isFins) const {
 
 void SchoolSurface::Parts::drawTails(std::size_t first,
                                      std::size_t commands,
-                                     gl::ProgramHandle SkinPainter::*program) const {
+                                     gl::ProgramHandle SkinShader::*program) const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
-    for (std::size_t s = 0; s < painters.size(); ++s) {
-        glUseProgram((painters[s].*program).name());
+    for (std::size_t s = 0; s < skinShaders.size(); ++s) {
+        glUseProgram((skinShaders[s].*program).name());
         glMultiDrawElementsIndirect(
             GL_TRIANGLES,
             GL_UNSIGNED_INT,
@@ -327,7 +327,7 @@ void SchoolSurface::Parts::drawPoints() const {
     bindStorage(shaders::kCastStorage, tables.cast);
     glBindVertexArray(pointArray.name());
     glDepthMask(GL_FALSE);
-    drawTails(2 * kMeshes, 1, &SkinPainter::point);
+    drawTails(2 * kMeshes, 1, &SkinShader::point);
     glDepthMask(GL_TRUE);
 }
 
@@ -336,9 +336,9 @@ void SchoolSurface::Parts::drawFew() const {
     bindStorage(shaders::kRecordedStorage, tables.recorded);
     glBindVertexArray(fewArray.name());
     glEnable(GL_CULL_FACE);
-    drawTails(0, kMeshes, &SkinPainter::fewBody);
+    drawTails(0, kMeshes, &SkinShader::fewBody);
     glDisable(GL_CULL_FACE);  // a sheet has two sides
-    drawTails(kMeshes, kMeshes, &SkinPainter::fewFins);
+    drawTails(kMeshes, kMeshes, &SkinShader::fewFins);
 }
 
 SchoolSurface::SchoolSurface(std::span<const SchoolSpecies> cast,
@@ -410,7 +410,7 @@ SurfaceCounts SchoolSurface::counts() const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(
         parts_->plan.name(), offsetof(FishPlan, totals), sizeof(totals), &totals);
-    for (std::size_t s = 0; s < parts_->painters.size(); ++s)
+    for (std::size_t s = 0; s < parts_->skinShaders.size(); ++s)
         for (std::size_t level = 0; level < kDetailLevels; ++level)
             counts.atLevel.at(level) += totals.at(s).at(level);
     counts.visible = std::accumulate(counts.atLevel.begin(), counts.atLevel.end(), std::size_t{0});

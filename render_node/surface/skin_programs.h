@@ -15,16 +15,16 @@ namespace aquarama::surface {
 
 struct SkinPrograms {
     gl::ProgramHandle surface;      // fish.comp
-    gl::Replacements replacements;  // of a tier: for the painters
+    gl::Replacements replacements;  // of a tier: for the skin shaders
 };
 [[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms(
     gl::Replacements replacements = {});
 
 // What draws the skin of one species: fish_body.frag near, fish_far.frag far and fish_fin.frag with
-// its painter, shaders/skin_SPECIES.glsl, or plainly where there is none.
-struct SkinPainter {
+// its skin shader, shaders/skin_SPECIES.glsl, or plainly where there is none.
+struct SkinShader {
     // eye: s, y and radius, body lengths.
-    SkinPainter(const body::FishSkin& skin, glm::vec3 eye, const gl::Replacements& replacements);
+    SkinShader(const body::FishSkin& skin, glm::vec3 eye, const gl::Replacements& replacements);
 
     gl::ProgramHandle nearBody, farBody, fins;
     gl::ProgramHandle fewBody, fewFins, point;  // with the vertex shaders of coarser levels

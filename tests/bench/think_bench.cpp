@@ -37,7 +37,8 @@ void report(benchmark::State& state, std::vector<double> nanoseconds, double tho
 // A school in which each has as many cubic body lengths as the second argument says, in tenths.
 struct School {
     fish::FishView view;
-    std::vector<fish::Nature> natures = std::vector<fish::Nature>(1);
+    std::vector<fish::SpeciesParameters> speciesParameters =
+        std::vector<fish::SpeciesParameters>(1);
     behaviour::Grids grids;
 
     School(std::size_t fish, double lengthsCubed) : School(fish, regionFor(fish, lengthsCubed)) {}
@@ -45,8 +46,8 @@ struct School {
   private:
     School(std::size_t fish, const place::Region& region)
         : view(behaviour::scatteredSchool(1, fish, region)), grids(region, fish, 0) {
-        natures[0].last = static_cast<std::uint32_t>(fish);
-        grids.rebuild(view, {}, natures);
+        speciesParameters[0].last = static_cast<std::uint32_t>(fish);
+        grids.rebuild(view, {}, speciesParameters);
     }
     static place::Region regionFor(std::size_t fish, double lengthsCubed) {
         constexpr double kLengthMetres = 0.24;
@@ -68,8 +69,8 @@ void nearest(benchmark::State& state) {
             for (std::size_t slot = 0; slot < fish; ++slot) {
                 const std::uint32_t one = grid.index()[slot];
                 if (one % 8 != ticks.size() % 8) continue;
-                const behaviour::NearestFish found =
-                    behaviour::nearestVisible(school.view, school.grids, school.natures[0], one);
+                const behaviour::NearestFish found = behaviour::nearestVisible(
+                    school.view, school.grids, school.speciesParameters[0], one);
                 seen += found.schoolmates.count;
             }
         }));
@@ -94,8 +95,8 @@ void grids(benchmark::State& state) {
     School school(fish, 2);
     std::vector<double> ticks;
     for ([[maybe_unused]] auto _ : state) {
-        ticks.push_back(
-            nanosecondsOf([&] { school.grids.rebuild(school.view, {}, school.natures); }));
+        ticks.push_back(nanosecondsOf(
+            [&] { school.grids.rebuild(school.view, {}, school.speciesParameters); }));
         state.SetIterationTime(ticks.back() * 1e-9);
     }
     report(state, ticks, static_cast<double>(fish));

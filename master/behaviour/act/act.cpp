@@ -13,7 +13,7 @@
 
 namespace aquarama::behaviour {
 
-fish::Course act(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
+fish::Course act(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
     switch (mind.intention) {
         case fish::Intention::AvoidObstacle:
             return avoidObstacle(situation, mind);
@@ -22,11 +22,11 @@ fish::Course act(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
         case fish::Intention::Escape:
             return escape(situation, mind);
         case fish::Intention::Eat:
-            return situation.nature.habits.role == config::Role::Predator
-                       ? hunt(situation, mind, deeds)
-                       : eat(situation, mind, deeds);
+            return situation.parameters.habits.role == config::Role::Predator
+                       ? hunt(situation, mind, events)
+                       : eat(situation, mind, events);
         case fish::Intention::Mate:
-            return mate(situation, mind, deeds);
+            return mate(situation, mind, events);
         case fish::Intention::School:
             return school(situation);
         case fish::Intention::Leave:

@@ -6,6 +6,8 @@
 
 namespace aquarama::behaviour {
 
-[[nodiscard]] fish::Course act(const Situation& situation, fish::Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course act(const Situation& situation,
+                               fish::Mind& mind,
+                               DeferredEvents& events);
 
 }  // namespace aquarama::behaviour

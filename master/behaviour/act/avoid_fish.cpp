@@ -53,7 +53,7 @@ float speedPast(const Situation& situation) {
     const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const Sighting& threat = senses.collision;
-    const float slow = situation.nature.slow;
+    const float slow = situation.parameters.slow;
     const bool ahead =
         place::dot(place::directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
     const bool sameWay = place::dot(view.heading(threat.object), senses.heading) > kSameWay;
@@ -68,16 +68,16 @@ fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
     const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const Sighting& threat = senses.collision;
-    if (!threat.seen()) return heading(situation, senses.heading, situation.nature.slow);
+    if (!threat.seen()) return heading(situation, senses.heading, situation.parameters.slow);
     const glm::vec3 theirs = view.heading(threat.object) * view.fish[threat.object].speed;
     const glm::vec3 miss = missOf(threat.offset, theirs - senses.heading * senses.speed);
     const glm::vec3 aside = asideFrom(miss, senses.heading, senses.length);
-    const bool schooling = situation.nature.habits.role == config::Role::Prey &&
+    const bool schooling = situation.parameters.habits.role == config::Role::Prey &&
                            (mind.likes & fish::kLikesSchooling) != 0;
-    if (schooling && view.kind[threat.object] == situation.nature.kind)
+    if (schooling && view.kind[threat.object] == situation.parameters.kind)
         return leanAway(situation, aside);
-    const glm::vec3 wish = senses.heading + aside * kTurnAway + roomFrom(situation);
-    return heading(situation, wish, speedPast(situation));
+    const glm::vec3 request = senses.heading + aside * kTurnAway + roomFrom(situation);
+    return heading(situation, request, speedPast(situation));
 }
 
 }  // namespace aquarama::behaviour

@@ -42,14 +42,15 @@ glm::vec3 wayRound(const Situation& situation) {
 
 fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
     if ((mind.likes & fish::kLikesSchooling) != 0 &&
-        situation.nature.habits.role == config::Role::Prey)
+        situation.parameters.habits.role == config::Role::Prey)
         return school(situation);
     const Senses& senses = situation.senses;
     const float back = std::max(0.0F, -place::dot(senses.push, senses.heading));
-    const fish::Nature& nature = situation.nature;
+    const fish::SpeciesParameters& parameters = situation.parameters;
     // Who is run into must not stop.
-    const float pace = senses.hurry > 0 ? nature.slow + (nature.fast - nature.slow) * senses.hurry
-                                        : nature.slow * std::max(0.0F, 1 - back / kStopsAt);
+    const float pace = senses.hurry > 0
+                           ? parameters.slow + (parameters.fast - parameters.slow) * senses.hurry
+                           : parameters.slow * std::max(0.0F, 1 - back / kStopsAt);
     return heading(situation, senses.heading + roomFrom(situation), pace);
 }
 

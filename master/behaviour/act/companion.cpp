@@ -35,7 +35,7 @@ fish::Course alongside(const Situation& situation, std::uint32_t other, glm::vec
     const float behind =
         distance > kNearLengths ? distance : place::dot(towards, course) / senses.length;
     const float theirs = view.fish[other].speed / senses.length;
-    const float speed = std::clamp(theirs + kCatchUp * behind, 0.0F, situation.nature.fast);
+    const float speed = std::clamp(theirs + kCatchUp * behind, 0.0F, situation.parameters.fast);
     return heading(situation, towards + course * (kSameCourse * senses.length), speed);
 }
 
@@ -46,30 +46,31 @@ bool isWithin(const Situation& situation, std::uint32_t other, float metres) {
 }
 
 float sightOf(const Situation& situation) {
-    return std::min(situation.nature.habits.visionBodyLengths * situation.senses.length,
+    return std::min(situation.parameters.habits.visionBodyLengths * situation.senses.length,
                     situation.environment.surroundings->clarityMetres);
 }
 
 // A fish of one of the kinds it likes to shadow.
 std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
-    const std::uint64_t kinds = situation.nature.shadows;
+    const std::uint64_t kinds = situation.parameters.shadows;
     auto skip = hash % static_cast<std::uint32_t>(std::popcount(kinds));
     std::uint64_t left = kinds;
     while (skip-- > 0) left &= left - 1;
-    const fish::Nature& host = situation.environment.natures[std::size_t(std::countr_zero(left))];
+    const fish::SpeciesParameters& host =
+        situation.environment.speciesParameters[std::size_t(std::countr_zero(left))];
     if (host.last == host.first) return fish::kNobody;
     return host.first + hashOf(hash, 1) % (host.last - host.first);
 }
 
 }  // namespace
 
-std::uint32_t partnerOf(const fish::Nature& nature, std::uint32_t fish) {
-    const std::uint32_t partner = nature.first + ((fish - nature.first) ^ 1U);
-    return partner < nature.last ? partner : fish::kNobody;
+std::uint32_t partnerOf(const fish::SpeciesParameters& parameters, std::uint32_t fish) {
+    const std::uint32_t partner = parameters.first + ((fish - parameters.first) ^ 1U);
+    return partner < parameters.last ? partner : fish::kNobody;
 }
 
 std::uint32_t shadowedBy(const Situation& situation) {
-    if (situation.nature.shadows == 0) return fish::kNobody;
+    if (situation.parameters.shadows == 0) return fish::kNobody;
     const Environment& environment = situation.environment;
     const std::uint32_t own = hashOf(hashOf(environment.seed, Stream::Bouts), situation.fish);
     const std::uint64_t now = environment.tick.value + own % kTicksOfBout;
@@ -90,9 +91,10 @@ std::optional<fish::Course> keptCompany(const Situation& situation) {
         const float over = kOverBackMetres + kHalfHeight * view.fish[host].length;
         return alongside(situation, host, view.position(host) + glm::vec3{0, over, 0});
     }
-    const auto apart = static_cast<float>(situation.nature.habits.pairBodyLengths) * senses.length;
+    const auto apart =
+        static_cast<float>(situation.parameters.habits.pairBodyLengths) * senses.length;
     if (apart <= 0) return {};
-    const std::uint32_t partner = partnerOf(situation.nature, situation.fish);
+    const std::uint32_t partner = partnerOf(situation.parameters, situation.fish);
     // Partners know each other, and look for each other as far as the water is clear.
     if (!isWithin(situation, partner, situation.environment.surroundings->clarityMetres)) return {};
     const glm::vec3 from = senses.position - view.position(partner);

@@ -12,7 +12,8 @@
 namespace aquarama::behaviour {
 
 // Fish of one species that live in pairs: every two of them, in order; the odd one out is alone.
-[[nodiscard]] std::uint32_t partnerOf(const fish::Nature& nature, std::uint32_t fish);
+[[nodiscard]] std::uint32_t partnerOf(const fish::SpeciesParameters& parameters,
+                                      std::uint32_t fish);
 
 // The fish over whose back this one hangs now: for 10 to 40 of every 50 s, one of those it likes to
 // shadow that is near enough to be seen.

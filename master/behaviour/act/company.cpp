@@ -64,7 +64,7 @@ glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
     glm::vec3 away{};
     for (std::size_t i = 0; i < those.count; ++i) {
         const std::uint32_t other = those.fish[i];
-        if ((situation.nature.hunts >> view.kind[other] & 1U) != 0) continue;
+        if ((situation.parameters.hunts >> view.kind[other] & 1U) != 0) continue;
         const float room = kRoomBodyLengths * std::max(senses.length, view.fish[other].length);
         const glm::vec3 offset = view.position(other) - senses.position;
         const float tooNear = std::max(0.0F, 1 - place::lengthOf(offset) / room);

@@ -64,14 +64,14 @@ glm::vec3 aroundOn(glm::vec3 toCentre, float radius, bool left) {
 fish::Course follow(const Situation& situation, const Couple& couple) {
     const glm::vec3 behind = couple.offset - couple.matesHeading * (kBehind * couple.length);
     return pursue(
-        situation, behind, situation.nature.medium, couple.matesHeading * couple.matesSpeed);
+        situation, behind, situation.parameters.medium, couple.matesHeading * couple.matesSpeed);
 }
 
 fish::Course loopBefore(const Situation& situation, const fish::Mind& mind, const Couple& couple) {
     const glm::vec3 centre =
         couple.offset + level(couple.matesHeading) * (kLoopAhead * couple.length);
     const glm::vec3 way = aroundOn(centre, kLoopRadius * couple.length, couple.turnsLeft);
-    return heading(situation, way + kUp * bob(mind.sinceStage), situation.nature.slow);
+    return heading(situation, way + kUp * bob(mind.sinceStage), situation.parameters.slow);
 }
 
 fish::Course hoverAndBob(const Situation& situation, const fish::Mind& mind) {
@@ -81,25 +81,26 @@ fish::Course hoverAndBob(const Situation& situation, const fish::Mind& mind) {
 fish::Course circle(const Situation& situation, const Couple& couple) {
     const glm::vec3 way =
         aroundOn(couple.offset * 0.5F, kCircleRadius * couple.length, couple.turnsLeft);
-    return heading(situation, way, situation.nature.slow);
+    return heading(situation, way, situation.parameters.slow);
 }
 
 fish::Course rise(const Situation& situation) {
-    return heading(situation, level(situation.senses.heading) + kUp * kRise, situation.nature.slow);
+    return heading(
+        situation, level(situation.senses.heading) + kUp * kRise, situation.parameters.slow);
 }
 
 // Under her and along with her: from afar he goes for the place, at it he swims as she does.
 fish::Course keepBelow(const Situation& situation, const Couple& couple, float below) {
-    const fish::Nature& nature = situation.nature;
+    const fish::SpeciesParameters& parameters = situation.parameters;
     const glm::vec3 place = couple.offset - kUp * (below * couple.length);
     if (place::lengthOf(place) > kStationFrom * couple.length)
-        return pursue(situation, place, nature.medium, couple.matesHeading * couple.matesSpeed);
+        return pursue(situation, place, parameters.medium, couple.matesHeading * couple.matesSpeed);
     const glm::vec3 astray = place / couple.length;
     const float behind = place::dot(astray, couple.matesHeading);
     const float pace = couple.matesSpeed / situation.senses.length + kCatchUp * behind;
     return heading(situation,
                    couple.matesHeading + astray * kClose,
-                   std::clamp(pace, 0.5F * nature.slow, nature.medium));
+                   std::clamp(pace, 0.5F * parameters.slow, parameters.medium));
 }
 
 }  // namespace
@@ -154,7 +155,7 @@ fish::Course court(const Situation& situation,
         case CourtshipStage::Nuzzle:
             return couple.isFemale ? heading(situation,
                                              level(situation.senses.heading),
-                                             kYielding * situation.nature.slow)
+                                             kYielding * situation.parameters.slow)
                                    : keepBelow(situation, couple, kBelly);
     }
     return follow(situation, couple);

@@ -46,12 +46,12 @@ bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
             place::dot(fromMouth, senses.heading) >= kSuctionCosine * place::lengthOf(fromMouth));
 }
 
-fish::Course eat(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
+fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
     const Senses& senses = situation.senses;
     const Sighting& food = senses.food;
-    const float slow = situation.nature.slow;
+    const float slow = situation.parameters.slow;
     if (isBeforeTheMouth(senses, food.offset))
-        deeds.push_back({fish::DeedKind::EatParticle, situation.fish, food.object});
+        events.push_back({fish::DeferredEventKind::EatParticle, situation.fish, food.object});
     const glm::vec3 fromMouth =
         food.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
     if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
@@ -60,7 +60,7 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
         enter(mind, kApproach);
     if (mind.stage == kRunUp)
         return heading(situation, {senses.heading.x, 0, senses.heading.z}, slow);
-    return pursue(situation, fromMouth, situation.nature.medium);
+    return pursue(situation, fromMouth, situation.parameters.medium);
 }
 
 }  // namespace aquarama::behaviour

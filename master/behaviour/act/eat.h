@@ -11,6 +11,8 @@ namespace aquarama::behaviour {
 // metres.
 [[nodiscard]] bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset);
 
-[[nodiscard]] fish::Course eat(const Situation& situation, fish::Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course eat(const Situation& situation,
+                               fish::Mind& mind,
+                               DeferredEvents& events);
 
 }  // namespace aquarama::behaviour

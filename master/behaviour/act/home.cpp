@@ -96,7 +96,7 @@ glm::vec3 homeOf(std::uint32_t seed,
 }
 
 glm::vec3 beatGoal(const Environment& environment,
-                   const fish::Nature& nature,
+                   const fish::SpeciesParameters& parameters,
                    std::uint32_t fish,
                    glm::vec3 position) {
     if (environment.gathering == config::Gathering::Mill && passes(environment, fish))
@@ -109,7 +109,7 @@ glm::vec3 beatGoal(const Environment& environment,
     const glm::vec3 ahead{at.x * kBeatCosine - at.z * sine, 0, at.x * sine + at.z * kBeatCosine};
     const glm::vec3 wandered = wanderingGoal(environment.seed,
                                              water,
-                                             static_cast<float>(nature.habits.bestDepthMetres),
+                                             static_cast<float>(parameters.habits.bestDepthMetres),
                                              fish,
                                              environment.tick);
     const glm::vec3 goal = water.centre + ahead * (kInside * water.halfExtent);
@@ -117,20 +117,20 @@ glm::vec3 beatGoal(const Environment& environment,
 }
 
 Bound boundFor(const Environment& environment,
-               const fish::Nature& nature,
+               const fish::SpeciesParameters& parameters,
                std::uint32_t fish,
                glm::vec3 position) {
-    const config::Home& home = nature.habits.home;
+    const config::Home& home = parameters.habits.home;
     const surroundings::Obstacles& obstacles = environment.surroundings->obstacles;
-    const auto depth = static_cast<float>(nature.habits.bestDepthMetres);
-    if (nature.habits.role == config::Role::Predator && home.kind == config::HomeKind::None)
-        return {beatGoal(environment, nature, fish, position) - position, 0};
+    const auto depth = static_cast<float>(parameters.habits.bestDepthMetres);
+    if (parameters.habits.role == config::Role::Predator && home.kind == config::HomeKind::None)
+        return {beatGoal(environment, parameters, fish, position) - position, 0};
     const glm::vec3 goal =
         wanderingGoal(environment.seed, obstacles.water, depth, fish, environment.tick);
     if (home.kind == config::HomeKind::None) return {goal - position, 0};
     const bool own = home.kind == config::HomeKind::Place;
     const glm::vec3 middle =
-        own ? homeOf(environment.seed, home, obstacles, depth, householdOf(nature.first, fish))
+        own ? homeOf(environment.seed, home, obstacles, depth, householdOf(parameters.first, fish))
             : environment.goal.position;
     const float radius =
         own ? static_cast<float>(home.radiusMetres) : environment.schoolRadiusMetres;

@@ -11,7 +11,7 @@
 #include "common/place/place.h"
 #include "common/units/ids.h"
 #include "master/behaviour/perceive/environment.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 #include "master/surroundings/obstacles.h"
 
 namespace aquarama::behaviour {
@@ -37,7 +37,7 @@ namespace aquarama::behaviour {
 // The next point of a predator's beat: an oval near the borders of the water, and now and then
 // through the bait ball.
 [[nodiscard]] glm::vec3 beatGoal(const Environment& environment,
-                                 const fish::Nature& nature,
+                                 const fish::SpeciesParameters& parameters,
                                  std::uint32_t fish,
                                  glm::vec3 position);
 
@@ -46,7 +46,7 @@ struct Bound {
     float strayed = 0;    // 0 within the range, 1 at the leash and beyond
 };
 [[nodiscard]] Bound boundFor(const Environment& environment,
-                             const fish::Nature& nature,
+                             const fish::SpeciesParameters& parameters,
                              std::uint32_t fish,
                              glm::vec3 position);
 

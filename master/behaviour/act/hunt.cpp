@@ -38,22 +38,22 @@ fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting&
         mind.sinceStage = 0;
     }
     if (mind.sinceStage < kStalkTicks) mind.sinceChase = 0;
-    return pursue(situation, prey.offset, situation.nature.medium);
+    return pursue(situation, prey.offset, situation.parameters.medium);
 }
 
 }  // namespace
 
-fish::Course hunt(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
+fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
     const Senses& senses = situation.senses;
     const fish::FishView& view = *situation.environment.view;
     const Sighting& prey = senses.prey;
     const glm::vec3 fromMouth =
         prey.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
     if (isInTheMouth(senses, fromMouth))
-        deeds.push_back({fish::DeedKind::EatFish, situation.fish, prey.object});
+        events.push_back({fish::DeferredEventKind::EatFish, situation.fish, prey.object});
     if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))
         return stalk(situation, mind, prey);
-    const float speed = situation.nature.fast;
+    const float speed = situation.parameters.fast;
     const float seconds =
         std::min(kMostLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
     return heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);

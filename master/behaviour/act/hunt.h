@@ -10,6 +10,8 @@ namespace aquarama::behaviour {
 // Of Mind::stage while a predator is about a prey.
 enum class HuntStage : std::uint8_t { Stalk, Rush };
 
-[[nodiscard]] fish::Course hunt(const Situation& situation, fish::Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course hunt(const Situation& situation,
+                                fish::Mind& mind,
+                                DeferredEvents& events);
 
 }  // namespace aquarama::behaviour

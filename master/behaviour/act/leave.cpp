@@ -25,7 +25,7 @@ float beyond(const config::Span& span, float value) {
 // How ill the water at a height suits; 0: well.
 float illAt(const Situation& situation, float y) {
     const surroundings::Surroundings& around = *situation.environment.surroundings;
-    const config::Habits& habits = situation.nature.habits;
+    const config::Habits& habits = situation.parameters.habits;
     return beyond(habits.light, surroundings::lightAt(around.climate, around.daylight, y)) +
            kPerCelsius * beyond(habits.waterCelsius, surroundings::celsiusAt(around.climate, y));
 }
@@ -52,11 +52,12 @@ fish::Course leave(const Situation& situation) {
     const Senses& senses = situation.senses;
     const float climb = suitableHeight(situation) - senses.position.y;
     const glm::vec3 about =
-        boundFor(situation.environment, situation.nature, situation.fish, senses.position).towards;
+        boundFor(situation.environment, situation.parameters, situation.fish, senses.position)
+            .towards;
     const glm::vec3 level = place::directionOf({about.x, 0, about.z}, senses.heading);
-    const glm::vec3 wish = senses.heading * 0.5F + level * 0.5F +
-                           glm::vec3{0, std::clamp(climb / kSlantMetres, -1.0F, 1.0F), 0};
-    return heading(situation, wish, situation.nature.slow);
+    const glm::vec3 request = senses.heading * 0.5F + level * 0.5F +
+                              glm::vec3{0, std::clamp(climb / kSlantMetres, -1.0F, 1.0F), 0};
+    return heading(situation, request, situation.parameters.slow);
 }
 
 }  // namespace aquarama::behaviour

@@ -45,22 +45,25 @@ void fallIn(const Situation& situation, fish::Mind& mind) {
     enter(mind, std::max({stageOf(mind.stage), theirs, CourtshipStage::Loop}));
 }
 
-void goOn(fish::Mind& mind, const Couple& couple, const Situation& situation, Deeds& deeds) {
+void goOn(fish::Mind& mind,
+          const Couple& couple,
+          const Situation& situation,
+          DeferredEvents& events) {
     const CourtshipStage stage = stageOf(mind.stage);
     if (!isComplete(stage, couple, situation.senses.heading, mind.sinceStage)) return;
     if (stage != CourtshipStage::Nuzzle) {
         enter(mind, static_cast<CourtshipStage>(mind.stage + 1));
     } else if (!couple.isFemale) {
-        deeds.push_back({fish::DeedKind::Spawn, situation.fish, mind.target});
+        events.push_back({fish::DeferredEventKind::Spawn, situation.fish, mind.target});
     }
 }
 
 }  // namespace
 
-fish::Course mate(const Situation& situation, fish::Mind& mind, Deeds& deeds) {
+fish::Course mate(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
     fallIn(situation, mind);
     const Couple couple = coupleOf(situation, mind);
-    goOn(mind, couple, situation, deeds);
+    goOn(mind, couple, situation, events);
     const CourtshipStage stage = stageOf(mind.stage);
     if (mind.sinceStage > longestTicks(stage)) {
         mind.sinceSpawning = 0;  // its mood is gone, as after spawning

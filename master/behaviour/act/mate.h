@@ -8,6 +8,8 @@
 
 namespace aquarama::behaviour {
 
-[[nodiscard]] fish::Course mate(const Situation& situation, fish::Mind& mind, Deeds& deeds);
+[[nodiscard]] fish::Course mate(const Situation& situation,
+                                fish::Mind& mind,
+                                DeferredEvents& events);
 
 }  // namespace aquarama::behaviour

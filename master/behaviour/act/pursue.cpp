@@ -35,7 +35,7 @@ fish::Course pursue(const Situation& situation,
                     float speed,
                     glm::vec3 velocity) {
     const Senses& senses = situation.senses;
-    const float slow = situation.nature.slow;
+    const float slow = situation.parameters.slow;
     const glm::vec3 to = lead(situation, towards, speed, velocity);
     const glm::vec3 direction = place::directionOf(to, senses.heading);
     const float lengths = place::lengthOf(to) / senses.length;
@@ -53,10 +53,10 @@ fish::Course pursue(const Situation& situation,
     return heading(situation, direction, std::min(speed, pace + chase));
 }
 
-fish::Course heading(const Situation& situation, glm::vec3 wish, float speed) {
+fish::Course heading(const Situation& situation, glm::vec3 request, float speed) {
     const Senses& senses = situation.senses;
     const glm::vec3 direction =
-        place::levelled(place::directionOf(wish + wayRound(situation), senses.heading));
+        place::levelled(place::directionOf(request + wayRound(situation), senses.heading));
     return {direction, speed, senses.urgency};
 }
 

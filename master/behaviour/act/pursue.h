@@ -16,7 +16,7 @@ namespace aquarama::behaviour {
                                   float speed,
                                   glm::vec3 velocity = {});
 
-// The course that goes along `wish` (any length) and heeds what pushes.
-[[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 wish, float speed);
+// The course along `request` (any length), with what pushes taken into account.
+[[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 request, float speed);
 
 }  // namespace aquarama::behaviour

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every behaviour routine is given. A routine takes one step towards its goal: it answers with
-// a course, may move its own stage in `mind`, and reports deeds that others must learn of.
+// a course, may move its own stage in `mind`, and reports events that others must learn of.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/courses.h"
 #include "master/fish/minds.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
 struct Situation {
     const Environment& environment;
-    const fish::Nature& nature;
+    const fish::SpeciesParameters& parameters;
     std::uint32_t fish;
     const Senses& senses;
     const Feelings& feelings;
 };
 
-using Deeds = std::vector<fish::Deed>;  // with room for one of each fish of a chunk
+using DeferredEvents =
+    std::vector<fish::DeferredEvent>;  // with room for one of each fish of a chunk
 
 }  // namespace aquarama::behaviour

@@ -85,7 +85,7 @@ glm::vec3 whim(std::uint32_t seed, std::size_t fish, Tick tick) {
 float wantedSpeed(const Situation& situation, const Company& company, float alarm) {
     const surroundings::Goal& goal = situation.environment.goal;
     const Senses& senses = situation.senses;
-    float own = situation.nature.medium;
+    float own = situation.parameters.medium;
     if (situation.environment.gathering != config::Gathering::None) {
         const float perLength = 1 / senses.length;
         const float behind =
@@ -106,13 +106,14 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
 // Whom it catches sight of, of its own kind.
 using Glance = std::array<std::uint32_t, kGlimpses>;
 Glance glanceOf(const Situation& situation) {
-    const fish::Nature& nature = situation.nature;
+    const fish::SpeciesParameters& parameters = situation.parameters;
     const std::uint32_t own =
         hashOf(hashOf(situation.environment.seed, Stream::Glances), situation.fish);
     const auto when = static_cast<std::uint32_t>(situation.environment.tick.value / kTicksOfGlance);
     Glance glance{};
     for (std::uint32_t i = 0; i < kGlimpses; ++i) {
-        glance[i] = nature.first + hashOf(hashOf(own, when), i) % (nature.last - nature.first);
+        glance[i] =
+            parameters.first + hashOf(hashOf(own, when), i) % (parameters.last - parameters.first);
         situation.environment.view->fetch(glance[i]);
     }
     return glance;
@@ -138,19 +139,21 @@ glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm
 
 // 0 up to the fear that is heeded, 1 from that on with which each flees for itself: a predator that
 // only goes about far off does not press a school together.
-float alarmOf(const fish::Nature& nature, const Feelings& feelings) {
-    const float more = feelings.fear - nature.habits.fearFrom;
+float alarmOf(const fish::SpeciesParameters& parameters, const Feelings& feelings) {
+    const float more = feelings.fear - parameters.habits.fearFrom;
     return std::clamp(
-        more / std::max(nature.habits.fearAlone - nature.habits.fearFrom, 0.01F), 0.0F, 1.0F);
+        more / std::max(parameters.habits.fearAlone - parameters.habits.fearFrom, 0.01F),
+        0.0F,
+        1.0F);
 }
 
 // Schoolmates give way to a predator before it comes so near that each flees for itself.
 glm::vec3 clearing(const Situation& situation) {
-    const fish::Nature& nature = situation.nature;
-    const float fear = situation.feelings.greatestFear - nature.habits.fearFrom;
+    const fish::SpeciesParameters& parameters = situation.parameters;
+    const float fear = situation.feelings.greatestFear - parameters.habits.fearFrom;
     if (fear <= 0) return {};
-    const float share =
-        std::min(1.0F, fear / std::max(nature.habits.fearAlone - nature.habits.fearFrom, 0.01F));
+    const float share = std::min(
+        1.0F, fear / std::max(parameters.habits.fearAlone - parameters.habits.fearFrom, 0.01F));
     return flightFrom(situation) * (kGiveWayToHunter * share);
 }
 
@@ -171,7 +174,7 @@ float schoolRadiusMetres(std::size_t fish) {
 fish::Course school(const Situation& situation) {
     const Environment& environment = situation.environment;
     const Senses& senses = situation.senses;
-    const float alarm = alarmOf(situation.nature, situation.feelings);
+    const float alarm = alarmOf(situation.parameters, situation.feelings);
     const bool gathers = environment.gathering != config::Gathering::None;
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
     const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
@@ -179,11 +182,11 @@ fish::Course school(const Situation& situation) {
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 way = gathers ? commonWay(environment, situation.fish, senses.position)
                                   : glimpses(situation, glance, alarm) * kRejoin;
-    const glm::vec3 wish = senses.heading * kKeepCourse + pullOf(company) + way * follow +
-                           whim(environment.seed, situation.fish, environment.tick) *
-                               (kWander * (1 - kAttentive * alarm)) +
-                           clearing(situation) + wayRound(situation);
-    return {place::levelled(place::directionOf(wish, senses.heading)),
+    const glm::vec3 request = senses.heading * kKeepCourse + pullOf(company) + way * follow +
+                              whim(environment.seed, situation.fish, environment.tick) *
+                                  (kWander * (1 - kAttentive * alarm)) +
+                              clearing(situation) + wayRound(situation);
+    return {place::levelled(place::directionOf(request, senses.heading)),
             wantedSpeed(situation, company, alarm),
             senses.urgency};
 }

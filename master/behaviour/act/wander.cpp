@@ -36,11 +36,11 @@ Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
 }
 
 // A turn for no reason: 40 degrees if gradual, 100 if sharp, to either side.
-glm::vec3 turnOf(const fish::Nature& nature, const Spell& spell, glm::vec3 course) {
+glm::vec3 turnOf(const fish::SpeciesParameters& parameters, const Spell& spell, glm::vec3 course) {
     const std::uint32_t hash = hashOf(spell.hash, Stream::WanderTurn);
     if (spell.ticks >= kTicksOfTurn || unitOf(hash) >= kTurns) return {};
     const bool gradual = unitOf(hashOf(spell.hash, Stream::TurnSharpness)) <
-                         static_cast<float>(nature.habits.gradualShare);
+                         static_cast<float>(parameters.habits.gradualShare);
     const float cosine = gradual ? 0.766F : -0.174F;
     const float sine = (gradual ? 0.643F : 0.985F) * ((hash & 1U) != 0 ? 1.0F : -1.0F);
     return {course.x * cosine - course.z * sine, 0, course.x * sine + course.z * cosine};
@@ -48,34 +48,37 @@ glm::vec3 turnOf(const fish::Nature& nature, const Spell& spell, glm::vec3 cours
 
 }  // namespace
 
-float paceOf(const fish::Nature& nature, std::uint32_t seed, std::uint32_t fish, Tick tick) {
-    const config::Paces& paces = nature.habits.paces;
+float paceOf(const fish::SpeciesParameters& parameters,
+             std::uint32_t seed,
+             std::uint32_t fish,
+             Tick tick) {
+    const config::Paces& paces = parameters.habits.paces;
     const float drawn = unitOf(hashOf(spellOf(seed, fish, tick).hash));
     const auto hover = static_cast<float>(paces.hover);
     const float slow = hover + static_cast<float>(paces.slow);
     const float medium = slow + static_cast<float>(paces.medium);
-    if (drawn < hover) return kHoverPace * nature.slow;
-    if (drawn < slow) return nature.slow;
-    return drawn < medium ? nature.medium : nature.fast;
+    if (drawn < hover) return kHoverPace * parameters.slow;
+    if (drawn < slow) return parameters.slow;
+    return drawn < medium ? parameters.medium : parameters.fast;
 }
 
 fish::Course wander(const Situation& situation) {
     const Environment& environment = situation.environment;
-    const fish::Nature& nature = situation.nature;
+    const fish::SpeciesParameters& parameters = situation.parameters;
     const Senses& senses = situation.senses;
     if (const auto course = keptCompany(situation)) return *course;
-    const Bound bound = boundFor(environment, nature, situation.fish, senses.position);
+    const Bound bound = boundFor(environment, parameters, situation.fish, senses.position);
     const Spell spell = spellOf(environment.seed, situation.fish, environment.tick);
     const float calm = std::max(0.0F, 1 - senses.urgency);
-    const glm::vec3 wish =
+    const glm::vec3 request =
         senses.heading * kKeepCourse +
         place::directionOf(bound.towards, senses.heading) *
             ((kGo + kGoHome * bound.strayed) * calm) +
-        turnOf(nature, spell, senses.heading) * (kTurn * calm * (1 - bound.strayed)) +
+        turnOf(parameters, spell, senses.heading) * (kTurn * calm * (1 - bound.strayed)) +
         roomFrom(situation);
-    const float pace = paceOf(nature, environment.seed, situation.fish, environment.tick);
+    const float pace = paceOf(parameters, environment.seed, situation.fish, environment.tick);
     // Far from home nobody hovers.
-    return heading(situation, wish, std::max(pace, nature.slow * bound.strayed));
+    return heading(situation, request, std::max(pace, parameters.slow * bound.strayed));
 }
 
 }  // namespace aquarama::behaviour

@@ -11,7 +11,7 @@
 namespace aquarama::behaviour {
 
 // Body lengths a second, by the shares of Habits::paces; another every five seconds.
-[[nodiscard]] float paceOf(const fish::Nature& nature,
+[[nodiscard]] float paceOf(const fish::SpeciesParameters& parameters,
                            std::uint32_t seed,
                            std::uint32_t fish,
                            Tick tick);

@@ -21,34 +21,35 @@ float seconds(std::uint32_t ticks) {
     return static_cast<float>(ticks) / static_cast<float>(kTicksPerSecond);
 }
 
-bool likesSchooling(const fish::Nature& nature, const fish::Mind& mind) {
-    return nature.habits.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
+bool likesSchooling(const fish::SpeciesParameters& parameters, const fish::Mind& mind) {
+    return parameters.habits.role == config::Role::Prey &&
+           (mind.likes & fish::kLikesSchooling) != 0;
 }
 
 // Prey alone heeds its fear. A school shelters from a lesser one, where there is a school.
-fish::Alarm alarmOf(const fish::Nature& nature,
+fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
                     const fish::Mind& mind,
                     const Senses& senses,
                     const Feelings& feelings) {
-    if (nature.habits.role != config::Role::Prey) return fish::Alarm::Calm;
+    if (parameters.habits.role != config::Role::Prey) return fish::Alarm::Calm;
     const float heeded =
-        nature.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
+        parameters.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
     if (feelings.fear <= heeded) return fish::Alarm::Calm;
     const float alone =
-        nature.habits.fearAlone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
-    const bool together = feelings.greatestFear < alone && likesSchooling(nature, mind) &&
+        parameters.habits.fearAlone * (mind.alarm == fish::Alarm::Alone ? fish::kHysteresis : 1);
+    const bool together = feelings.greatestFear < alone && likesSchooling(parameters, mind) &&
                           senses.schoolmates.count > 0;
     return together ? fish::Alarm::Together : fish::Alarm::Alone;
 }
 
-// One rung of the ladder is one function; each knows nothing of the others.
+// One function for each priority rule; each knows nothing of the others.
 struct Case {
-    const fish::Nature& nature;
+    const fish::SpeciesParameters& parameters;
     const fish::Mind& mind;
     const Senses& senses;
     const Feelings& feelings;
     fish::Aim aim = fish::aimOf(mind);
-    fish::Alarm alarm = alarmOf(nature, mind, senses, feelings);
+    fish::Alarm alarm = alarmOf(parameters, mind, senses, feelings);
 
     [[nodiscard]] Weighed obstacle() const {
         const bool turning = mind.intention == fish::Intention::AvoidObstacle;
@@ -69,32 +70,32 @@ struct Case {
     }
 
     [[nodiscard]] Weighed fear() const {
-        Weighed rung{
+        Weighed rule{
             alarm == fish::Alarm::Together ? fish::Intention::School : fish::Intention::Escape,
             alarm == fish::Alarm::Together ? fish::kNobody : senses.predators[0].object,
             Verdict::Wins,
             feelings.fear,
-            nature.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
-        if (nature.habits.role != config::Role::Prey)
-            rung.verdict = Verdict::AgainstNature;
+            parameters.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis)};
+        if (parameters.habits.role != config::Role::Prey)
+            rule.verdict = Verdict::AgainstHabits;
         else if (alarm == fish::Alarm::Calm)
-            rung.verdict = Verdict::TooWeak;
-        return rung;
+            rule.verdict = Verdict::TooWeak;
+        return rule;
     }
 
     [[nodiscard]] Weighed memory() const {
-        Weighed rung{mind.remembered,
+        Weighed rule{mind.remembered,
                      mind.rememberedTarget,
                      Verdict::Wins,
                      seconds(mind.sinceRemembered),
                      kMemorySeconds};
         if (mind.remembered == fish::Intention::Wander)
-            rung.verdict = Verdict::Nothing;
-        else if (rung.value > kMemorySeconds)
-            rung.verdict = Verdict::TooOld;
+            rule.verdict = Verdict::Nothing;
+        else if (rule.value > kMemorySeconds)
+            rule.verdict = Verdict::TooOld;
         else if (!canGoOn())
-            rung.verdict = Verdict::NoTarget;
-        return rung;
+            rule.verdict = Verdict::NoTarget;
+        return rule;
     }
 
     // What was interrupted is resumed with the same target alone.
@@ -105,7 +106,7 @@ struct Case {
         }
         if (mind.remembered == fish::Intention::Mate)
             return senses.mate.seen() && senses.mate.object == mind.rememberedTarget;
-        return likesSchooling(nature, mind);
+        return likesSchooling(parameters, mind);
     }
 
     [[nodiscard]] float desireFor(fish::Intention aimed) const {
@@ -113,36 +114,36 @@ struct Case {
     }
 
     [[nodiscard]] const Sighting& meal() const {
-        return nature.habits.role == config::Role::Predator ? senses.prey : senses.food;
+        return parameters.habits.role == config::Role::Predator ? senses.prey : senses.food;
     }
 
     [[nodiscard]] bool isRestingFromAChase() const {
-        if (nature.habits.role != config::Role::Predator) return false;
+        if (parameters.habits.role != config::Role::Predator) return false;
         const float since = seconds(mind.sinceChase);
         return aim.intention == fish::Intention::Eat
-                   ? since > static_cast<float>(nature.habits.hunt.chaseSeconds)
-                   : since < static_cast<float>(nature.habits.hunt.restSeconds);
+                   ? since > static_cast<float>(parameters.habits.hunt.chaseSeconds)
+                   : since < static_cast<float>(parameters.habits.hunt.restSeconds);
     }
 
     [[nodiscard]] Weighed hunger() const {
-        Weighed rung{fish::Intention::Eat,
+        Weighed rule{fish::Intention::Eat,
                      meal().object,
                      Verdict::Wins,
                      feelings.hunger,
                      desireFor(fish::Intention::Eat)};
-        if (rung.value <= rung.threshold)
-            rung.verdict = Verdict::TooWeak;
+        if (rule.value <= rule.threshold)
+            rule.verdict = Verdict::TooWeak;
         else if (isRestingFromAChase())
-            rung.verdict = Verdict::Resting;
+            rule.verdict = Verdict::Resting;
         else if (!meal().seen())
-            rung.verdict = Verdict::NoTarget;
+            rule.verdict = Verdict::NoTarget;
         else if (wouldMate() && !hungerIsStronger())
-            rung.verdict = Verdict::Yields;
-        return rung;
+            rule.verdict = Verdict::Yields;
+        return rule;
     }
 
     [[nodiscard]] bool wouldMate() const {
-        return fish::mates(nature) && feelings.libido > desireFor(fish::Intention::Mate) &&
+        return fish::mates(parameters) && feelings.libido > desireFor(fish::Intention::Mate) &&
                senses.mate.seen();
     }
     [[nodiscard]] bool wouldEat() const {
@@ -159,85 +160,85 @@ struct Case {
     }
 
     [[nodiscard]] Weighed libido() const {
-        Weighed rung{fish::Intention::Mate,
+        Weighed rule{fish::Intention::Mate,
                      senses.mate.object,
                      Verdict::Wins,
                      feelings.libido,
                      desireFor(fish::Intention::Mate)};
-        if (!fish::mates(nature))
-            rung.verdict = Verdict::AgainstNature;
-        else if (rung.value <= rung.threshold)
-            rung.verdict = Verdict::TooWeak;
+        if (!fish::mates(parameters))
+            rule.verdict = Verdict::AgainstHabits;
+        else if (rule.value <= rule.threshold)
+            rule.verdict = Verdict::TooWeak;
         else if (!senses.mate.seen())
-            rung.verdict = Verdict::NoTarget;
+            rule.verdict = Verdict::NoTarget;
         else if (wouldEat() && hungerIsStronger())
-            rung.verdict = Verdict::Yields;
-        return rung;
+            rule.verdict = Verdict::Yields;
+        return rule;
     }
 
     [[nodiscard]] Weighed climate() const {
         const float threshold = aim.intention == fish::Intention::Leave ? kAtEase : kUneasy;
-        Weighed rung{
+        Weighed rule{
             fish::Intention::Leave, fish::kNobody, Verdict::Wins, senses.discomfort, threshold};
-        if (nature.habits.role == config::Role::Predator)
-            rung.verdict = Verdict::AgainstNature;
+        if (parameters.habits.role == config::Role::Predator)
+            rule.verdict = Verdict::AgainstHabits;
         else if (senses.discomfort <= threshold)
-            rung.verdict = Verdict::TooWeak;
+            rule.verdict = Verdict::TooWeak;
         else if (senses.betterUp == 0)
-            rung.verdict = Verdict::NoTarget;
-        return rung;
+            rule.verdict = Verdict::NoTarget;
+        return rule;
     }
 
     [[nodiscard]] Weighed company() const {
         return {fish::Intention::School,
                 fish::kNobody,
-                likesSchooling(nature, mind) ? Verdict::Wins : Verdict::AgainstNature,
+                likesSchooling(parameters, mind) ? Verdict::Wins : Verdict::AgainstHabits,
                 0,
                 0};
     }
 };
 
-// Visits the rungs in the order of their priority, until the visitor says that it is enough.
+// Visits the rules in the order of their priority, until the visitor says that it is enough.
 template <class IsEnough>
-void climbDown(const Case& of, const IsEnough& isEnough) {
-    if (isEnough(Rung::Obstacle, of.obstacle())) return;
-    if (isEnough(Rung::OtherFish, of.otherFish())) return;
-    if (isEnough(Rung::Fear, of.fear())) return;
-    if (isEnough(Rung::Memory, of.memory())) return;
-    if (isEnough(Rung::Hunger, of.hunger())) return;
-    if (isEnough(Rung::Libido, of.libido())) return;
-    if (isEnough(Rung::Climate, of.climate())) return;
-    if (isEnough(Rung::Company, of.company())) return;
-    isEnough(Rung::Ease, Weighed{});
+void applyRules(const Case& of, const IsEnough& isEnough) {
+    if (isEnough(PriorityRule::Obstacle, of.obstacle())) return;
+    if (isEnough(PriorityRule::OtherFish, of.otherFish())) return;
+    if (isEnough(PriorityRule::Fear, of.fear())) return;
+    if (isEnough(PriorityRule::Memory, of.memory())) return;
+    if (isEnough(PriorityRule::Hunger, of.hunger())) return;
+    if (isEnough(PriorityRule::Libido, of.libido())) return;
+    if (isEnough(PriorityRule::Climate, of.climate())) return;
+    if (isEnough(PriorityRule::Company, of.company())) return;
+    isEnough(PriorityRule::Ease, Weighed{});
 }
 
 }  // namespace
 
-Decision decide(const fish::Nature& nature,
+Decision decide(const fish::SpeciesParameters& parameters,
                 const fish::Mind& mind,
                 const Senses& senses,
                 const Feelings& feelings) {
-    const Case of{nature, mind, senses, feelings};
+    const Case of{parameters, mind, senses, feelings};
     Decision decision{.alarm = of.alarm};
-    climbDown(of, [&](Rung, const Weighed& rung) {
-        if (rung.verdict != Verdict::Wins) return false;
-        decision.intention = rung.intention;
-        decision.target = rung.target;
+    applyRules(of, [&](PriorityRule, const Weighed& rule) {
+        if (rule.verdict != Verdict::Wins) return false;
+        decision.intention = rule.intention;
+        decision.target = rule.target;
         return true;
     });
     return decision;
 }
 
-Reasoning reason(const fish::Nature& nature,
+Reasoning reason(const fish::SpeciesParameters& parameters,
                  const fish::Mind& mind,
                  const Senses& senses,
                  const Feelings& feelings) {
-    const Case of{nature, mind, senses, feelings};
+    const Case of{parameters, mind, senses, feelings};
     Reasoning reasoning;
     reasoning.decision.alarm = of.alarm;
     bool won = false;
-    climbDown(of, [&](Rung rung, const Weighed& weighed) {
-        Weighed& noted = reasoning.rungs[static_cast<std::size_t>(rung)];
+    applyRules(of, [&](PriorityRule rule, const Weighed& weighed) {
+        Weighed& noted = reasoning.rules[static_cast<std::size_t>(rule)];
         noted = weighed;
         if (weighed.verdict != Verdict::Wins) return false;
         if (won) {
@@ -245,7 +246,7 @@ Reasoning reason(const fish::Nature& nature,
             return false;
         }
         won = true;
-        reasoning.winner = rung;
+        reasoning.winner = rule;
         reasoning.decision.intention = weighed.intention;
         reasoning.decision.target = weighed.target;
         return false;

@@ -10,7 +10,7 @@
 #include "master/behaviour/feel/mental_state.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
@@ -20,7 +20,7 @@ struct Decision {
     fish::Alarm alarm = fish::Alarm::Calm;
 };
 
-[[nodiscard]] Decision decide(const fish::Nature& nature,
+[[nodiscard]] Decision decide(const fish::SpeciesParameters& parameters,
                               const fish::Mind& mind,
                               const Senses& senses,
                               const Feelings& feelings);
@@ -28,8 +28,8 @@ struct Decision {
 // The mind with the decision taken: what it interrupts is remembered, what it resumes forgotten.
 void remember(fish::Mind& mind, const Decision& decision);
 
-// The ladder that decide() climbs down: the first rung that wins is the decision.
-enum class Rung : std::uint8_t {
+// The rules that decide() applies in this order: the first that wins is the decision.
+enum class PriorityRule : std::uint8_t {
     Obstacle,   // AvoidObstacle
     OtherFish,  // AvoidFish
     Fear,       // School or Escape
@@ -40,13 +40,13 @@ enum class Rung : std::uint8_t {
     Company,    // School
     Ease,       // Wander: always wins
 };
-inline constexpr std::size_t kRungs = 9;
+inline constexpr std::size_t kPriorityRules = 9;
 
-// What became of a rung.
+// The result of a rule.
 enum class Verdict : std::uint8_t {
     Wins,
-    Outranked,      // would have won, but a rung above it did
-    AgainstNature,  // its role or habits do not allow it
+    Outranked,      // would have won, but a rule before it did
+    AgainstHabits,  // its role or habits do not allow it
     TooWeak,        // value is not above threshold
     NoTarget,       // wanted, but nothing of the kind is in view (Climate: nowhere is better)
     Nothing,        // Memory: nothing was interrupted
@@ -56,7 +56,7 @@ enum class Verdict : std::uint8_t {
 };
 
 struct Weighed {
-    fish::Intention intention = fish::Intention::Wander;  // that the rung stands for
+    fish::Intention intention = fish::Intention::Wander;  // that the rule stands for
     std::uint32_t target = fish::kNobody;
     Verdict verdict = Verdict::Wins;
     // Obstacle: urgency. OtherFish: share of the other's body in the box. Fear, Hunger, Libido: the
@@ -65,13 +65,13 @@ struct Weighed {
     float threshold = 0;
 };
 
-// How a mind came to its decision: rung by rung, by the same functions that decide() climbs down.
+// How a mind came to its decision: rule by rule, by the same functions that decide() applies.
 struct Reasoning {
-    std::array<Weighed, kRungs> rungs;  // by Rung
+    std::array<Weighed, kPriorityRules> rules;  // by PriorityRule
     Decision decision;
-    Rung winner = Rung::Ease;
+    PriorityRule winner = PriorityRule::Ease;
 };
-[[nodiscard]] Reasoning reason(const fish::Nature& nature,
+[[nodiscard]] Reasoning reason(const fish::SpeciesParameters& parameters,
                                const fish::Mind& mind,
                                const Senses& senses,
                                const Feelings& feelings);

@@ -8,25 +8,26 @@ namespace {
 constexpr float kCalm = 0.15F;                 // urgency up to which there is room for a whim
 constexpr float kMealIsFarBodyLengths = 6.0F;  // beyond, it merely swims in its direction
 
-bool isFarFromMeal(const fish::Nature& nature, const Senses& senses) {
-    const Sighting& meal = nature.habits.role == config::Role::Predator ? senses.prey : senses.food;
+bool isFarFromMeal(const fish::SpeciesParameters& parameters, const Senses& senses) {
+    const Sighting& meal =
+        parameters.habits.role == config::Role::Predator ? senses.prey : senses.food;
     return meal.distance > kMealIsFarBodyLengths * senses.length;
 }
 
 }  // namespace
 
-bool acceptsRecommendation(const fish::Nature& nature,
+bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
                            const fish::Mind& mind,
                            const Senses& senses,
                            const Feelings& feelings) {
-    if (senses.urgency > kCalm || feelings.fear > nature.habits.fearFrom) return false;
+    if (senses.urgency > kCalm || feelings.fear > parameters.habits.fearFrom) return false;
     switch (mind.intention) {
         case fish::Intention::Wander:
         case fish::Intention::Leave:
         case fish::Intention::School:
             return true;
         case fish::Intention::Eat:
-            return isFarFromMeal(nature, senses);
+            return isFarFromMeal(parameters, senses);
         case fish::Intention::Mate:
         case fish::Intention::Escape:
         case fish::Intention::AvoidFish:

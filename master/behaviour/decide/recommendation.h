@@ -5,14 +5,14 @@
 #include "master/behaviour/feel/mental_state.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
 // Whether a fish with this intention may swim another pattern for a while, for no reason but
 // variety. Not while a stroke counts: in flight, in fear, in another's way, near what it eats, in
 // courtship.
-[[nodiscard]] bool acceptsRecommendation(const fish::Nature& nature,
+[[nodiscard]] bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
                                          const fish::Mind& mind,
                                          const Senses& senses,
                                          const Feelings& feelings);

@@ -4,7 +4,7 @@
 
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
@@ -16,7 +16,7 @@ struct Feelings {
 
 // Hunger H = 1 - n_e R / alpha + a_h S_h, libido L = s (1 - H) + a_l S_l, fear F = sum of
 // min(D0 / d, 1) over the predators in sight.
-[[nodiscard]] Feelings feel(const fish::Nature& nature,
+[[nodiscard]] Feelings feel(const fish::SpeciesParameters& parameters,
                             const fish::Mind& mind,
                             const Senses& senses);
 

@@ -17,8 +17,10 @@ float share(std::uint32_t seed, std::uint32_t fish, Stream draw) {
 
 }  // namespace
 
-std::uint8_t likesOf(const fish::Nature& nature, std::uint32_t seed, std::uint32_t fish) {
-    const config::HabitShares& shares = nature.habits.shares;
+std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
+                     std::uint32_t seed,
+                     std::uint32_t fish) {
+    const config::HabitShares& shares = parameters.habits.shares;
     unsigned likes = 0;
     const auto draw = [&](Stream what, double of, unsigned like) {
         if (share(seed, fish, what) < static_cast<float>(of)) likes |= like;
@@ -35,18 +37,20 @@ std::uint8_t likesOf(const fish::Nature& nature, std::uint32_t seed, std::uint32
     return static_cast<std::uint8_t>(likes);
 }
 
-fish::Mind freshMind(const fish::Nature& nature, std::uint32_t seed, std::uint32_t fish) {
+fish::Mind freshMind(const fish::SpeciesParameters& parameters,
+                     std::uint32_t seed,
+                     std::uint32_t fish) {
     fish::Mind mind;
-    mind.likes = likesOf(nature, seed, fish);
+    mind.likes = likesOf(parameters, seed, fish);
     // Who finds enough eats until it is gorged, then digests; who hunts is seldom so lucky.
-    const bool grazes = nature.habits.role != config::Role::Predator;
-    mind.eaten = static_cast<std::uint16_t>(grazes ? 2 * nature.habits.appetiteParticles + 1
-                                                   : nature.habits.appetiteParticles);
-    const float digested = kTicks / nature.habits.digestionPerSecond;
+    const bool grazes = parameters.habits.role != config::Role::Predator;
+    mind.eaten = static_cast<std::uint16_t>(grazes ? 2 * parameters.habits.appetiteParticles + 1
+                                                   : parameters.habits.appetiteParticles);
+    const float digested = kTicks / parameters.habits.digestionPerSecond;
     mind.sinceMeal = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceMeal) * digested);
-    if (nature.habits.libidoPerSecond > 0)
+    if (parameters.habits.libidoPerSecond > 0)
         mind.sinceSpawning = static_cast<std::uint32_t>(share(seed, fish, Stream::SinceSpawning) *
-                                                        kTicks / nature.habits.libidoPerSecond);
+                                                        kTicks / parameters.habits.libidoPerSecond);
     return mind;
 }
 

@@ -42,7 +42,7 @@ float lackOf(fish::Like habit, const config::Habits& habits, const Ambient& ambi
 }  // namespace
 
 void feelClimate(const surroundings::Surroundings& around,
-                 const fish::Nature& nature,
+                 const fish::SpeciesParameters& parameters,
                  std::uint8_t likes,
                  Senses& senses) {
     const Ambient here = ambientAt(around, senses.position.y);
@@ -52,7 +52,7 @@ void feelClimate(const surroundings::Surroundings& around,
     for (const fish::Like habit :
          {fish::kLikesBrightness, fish::kLikesDarkness, fish::kLikesWarmth, fish::kLikesCold}) {
         if ((likes & habit) == 0) continue;
-        const float lack = lackOf(habit, nature.habits, here);
+        const float lack = lackOf(habit, parameters.habits, here);
         if (lack <= senses.discomfort) continue;
         senses.discomfort = lack;
         worst = habit;
@@ -61,9 +61,9 @@ void feelClimate(const surroundings::Surroundings& around,
     // Light and warmth change with depth alone: the best place is the top or the bottom.
     const place::Region& water = around.obstacles.water;
     const float atTop =
-        lackOf(worst, nature.habits, ambientAt(around, water.centre.y + water.halfExtent.y));
+        lackOf(worst, parameters.habits, ambientAt(around, water.centre.y + water.halfExtent.y));
     const float atBottom =
-        lackOf(worst, nature.habits, ambientAt(around, water.centre.y - water.halfExtent.y));
+        lackOf(worst, parameters.habits, ambientAt(around, water.centre.y - water.halfExtent.y));
     const float best = std::min(atTop, atBottom);
     if (senses.discomfort - best > kNoticeable) senses.betterUp = atTop < atBottom ? 1.0F : -1.0F;
 }

@@ -5,14 +5,14 @@
 #include <cstdint>
 
 #include "master/behaviour/perceive/senses.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 #include "master/surroundings/surroundings.h"
 
 namespace aquarama::behaviour {
 
 // Writes light, celsius, discomfort and betterUp of a fish that has these habits (bits of Like).
 void feelClimate(const surroundings::Surroundings& around,
-                 const fish::Nature& nature,
+                 const fish::SpeciesParameters& parameters,
                  std::uint8_t likes,
                  Senses& senses);
 

@@ -52,7 +52,7 @@ bool reaches(float at, float extent, float least, float most) {
 
 struct Watch {
     const Environment& environment;
-    const fish::Nature& nature;
+    const fish::SpeciesParameters& parameters;
     const fish::Mind& mind;
     Senses& senses;
     const fish::FishView& view = *environment.view;
@@ -64,17 +64,17 @@ struct Watch {
     [[nodiscard]] Box boxOf() const {
         const float scale =
             senses.length * (environment.adaptation.enlargedRegions ? kEnlarged : 1.0F);
-        return {nature.habits.box.aheadBodyLengths * scale,
+        return {parameters.habits.box.aheadBodyLengths * scale,
                 kBoxBehind * senses.length,
-                nature.habits.box.upBodyLengths * scale,
-                nature.habits.box.asideBodyLengths * scale};
+                parameters.habits.box.upBodyLengths * scale,
+                parameters.habits.box.asideBodyLengths * scale};
     }
 
     // Whom it courts, hunts or follows it wants near; from its hunter prey flees instead.
     [[nodiscard]] bool isHeeded(std::uint32_t other) const {
         if (other == aim.target && aim.intention == fish::Intention::Mate) return false;
-        std::uint64_t unheeded = nature.hunts | nature.shadows;
-        if (nature.habits.role == config::Role::Prey) unheeded |= nature.huntedBy;
+        std::uint64_t unheeded = parameters.hunts | parameters.shadows;
+        if (parameters.habits.role == config::Role::Prey) unheeded |= parameters.huntedBy;
         return (unheeded >> view.kind[other] & 1U) == 0;
     }
 
@@ -172,14 +172,14 @@ float shareInside(const Box& box, glm::vec3 nose, glm::vec3 tail) {
 }
 
 void feelCollision(const Environment& environment,
-                   const fish::Nature& nature,
+                   const fish::SpeciesParameters& parameters,
                    std::uint32_t fish,
                    const fish::Mind& mind,
                    Senses& senses) {
-    Watch watch{environment, nature, mind, senses};
+    Watch watch{environment, parameters, mind, senses};
     // Those who like to school bear one another near: also while they feed among the others.
     const bool bearsMates =
-        nature.habits.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
+        parameters.habits.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {
         const std::uint32_t other = senses.schoolmates.fish[i];
         if (bearsMates)

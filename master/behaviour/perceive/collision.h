@@ -8,7 +8,7 @@
 #include "master/behaviour/perceive/environment.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
@@ -23,7 +23,7 @@ struct Box {
 // Writes Senses::collision and collisionShare, from the neighbours already in `senses` and from
 // large bodies.
 void feelCollision(const Environment& environment,
-                   const fish::Nature& nature,
+                   const fish::SpeciesParameters& parameters,
                    std::uint32_t fish,
                    const fish::Mind& mind,
                    Senses& senses);

@@ -10,7 +10,7 @@
 #include "master/behaviour/perceive/grids.h"
 #include "master/fish/adaptation.h"
 #include "master/fish/fish_view.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 #include "master/surroundings/journey.h"
 #include "master/surroundings/surroundings.h"
 
@@ -20,7 +20,7 @@ struct Environment {
     const fish::FishView* view = nullptr;
     const Grids* grids = nullptr;
     const surroundings::Surroundings* surroundings = nullptr;
-    std::span<const fish::Nature> natures;  // by FishView::kind
+    std::span<const fish::SpeciesParameters> speciesParameters;  // by FishView::kind
     config::Gathering gathering = config::Gathering::None;
     surroundings::Goal goal;  // of the school, where the scene has it gather
     float schoolRadiusMetres = 0;

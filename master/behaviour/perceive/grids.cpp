@@ -26,9 +26,9 @@ SpatialGrid farSeen(const place::Region& water, std::size_t points) {
 }
 
 bool isPredator(const fish::FishView& view,
-                std::span<const fish::Nature> natures,
+                std::span<const fish::SpeciesParameters> speciesParameters,
                 std::size_t fish) {
-    return natures[view.kind[fish]].habits.role == config::Role::Predator;
+    return speciesParameters[view.kind[fish]].habits.role == config::Role::Predator;
 }
 
 }  // namespace
@@ -53,11 +53,12 @@ void Grids::expect(SpatialGrid& grid, Sparse which, std::size_t count) {
     grid = farSeen(water_, chosen_[which].capacity());
 }
 
-void Grids::expect(const fish::FishView& view, std::span<const fish::Nature> natures) {
+void Grids::expect(const fish::FishView& view,
+                   std::span<const fish::SpeciesParameters> speciesParameters) {
     std::size_t hunting = 0;
     std::size_t big = 0;
     for (std::size_t i = 0; i < view.size(); ++i) {
-        hunting += isPredator(view, natures, i) ? 1 : 0;
+        hunting += isPredator(view, speciesParameters, i) ? 1 : 0;
         big += view.fish[i].length >= kLargeBodyMetres ? 1 : 0;
     }
     expect(predators, kPredators, hunting);
@@ -65,13 +66,13 @@ void Grids::expect(const fish::FishView& view, std::span<const fish::Nature> nat
 }
 
 void Grids::mark(const fish::FishView& view,
-                 std::span<const fish::Nature> natures,
+                 std::span<const fish::SpeciesParameters> speciesParameters,
                  std::size_t first,
                  std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
         const std::uint8_t signs = view.signs[i];
         int marks = kPresent;
-        if (isPredator(view, natures, i)) marks |= kPredator;
+        if (isPredator(view, speciesParameters, i)) marks |= kPredator;
         if (view.fish[i].length >= kLargeBodyMetres) marks |= kLarge;
         if ((signs & fish::kWilling) != 0) marks |= kMate;
         marks_[i] = static_cast<std::uint8_t>((signs & fish::kAway) != 0 ? 0 : marks);

@@ -11,7 +11,7 @@
 #include "master/behaviour/perceive/kinds_about.h"
 #include "master/behaviour/perceive/spatial_grid.h"
 #include "master/fish/fish_view.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 #include "master/surroundings/food.h"
 
 namespace aquarama::behaviour {
@@ -24,16 +24,17 @@ class Grids {
 
     // Makes the grids of predators and of large bodies as large as they need be for these fish,
     // of whom some may be away. rebuild() does so too where they are too small.
-    void expect(const fish::FishView& view, std::span<const fish::Nature> natures);
+    void expect(const fish::FishView& view,
+                std::span<const fish::SpeciesParameters> speciesParameters);
 
     // Of those that are there. Allocates nothing once expect() was told of these fish.
     void rebuild(const fish::FishView& view,
                  const surroundings::Food& particles,
-                 std::span<const fish::Nature> natures) {
+                 std::span<const fish::SpeciesParameters> speciesParameters) {
         rebuild(
             view,
             particles,
-            natures,
+            speciesParameters,
             [](std::size_t jobs, const auto& job) {
                 for (std::size_t i = 0; i < jobs; ++i) job(i);
             },
@@ -44,7 +45,7 @@ class Grids {
     template <class Share, class Look>
     void rebuild(const fish::FishView& view,
                  const surroundings::Food& particles,
-                 std::span<const fish::Nature> natures,
+                 std::span<const fish::SpeciesParameters> speciesParameters,
                  const Share& share,
                  const Look& look) {
         const Points points = placesOf(view);
@@ -52,7 +53,7 @@ class Grids {
             const std::size_t first = SpatialGrid::firstOfPart(part);
             const std::size_t last = std::min(view.size(), SpatialGrid::firstOfPart(part + 1));
             look(first, last);
-            mark(view, natures, first, last);
+            mark(view, speciesParameters, first, last);
             fish.count(part, points, [&](std::size_t i) { return (marks_[i] & kPresent) != 0; });
         });
         fish.arrange();
@@ -80,7 +81,7 @@ class Grids {
     enum Sparse : std::size_t { kMates, kFood, kPredators, kLarges, kSparseGrids };
 
     void mark(const fish::FishView& view,
-              std::span<const fish::Nature> natures,
+              std::span<const fish::SpeciesParameters> speciesParameters,
               std::size_t first,
               std::size_t last);
     [[nodiscard]] static Points placesOf(const fish::FishView& view) {

@@ -28,7 +28,7 @@ bool inFieldOfView(glm::vec3 heading, glm::vec3 offset) {
 
 NearestFish nearestVisibleReference(const fish::FishView& view,
                                     const SpatialGrid& grid,
-                                    const fish::Nature& nature,
+                                    const fish::SpeciesParameters& parameters,
                                     std::uint32_t fish) {
     NearestFish nearest;
     const glm::vec3 position = view.position(fish);
@@ -41,7 +41,7 @@ NearestFish nearestVisibleReference(const fish::FishView& view,
             const float squared = place::dot(offset, offset);
             if (squared > kReachSquared || other == fish || !inFieldOfView(heading, offset))
                 continue;
-            const bool mate = other >= nature.first && other < nature.last;
+            const bool mate = other >= parameters.first && other < parameters.last;
             (mate ? nearest.schoolmates : nearest.others).insert(other, squared);
         }
     });

@@ -8,7 +8,7 @@
 
 #include "master/behaviour/perceive/spatial_grid.h"
 #include "master/fish/fish_view.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
@@ -41,15 +41,15 @@ inline constexpr float kBlindCosineSquared = 0.75F;  // cos^2 of 30 degrees
 [[nodiscard]] bool inFieldOfView(glm::vec3 heading, glm::vec3 offset);
 
 // Of each, the nearest visible within kSightMetres, nearest first; of equally near ones the lower
-// index. `nature` is that of the fish.
+// index. `parameters` are those of its species.
 [[nodiscard]] NearestFish nearestVisible(const fish::FishView& view,
                                          const Grids& grids,
-                                         const fish::Nature& nature,
+                                         const fish::SpeciesParameters& parameters,
                                          std::uint32_t fish);
 // The same bits by plain code.
 [[nodiscard]] NearestFish nearestVisibleReference(const fish::FishView& view,
                                                   const SpatialGrid& grid,
-                                                  const fish::Nature& nature,
+                                                  const fish::SpeciesParameters& parameters,
                                                   std::uint32_t fish);
 
 // How many fish nearestVisible() looks at together on this processor.

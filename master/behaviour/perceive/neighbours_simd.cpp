@@ -328,7 +328,7 @@ HWY_INLINE Neighbours nearestOthers(const Search& search,
 
 void nearestVisibleVectors(const fish::FishView& view,
                            const Grids& grids,
-                           const fish::Nature& nature,
+                           const fish::SpeciesParameters& parameters,
                            std::uint32_t fish,
                            NearestFish* nearest) {
     const glm::vec3 position = view.position(fish);
@@ -338,10 +338,10 @@ void nearestVisibleVectors(const fish::FishView& view,
                         everyLane(position.x, position.y, position.z),
                         everyLane(heading.x, heading.y, heading.z),
                         hn::Set(kIndices, fish),
-                        hn::Set(kIndices, nature.first),
-                        hn::Set(kIndices, nature.last - nature.first)};
+                        hn::Set(kIndices, parameters.first),
+                        hn::Set(kIndices, parameters.last - parameters.first)};
     nearest->schoolmates = nearestOfKind(search);
-    nearest->others = nearestOthers(search, grids.kinds, nature.kind);
+    nearest->others = nearestOthers(search, grids.kinds, parameters.kind);
 }
 
 std::size_t lanes() {
@@ -359,10 +359,10 @@ HWY_EXPORT(lanes);
 
 NearestFish nearestVisible(const fish::FishView& view,
                            const Grids& grids,
-                           const fish::Nature& nature,
+                           const fish::SpeciesParameters& parameters,
                            std::uint32_t fish) {
     NearestFish nearest;
-    HWY_DYNAMIC_DISPATCH(nearestVisibleVectors)(view, grids, nature, fish, &nearest);
+    HWY_DYNAMIC_DISPATCH(nearestVisibleVectors)(view, grids, parameters, fish, &nearest);
     return nearest;
 }
 

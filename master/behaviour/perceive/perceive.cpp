@@ -32,7 +32,7 @@ constexpr float kTurningCost = 0.2F;
 // Who looks, and what it is about.
 struct Onlooker {
     const Environment& environment;
-    const fish::Nature& nature;
+    const fish::SpeciesParameters& parameters;
     std::uint32_t fish;
     const fish::Mind& mind;
     Senses& senses;
@@ -41,7 +41,7 @@ struct Onlooker {
     [[nodiscard]] const fish::FishView& view() const { return *environment.view; }
     [[nodiscard]] float clarity() const { return environment.surroundings->clarityMetres; }
     [[nodiscard]] float sight(float conspicuous) const {
-        return sightMetres(nature, senses.length, conspicuous, clarity());
+        return sightMetres(parameters, senses.length, conspicuous, clarity());
     }
     [[nodiscard]] bool isHidden(const Sighting& sighting) const {
         return behaviour::isHidden(
@@ -100,7 +100,7 @@ void feelItself(const fish::FishView& view, std::uint32_t fish, Senses& senses) 
 
 void seeNeighbours(const Onlooker& onlooker) {
     const NearestFish nearest = nearestVisible(
-        onlooker.view(), *onlooker.environment.grids, onlooker.nature, onlooker.fish);
+        onlooker.view(), *onlooker.environment.grids, onlooker.parameters, onlooker.fish);
     onlooker.senses.schoolmates = nearest.schoolmates;
     onlooker.senses.others = nearest.others;
     // They are looked at last, when they have come from memory.
@@ -142,15 +142,15 @@ void forgetHiddenPredators(const Onlooker& onlooker) {
 
 // An alarmed fish looks about: it does not lose what it flees from in its blind angle.
 void seePredators(const Onlooker& onlooker) {
-    const fish::Nature& nature = onlooker.nature;
-    if (nature.huntedBy == 0) return;
+    const fish::SpeciesParameters& parameters = onlooker.parameters;
+    if (parameters.huntedBy == 0) return;
     Senses& senses = onlooker.senses;
     const fish::FishView& view = onlooker.view();
     const bool alarmed = onlooker.mind.alarm != fish::Alarm::Calm;
     const float reach = onlooker.sight(kMostConspicuous);
     float reachSquared = reach * reach;
     const auto notice = [&](std::uint32_t other, glm::vec3 offset, float squared) {
-        if (squared > reachSquared || (nature.huntedBy >> view.kind[other] & 1U) == 0) return;
+        if (squared > reachSquared || (parameters.huntedBy >> view.kind[other] & 1U) == 0) return;
         if (!alarmed && !inFieldOfView(senses.heading, offset)) return;
         const float seen = onlooker.sight(conspicuousness(view.fish[other].length));
         if (squared > seen * seen) return;
@@ -164,15 +164,16 @@ void seePredators(const Onlooker& onlooker) {
 }
 
 bool mayHunt(const Onlooker& onlooker) {
-    if (onlooker.nature.habits.role != config::Role::Predator || onlooker.nature.hunts == 0)
+    if (onlooker.parameters.habits.role != config::Role::Predator || onlooker.parameters.hunts == 0)
         return false;
-    return fish::innerHunger(onlooker.nature, onlooker.mind) > fish::kDesire * fish::kHysteresis;
+    return fish::innerHunger(onlooker.parameters, onlooker.mind) >
+           fish::kDesire * fish::kHysteresis;
 }
 
 // C_k = d_k (1 + b1 S_k + b2 E_k / pi).
 float costOfPrey(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
     const fish::FishView& view = onlooker.view();
-    if ((onlooker.nature.hunts >> view.kind[other] & 1U) == 0 || view.shows(other, fish::kAway))
+    if ((onlooker.parameters.hunts >> view.kind[other] & 1U) == 0 || view.shows(other, fish::kAway))
         return kNever;
     const glm::vec3 heading = onlooker.senses.heading;
     if (!inFieldOfView(heading, offset)) return kNever;
@@ -197,7 +198,7 @@ Sighting attend(const Onlooker& onlooker,
         const float cost = costOf(present.object, present.offset, present.distance);
         if (present.distance <= sight && cost < kNever && !onlooker.isHidden(present)) {
             kept = present;
-            best = std::min(best, cost * (1 - onlooker.nature.habits.persistence));
+            best = std::min(best, cost * (1 - onlooker.parameters.habits.persistence));
         }
     }
     const Sighting other = cheapestIn(grid, onlooker.senses.position, sight, best, costOf);
@@ -208,7 +209,7 @@ Sighting attend(const Onlooker& onlooker,
 // What is so far off that a chase would be given up is not hunted at all.
 void seePrey(const Onlooker& onlooker) {
     if (!mayHunt(onlooker)) return;
-    const float giveUp = static_cast<float>(onlooker.nature.habits.hunt.giveUpMetres);
+    const float giveUp = static_cast<float>(onlooker.parameters.habits.hunt.giveUpMetres);
     onlooker.senses.prey = attend(onlooker,
                                   onlooker.environment.grids->fish,
                                   fish::Intention::Eat,
@@ -227,7 +228,7 @@ float worthLooking(
 }
 
 bool isInASchool(const Onlooker& onlooker) {
-    return onlooker.nature.habits.role == config::Role::Prey &&
+    return onlooker.parameters.habits.role == config::Role::Prey &&
            (onlooker.mind.likes & fish::kLikesSchooling) != 0 &&
            onlooker.senses.schoolmates.count > 0;
 }
@@ -253,17 +254,20 @@ float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
 
 // Food is sensed in all directions, and never hidden: it smells.
 void senseFood(const Onlooker& onlooker) {
-    const fish::Nature& nature = onlooker.nature;
-    if (!nature.habits.eatsPlankton || nature.habits.role == config::Role::Predator ||
-        fish::isGorged(nature, onlooker.mind))
+    const fish::SpeciesParameters& parameters = onlooker.parameters;
+    if (!parameters.habits.eatsPlankton || parameters.habits.role == config::Role::Predator ||
+        fish::isGorged(parameters, onlooker.mind))
         return;
     Senses& senses = onlooker.senses;
     const surroundings::Food& food = onlooker.environment.surroundings->food;
-    float smell = std::min(nature.habits.smellBodyLengths * senses.length, onlooker.clarity());
+    float smell = std::min(parameters.habits.smellBodyLengths * senses.length, onlooker.clarity());
     if (isInASchool(onlooker) && food.pellets == 0)
         smell = std::min(smell, kDartBodyLengths * senses.length);
-    const float reach = worthLooking(
-        onlooker, fish::innerHunger(nature, onlooker.mind), kHungerStimulus, kFoodStimulus, smell);
+    const float reach = worthLooking(onlooker,
+                                     fish::innerHunger(parameters, onlooker.mind),
+                                     kHungerStimulus,
+                                     kFoodStimulus,
+                                     smell);
     float best = reach + kComeAboutBodyLengths * senses.length;
     const std::uint32_t pursued = onlooker.aim.target;
     if (onlooker.aim.intention == fish::Intention::Eat && pursued < food.size() &&
@@ -272,7 +276,7 @@ void senseFood(const Onlooker& onlooker) {
         const float distance = place::lengthOf(offset);
         if (distance <= reach) {
             senses.food = {pursued, offset, distance};
-            best = costOfFood(senses, offset, distance) * (1 - nature.habits.persistence);
+            best = costOfFood(senses, offset, distance) * (1 - parameters.habits.persistence);
         }
     }
     const Sighting better =
@@ -299,9 +303,9 @@ float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset
 }
 
 void seeMate(const Onlooker& onlooker) {
-    if (!fish::mates(onlooker.nature)) return;
-    const float hunger = fish::innerHunger(onlooker.nature, onlooker.mind);
-    const float libido = fish::innerLibido(onlooker.nature, onlooker.mind, hunger);
+    if (!fish::mates(onlooker.parameters)) return;
+    const float hunger = fish::innerHunger(onlooker.parameters, onlooker.mind);
+    const float libido = fish::innerLibido(onlooker.parameters, onlooker.mind, hunger);
     if (libido < kTemptedFrom) return;
     const float sight =
         worthLooking(onlooker, libido, kLibidoStimulus, kMateStimulus, onlooker.sight(1));
@@ -350,20 +354,20 @@ void feelSurroundings(const Environment& environment, Senses& senses) {
 }  // namespace
 
 Senses perceive(const Environment& environment,
-                const fish::Nature& nature,
+                const fish::SpeciesParameters& parameters,
                 std::uint32_t fish,
                 const fish::Mind& mind) {
     Senses senses;
     feelItself(*environment.view, fish, senses);
-    const Onlooker onlooker{environment, nature, fish, mind, senses};
+    const Onlooker onlooker{environment, parameters, fish, mind, senses};
     seeNeighbours(onlooker);
     seePredators(onlooker);
     seePrey(onlooker);
     senseFood(onlooker);
     seeMate(onlooker);
     feelSurroundings(environment, senses);
-    feelClimate(*environment.surroundings, nature, mind.likes, senses);
-    feelCollision(environment, nature, fish, mind, senses);
+    feelClimate(*environment.surroundings, parameters, mind.likes, senses);
+    feelCollision(environment, parameters, fish, mind, senses);
     return senses;
 }
 

@@ -13,7 +13,7 @@ namespace aquarama::behaviour {
 // `mind` says whom it is attending to, so that a target is kept unless another is better by its
 // persistence.
 [[nodiscard]] Senses perceive(const Environment& environment,
-                              const fish::Nature& nature,
+                              const fish::SpeciesParameters& parameters,
                               std::uint32_t fish,
                               const fish::Mind& mind);
 

@@ -62,11 +62,12 @@ float conspicuousness(float lengthMetres) {
     return std::clamp(lengthMetres / kLargeBodyMetres, 1.0F, kMostConspicuous);
 }
 
-float sightMetres(const fish::Nature& nature,
+float sightMetres(const fish::SpeciesParameters& parameters,
                   float lengthMetres,
                   float conspicuous,
                   float clarityMetres) {
-    return std::min(nature.habits.visionBodyLengths * lengthMetres * conspicuous, clarityMetres);
+    return std::min(parameters.habits.visionBodyLengths * lengthMetres * conspicuous,
+                    clarityMetres);
 }
 
 bool SightLine::passes(glm::vec3 centre, float radius) const {

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "master/behaviour/perceive/environment.h"
-#include "master/fish/nature.h"
+#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
@@ -18,7 +18,7 @@ inline constexpr float kMostConspicuous = 2.5F;
 [[nodiscard]] float conspicuousness(float lengthMetres);
 
 // From how far a fish of this length sees what is so conspicuous, metres.
-[[nodiscard]] float sightMetres(const fish::Nature& nature,
+[[nodiscard]] float sightMetres(const fish::SpeciesParameters& parameters,
                                 float lengthMetres,
                                 float conspicuous,
                                 float clarityMetres);

@@ -27,12 +27,12 @@ struct TimedOrder {
     int ticks = 0;
 };
 
-// The biomechanical fish obeys, after it has swum from rest at medium speed until it swims steadily
-// and its beat begins anew.
+// The biomechanical fish follows the script, after it has swum from rest at medium speed until it
+// swims steadily and its beat begins anew.
 [[nodiscard]] Trace traceFish(const config::Species& species, std::span<const TimedOrder> orders);
 [[nodiscard]] Trace traceFish(const config::Species& species, const Script& script);
 
-// The replica obeys, from phase 0 of forward_medium and at its speed.
+// The replica follows the script, from phase 0 of forward_medium and at its speed.
 [[nodiscard]] Trace traceReplica(const motion::Repertoire& repertoire, const Script& script);
 // The same, but where a command finds it swimming, its beat is first brought to the phase of the
 // fish's, its course kept: so that each command begins alike for both.

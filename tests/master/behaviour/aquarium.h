@@ -21,9 +21,9 @@ struct Aquarium {
     explicit Aquarium(const std::vector<glm::vec3>& offsets = {}) {
         surroundings.obstacles = {{3}, {kCentre, {6, 3, 4}}, {}};
         surroundings.submarine.position = kCentre + glm::vec3{100, 0, 0};
-        fish::Nature nature;
-        nature.habits.shares.schooling = 1;
-        natures.push_back(nature);
+        fish::SpeciesParameters parameters;
+        parameters.habits.shares.schooling = 1;
+        speciesParameters.push_back(parameters);
         for (const glm::vec3 offset : offsets) addFish(offset);
     }
 
@@ -38,8 +38,9 @@ struct Aquarium {
         view.fish[fish].speed = 0.4F;
         view.fish[fish].length = length;
         view.kind[fish] = kind;
-        if (natures[kind].last == 0) natures[kind].first = static_cast<std::uint32_t>(fish);
-        natures[kind].last = static_cast<std::uint32_t>(fish) + 1;
+        if (speciesParameters[kind].last == 0)
+            speciesParameters[kind].first = static_cast<std::uint32_t>(fish);
+        speciesParameters[kind].last = static_cast<std::uint32_t>(fish) + 1;
         fish::Mind mind;
         mind.likes = fish::kLikesSchooling;
         mind.eaten = 100;
@@ -55,7 +56,7 @@ struct Aquarium {
         return {.view = &view,
                 .grids = &grids,
                 .surroundings = &surroundings,
-                .natures = natures,
+                .speciesParameters = speciesParameters,
                 .gathering = gathering,
                 .goal = goal,
                 .schoolRadiusMetres = 0.5F,
@@ -65,16 +66,16 @@ struct Aquarium {
     }
     [[nodiscard]] Grids freshGrids() const {
         Grids grids(surroundings.obstacles.water, view.size(), surroundings.food.size());
-        grids.rebuild(view, surroundings.food, natures);
+        grids.rebuild(view, surroundings.food, speciesParameters);
         return grids;
     }
 
     // Every fish thinks once.
     const fish::Courses& think() {
         Grids grids = freshGrids();
-        deeds.clear();
+        events.clear();
         for (std::uint32_t fish = 0; fish < view.size(); ++fish)
-            behaviour::think(environment(grids), fish, minds, courses, deeds);
+            behaviour::think(environment(grids), fish, minds, courses, events);
         tick.value += fish::kTicksBetweenThoughts;
         return courses;
     }
@@ -82,9 +83,9 @@ struct Aquarium {
     fish::FishView view;
     fish::Minds minds;
     fish::Courses courses;
-    Deeds deeds;
+    DeferredEvents events;
     surroundings::Surroundings surroundings;
-    std::vector<fish::Nature> natures;
+    std::vector<fish::SpeciesParameters> speciesParameters;
     config::Gathering gathering = config::Gathering::Journey;
     surroundings::Goal goal{kCentre, {0.4F, 0, 0}};
     Tick tick;

@@ -65,7 +65,7 @@ TEST(Explain, aFishThatIsNotThereHasNoLines) {
     EXPECT_TRUE(explanation.lines.empty());
 }
 
-// Exactly one rung wins; whatever is below it has lost, each for a reason that is printed.
+// Exactly one rule wins; whatever is after it has lost, each for a reason that is printed.
 TEST(Explain, oneIntentionWinsAndEveryOtherSaysWhyItLost) {
     Lived world(production::worldOptionsOf(test::syntheticProduction()), 300);
     for (std::uint32_t fish = 0; fish < 41; ++fish) {
@@ -73,12 +73,12 @@ TEST(Explain, oneIntentionWinsAndEveryOtherSaysWhyItLost) {
         ASSERT_TRUE(insight);
         EXPECT_EQ(
             std::ranges::count(
-                insight->reasoning.rungs, behaviour::Verdict::Wins, &behaviour::Weighed::verdict),
+                insight->reasoning.rules, behaviour::Verdict::Wins, &behaviour::Weighed::verdict),
             1);
         const std::vector<std::string> lines = world.explain(fish).lines;
         const auto why = std::ranges::find_if(
             lines, [](const std::string& line) { return line.starts_with("WHY"); });
-        ASSERT_EQ(lines.end() - why, static_cast<std::ptrdiff_t>(behaviour::kRungs));
+        ASSERT_EQ(lines.end() - why, static_cast<std::ptrdiff_t>(behaviour::kPriorityRules));
         EXPECT_TRUE(std::all_of(
             why, lines.end(), [](const std::string& line) { return line.size() > 25; }));
     }

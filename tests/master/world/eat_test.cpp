@@ -20,7 +20,8 @@ WorldSpecies hungry(WorldSpecies species, double radiusMetres) {
 }
 
 float hungerOf(const World& world, std::uint32_t fish) {
-    return fish::innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
+    return fish::innerHunger(world.speciesParameters()[world.view().kind[fish]],
+                             world.minds()[fish]);
 }
 
 glm::vec3 middleOf(const World& world) {

@@ -45,7 +45,7 @@ class LoneFish {
         view_.fish[0].heading = heading;
         view_.fish[0].speed = 2 * view_.fish[0].length;
         grids_.rebuild(view_, surroundings_.food, {&nature_, 1});
-        if (fish::thinksAt(tick_, 0)) behaviour::think(environment(), 0, minds_, courses_, deeds_);
+        if (fish::thinksAt(tick_, 0)) behaviour::think(environment(), 0, minds_, courses_, events_);
         fish::SecondaryController{
             &gaits_, &view_, &courses_, &states_, 1, tick_, &commands_, &memory_}
             .run(0, 1);
@@ -59,7 +59,7 @@ class LoneFish {
         return {.view = &view_,
                 .grids = &grids_,
                 .surroundings = &surroundings_,
-                .natures = {&nature_, 1},
+                .speciesParameters = {&nature_, 1},
                 .gathering = config::Gathering::Journey,
                 .goal = goal_,
                 .schoolRadiusMetres = 0.3F,
@@ -72,10 +72,10 @@ class LoneFish {
     fish::Gaits gaits_ = fish::gaitsOf(*tables_);
     std::array<motion::FishTraits, 1> traits_{{{0, 240}}};
     surroundings::Surroundings surroundings_;
-    fish::Nature nature_;
+    fish::SpeciesParameters nature_;
     behaviour::Grids grids_;
     fish::Minds minds_;
-    behaviour::Deeds deeds_;
+    behaviour::DeferredEvents events_;
     surroundings::Goal goal_;
     fish::FishView view_;
     motion::MotionStates states_;

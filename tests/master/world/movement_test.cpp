@@ -188,7 +188,7 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
     World world(syntheticScene("routines/leave"));
     advance(world, kSecond);
     const auto suits = [&](std::uint32_t fish) {
-        const config::Habits& habits = world.natures()[0].habits;
+        const config::Habits& habits = world.speciesParameters()[0].habits;
         const surroundings::Surroundings& around = world.surroundings();
         const float y = world.view().fish[fish].position.y;
         const float light = surroundings::lightAt(around.climate, around.daylight, y);
@@ -214,16 +214,16 @@ WorldOptions one(const std::string& species) {
 TEST(Wander, eachPaceHasItsShareOfTheTime) {
     const WorldOptions options = one("parrotfish");
     const World world(options);
-    const fish::Nature& nature = world.natures()[0];
+    const fish::SpeciesParameters& parameters = world.speciesParameters()[0];
     const config::Paces& paces = options.cast[0].habits.paces;
     int slow = 0;
     int hovers = 0;
     constexpr int kSpells = 4000;
     for (int i = 0; i < kSpells; ++i) {
         const float pace =
-            behaviour::paceOf(nature, 1, 0, {static_cast<std::uint64_t>(i) * 5 * kSecond});
-        slow += pace == nature.slow ? 1 : 0;
-        hovers += pace < 0.25F * nature.slow ? 1 : 0;
+            behaviour::paceOf(parameters, 1, 0, {static_cast<std::uint64_t>(i) * 5 * kSecond});
+        slow += pace == parameters.slow ? 1 : 0;
+        hovers += pace < 0.25F * parameters.slow ? 1 : 0;
     }
     EXPECT_NEAR(slow / double{kSpells}, paces.slow, 0.03);
     EXPECT_NEAR(hovers / double{kSpells}, paces.hover, 0.03);

@@ -61,8 +61,8 @@ TEST(Population, isStable) {
         if (minute < 10) continue;
         float hunger = 0;
         for (std::uint32_t fish = 0; fish < kScads + kTangs; ++fish)
-            hunger +=
-                fish::innerHunger(world.natures()[world.view().kind[fish]], world.minds()[fish]);
+            hunger += fish::innerHunger(world.speciesParameters()[world.view().kind[fish]],
+                                        world.minds()[fish]);
         mostHungry = std::max(mostHungry, hunger / (kScads + kTangs));
     }
     const WorldCounts& counts = world.counts();

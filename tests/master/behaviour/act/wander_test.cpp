@@ -29,7 +29,7 @@ TEST(Wandering, everyPlaceIsInTheWaterAndAnotherFollowsIt) {
 // Two fish that head along +x, side by side; what the first wants.
 glm::vec3 wishBeside(float rightMetres) {
     Aquarium water;
-    water.natures[0].habits.role = config::Role::Pacifist;
+    water.speciesParameters[0].habits.role = config::Role::Pacifist;
     water.addFish({}, 0, 0.3F);
     water.addFish({0, 0, rightMetres}, 0, 0.3F);
     return water.think()[0].direction;

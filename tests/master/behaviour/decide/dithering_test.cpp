@@ -61,7 +61,7 @@ double changesWithoutPersistence(FishInMind fish) {
         waver(fish, thought);
         const fish::Mind fresh{.likes = fish.mind.likes};
         const fish::Intention now =
-            decide(fish.nature, fresh, fish.senses, fish.feelings).intention;
+            decide(fish.parameters, fresh, fish.senses, fish.feelings).intention;
         changes += now != before ? 1.0 / kMinutes : 0;
         before = now;
     }

@@ -11,11 +11,11 @@ namespace aquarama::behaviour {
 
 struct FishInMind {
     explicit FishInMind(config::Role role = config::Role::Prey) {
-        nature.habits.role = role;
-        nature.habits.fearFrom = 0.25F;
-        nature.habits.fearAlone = 0.6F;
-        if (role == config::Role::Pacifist) nature.habits.libidoPerSecond = 0.003F;
-        if (role == config::Role::Predator) nature.hunts = 1;
+        parameters.habits.role = role;
+        parameters.habits.fearFrom = 0.25F;
+        parameters.habits.fearAlone = 0.6F;
+        if (role == config::Role::Pacifist) parameters.habits.libidoPerSecond = 0.003F;
+        if (role == config::Role::Predator) parameters.hunts = 1;
         if (role == config::Role::Prey) {
             mind.likes = fish::kLikesSchooling;
             senses.schoolmates.count = 3;
@@ -47,8 +47,8 @@ struct FishInMind {
 
     // One thought without perception, feeling and routine.
     fish::Intention think() {
-        fish::passTime(nature, mind);
-        const Decision decision = decide(nature, mind, senses, feelings);
+        fish::passTime(parameters, mind);
+        const Decision decision = decide(parameters, mind, senses, feelings);
         remember(mind, decision);
         return mind.intention;
     }
@@ -56,11 +56,11 @@ struct FishInMind {
         for (int thought = 0; thought < static_cast<int>(seconds * 7.5F); ++thought) think();
         return mind.intention;
     }
-    [[nodiscard]] Weighed rung(Rung which) const {
-        return reason(nature, mind, senses, feelings).rungs[static_cast<std::size_t>(which)];
+    [[nodiscard]] Weighed rule(PriorityRule which) const {
+        return reason(parameters, mind, senses, feelings).rules[static_cast<std::size_t>(which)];
     }
 
-    fish::Nature nature;
+    fish::SpeciesParameters parameters;
     fish::Mind mind;
     Senses senses;
     Feelings feelings;

@@ -72,8 +72,9 @@ TEST(IntentionGenerator, aPredatorNeverEscapesSchoolsMatesOrLeaves) {
     shark.senses.discomfort = 0.5F;
     shark.senses.betterUp = -1;
     EXPECT_EQ(shark.think(), fish::Intention::Wander);
-    for (const Rung rung : {Rung::Fear, Rung::Libido, Rung::Climate, Rung::Company})
-        EXPECT_EQ(shark.rung(rung).verdict, Verdict::AgainstNature);
+    for (const PriorityRule rule :
+         {PriorityRule::Fear, PriorityRule::Libido, PriorityRule::Climate, PriorityRule::Company})
+        EXPECT_EQ(shark.rule(rule).verdict, Verdict::AgainstHabits);
 }
 
 TEST(IntentionGenerator, aPacifistNeitherEscapesNorSchoolsButMates) {
@@ -89,7 +90,7 @@ TEST(IntentionGenerator, aPacifistNeitherEscapesNorSchoolsButMates) {
 
 TEST(IntentionGenerator, preyDoesNotMate) {
     FishInMind scad;
-    scad.nature.habits.libidoPerSecond = 0.003F;
+    scad.parameters.habits.libidoPerSecond = 0.003F;
     scad.feelings.libido = 0.9F;
     scad.showMate(3);
     EXPECT_EQ(scad.think(), fish::Intention::School);
@@ -101,14 +102,14 @@ TEST(IntentionGenerator, theStrongerOfHungerAndLibidoWins) {
     hungry.showMate(3);
     hungry.feelings = {.hunger = 0.6F, .libido = 0.5F};
     EXPECT_EQ(hungry.think(), fish::Intention::Eat);
-    EXPECT_EQ(hungry.rung(Rung::Libido).verdict, Verdict::Yields);
+    EXPECT_EQ(hungry.rule(PriorityRule::Libido).verdict, Verdict::Yields);
 
     FishInMind loving(config::Role::Pacifist);
     loving.showFood(5);
     loving.showMate(3);
     loving.feelings = {.hunger = 0.5F, .libido = 0.6F};
     EXPECT_EQ(loving.think(), fish::Intention::Mate);
-    EXPECT_EQ(loving.rung(Rung::Hunger).verdict, Verdict::Yields);
+    EXPECT_EQ(loving.rule(PriorityRule::Hunger).verdict, Verdict::Yields);
     loving.senses.mate = {};
     EXPECT_EQ(loving.think(), fish::Intention::Eat)
         << "nobody to mate with: the lesser wish has its way";
@@ -153,7 +154,7 @@ TEST(Memory, whatACollisionInterruptsIsResumed) {
         fish.senses.urgency = 2;  // and then an obstacle, before it could go on
         EXPECT_EQ(fish.thinkFor(1), fish::Intention::AvoidObstacle);
         fish.clearTheWay();
-        EXPECT_EQ(fish.rung(Rung::Memory).verdict, Verdict::Wins);
+        EXPECT_EQ(fish.rule(PriorityRule::Memory).verdict, Verdict::Wins);
         EXPECT_EQ(fish.think(), about);
         EXPECT_EQ(fish.mind.target, target);
         EXPECT_GT(fish.mind.pursued, 5 * 60 - 60U) << "the interruption counts in";
@@ -174,7 +175,7 @@ TEST(Memory, aFlightIsFollowedByWhatItInterrupted) {
     fish.frighten(0.4F, 0.4F);
     ASSERT_EQ(fish.think(), fish::Intention::School);
     fish.calm();
-    EXPECT_EQ(fish.rung(Rung::Memory).verdict, Verdict::Wins);
+    EXPECT_EQ(fish.rule(PriorityRule::Memory).verdict, Verdict::Wins);
     EXPECT_EQ(fish.think(), fish::Intention::Eat);
 }
 
@@ -187,7 +188,7 @@ TEST(Memory, isDroppedWhenTheTargetIsGone) {
     fish.think();
     fish.clearTheWay();
     fish.senses.food = {};
-    EXPECT_EQ(fish.rung(Rung::Memory).verdict, Verdict::NoTarget);
+    EXPECT_EQ(fish.rule(PriorityRule::Memory).verdict, Verdict::NoTarget);
     EXPECT_EQ(fish.think(), fish::Intention::School);
     EXPECT_EQ(fish.mind.remembered, fish::Intention::Wander);
 }
@@ -201,7 +202,7 @@ TEST(Memory, isDroppedWhenTooOld) {
     fish.thinkFor(15);
     fish.clearTheWay();
     fish.feelings.libido = 0;
-    EXPECT_EQ(fish.rung(Rung::Memory).verdict, Verdict::TooOld);
+    EXPECT_EQ(fish.rule(PriorityRule::Memory).verdict, Verdict::TooOld);
     EXPECT_EQ(fish.think(), fish::Intention::Wander);
 }
 
@@ -236,7 +237,7 @@ TEST(Persistence, anObstacleIsAvoidedUntilItIsWellPast) {
 
 TEST(Predator, chasesForATimeAndThenRests) {
     FishInMind shark(config::Role::Predator);
-    shark.nature.habits.hunt = {.chaseSeconds = 8, .giveUpMetres = 6, .restSeconds = 60};
+    shark.parameters.habits.hunt = {.chaseSeconds = 8, .giveUpMetres = 6, .restSeconds = 60};
     shark.feelings.hunger = 0.8F;
     shark.showPrey(4);
     EXPECT_EQ(shark.think(), fish::Intention::Eat);
@@ -247,7 +248,7 @@ TEST(Predator, chasesForATimeAndThenRests) {
     shark.clearTheWay();
     EXPECT_EQ(shark.thinkFor(3), fish::Intention::Eat);
     EXPECT_EQ(shark.thinkFor(2), fish::Intention::Wander) << "more than 8 s";
-    EXPECT_EQ(shark.rung(Rung::Hunger).verdict, Verdict::Resting);
+    EXPECT_EQ(shark.rule(PriorityRule::Hunger).verdict, Verdict::Resting);
     EXPECT_EQ(shark.thinkFor(55), fish::Intention::Wander);
     EXPECT_EQ(shark.thinkFor(6), fish::Intention::Eat) << "rested";
 }
@@ -257,10 +258,10 @@ TEST(Predator, thatIsSatedDoesNotHunt) {
     shark.feelings.hunger = 0.2F;
     shark.showPrey(4);
     EXPECT_EQ(shark.think(), fish::Intention::Wander);
-    EXPECT_EQ(shark.rung(Rung::Hunger).verdict, Verdict::TooWeak);
+    EXPECT_EQ(shark.rule(PriorityRule::Hunger).verdict, Verdict::TooWeak);
 }
 
-// Whatever a mind meets, why it decided is what it decided, and one rung won.
+// Whatever a mind meets, why it decided is what it decided, and one rule won.
 TEST(Reasoning, tellsOfTheDecisionThatIsTaken) {
     std::uint32_t state = 1;
     const auto drawn = [&state] { return unitOf(state = hashOf(state + 1)); };
@@ -281,16 +282,16 @@ TEST(Reasoning, tellsOfTheDecisionThatIsTaken) {
         fish.mind.rememberedTarget = 5;
         fish.mind.sinceRemembered = static_cast<std::uint32_t>(1200 * drawn());
         fish.mind.alarm = drawn() < 0.5F ? fish::Alarm::Calm : fish::Alarm::Alone;
-        const Decision decision = decide(fish.nature, fish.mind, fish.senses, fish.feelings);
-        const Reasoning why = reason(fish.nature, fish.mind, fish.senses, fish.feelings);
+        const Decision decision = decide(fish.parameters, fish.mind, fish.senses, fish.feelings);
+        const Reasoning why = reason(fish.parameters, fish.mind, fish.senses, fish.feelings);
         ASSERT_EQ(why.decision.intention, decision.intention);
         ASSERT_EQ(why.decision.target, decision.target);
         ASSERT_EQ(why.decision.alarm, decision.alarm);
-        for (std::size_t rung = 0; rung < kRungs; ++rung) {
-            const Verdict verdict = why.rungs[rung].verdict;
+        for (std::size_t rule = 0; rule < kPriorityRules; ++rule) {
+            const Verdict verdict = why.rules[rule].verdict;
             const auto winner = static_cast<std::size_t>(why.winner);
-            ASSERT_EQ(verdict == Verdict::Wins, rung == winner);
-            ASSERT_TRUE(verdict != Verdict::Outranked || rung > winner);
+            ASSERT_EQ(verdict == Verdict::Wins, rule == winner);
+            ASSERT_TRUE(verdict != Verdict::Outranked || rule > winner);
         }
     }
 }

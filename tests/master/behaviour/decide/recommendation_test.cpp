@@ -15,9 +15,9 @@ struct Moment {
         senses.length = 0.24F;
     }
     [[nodiscard]] bool accepts() const {
-        return acceptsRecommendation(nature, mind, senses, feelings);
+        return acceptsRecommendation(parameters, mind, senses, feelings);
     }
-    fish::Nature nature;
+    fish::SpeciesParameters parameters;
     fish::Mind mind;
     Senses senses;
     Feelings feelings;
@@ -45,14 +45,14 @@ TEST(Recommendation, isRefusedNearAnObstacle) {
 
 TEST(Recommendation, isRefusedByASchoolInFear) {
     Moment moment(fish::Intention::School);
-    moment.feelings.fear = moment.nature.habits.fearFrom + 0.1F;
+    moment.feelings.fear = moment.parameters.habits.fearFrom + 0.1F;
     EXPECT_FALSE(moment.accepts());
 }
 
 TEST(Recommendation, isRefusedNearAMealButNotOnTheLongWayThere) {
     for (const config::Role role : {config::Role::Pacifist, config::Role::Predator}) {
         Moment moment(fish::Intention::Eat);
-        moment.nature.habits.role = role;
+        moment.parameters.habits.role = role;
         Sighting& meal = role == config::Role::Predator ? moment.senses.prey : moment.senses.food;
         meal = {0, {0.3F, 0, 0}, 0.3F};
         EXPECT_FALSE(moment.accepts());
@@ -68,7 +68,7 @@ TEST(Recommendation, isHeededByNobodyWhereTheAdaptationIsOff) {
     Grids grids = aquarium.freshGrids();
     Environment environment = aquarium.environment(grids);
     environment.adaptation.recommendations = false;
-    think(environment, 0, aquarium.minds, aquarium.courses, aquarium.deeds);
+    think(environment, 0, aquarium.minds, aquarium.courses, aquarium.events);
     EXPECT_FALSE(aquarium.courses[0].openToChange);
 }
 

@@ -16,14 +16,14 @@ namespace {
 
 constexpr float kThoughtSeconds = static_cast<float>(fish::kTicksBetweenThoughts) / 60;
 
-fish::Nature tang() {
-    fish::Nature nature;
-    nature.habits.role = config::Role::Pacifist;
-    nature.habits.appetiteParticles = 3;
-    nature.habits.digestionPerSecond = 0.0045F;
-    nature.habits.libidoPerSecond = 0.003F;
-    nature.habits.fearMetres = 0.9F;
-    return nature;
+fish::SpeciesParameters tang() {
+    fish::SpeciesParameters parameters;
+    parameters.habits.role = config::Role::Pacifist;
+    parameters.habits.appetiteParticles = 3;
+    parameters.habits.digestionPerSecond = 0.0045F;
+    parameters.habits.libidoPerSecond = 0.003F;
+    parameters.habits.fearMetres = 0.9F;
+    return parameters;
 }
 
 fish::Mind fed(std::uint16_t particles) {
@@ -45,42 +45,42 @@ void see(Senses& senses, float predatorMetres, bool hunting = true) {
 }
 
 TEST(Hunger, risesAsTheMealIsDigestedAndIsOneWhenItIs) {
-    const fish::Nature nature = tang();
+    const fish::SpeciesParameters parameters = tang();
     fish::Mind mind = fed(3);
     for (int thought = 1; thought < 2500; ++thought) {
-        fish::passTime(nature, mind);
+        fish::passTime(parameters, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
-        const float expected = std::min(1.0F, nature.habits.digestionPerSecond * seconds);
-        ASSERT_NEAR(feel(nature, mind, lonely()).hunger, expected, 2e-5F) << seconds << " s";
+        const float expected = std::min(1.0F, parameters.habits.digestionPerSecond * seconds);
+        ASSERT_NEAR(feel(parameters, mind, lonely()).hunger, expected, 2e-5F) << seconds << " s";
     }
     EXPECT_EQ(mind.eaten, 0) << "a digested meal does not count again with the next";
 }
 
 TEST(Hunger, dropsByOneShareOfTheAppetiteWithEachParticle) {
-    const fish::Nature nature = tang();
+    const fish::SpeciesParameters parameters = tang();
     fish::Mind mind = fed(0);
     for (const float expected : {1.0F, 2.0F / 3, 1.0F / 3, 0.0F}) {
-        EXPECT_NEAR(feel(nature, mind, lonely()).hunger, expected, 1e-6F);
+        EXPECT_NEAR(feel(parameters, mind, lonely()).hunger, expected, 1e-6F);
         ++mind.eaten;
     }
 }
 
 TEST(Hunger, isTemptedByFoodNearbyUntilGorged) {
-    const fish::Nature nature = tang();
+    const fish::SpeciesParameters parameters = tang();
     Senses senses = lonely();
     senses.food = {5, {0.2F, 0, 0}, 2 * senses.length};
-    EXPECT_NEAR(feel(nature, fed(6), senses).hunger, 0.8F, 1e-6F) << "a_h S_h alone";
-    EXPECT_EQ(feel(nature, fed(7), senses).hunger, 0) << "more than twice the appetite";
+    EXPECT_NEAR(feel(parameters, fed(6), senses).hunger, 0.8F, 1e-6F) << "a_h S_h alone";
+    EXPECT_EQ(feel(parameters, fed(7), senses).hunger, 0) << "more than twice the appetite";
     senses.food.distance = 9 * senses.length;
-    EXPECT_EQ(feel(nature, fed(6), senses).hunger, 0) << "too far off to tempt";
+    EXPECT_EQ(feel(parameters, fed(6), senses).hunger, 0) << "too far off to tempt";
 }
 
 TEST(Hunger, aPredatorIsNotTempted) {
-    fish::Nature nature = tang();
-    nature.habits.role = config::Role::Predator;
+    fish::SpeciesParameters parameters = tang();
+    parameters.habits.role = config::Role::Predator;
     Senses senses = lonely();
     senses.food = {5, {0.2F, 0, 0}, senses.length};
-    EXPECT_EQ(feel(nature, fed(3), senses).hunger, 0);
+    EXPECT_EQ(feel(parameters, fed(3), senses).hunger, 0);
 }
 
 TEST(Stimulus, followsThePublishedRampAndItsInverse) {
@@ -98,59 +98,60 @@ TEST(Stimulus, followsThePublishedRampAndItsInverse) {
 }
 
 TEST(Libido, growsToOneWithTimeAndIsSuppressedByHunger) {
-    const fish::Nature nature = tang();
+    const fish::SpeciesParameters parameters = tang();
     fish::Mind mind = fed(3);
     for (int thought = 1; thought <= 3000; ++thought) {
-        fish::passTime(nature, mind);
+        fish::passTime(parameters, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
-        const Feelings feelings = feel(nature, mind, lonely());
-        const float grown = std::min(1.0F, nature.habits.libidoPerSecond * seconds);
+        const Feelings feelings = feel(parameters, mind, lonely());
+        const float grown = std::min(1.0F, parameters.habits.libidoPerSecond * seconds);
         ASSERT_NEAR(feelings.libido, grown * (1 - feelings.hunger), 2e-5F) << seconds << " s";
     }
     mind.eaten = 0;
-    EXPECT_EQ(feel(nature, mind, lonely()).libido, 0) << "the hungry think of food alone";
+    EXPECT_EQ(feel(parameters, mind, lonely()).libido, 0) << "the hungry think of food alone";
 }
 
 TEST(Libido, isRaisedByAMateInSight) {
-    const fish::Nature nature = tang();
+    const fish::SpeciesParameters parameters = tang();
     Senses senses = lonely();
     senses.mate = {5, {0.8F, 0, 0}, 4 * senses.length};
-    EXPECT_NEAR(feel(nature, fed(3), senses).libido, 0.5F, 1e-6F) << "a_l S_l alone";
+    EXPECT_NEAR(feel(parameters, fed(3), senses).libido, 0.5F, 1e-6F) << "a_l S_l alone";
 }
 
 TEST(Libido, isAPacifistsAlone) {
     for (const config::Role role : {config::Role::Prey, config::Role::Predator}) {
-        fish::Nature nature = tang();
-        nature.habits.role = role;
+        fish::SpeciesParameters parameters = tang();
+        parameters.habits.role = role;
         fish::Mind mind = fed(3);
         mind.sinceSpawning = fish::kLongAgo;
-        EXPECT_EQ(feel(nature, mind, lonely()).libido, 0);
+        EXPECT_EQ(feel(parameters, mind, lonely()).libido, 0);
     }
 }
 
 TEST(Fear, addsUpOverThePredatorsInSightAndIsCutAtOne) {
-    const fish::Nature nature = tang();
+    const fish::SpeciesParameters parameters = tang();
     Senses senses = lonely();
-    EXPECT_EQ(feel(nature, fed(3), senses).fear, 0);
+    EXPECT_EQ(feel(parameters, fed(3), senses).fear, 0);
     see(senses, 3.0F);
-    EXPECT_NEAR(feel(nature, fed(3), senses).fear, 0.3F, 1e-6F);
+    EXPECT_NEAR(feel(parameters, fed(3), senses).fear, 0.3F, 1e-6F);
     see(senses, 4.5F);
-    const Feelings two = feel(nature, fed(3), senses);
+    const Feelings two = feel(parameters, fed(3), senses);
     EXPECT_NEAR(two.fear, 0.5F, 1e-6F);
     EXPECT_NEAR(two.greatestFear, 0.3F, 1e-6F);
     see(senses, 0.5F);
-    const Feelings three = feel(nature, fed(3), senses);
+    const Feelings three = feel(parameters, fed(3), senses);
     EXPECT_EQ(three.fear, 1);
     EXPECT_EQ(three.greatestFear, 1) << "nearer than D0 frightens wholly and no more";
 }
 
 TEST(Fear, ofAPredatorThatHuntsNobodyIsHalf) {
-    const fish::Nature nature = tang();
+    const fish::SpeciesParameters parameters = tang();
     Senses hunted = lonely();
     see(hunted, 1.5F, true);
     Senses watched = lonely();
     see(watched, 1.5F, false);
-    EXPECT_FLOAT_EQ(feel(nature, fed(3), watched).fear, 0.5F * feel(nature, fed(3), hunted).fear);
+    EXPECT_FLOAT_EQ(feel(parameters, fed(3), watched).fear,
+                    0.5F * feel(parameters, fed(3), hunted).fear);
 }
 
 }  // namespace

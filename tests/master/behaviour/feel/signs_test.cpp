@@ -16,16 +16,16 @@ struct Shown {
 };
 
 Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0) {
-    fish::Nature nature;
-    nature.habits.role = role;
-    nature.habits.libidoPerSecond = 0.003F;
+    fish::SpeciesParameters parameters;
+    parameters.habits.role = role;
+    parameters.habits.libidoPerSecond = 0.003F;
     fish::FishView view;
     view.resize(1);
     view.signs[0] = before;
     fish::Minds minds;
     minds.resize(1);
     minds[0] = mind;
-    fish::showMood(nature, minds, 0, view);
+    fish::showMood(parameters, minds, 0, view);
     return {view.signs[0], view.partner[0]};
 }
 

@@ -14,17 +14,17 @@ struct Deep {
         around.obstacles.water = {{0, -6, 0}, {5, 4, 5}};
         around.climate.surfaceCelsius = 28;
         around.climate.celsiusPerMetre = -0.5F;
-        nature.habits.light = {0.5, 0.7};
-        nature.habits.waterCelsius = {25, 26};
+        parameters.habits.light = {0.5, 0.7};
+        parameters.habits.waterCelsius = {25, 26};
     }
     [[nodiscard]] Senses at(float depth, unsigned likes) const {
         Senses senses;
         senses.position = {0, -depth, 0};
-        feelClimate(around, nature, static_cast<std::uint8_t>(likes), senses);
+        feelClimate(around, parameters, static_cast<std::uint8_t>(likes), senses);
         return senses;
     }
     surroundings::Surroundings around;
-    fish::Nature nature;
+    fish::SpeciesParameters parameters;
 };
 
 TEST(Climate, aFishWithoutHabitsIsAtEaseAnywhere) {

@@ -18,16 +18,17 @@ Senses perceived(const Aquarium& scene,
     Grids grids = scene.freshGrids();
     Environment environment = scene.environment(grids);
     environment.adaptation = adaptation;
-    return perceive(environment, scene.natures[scene.view.kind[fish]], fish, scene.minds[fish]);
+    return perceive(
+        environment, scene.speciesParameters[scene.view.kind[fish]], fish, scene.minds[fish]);
 }
 
 // Two kinds that keep to themselves, in body lengths of the first.
 Aquarium strangers(glm::vec3 offsetLengths) {
     Aquarium scene;
-    scene.natures[0].habits.role = config::Role::Pacifist;
-    fish::Nature other;
+    scene.speciesParameters[0].habits.role = config::Role::Pacifist;
+    fish::SpeciesParameters other;
     other.kind = 1;
-    scene.natures.push_back(other);
+    scene.speciesParameters.push_back(other);
     scene.addFish({});
     scene.addFish(offsetLengths * kLength, 1);
     return scene;
@@ -89,15 +90,16 @@ TEST(Collision, aLargeBodyThreatensThoughItsMiddleIsFar) {
 
 TEST(Collision, preyHuntersAndThoseItFollowsAreHeededOtherwise) {
     Aquarium scene = strangers({1.0F, 0, 0});
-    for (std::uint64_t fish::Nature::*relation : {&fish::Nature::hunts, &fish::Nature::shadows}) {
-        scene.natures[0].*relation = 2;  // kind 1
+    for (std::uint64_t fish::SpeciesParameters::*relation :
+         {&fish::SpeciesParameters::hunts, &fish::SpeciesParameters::shadows}) {
+        scene.speciesParameters[0].*relation = 2;  // kind 1
         EXPECT_FALSE(perceived(scene, 0).collision.seen());
-        scene.natures[0].*relation = 0;
+        scene.speciesParameters[0].*relation = 0;
     }
     EXPECT_TRUE(perceived(scene, 0).collision.seen());
-    scene.natures[0].huntedBy = 2;
+    scene.speciesParameters[0].huntedBy = 2;
     EXPECT_TRUE(perceived(scene, 0).collision.seen()) << "a pacifist does not flee";
-    scene.natures[0].habits.role = config::Role::Prey;
+    scene.speciesParameters[0].habits.role = config::Role::Prey;
     EXPECT_FALSE(perceived(scene, 0).collision.seen()) << "prey does";
 }
 

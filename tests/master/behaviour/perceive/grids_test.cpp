@@ -20,10 +20,11 @@ struct Sea {
     fish::FishView view = scatteredSchool(2, kFish, kWater);
     surroundings::Food food = surroundings::makeFood(
         3, surroundings::obstaclesOf({3, config::PlaceKind::OpenSea}, kWater), 700);
-    std::vector<fish::Nature> natures = std::vector<fish::Nature>(2);
+    std::vector<fish::SpeciesParameters> speciesParameters =
+        std::vector<fish::SpeciesParameters>(2);
 
     Sea() {
-        natures[1].habits.role = config::Role::Predator;
+        speciesParameters[1].habits.role = config::Role::Predator;
         for (std::size_t fish = 0; fish < kFish; ++fish) {
             if (fish % 5 == 0) view.signs[fish] = fish::kAway;
             if (fish % 7 == 0) view.signs[fish] |= fish::kWilling;
@@ -61,12 +62,13 @@ std::vector<std::uint32_t> startsOf(const SpatialGrid& grid) {
 TEST(Grids, areTheSameOnAnyNumberOfThreads) {
     const Sea sea;
     Grids alone(kWater, kFish, sea.food.size());
-    alone.rebuild(sea.view, sea.food, sea.natures);
+    alone.rebuild(sea.view, sea.food, sea.speciesParameters);
     for (const std::size_t threads : {1U, 2U, 4U}) {
         SCOPED_TRACE(threads);
         Grids shared(kWater, kFish, sea.food.size());
         for (int tick = 0; tick < 3; ++tick)  // what was there before does not matter
-            shared.rebuild(sea.view, sea.food, sea.natures, onThreads(threads), [](auto, auto) {});
+            shared.rebuild(
+                sea.view, sea.food, sea.speciesParameters, onThreads(threads), [](auto, auto) {});
         for (const auto grid :
              {&Grids::fish, &Grids::predators, &Grids::large, &Grids::mates, &Grids::food}) {
             EXPECT_EQ(indicesIn(shared.*grid), indicesIn(alone.*grid));
@@ -80,7 +82,7 @@ TEST(Grids, areTheSameOnAnyNumberOfThreads) {
 TEST(Grids, everyFishStandsInItsCellInTheOrderOfIndices) {
     const Sea sea;
     Grids grids(kWater, kFish, sea.food.size());
-    grids.rebuild(sea.view, sea.food, sea.natures);
+    grids.rebuild(sea.view, sea.food, sea.speciesParameters);
     const SpatialGrid& fish = grids.fish;
     EXPECT_EQ(fish.size(), kFish * 4 / 5);
     const SpatialGrid::Cell cells = fish.cells();
@@ -100,8 +102,8 @@ TEST(Grids, everyFishStandsInItsCellInTheOrderOfIndices) {
 TEST(Grids, theSparseOnesHoldThoseTheyAreOf) {
     const Sea sea;
     Grids grids(kWater, kFish, sea.food.size());
-    grids.expect(sea.view, sea.natures);
-    grids.rebuild(sea.view, sea.food, sea.natures);
+    grids.expect(sea.view, sea.speciesParameters);
+    grids.rebuild(sea.view, sea.food, sea.speciesParameters);
     const auto expectHolds = [&](const SpatialGrid& grid, const auto& isOne) {
         std::vector<std::uint32_t> those;
         for (std::uint32_t fish = 0; fish < kFish; ++fish)

@@ -21,7 +21,7 @@ using Seen = std::pair<float, std::uint32_t>;  // squared distance, fish
 // A school of three kinds: most of the first, the rest by halves.
 struct School {
     fish::FishView view;
-    std::vector<fish::Nature> natures;
+    std::vector<fish::SpeciesParameters> speciesParameters;
     place::Region water;
 
     School(fish::FishView fish, const place::Region& region)
@@ -29,23 +29,23 @@ struct School {
         const auto size = static_cast<std::uint32_t>(view.size());
         const std::array<std::uint32_t, 4> borders{0, size - size / 4, size - size / 8, size};
         for (std::uint8_t kind = 0; kind < 3; ++kind) {
-            fish::Nature nature;
-            nature.kind = kind;
-            nature.first = borders[kind];
-            nature.last = borders[kind + 1U];
-            natures.push_back(nature);
-            std::fill(&view.kind[0] + nature.first, &view.kind[0] + nature.last, kind);
+            fish::SpeciesParameters parameters;
+            parameters.kind = kind;
+            parameters.first = borders[kind];
+            parameters.last = borders[kind + 1U];
+            speciesParameters.push_back(parameters);
+            std::fill(&view.kind[0] + parameters.first, &view.kind[0] + parameters.last, kind);
         }
     }
     School(std::uint32_t seed, std::size_t fish, const place::Region& region)
         : School(scatteredSchool(seed, fish, region), region) {}
 
-    [[nodiscard]] const fish::Nature& natureOf(std::size_t fish) const {
-        return natures[view.kind[fish]];
+    [[nodiscard]] const fish::SpeciesParameters& makeSpeciesParameters(std::size_t fish) const {
+        return speciesParameters[view.kind[fish]];
     }
     [[nodiscard]] Grids grids() const {
         Grids grids(water, view.size(), 0);
-        grids.rebuild(view, {}, natures);
+        grids.rebuild(view, {}, speciesParameters);
         return grids;
     }
 };
@@ -78,7 +78,8 @@ std::vector<Seen> nearestByBruteForce(const School& school, std::uint32_t fish, 
 void expectVectorsEqualBruteForce(const School& school, std::uint32_t step = 1) {
     const Grids grids = school.grids();
     for (std::uint32_t fish = 0; fish < school.view.size(); fish += step) {
-        const NearestFish found = nearestVisible(school.view, grids, school.natureOf(fish), fish);
+        const NearestFish found =
+            nearestVisible(school.view, grids, school.makeSpeciesParameters(fish), fish);
         ASSERT_EQ(seenOf(found.schoolmates), nearestByBruteForce(school, fish, true))
             << "fish " << fish;
         ASSERT_EQ(seenOf(found.others), nearestByBruteForce(school, fish, false))
@@ -89,9 +90,10 @@ void expectVectorsEqualBruteForce(const School& school, std::uint32_t step = 1) 
 void expectVectorsEqualPlainCode(const School& school) {
     const Grids grids = school.grids();
     for (std::uint32_t fish = 0; fish < school.view.size(); ++fish) {
-        const fish::Nature& nature = school.natureOf(fish);
-        const NearestFish vectors = nearestVisible(school.view, grids, nature, fish);
-        const NearestFish plain = nearestVisibleReference(school.view, grids.fish, nature, fish);
+        const fish::SpeciesParameters& parameters = school.makeSpeciesParameters(fish);
+        const NearestFish vectors = nearestVisible(school.view, grids, parameters, fish);
+        const NearestFish plain =
+            nearestVisibleReference(school.view, grids.fish, parameters, fish);
         ASSERT_EQ(seenOf(vectors.schoolmates), seenOf(plain.schoolmates)) << "fish " << fish;
         ASSERT_EQ(seenOf(vectors.others), seenOf(plain.others)) << "fish " << fish;
     }
@@ -162,9 +164,10 @@ TEST(Neighbours, ofEquallyNearFishTheLowerIndexComesFirst) {
         view.fish[i].heading = {1, 0, 0};
     }
     School school(view, kWater);
-    school.natures[0].last = 12;
+    school.speciesParameters[0].last = 12;
     std::fill(school.view.kind.begin(), school.view.kind.end(), std::uint8_t{0});
-    const NearestFish found = nearestVisible(school.view, school.grids(), school.natures[0], 5);
+    const NearestFish found =
+        nearestVisible(school.view, school.grids(), school.speciesParameters[0], 5);
     EXPECT_EQ(found.schoolmates.fish,
               (std::array<std::uint32_t, kMostNeighbours>{0, 1, 2, 3, 4, 6, 7}));
     expectVectorsEqualBruteForce(school);

@@ -43,8 +43,8 @@ Found byVectors(const SpatialGrid& grid, glm::vec3 place, float reachSquared) {
 TEST(PointsWithin, areThoseOfPlainCodeToTheBit) {
     const fish::FishView view = scatteredSchool(4, 3000, kWater);
     Grids grids(kWater, view.size(), 0);
-    const std::vector<fish::Nature> natures(1);
-    grids.rebuild(view, {}, natures);
+    const std::vector<fish::SpeciesParameters> speciesParameters(1);
+    grids.rebuild(view, {}, speciesParameters);
     std::size_t most = 0;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         SCOPED_TRACE(hwy::TargetName(target));

@@ -18,13 +18,13 @@ constexpr float kSharkLength = 1.3F;
 // One scad at the centre that heads along +x, and what a test adds.
 struct Sea : Aquarium {
     Sea() {
-        natures[kScad].huntedBy = 1U << kShark;
-        fish::Nature shark;
+        speciesParameters[kScad].huntedBy = 1U << kShark;
+        fish::SpeciesParameters shark;
         shark.habits.role = config::Role::Predator;
         shark.kind = kShark;
         shark.hunts = 1U << kScad;
         shark.habits.visionBodyLengths = 10;
-        natures.push_back(shark);
+        speciesParameters.push_back(shark);
         addFish({});
     }
     std::uint32_t addShark(glm::vec3 offset) {
@@ -53,15 +53,15 @@ struct Sea : Aquarium {
     }
     [[nodiscard]] Senses perceived(std::uint32_t fish) const {
         Grids grids = freshGrids();
-        return perceive(environment(grids), natures[view.kind[fish]], fish, minds[fish]);
+        return perceive(environment(grids), speciesParameters[view.kind[fish]], fish, minds[fish]);
     }
 };
 
 TEST(Sight, endsWhereTheWaterOrTheEyeDoes) {
-    const fish::Nature nature;  // 14 body lengths
-    EXPECT_FLOAT_EQ(sightMetres(nature, 0.24F, 1, 12), 14 * 0.24F);
-    EXPECT_FLOAT_EQ(sightMetres(nature, 0.24F, 1, 2), 2);
-    EXPECT_FLOAT_EQ(sightMetres(nature, 0.24F, conspicuousness(kSharkLength), 12),
+    const fish::SpeciesParameters parameters;  // 14 body lengths
+    EXPECT_FLOAT_EQ(sightMetres(parameters, 0.24F, 1, 12), 14 * 0.24F);
+    EXPECT_FLOAT_EQ(sightMetres(parameters, 0.24F, 1, 2), 2);
+    EXPECT_FLOAT_EQ(sightMetres(parameters, 0.24F, conspicuousness(kSharkLength), 12),
                     14 * 0.24F * kSharkLength / kLargeBodyMetres);
     EXPECT_FLOAT_EQ(conspicuousness(0.2F), 1);
     EXPECT_FLOAT_EQ(conspicuousness(9), kMostConspicuous);
@@ -151,7 +151,7 @@ TEST(Prey, isTheOneOfLeastCost) {
     sea.head(shark, {-1, 0, 0});
     sea.put(0, {0, 0, 0});  // 3 m straight ahead
     const std::uint32_t aside = sea.addFish({3, 0, 2.9F});
-    sea.natures[kScad].last = aside + 1;
+    sea.speciesParameters[kScad].last = aside + 1;
     // d (1 + b2 E / pi): 2.9 (1 + 0.2 / 2) = 3.19 against 3.
     EXPECT_EQ(sea.perceived(shark).prey.object, 0U);
     sea.view.signs[0] = fish::kSchooling;  // 3 (1 + 0.5)
@@ -165,7 +165,7 @@ TEST(Prey, isKeptUnlessAnotherIsBetterByThePersistence) {
     const std::uint32_t shark = sea.addShark({3, 0, 0});
     sea.head(shark, {-1, 0, 0});
     const std::uint32_t other = sea.addFish({0.6F, 0, 0});
-    sea.natures[kShark].habits.persistence = 0.3F;
+    sea.speciesParameters[kShark].habits.persistence = 0.3F;
     EXPECT_EQ(sea.perceived(shark).prey.object, other);
     sea.alter(shark, [](fish::Mind& mind) {
         mind.intention = fish::Intention::Eat;
@@ -181,9 +181,9 @@ TEST(Prey, isNotSoughtByTheSatedNorBeyondTheDistanceOfGivingUp) {
     const std::uint32_t shark = sea.addShark({3, 0, 0});
     sea.head(shark, {-1, 0, 0});
     EXPECT_TRUE(sea.perceived(shark).prey.seen());
-    sea.natures[kShark].habits.hunt.giveUpMetres = 2.5;
+    sea.speciesParameters[kShark].habits.hunt.giveUpMetres = 2.5;
     EXPECT_FALSE(sea.perceived(shark).prey.seen());
-    sea.natures[kShark].habits.hunt.giveUpMetres = 6;
+    sea.speciesParameters[kShark].habits.hunt.giveUpMetres = 6;
     sea.alter(shark, [](fish::Mind& mind) {
         mind.eaten = 4;
         mind.sinceMeal = 0;

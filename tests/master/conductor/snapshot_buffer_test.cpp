@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/timeline.h"
+#include "master/conductor/snapshot_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -20,21 +20,21 @@ Snapshot at(std::uint64_t tick, net::Instant due) {
             {{7, 8, 9}, {{tick}}}};
 }
 
-Timeline ticks(std::uint64_t first, std::uint64_t last) {
-    Timeline timeline;
+SnapshotBuffer ticks(std::uint64_t first, std::uint64_t last) {
+    SnapshotBuffer snapshots;
     for (std::uint64_t tick = first; tick <= last; ++tick) {
-        timeline.add(at(tick, kStart + static_cast<std::int64_t>(tick) * kTickPeriod));
+        snapshots.add(at(tick, kStart + static_cast<std::int64_t>(tick) * kTickPeriod));
     }
-    return timeline;
+    return snapshots;
 }
 
-TEST(Timeline, isEmptyBeforeTheFirstTick) {
-    EXPECT_FALSE(Timeline{}.showing({0}, kStart));
-    EXPECT_FALSE(Timeline{}.showing({0}, Tick{0}));
-    EXPECT_FALSE(Timeline{}.newest());
+TEST(SnapshotBuffer, isEmptyBeforeTheFirstTick) {
+    EXPECT_FALSE(SnapshotBuffer{}.showing({0}, kStart));
+    EXPECT_FALSE(SnapshotBuffer{}.showing({0}, Tick{0}));
+    EXPECT_FALSE(SnapshotBuffer{}.newest());
 }
 
-TEST(Timeline, lockstepShowsTheTickItself) {
+TEST(SnapshotBuffer, lockstepShowsTheTickItself) {
     const auto state = ticks(0, 5).showing({9}, Tick{3});
     ASSERT_TRUE(state);
     EXPECT_EQ(state->frame, Frame{9});
@@ -50,7 +50,7 @@ TEST(Timeline, lockstepShowsTheTickItself) {
     EXPECT_FALSE(ticks(0, 5).showing({9}, Tick{6}));
 }
 
-TEST(Timeline, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
+TEST(SnapshotBuffer, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
     const auto state = ticks(0, 5).showing({1}, kStart + 2 * kTickPeriod + kTickPeriod / 4);
     ASSERT_TRUE(state);
     EXPECT_EQ(state->tick, Tick{3});
@@ -63,7 +63,7 @@ TEST(Timeline, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
     EXPECT_NEAR(state->daylight, 0.75F / 3 + 0.25F / 4, 1e-6F);
 }
 
-TEST(Timeline, aTicksOwnMomentShowsItAlone) {
+TEST(SnapshotBuffer, aTicksOwnMomentShowsItAlone) {
     const auto state = ticks(0, 5).showing({1}, kStart + 4 * kTickPeriod);
     ASSERT_TRUE(state);
     EXPECT_EQ(state->tick, Tick{4});
@@ -71,29 +71,29 @@ TEST(Timeline, aTicksOwnMomentShowsItAlone) {
     EXPECT_TRUE(state->before.empty());
 }
 
-TEST(Timeline, momentsOutsideShowTheNearestTick) {
+TEST(SnapshotBuffer, momentsOutsideShowTheNearestTick) {
     EXPECT_EQ(ticks(3, 5).showing({1}, kStart)->tick, Tick{3});
     EXPECT_EQ(ticks(3, 5).showing({1}, kStart * 2)->tick, Tick{5});
 }
 
-TEST(Timeline, theWorldStandsStillThroughAPause) {
-    Timeline timeline = ticks(0, 1);
-    timeline.add(at(2, kStart + 600 * kTickPeriod));
+TEST(SnapshotBuffer, theWorldStandsStillThroughAPause) {
+    SnapshotBuffer snapshots = ticks(0, 1);
+    snapshots.add(at(2, kStart + 600 * kTickPeriod));
     for (const int tick : {2, 300, 599}) {
-        const auto state = timeline.showing({1}, kStart + tick * kTickPeriod);
+        const auto state = snapshots.showing({1}, kStart + tick * kTickPeriod);
         EXPECT_EQ(state->tick, Tick{1});
         EXPECT_EQ(state->fraction, 1.0F);
     }
-    const auto state = timeline.showing({1}, kStart + 599 * kTickPeriod + kTickPeriod / 2);
+    const auto state = snapshots.showing({1}, kStart + 599 * kTickPeriod + kTickPeriod / 2);
     EXPECT_EQ(state->tick, Tick{2});
     EXPECT_NEAR(state->fraction, 0.5F, 1e-6F);
 }
 
-TEST(Timeline, forgetsTheOldest) {
-    const Timeline timeline = ticks(0, 100);
-    EXPECT_FALSE(timeline.showing({0}, Tick{100 - Timeline::kKept}));
-    EXPECT_TRUE(timeline.showing({0}, Tick{101 - Timeline::kKept}));
-    EXPECT_EQ(timeline.newest(), Tick{100});
+TEST(SnapshotBuffer, forgetsTheOldest) {
+    const SnapshotBuffer snapshots = ticks(0, 100);
+    EXPECT_FALSE(snapshots.showing({0}, Tick{100 - SnapshotBuffer::kKept}));
+    EXPECT_TRUE(snapshots.showing({0}, Tick{101 - SnapshotBuffer::kKept}));
+    EXPECT_EQ(snapshots.newest(), Tick{100});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/telegraph.h"
+#include "master/conductor/terminal_steering.h"
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ std::int8_t moved(std::int8_t axis, int notches) {
 
 }  // namespace
 
-void Telegraph::press(std::string_view bytes) {
+void TerminalSteering::press(std::string_view bytes) {
     constexpr char kInterrupt = '\x03';
     constexpr char kEscape = '\x1b';
     while (!bytes.empty()) {
@@ -73,7 +73,7 @@ void Telegraph::press(std::string_view bytes) {
     }
 }
 
-std::string Telegraph::text() const {
+std::string TerminalSteering::text() const {
     std::string text;
     for (const auto& [axis, plus, minus] : kWords) {
         const int notch = (std::abs(steering_.*axis) * kNotches + 64) / kFullSteering;

@@ -10,7 +10,7 @@
 
 namespace aquarama::record {
 
-class AroundWorld : public conductor::Simulation {
+class SimulationDecorator : public conductor::Simulation {
   public:
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
     void records(std::vector<motion::FishRecord>& fish) const override { world_.records(fish); }
@@ -23,7 +23,7 @@ class AroundWorld : public conductor::Simulation {
     }
 
   protected:
-    explicit AroundWorld(conductor::Simulation& world) : world_(world) {}
+    explicit SimulationDecorator(conductor::Simulation& world) : world_(world) {}
     conductor::Simulation& world_;
 };
 

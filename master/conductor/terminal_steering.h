@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A helm for terminals, which tell of keys that are pressed but not of those that are let go: each
-// key moves an axis by a notch, and there it stays.
+// Steering from a terminal, which reports keys that are pressed but not those that are released:
+// each key moves an axis by a notch, and there it stays.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace aquarama::conductor {
 
-class Telegraph {
+class TerminalSteering {
   public:
     // What a terminal sent: letters and escape sequences of keys; the rest means nothing.
     void press(std::string_view bytes);
@@ -24,7 +24,7 @@ class Telegraph {
     bool ended_ = false;
 };
 
-inline constexpr std::string_view kTelegraphHelp =
+inline constexpr std::string_view kTerminalSteeringHelp =
     "w s ahead, back   a d aside   left right turn   up down rise, sink   r f nose up, down   "
     "space "
     "lets go   q leaves";

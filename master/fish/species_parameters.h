@@ -10,7 +10,7 @@
 
 namespace aquarama::fish {
 
-struct Nature {
+struct SpeciesParameters {
     std::uint8_t kind = 0;                 // its own index in the cast
     std::uint32_t first = 0, last = 0;     // its fish are [first, last) of all
     std::uint64_t hunts = 0;               // a bit for each kind that it eats

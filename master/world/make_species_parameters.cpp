@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/world/nature_of.h"
+#include "master/world/make_species_parameters.h"
 
 #include <algorithm>
 #include <string>
@@ -29,11 +29,11 @@ std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string
 
 }  // namespace
 
-fish::Nature natureOf(const std::vector<WorldSpecies>& cast,
-                      std::size_t kind,
-                      const fish::Gaits& gaits,
-                      std::size_t first,
-                      std::size_t last) {
+fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& cast,
+                                              std::size_t kind,
+                                              const fish::Gaits& gaits,
+                                              std::size_t first,
+                                              std::size_t last) {
     const config::Habits& habits = cast[kind].habits;
     return {.kind = static_cast<std::uint8_t>(kind),
             .first = static_cast<std::uint32_t>(first),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/ticker.h"
+#include "master/conductor/simulation_thread.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,45 +14,45 @@
 namespace aquarama::conductor {
 namespace {
 
-Snapshot next(Ticker& ticker) {
+Snapshot next(SimulationThread& simulationThread) {
     while (true) {  // the suite's budget would stop it
-        if (auto snapshot = ticker.take()) return *snapshot;
+        if (auto snapshot = simulationThread.take()) return *snapshot;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
 }
 
-TEST(Ticker, lockstepGivesEveryTickOnceAndStopsAtTheLast) {
+TEST(SimulationThread, lockstepGivesEveryTickOnceAndStopsAtTheLast) {
     test::CountingWorld world;
     std::atomic<int> calls = 0;
-    Ticker ticker(world, wire::Pace::Lockstep, Tick{30}, [&] { ++calls; });
+    SimulationThread simulationThread(world, wire::Pace::Lockstep, Tick{30}, [&] { ++calls; });
     for (std::uint64_t tick = 0; tick <= 30; ++tick) {
-        const Snapshot snapshot = next(ticker);
+        const Snapshot snapshot = next(simulationThread);
         EXPECT_EQ(snapshot.tick, Tick{tick});
         EXPECT_EQ(snapshot.hash, test::CountingWorld::hashAt({tick}));
         EXPECT_EQ(snapshot.fish.at(0).x, static_cast<int>(tick));
     }
     while (calls < 31) std::this_thread::yield();
-    EXPECT_FALSE(ticker.take());
+    EXPECT_FALSE(simulationThread.take());
     EXPECT_EQ(world.tick(), Tick{30});
 }
 
-TEST(Ticker, lockstepRunsNoFurtherAheadThanAFewTicks) {
+TEST(SimulationThread, lockstepRunsNoFurtherAheadThanAFewTicks) {
     test::CountingWorld world;
     std::atomic<int> calls = 0;
     {
-        const Ticker ticker(world, wire::Pace::Lockstep, {}, [&] { ++calls; });
+        const SimulationThread simulationThread(world, wire::Pace::Lockstep, {}, [&] { ++calls; });
         while (calls < 4) std::this_thread::yield();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    EXPECT_LE(world.tick().value, Timeline::kKept);
+    EXPECT_LE(world.tick().value, SnapshotBuffer::kKept);
 }
 
-TEST(Ticker, liveTicksAreDueOnePeriodApartWhateverTheirDelay) {
+TEST(SimulationThread, liveTicksAreDueOnePeriodApartWhateverTheirDelay) {
     test::CountingWorld world;
-    Ticker ticker(world, wire::Pace::Live, {}, [] {});
-    Snapshot last = next(ticker);
+    SimulationThread simulationThread(world, wire::Pace::Live, {}, [] {});
+    Snapshot last = next(simulationThread);
     for (int tick = 1; tick < 10; ++tick) {
-        const Snapshot snapshot = next(ticker);
+        const Snapshot snapshot = next(simulationThread);
         EXPECT_EQ(snapshot.tick.value, last.tick.value + 1);
         if (snapshot.due != last.due + kTickPeriod) {
             // Only a machine that stood still for a quarter of a second may put it off.
@@ -62,67 +62,67 @@ TEST(Ticker, liveTicksAreDueOnePeriodApartWhateverTheirDelay) {
     }
 }
 
-TEST(Ticker, aPausePutsOffAllThatIsDue) {
+TEST(SimulationThread, aPausePutsOffAllThatIsDue) {
     test::CountingWorld world;
-    Ticker ticker(world, wire::Pace::Live, {}, [] {});
-    next(ticker);
-    ticker.togglePause();
-    EXPECT_TRUE(ticker.paused());
+    SimulationThread simulationThread(world, wire::Pace::Live, {}, [] {});
+    next(simulationThread);
+    simulationThread.togglePause();
+    EXPECT_TRUE(simulationThread.paused());
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    while (ticker.take()) {
+    while (simulationThread.take()) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    EXPECT_FALSE(ticker.take());
+    EXPECT_FALSE(simulationThread.take());
     const net::Instant resumed = net::monotonicNow();
-    ticker.togglePause();
-    EXPECT_GE(next(ticker).due, resumed);
+    simulationThread.togglePause();
+    EXPECT_GE(next(simulationThread).due, resumed);
 }
 
 // A job that notes the tick at which it was called.
-void askAndExpectAnAnswer(Ticker& ticker) {
+void askAndExpectAnAnswer(SimulationThread& simulationThread) {
     std::atomic<bool> answered = false;
-    ASSERT_TRUE(ticker.betweenTicks([&](Simulation& world) {
+    ASSERT_TRUE(simulationThread.betweenTicks([&](Simulation& world) {
         EXPECT_EQ(world.hash(), test::CountingWorld::hashAt(world.tick()));
         answered = true;
     }));
     while (!answered) std::this_thread::yield();  // the suite's budget would stop it
 }
 
-TEST(Ticker, doesJobsWhileItRunsWhileItIsPausedAndWhileNobodyTakesItsTicks) {
+TEST(SimulationThread, doesJobsWhileItRunsWhileItIsPausedAndWhileNobodyTakesItsTicks) {
     test::CountingWorld world;
-    Ticker live(world, wire::Pace::Live, {}, [] {});
+    SimulationThread live(world, wire::Pace::Live, {}, [] {});
     askAndExpectAnAnswer(live);
     live.togglePause();
     askAndExpectAnAnswer(live);
 
     test::CountingWorld other;
-    Ticker lockstep(other, wire::Pace::Lockstep, {}, [] {});
-    while (other.tick().value < Timeline::kKept / 2) std::this_thread::yield();
+    SimulationThread lockstep(other, wire::Pace::Lockstep, {}, [] {});
+    while (other.tick().value < SnapshotBuffer::kKept / 2) std::this_thread::yield();
     askAndExpectAnAnswer(lockstep);
 }
 
-TEST(Ticker, doesJobsAfterTheLastTick) {
+TEST(SimulationThread, doesJobsAfterTheLastTick) {
     test::CountingWorld world;
-    Ticker ticker(world, wire::Pace::Lockstep, Tick{0}, [] {});
-    next(ticker);
-    askAndExpectAnAnswer(ticker);
+    SimulationThread simulationThread(world, wire::Pace::Lockstep, Tick{0}, [] {});
+    next(simulationThread);
+    askAndExpectAnAnswer(simulationThread);
     EXPECT_EQ(world.tick(), Tick{0});
 }
 
 // Jobs run one after the other with the world, so they need no lock of their own.
-TEST(Ticker, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
+TEST(SimulationThread, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
     test::CountingWorld world;
     std::atomic<bool> holding = false, held = true;
     std::atomic<int> done = 0;
     std::vector<int> order;
-    Ticker ticker(world, wire::Pace::Live, {}, [] {});
-    ASSERT_TRUE(ticker.betweenTicks([&](Simulation&) {
+    SimulationThread simulationThread(world, wire::Pace::Live, {}, [] {});
+    ASSERT_TRUE(simulationThread.betweenTicks([&](Simulation&) {
         holding = true;
         while (held) std::this_thread::yield();
     }));
     while (!holding) std::this_thread::yield();
     int accepted = 0;
-    while (ticker.betweenTicks([&, job = accepted](Simulation&) {
+    while (simulationThread.betweenTicks([&, job = accepted](Simulation&) {
         order.push_back(job);
         ++done;
     }))
@@ -133,11 +133,11 @@ TEST(Ticker, doesJobsInTheOrderGivenAndNoMoreThanItCan) {
     EXPECT_TRUE(std::ranges::is_sorted(order));
 }
 
-TEST(Ticker, endsWhileItWaits) {
+TEST(SimulationThread, endsWhileItWaits) {
     test::CountingWorld world;
     for (const wire::Pace pace : {wire::Pace::Live, wire::Pace::Lockstep}) {
-        Ticker ticker(world, pace, {}, [] {});
-        if (pace == wire::Pace::Live) ticker.togglePause();
+        SimulationThread simulationThread(world, pace, {}, [] {});
+        if (pace == wire::Pace::Live) simulationThread.togglePause();
     }
 }
 

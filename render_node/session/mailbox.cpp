@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/session/meeting.h"
+#include "render_node/session/mailbox.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace aquarama::session {
 
-void Meeting::admit(Admitted admitted) {
+void Mailbox::admit(Admitted admitted) {
     const std::lock_guard lock(mutex_);
     if (!join_) join_ = std::move(admitted);
     changed_.notify_all();
 }
 
-void Meeting::refuse(const std::string& reason) {
+void Mailbox::refuse(const std::string& reason) {
     const std::lock_guard lock(mutex_);
     if (!join_) join_ = Refused{reason};
     changed_.notify_all();
 }
 
-void Meeting::start(wire::Pace pace, Frame first) {
+void Mailbox::start(wire::Pace pace, Frame first) {
     const std::lock_guard lock(mutex_);
     pace_ = pace;
     next_ = first;
     changed_.notify_all();
 }
 
-void Meeting::put(ArrivedState arrived) {
+void Mailbox::put(ArrivedState arrived) {
     const std::lock_guard lock(mutex_);
     const auto isSame = [&](const ArrivedState& s) { return s.state.frame == arrived.state.frame; };
     if (std::ranges::any_of(states_, isSame)) return;  // sent again for somebody else
@@ -34,24 +34,24 @@ void Meeting::put(ArrivedState arrived) {
     changed_.notify_all();
 }
 
-void Meeting::release(const ReleaseOrder& order) {
+void Mailbox::release(const ReleaseOrder& order) {
     const std::lock_guard lock(mutex_);
     if (!release_ || release_->frame < order.frame) release_ = order;
     changed_.notify_all();
 }
 
-void Meeting::tellMind(wire::Explanation explanation) {
+void Mailbox::tellMind(wire::Explanation explanation) {
     const std::lock_guard lock(mutex_);
     mind_ = std::move(explanation);
 }
 
-void Meeting::interrupt(Release why) {
+void Mailbox::interrupt(Release why) {
     const std::lock_guard lock(mutex_);
     if (interruption_ != Release::Quit) interruption_ = why;
     changed_.notify_all();
 }
 
-void Meeting::expectJoin() {
+void Mailbox::expectJoin() {
     const std::lock_guard lock(mutex_);
     if (interruption_ == Release::Quit) return;
     join_.reset();
@@ -62,7 +62,7 @@ void Meeting::expectJoin() {
     mind_.reset();
 }
 
-JoinOutcome Meeting::awaitJoin() {
+JoinOutcome Mailbox::awaitJoin() {
     std::unique_lock lock(mutex_);
     const auto isOver = [&] { return interruption_ == Release::Quit; };
     changed_.wait(lock, [&] { return join_ || isOver(); });
@@ -71,7 +71,7 @@ JoinOutcome Meeting::awaitJoin() {
 }
 
 // Lockstep: every frame in order. Live: the newest.
-std::optional<ArrivedState> Meeting::takeNext() {
+std::optional<ArrivedState> Mailbox::takeNext() {
     std::erase_if(states_, [&](const ArrivedState& s) { return s.state.frame < next_; });
     if (!pace_ || states_.empty()) return std::nullopt;
     const auto frameOf = [](const ArrivedState& s) { return s.state.frame; };
@@ -84,26 +84,26 @@ std::optional<ArrivedState> Meeting::takeNext() {
     return taken;
 }
 
-std::optional<ArrivedState> Meeting::takeState() {
+std::optional<ArrivedState> Mailbox::takeState() {
     std::unique_lock lock(mutex_);
     std::optional<ArrivedState> taken;
     changed_.wait(lock, [&] { return interruption_ || (taken = takeNext()); });
     return taken;
 }
 
-std::optional<ReleaseOrder> Meeting::awaitRelease(Frame frame) {
+std::optional<ReleaseOrder> Mailbox::awaitRelease(Frame frame) {
     std::unique_lock lock(mutex_);
     const auto isReleased = [&] { return release_ && release_->frame >= frame; };
     changed_.wait(lock, [&] { return isReleased() || interruption_; });
     return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
 }
 
-std::optional<wire::Explanation> Meeting::latestMind() const {
+std::optional<wire::Explanation> Mailbox::latestMind() const {
     const std::lock_guard lock(mutex_);
     return mind_;
 }
 
-Release Meeting::interruption() const {
+Release Mailbox::interruption() const {
     const std::lock_guard lock(mutex_);
     return interruption_.value_or(Release::Quit);
 }

@@ -38,7 +38,7 @@ struct Refused {
 struct Ended {};  // the show, or this process
 using JoinOutcome = std::variant<Admitted, Refused, Ended>;
 
-class Meeting {
+class Mailbox {
   public:
     // The net thread's side.
     void admit(Admitted admitted);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/ticker.h"
+#include "master/conductor/simulation_thread.h"
 
 #include <chrono>
 #include <utility>
@@ -17,16 +17,16 @@ constexpr std::size_t kMostJobs = 64;
 
 }  // namespace
 
-Ticker::Ticker(Simulation& simulation,
-               wire::Pace pace,
-               std::optional<Tick> lastTick,
-               std::function<void()> onTick)
+SimulationThread::SimulationThread(Simulation& simulation,
+                                   wire::Pace pace,
+                                   std::optional<Tick> lastTick,
+                                   std::function<void()> onTick)
     : simulation_(simulation),
       lastTick_(lastTick),
       onTick_(std::move(onTick)),
       thread_([this, pace] { pace == wire::Pace::Live ? runLive() : runLockstep(); }) {}
 
-Ticker::~Ticker() {
+SimulationThread::~SimulationThread() {
     {
         const std::lock_guard lock(mutex_);
         stopped_ = true;
@@ -36,7 +36,7 @@ Ticker::~Ticker() {
     thread_.join();
 }
 
-void Ticker::togglePause() {
+void SimulationThread::togglePause() {
     {
         const std::lock_guard lock(mutex_);
         paused_ = !paused_;
@@ -44,12 +44,12 @@ void Ticker::togglePause() {
     changed_.notify_all();
 }
 
-bool Ticker::paused() const {
+bool SimulationThread::paused() const {
     const std::lock_guard lock(mutex_);
     return paused_;
 }
 
-std::optional<Snapshot> Ticker::take() {
+std::optional<Snapshot> SimulationThread::take() {
     auto snapshot = snapshots_.tryTake();
     if (snapshot) {
         // The tick thread has looked for room and waits, or will look.
@@ -59,7 +59,7 @@ std::optional<Snapshot> Ticker::take() {
     return snapshot;
 }
 
-bool Ticker::betweenTicks(Job job) {
+bool SimulationThread::betweenTicks(Job job) {
     {
         const std::lock_guard lock(mutex_);
         if (jobs_.size() >= kMostJobs) return false;
@@ -69,14 +69,14 @@ bool Ticker::betweenTicks(Job job) {
     return true;
 }
 
-void Ticker::serve(std::unique_lock<std::mutex>& lock) {
+void SimulationThread::serve(std::unique_lock<std::mutex>& lock) {
     const std::vector<Job> jobs = std::exchange(jobs_, {});
     lock.unlock();
     for (const Job& job : jobs) job(simulation_);
     lock.lock();
 }
 
-bool Ticker::awaitRoom() {
+bool SimulationThread::awaitRoom() {
     std::unique_lock lock(mutex_);
     while (!stopped_) {
         serve(lock);
@@ -86,7 +86,7 @@ bool Ticker::awaitRoom() {
     return false;
 }
 
-void Ticker::serveUntilStopped() {
+void SimulationThread::serveUntilStopped() {
     std::unique_lock lock(mutex_);
     while (!stopped_) {
         serve(lock);
@@ -94,7 +94,7 @@ void Ticker::serveUntilStopped() {
     }
 }
 
-bool Ticker::put(net::Instant due) {
+bool SimulationThread::put(net::Instant due) {
     Snapshot snapshot{simulation_.tick(),
                       due,
                       simulation_.hash(),
@@ -109,14 +109,14 @@ bool Ticker::put(net::Instant due) {
     return taken;
 }
 
-void Ticker::runLockstep() {
+void SimulationThread::runLockstep() {
     while (awaitRoom() && put(net::Instant{})) {
         if (lastTick_ && simulation_.tick() >= *lastTick_) return serveUntilStopped();
         simulation_.advance();
     }
 }
 
-bool Ticker::sleepUntil(net::Instant due, net::Instant& pausedFor) {
+bool SimulationThread::sleepUntil(net::Instant due, net::Instant& pausedFor) {
     std::unique_lock lock(mutex_);
     const auto when = std::chrono::steady_clock::time_point(due);
     const auto disturbed = [&] { return stopped_ || paused_ || !jobs_.empty(); };
@@ -135,7 +135,7 @@ bool Ticker::sleepUntil(net::Instant due, net::Instant& pausedFor) {
 }
 
 // Tick k is due at start + k / 60 s, not counting pauses and what could not be caught up.
-void Ticker::runLive() {
+void SimulationThread::runLive() {
     net::Instant due = net::monotonicNow();
     while (put(due)) {
         due += kTickPeriod;

@@ -25,7 +25,7 @@ struct Snapshot {
     wire::FoodCloud food;
 };
 
-class Timeline {
+class SnapshotBuffer {
   public:
     // Ticks come in order; the oldest is forgotten when `kept` are there.
     void add(Snapshot snapshot);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/timeline.h"
+#include "master/conductor/snapshot_buffer.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,22 +30,22 @@ wire::Eye between(const wire::Eye& before, const wire::Eye& after, float fractio
 
 }  // namespace
 
-void Timeline::add(Snapshot snapshot) {
+void SnapshotBuffer::add(Snapshot snapshot) {
     snapshots_.push_back(std::move(snapshot));
     if (snapshots_.size() > kKept) snapshots_.pop_front();
 }
 
-std::optional<Tick> Timeline::newest() const {
+std::optional<Tick> SnapshotBuffer::newest() const {
     return snapshots_.empty() ? std::nullopt : std::optional{snapshots_.back().tick};
 }
 
-std::optional<wire::StateFrame> Timeline::showing(Frame frame, Tick tick) const {
+std::optional<wire::StateFrame> SnapshotBuffer::showing(Frame frame, Tick tick) const {
     const auto found = std::ranges::find(snapshots_, tick, &Snapshot::tick);
     if (found == snapshots_.end()) return std::nullopt;
     return showingOne(frame, *found);
 }
 
-std::optional<wire::StateFrame> Timeline::showing(Frame frame, net::Instant moment) const {
+std::optional<wire::StateFrame> SnapshotBuffer::showing(Frame frame, net::Instant moment) const {
     if (snapshots_.empty()) return std::nullopt;
     const auto after = std::ranges::lower_bound(snapshots_, moment, {}, &Snapshot::due);
     if (after == snapshots_.end()) return showingOne(frame, snapshots_.back());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/helm.h"
+#include "master/conductor/input_arbitration.h"
 
 #include <chrono>
 
@@ -14,46 +14,46 @@ constexpr Steering kAhead{.ahead = 127};
 constexpr Steering kBack{.ahead = -127};
 constexpr Steering kNothing{};
 
-class HelmTest : public testing::Test {
+class InputArbitrationTest : public testing::Test {
   protected:
     bool says(const net::PeerId& who, const Steering& what, int laterMs = 40) {
         now_ += milliseconds(laterMs);
-        return helm_.heeds(who, what, now_);
+        return arbitration_.accepts(who, what, now_);
     }
-    Helm helm_;
+    InputArbitration arbitration_;
     net::Instant now_ = milliseconds(1000);
 };
 
-TEST_F(HelmTest, oneHandIsHeardUntilItLetsGo) {
+TEST_F(InputArbitrationTest, oneHandIsHeardUntilItLetsGo) {
     EXPECT_FALSE(says("a", kNothing)) << "it held nothing";
     EXPECT_TRUE(says("a", kAhead));
     EXPECT_TRUE(says("a", kBack));
-    EXPECT_EQ(helm_.pilot(now_), "a");
+    EXPECT_EQ(arbitration_.pilot(now_), "a");
     EXPECT_TRUE(says("a", kNothing)) << "the submarine must hear that it lets go";
-    EXPECT_EQ(helm_.pilot(now_), std::nullopt);
+    EXPECT_EQ(arbitration_.pilot(now_), std::nullopt);
     EXPECT_FALSE(says("a", kNothing));
 }
 
-TEST_F(HelmTest, theLatestThatTakesHoldWins) {
+TEST_F(InputArbitrationTest, theLatestThatTakesHoldWins) {
     EXPECT_TRUE(says("a", kAhead));
     EXPECT_TRUE(says("b", kBack));
     EXPECT_FALSE(says("a", kAhead)) << "it holds on, but b came later";
     EXPECT_FALSE(says("a", kNothing)) << "nor does its letting go let b's go";
-    EXPECT_EQ(helm_.pilot(now_), "b");
+    EXPECT_EQ(arbitration_.pilot(now_), "b");
     EXPECT_TRUE(says("a", kAhead)) << "it takes hold anew";
     EXPECT_FALSE(says("b", kBack));
     EXPECT_TRUE(says("a", kNothing));
     EXPECT_TRUE(says("b", kBack)) << "still held, and the helm is free";
 }
 
-TEST_F(HelmTest, aHandThatFallsSilentLosesTheHelm) {
+TEST_F(InputArbitrationTest, aHandThatFallsSilentLosesTheHelm) {
     EXPECT_TRUE(says("a", kAhead));
     EXPECT_TRUE(says("b", kBack));
-    EXPECT_EQ(helm_.pilot(now_ + milliseconds(600)), std::nullopt);
+    EXPECT_EQ(arbitration_.pilot(now_ + milliseconds(600)), std::nullopt);
     EXPECT_TRUE(says("a", kAhead, 600));
 }
 
-TEST_F(HelmTest, aFloodIsHeardNowAndThenAndItsEndAtOnce) {
+TEST_F(InputArbitrationTest, aFloodIsHeardNowAndThenAndItsEndAtOnce) {
     int heard = 0;
     for (int i = 0; i < 1000; ++i) heard += says("a", kAhead, 1) ? 1 : 0;
     EXPECT_LE(heard, 130);
@@ -61,7 +61,7 @@ TEST_F(HelmTest, aFloodIsHeardNowAndThenAndItsEndAtOnce) {
     EXPECT_TRUE(says("a", kNothing, 0));
 }
 
-TEST_F(HelmTest, whoOnlyTriesToBeRememberedIsNot) {
+TEST_F(InputArbitrationTest, whoOnlyTriesToBeRememberedIsNot) {
     int heard = 0;
     for (int i = 0; i < 10000; ++i) heard += says(std::to_string(i), kAhead, 0) ? 1 : 0;
     EXPECT_LE(heard, 256);

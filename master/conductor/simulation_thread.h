@@ -13,21 +13,21 @@
 
 #include "common/net/bounded_queue.h"
 #include "master/conductor/simulation.h"
-#include "master/conductor/timeline.h"
+#include "master/conductor/snapshot_buffer.h"
 
 namespace aquarama::conductor {
 
-class Ticker {
+class SimulationThread {
   public:
     // onTick is called from the tick thread after every tick. lastTick: lockstep simulates no
     // further.
-    Ticker(Simulation& simulation,
-           wire::Pace pace,
-           std::optional<Tick> lastTick,
-           std::function<void()> onTick);
-    ~Ticker();
-    Ticker(const Ticker&) = delete;
-    Ticker& operator=(const Ticker&) = delete;
+    SimulationThread(Simulation& simulation,
+                     wire::Pace pace,
+                     std::optional<Tick> lastTick,
+                     std::function<void()> onTick);
+    ~SimulationThread();
+    SimulationThread(const SimulationThread&) = delete;
+    SimulationThread& operator=(const SimulationThread&) = delete;
 
     [[nodiscard]] std::optional<Snapshot> take();
     // Live only: a lockstep show is the same every time.
@@ -54,8 +54,8 @@ class Ticker {
     Simulation& simulation_;
     std::optional<Tick> lastTick_;
     std::function<void()> onTick_;
-    // Less than a timeline keeps, so that lockstep finds every tick there.
-    net::BoundedQueue<Snapshot> snapshots_{Timeline::kKept / 2};
+    // Less than a snapshot buffer keeps, so that lockstep finds every tick there.
+    net::BoundedQueue<Snapshot> snapshots_{SnapshotBuffer::kKept / 2};
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<Job> jobs_;

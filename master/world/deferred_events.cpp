@@ -11,29 +11,29 @@
 
 namespace aquarama::world {
 
-void World::perform(const fish::Deed& deed) {
-    switch (deed.kind) {
-        case fish::DeedKind::EatParticle:
-            if (!surroundings::takeFood(surroundings_.food, deed.object)) return;
-            beginSwallow(meals_, deed.fish, deed.object);
-            feed(deed.fish);
+void World::perform(const fish::DeferredEvent& event) {
+    switch (event.kind) {
+        case fish::DeferredEventKind::EatParticle:
+            if (!surroundings::takeFood(surroundings_.food, event.object)) return;
+            beginSwallow(meals_, event.fish, event.object);
+            feed(event.fish);
             ++counts_.meals;
             return;
-        case fish::DeedKind::EatFish:
-            if (motion::isAway(states_, deed.object)) return;
-            motion::setAway(states_, deed.object);
-            view_.signs[deed.object] = fish::kAway;
-            absences_.push_back(absenceFrom(seed_, deed.object, tick_));
-            feed(deed.fish);
-            minds_[deed.fish].sinceChase = fish::kLongAgo;  // one is enough for a chase
+        case fish::DeferredEventKind::EatFish:
+            if (motion::isAway(states_, event.object)) return;
+            motion::setAway(states_, event.object);
+            view_.signs[event.object] = fish::kAway;
+            absences_.push_back(absenceFrom(seed_, event.object, tick_));
+            feed(event.fish);
+            minds_[event.fish].sinceChase = fish::kLongAgo;  // one is enough for a chase
             ++counts_.catches;
             return;
-        case fish::DeedKind::Spawn:
+        case fish::DeferredEventKind::Spawn:
             // Whoever spawned in this very tick has no more to give.
-            if (minds_[deed.fish].sinceSpawning == 0 || minds_[deed.object].sinceSpawning == 0)
+            if (minds_[event.fish].sinceSpawning == 0 || minds_[event.object].sinceSpawning == 0)
                 return;
-            minds_[deed.fish].sinceSpawning = 0;
-            minds_[deed.object].sinceSpawning = 0;
+            minds_[event.fish].sinceSpawning = 0;
+            minds_[event.object].sinceSpawning = 0;
             ++counts_.spawnings;
             return;
     }
@@ -54,15 +54,15 @@ void World::receive() {
 }
 
 void World::arrive(std::uint32_t fish) {
-    const fish::Nature& nature = natures_[view_.kind[fish]];
+    const fish::SpeciesParameters& parameters = speciesParameters_[view_.kind[fish]];
     const glm::vec3 place = arrivalPlace(surroundings_, fish, tick_);
     const glm::vec3 inwards =
         place::directionOf(surroundings_.obstacles.water.centre - place, glm::vec3{1, 0, 0});
     placeFishAt(states_, fish, place, inwards);
-    motion::setSpeedBodyLengths(states_, fish, nature.medium);
+    motion::setSpeedBodyLengths(states_, fish, parameters.medium);
     const auto drawn = hashOf(seed_, static_cast<std::uint32_t>(tick_.value));
-    minds_[fish] = behaviour::freshMind(nature, drawn, fish);
-    courses_[fish] = {place::levelled(inwards), nature.medium, 0};
+    minds_[fish] = behaviour::freshMind(parameters, drawn, fish);
+    courses_[fish] = {place::levelled(inwards), parameters.medium, 0};
     view_.signs[fish] = 0;
     ++counts_.returns;
 }
