@@ -48,7 +48,7 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     const auto context = context::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
     const wall::ChannelFrustum frustum = wall::channelFrustum(rig, kMiddle, kMarginRadians);
     const project::ProjectionMap map = project::projectionMap(wall::warpMap(rig, kMiddle), frustum);
-    const body::FishBody body = test::scad();
+    const body::FishBody body = test::scadBody();
     const project::Projection projection(map, 0);
     const gl::Target target(GL_RGBA8, map.sizePixels);
     const test::RecordedSchool fish{schoolAround()};

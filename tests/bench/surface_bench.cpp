@@ -64,7 +64,8 @@ class DrawnSchool {
 
     DetailLevel level_;
     test::RecordedSchool school_;
-    std::vector<surface::SchoolSpecies> cast_{{test::scad(), {}, scadRepertoire(), school_.traits}};
+    std::vector<surface::SchoolSpecies> cast_{
+        {test::scadBody(), {}, scadRepertoire(), school_.traits}};
     surface::SchoolSurface surface_{cast_, {.culling = false}, surface::makeSkinPrograms()};
     gl::Framebuffer nowhere_;
 };

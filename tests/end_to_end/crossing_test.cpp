@@ -36,7 +36,7 @@ session::Admission admissionToTheSea() {
     admission.cast = {
         {.file = "bigeye_scad.txtpb",
          .text = show::fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
-         .repertoire = motion::encodeRepertoire(test::swaying(test::scad(), 0.05F)),
+         .repertoire = motion::encodeRepertoire(test::swaying(test::scadBody(), 0.05F)),
          .fish = 1}};
     return admission;
 }

@@ -25,11 +25,12 @@ struct SourceFile {
     std::vector<std::string> lines;
 };
 
-// All headers and sources of the product.
-std::vector<SourceFile> sourceFiles() {
+// All headers and sources of some folders.
+std::vector<SourceFile> sourceFiles(const std::vector<std::string>& tops = {
+                                        "common", "master", "render_node", "calibration"}) {
     std::vector<SourceFile> all;
     const fs::path root = AQUARAMA_SOURCE_DIR;
-    for (const char* top : {"common", "master", "render_node", "calibration"}) {
+    for (const std::string& top : tops) {
         for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
             if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
             SourceFile file{fs::relative(entry.path(), root), {}};
@@ -114,6 +115,24 @@ TEST(House, noTwoTypesShareAName) {
                                << file.path << ": rename one of them";
         }
     EXPECT_GT(home.size(), 300U);
+}
+
+// Headers of tests meet in the benchmarks' program, where the linker would keep one of two inline
+// functions that differ in their return type alone. By name and parameters, as the linker sees
+// them.
+TEST(House, noTwoTestHeadersDefineOneFunction) {
+    const std::regex definition(R"re(^(?:\[\[nodiscard\]\] )?inline [^=(]*?(\w+\([^{]*))re");
+    std::map<std::string, std::string> home;
+    std::smatch match;
+    for (const SourceFile& file : sourceFiles({"tests"}))
+        for (const std::string& line : file.lines) {
+            if (!file.path.ends_with(".h") || !std::regex_search(line, match, definition)) continue;
+            const std::string function = namespaceOf(file) + "::" + match[1].str();
+            const auto [known, isNew] = home.emplace(function, file.path);
+            EXPECT_TRUE(isNew || known->second == file.path)
+                << function << " is defined in " << known->second << " and in " << file.path;
+        }
+    EXPECT_GT(home.size(), 50U);
 }
 
 TEST(House, aFolderHasOneNamespace) {

@@ -95,7 +95,7 @@ class LimitTableOf : public testing::TestWithParam<int> {
     [[nodiscard]] bool isAttached(std::size_t firstIndex) const {
         return table_.indices[firstIndex] >= table_.skinVertices;
     }
-    const body::FishBody body_ = test::scad();
+    const body::FishBody body_ = test::scadBody();
     const LimitTable table_ = makeLimitTable(body_, GetParam());
 };
 
@@ -172,7 +172,7 @@ TEST_P(LimitTableOf, finTrianglesAreToldByTheirLastVertex) {
 INSTANTIATE_TEST_SUITE_P(Levels, LimitTableOf, testing::Values(0, 1, 2));
 
 TEST(LimitTable, level0IsTheControlMesh) {
-    const body::FishBody body = test::scad();
+    const body::FishBody body = test::scadBody();
     const LimitTable table = makeLimitTable(body, 0);
     const std::vector<glm::vec3> cage = bentCage(body);
     ASSERT_EQ(table.skinVertices, cage.size());
@@ -183,7 +183,7 @@ TEST(LimitTable, level0IsTheControlMesh) {
 // Where the control mesh takes over a fish fills some 160 pixels: the tips of its fins, which
 // change most, move by less than three.
 TEST(LimitTable, aChangeOfLevelMovesNoVertexFar) {
-    const body::FishBody body = test::scad();
+    const body::FishBody body = test::scadBody();
     const std::vector<glm::vec3> cage = bentCage(body);
     const LimitTable coarse = makeLimitTable(body, 1), fine = makeLimitTable(body, 2);
     for (std::size_t i = 0; i < body::kControlPoints; ++i) {
@@ -194,7 +194,7 @@ TEST(LimitTable, aChangeOfLevelMovesNoVertexFar) {
 }
 
 TEST(LimitTable, finerLevelsLieWhereEndlessRefinementLeads) {
-    const body::FishBody body = test::scad();
+    const body::FishBody body = test::scadBody();
     const std::vector<glm::vec3> cage = bentCage(body);
     const RefinedFar far = refineFar(body, cage);
     for (const int level : {1, 2}) {

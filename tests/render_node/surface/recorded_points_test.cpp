@@ -16,7 +16,7 @@ motion::Repertoire withoutControlPoints(motion::Repertoire repertoire) {
 
 // A ten-thousandth of a body length: nodal points are stored in 16 bits too.
 TEST(RecordedPoints, areTheSameWhenComputedFromNodalPoints) {
-    const body::FishBody body = test::scad();
+    const body::FishBody body = test::scadBody();
     const motion::Repertoire repertoire = test::swaying(body, 0.1F);
     const auto recorded = recordedPoints(body, repertoire);
     const auto computed = recordedPoints(body, withoutControlPoints(repertoire));
@@ -29,7 +29,7 @@ TEST(RecordedPoints, areTheSameWhenComputedFromNodalPoints) {
 }
 
 TEST(RecordedPoints, refuseANodalPoseThatCannotBeAFish) {
-    const body::FishBody body = test::scad();
+    const body::FishBody body = test::scadBody();
     motion::Repertoire repertoire = withoutControlPoints(test::swaying(body, 0.1F));
     for (auto& point : repertoire.segments[2].nodes[5]) point[0] = 32767;
     EXPECT_THROW(static_cast<void>(recordedPoints(body, repertoire)), Error);

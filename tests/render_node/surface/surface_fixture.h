@@ -112,7 +112,7 @@ class SurfaceTest : public testing::Test {
     }
 
     const gl::Buffer frameBlock_;
-    const body::FishBody body_ = scad();
+    const body::FishBody body_ = scadBody();
     const motion::Repertoire repertoire_ = swaying(body_, 0.12F);
     const glm::mat4 clip_ = clipFromCamera(1.0F, 1.5F);
 };

@@ -21,7 +21,7 @@
 
 namespace aquarama::test {
 
-inline body::FishBody scad() {
+inline body::FishBody scadBody() {
     return body::makeBody(config::readSpecies(std::string(AQUARAMA_SOURCE_DIR) +
                                               "/config/species/bigeye_scad.txtpb"));
 }
