@@ -2,10 +2,10 @@
 #include "master/behaviour/think.h"
 
 #include "master/behaviour/act/act.h"
-#include "master/behaviour/decide/intention_generator.h"
-#include "master/behaviour/decide/recommendation.h"
-#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/intention_generator.h"
+#include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/recommendation.h"
 #include "master/fish/drives.h"
 
 namespace aquarama::behaviour {
@@ -20,7 +20,7 @@ void think(const Environment& environment,
     fish::Mind mind = minds[fish];
     fish::passTime(parameters, mind);
     const Senses senses = perceive(environment, parameters, fish, mind);
-    const Feelings feelings = feel(parameters, mind, senses);
+    const fish::Feelings feelings = feel(parameters, mind, senses);
     remember(mind, decide(parameters, mind, senses, feelings));
     fish::Course course = act({environment, parameters, fish, senses, feelings}, mind, events);
     course.openToChange = environment.adaptation.recommendations &&

@@ -9,8 +9,8 @@
 
 #include "common/motion/repertoire.h"
 #include "common/units/ids.h"
-#include "master/behaviour/decide/intention_generator.h"
-#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/intention_generator.h"
+#include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/courses.h"
 #include "master/fish/minds.h"
@@ -27,7 +27,7 @@ struct Insight {
     bool away = false;  // eaten, or not yet come: it thinks nothing
     fish::Mind mind;    // as its last thought left it
     behaviour::Senses senses;
-    behaviour::Feelings feelings;
+    fish::Feelings feelings;
     behaviour::Reasoning reasoning;  // of a thought now; the mind may not have come to it yet
     fish::Course course;             // that it asks its motor for
     motion::Action segment = motion::Action::ForwardMedium;  // that is playing

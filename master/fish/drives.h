@@ -8,6 +8,13 @@
 
 namespace aquarama::fish {
 
+// What a fish feels at one thought, each 0 to 1: feel() of master/behaviour/mental_state.h.
+struct Feelings {
+    float hunger = 0, libido = 0;
+    float fear = 0;          // of all predators in sight together
+    float greatestFear = 0;  // of the most dangerous one
+};
+
 // r of Tu & Terzopoulos 1994: hunger or libido above this is heeded.
 inline constexpr float kDesire = 0.25F;
 

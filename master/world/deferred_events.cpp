@@ -5,7 +5,7 @@
 
 #include "common/place/angle.h"
 #include "common/units/hash.h"
-#include "master/behaviour/feel/temperament.h"
+#include "master/behaviour/temperament.h"
 #include "master/world/beginning.h"
 #include "master/world/world.h"
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "master/fish/gaits.h"
 #include "master/fish/species_parameters.h"
-#include "master/motor/gaits.h"
 #include "master/world/world.h"
 
 namespace aquarama::world {

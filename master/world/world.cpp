@@ -11,7 +11,7 @@
 #include "common/units/error.h"
 #include "common/units/folded_hash.h"
 #include "master/behaviour/act/school.h"
-#include "master/behaviour/feel/temperament.h"
+#include "master/behaviour/temperament.h"
 #include "master/behaviour/think.h"
 #include "master/fish/drives.h"
 #include "master/fish/signs.h"

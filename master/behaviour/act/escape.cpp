@@ -17,7 +17,7 @@ constexpr float kFlee = 2.5F;        // against the unit vector of one's own cou
 constexpr float kSharpStart = 1.0F;  // urgency from which the motor turns sharply
 
 // 0 where it only just leaves its school, 1 where the predator is so near that nothing else counts.
-float dread(const fish::SpeciesParameters& parameters, const Feelings& feelings) {
+float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
     const float more = feelings.greatestFear - parameters.habits.fearAlone;
     return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);
 }

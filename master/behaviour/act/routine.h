@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "master/behaviour/feel/mental_state.h"
 #include "master/behaviour/perceive/environment.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/courses.h"
+#include "master/fish/drives.h"
 #include "master/fish/minds.h"
 #include "master/fish/species_parameters.h"
 
@@ -20,7 +20,7 @@ struct Situation {
     const fish::SpeciesParameters& parameters;
     std::uint32_t fish;
     const Senses& senses;
-    const Feelings& feelings;
+    const fish::Feelings& feelings;
 };
 
 using DeferredEvents =

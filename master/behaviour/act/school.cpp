@@ -139,7 +139,7 @@ glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm
 
 // 0 up to the fear that is heeded, 1 from that on with which each flees for itself: a predator that
 // only goes about far off does not press a school together.
-float alarmOf(const fish::SpeciesParameters& parameters, const Feelings& feelings) {
+float alarmOf(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
     const float more = feelings.fear - parameters.habits.fearFrom;
     return std::clamp(
         more / std::max(parameters.habits.fearAlone - parameters.habits.fearFrom, 0.01F),

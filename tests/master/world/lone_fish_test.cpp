@@ -9,7 +9,7 @@
 
 #include "common/place/angle.h"
 #include "master/behaviour/think.h"
-#include "master/motor/secondary_controller.h"
+#include "master/fish/secondary_controller.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
 namespace aquarama::world {

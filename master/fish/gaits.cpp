@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/motor/gaits.h"
+#include "master/fish/gaits.h"
 
 #include "common/units/ids.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What single fish draw from the ranges of their species.
-#include "master/behaviour/feel/temperament.h"
+#include "master/behaviour/temperament.h"
 
 #include <gtest/gtest.h>
 
-#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/mental_state.h"
 #include "master/fish/drives.h"
 
 namespace aquarama::behaviour {
@@ -80,7 +80,7 @@ TEST(Mood, beginsAsTheSceneWantsIt) {
         for (const float libido : {0.0F, 0.3F, 0.8F}) {
             fish::Mind mind;
             fish::setMood(parameters, hunger, libido, mind);
-            const Feelings feelings = feel(parameters, mind, {});
+            const fish::Feelings feelings = feel(parameters, mind, {});
             EXPECT_NEAR(feelings.hunger, hunger, 0.01F);
             // Who hungers wholly has no libido, whatever the scene says.
             const float most = std::min(libido, 1 - hunger);

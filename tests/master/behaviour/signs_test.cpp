@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/intention_generator.h"
 
 namespace aquarama::behaviour {
 namespace {

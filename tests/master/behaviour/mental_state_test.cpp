@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hunger, libido and fear over time, against their closed forms.
-#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/mental_state.h"
 
 #include <cmath>
 #include <cstdint>
@@ -103,7 +103,7 @@ TEST(Libido, growsToOneWithTimeAndIsSuppressedByHunger) {
     for (int thought = 1; thought <= 3000; ++thought) {
         fish::passTime(parameters, mind);
         const float seconds = static_cast<float>(thought) * kThoughtSeconds;
-        const Feelings feelings = feel(parameters, mind, lonely());
+        const fish::Feelings feelings = feel(parameters, mind, lonely());
         const float grown = std::min(1.0F, parameters.habits.libidoPerSecond * seconds);
         ASSERT_NEAR(feelings.libido, grown * (1 - feelings.hunger), 2e-5F) << seconds << " s";
     }
@@ -135,11 +135,11 @@ TEST(Fear, addsUpOverThePredatorsInSightAndIsCutAtOne) {
     see(senses, 3.0F);
     EXPECT_NEAR(feel(parameters, fed(3), senses).fear, 0.3F, 1e-6F);
     see(senses, 4.5F);
-    const Feelings two = feel(parameters, fed(3), senses);
+    const fish::Feelings two = feel(parameters, fed(3), senses);
     EXPECT_NEAR(two.fear, 0.5F, 1e-6F);
     EXPECT_NEAR(two.greatestFear, 0.3F, 1e-6F);
     see(senses, 0.5F);
-    const Feelings three = feel(parameters, fed(3), senses);
+    const fish::Feelings three = feel(parameters, fed(3), senses);
     EXPECT_EQ(three.fear, 1);
     EXPECT_EQ(three.greatestFear, 1) << "nearer than D0 frightens wholly and no more";
 }

@@ -6,7 +6,7 @@
 
 #include "common/place/noise.h"
 #include "common/units/hash.h"
-#include "tests/master/behaviour/decide/fish_in_mind.h"
+#include "tests/master/behaviour/fish_in_mind.h"
 
 namespace aquarama::behaviour {
 namespace {

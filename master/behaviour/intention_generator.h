@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
 #include "master/fish/species_parameters.h"
@@ -23,7 +23,7 @@ struct Decision {
 [[nodiscard]] Decision decide(const fish::SpeciesParameters& parameters,
                               const fish::Mind& mind,
                               const Senses& senses,
-                              const Feelings& feelings);
+                              const fish::Feelings& feelings);
 
 // The mind with the decision taken: what it interrupts is remembered, what it resumes forgotten.
 void remember(fish::Mind& mind, const Decision& decision);
@@ -74,6 +74,6 @@ struct Reasoning {
 [[nodiscard]] Reasoning reason(const fish::SpeciesParameters& parameters,
                                const fish::Mind& mind,
                                const Senses& senses,
-                               const Feelings& feelings);
+                               const fish::Feelings& feelings);
 
 }  // namespace aquarama::behaviour

@@ -3,21 +3,16 @@
 #pragma once
 
 #include "master/behaviour/perceive/senses.h"
+#include "master/fish/drives.h"
 #include "master/fish/minds.h"
 #include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
-struct Feelings {
-    float hunger = 0, libido = 0;
-    float fear = 0;          // of all predators in sight together
-    float greatestFear = 0;  // of the most dangerous one
-};
-
 // Hunger H = 1 - n_e R / alpha + a_h S_h, libido L = s (1 - H) + a_l S_l, fear F = sum of
 // min(D0 / d, 1) over the predators in sight.
-[[nodiscard]] Feelings feel(const fish::SpeciesParameters& parameters,
-                            const fish::Mind& mind,
-                            const Senses& senses);
+[[nodiscard]] fish::Feelings feel(const fish::SpeciesParameters& parameters,
+                                  const fish::Mind& mind,
+                                  const Senses& senses);
 
 }  // namespace aquarama::behaviour

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/motor/secondary_controller.h"
+#include "master/fish/secondary_controller.h"
 
 #include <cmath>
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/feel/temperament.h"
+#include "master/behaviour/temperament.h"
 
 #include "common/units/ids.h"
 #include "common/units/random_streams.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/decide/recommendation.h"
+#include "master/behaviour/recommendation.h"
 
 namespace aquarama::behaviour {
 
@@ -19,7 +19,7 @@ bool isFarFromMeal(const fish::SpeciesParameters& parameters, const Senses& sens
 bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
                            const fish::Mind& mind,
                            const Senses& senses,
-                           const Feelings& feelings) {
+                           const fish::Feelings& feelings) {
     if (senses.urgency > kCalm || feelings.fear > parameters.habits.fearFrom) return false;
     switch (mind.intention) {
         case fish::Intention::Wander:

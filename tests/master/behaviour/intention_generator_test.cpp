@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The published order of priorities, the roles, memory and persistence.
-#include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/intention_generator.h"
 
 #include <gtest/gtest.h>
 
 #include "common/units/hash.h"
-#include "tests/master/behaviour/decide/fish_in_mind.h"
+#include "tests/master/behaviour/fish_in_mind.h"
 
 namespace aquarama::behaviour {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/mental_state.h"
 
 #include <algorithm>
 
@@ -42,10 +42,10 @@ float fearOf(const fish::SpeciesParameters& parameters, const Sighting& predator
 
 }  // namespace
 
-Feelings feel(const fish::SpeciesParameters& parameters,
-              const fish::Mind& mind,
-              const Senses& senses) {
-    Feelings feelings;
+fish::Feelings feel(const fish::SpeciesParameters& parameters,
+                    const fish::Mind& mind,
+                    const Senses& senses) {
+    fish::Feelings feelings;
     feelings.hunger = hungerOf(parameters, mind, senses);
     feelings.libido = libidoOf(parameters, mind, senses, feelings.hunger);
     for (std::size_t i = 0; i < senses.predatorCount; ++i) {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/intention_generator.h"
 #include "master/fish/drives.h"
 
 namespace aquarama::behaviour {
@@ -63,7 +63,7 @@ struct FishInMind {
     fish::SpeciesParameters parameters;
     fish::Mind mind;
     Senses senses;
-    Feelings feelings;
+    fish::Feelings feelings;
 };
 
 }  // namespace aquarama::behaviour

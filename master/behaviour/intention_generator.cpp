@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/decide/intention_generator.h"
+#include "master/behaviour/intention_generator.h"
 
 #include "common/units/ids.h"
 #include "master/fish/drives.h"
@@ -30,7 +30,7 @@ bool likesSchooling(const fish::SpeciesParameters& parameters, const fish::Mind&
 fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
                     const fish::Mind& mind,
                     const Senses& senses,
-                    const Feelings& feelings) {
+                    const fish::Feelings& feelings) {
     if (parameters.habits.role != config::Role::Prey) return fish::Alarm::Calm;
     const float heeded =
         parameters.habits.fearFrom * (mind.alarm == fish::Alarm::Calm ? 1 : fish::kHysteresis);
@@ -47,7 +47,7 @@ struct Case {
     const fish::SpeciesParameters& parameters;
     const fish::Mind& mind;
     const Senses& senses;
-    const Feelings& feelings;
+    const fish::Feelings& feelings;
     fish::Aim aim = fish::aimOf(mind);
     fish::Alarm alarm = alarmOf(parameters, mind, senses, feelings);
 
@@ -217,7 +217,7 @@ void applyRules(const Case& of, const IsEnough& isEnough) {
 Decision decide(const fish::SpeciesParameters& parameters,
                 const fish::Mind& mind,
                 const Senses& senses,
-                const Feelings& feelings) {
+                const fish::Feelings& feelings) {
     const Case of{parameters, mind, senses, feelings};
     Decision decision{.alarm = of.alarm};
     applyRules(of, [&](PriorityRule, const Weighed& rule) {
@@ -232,7 +232,7 @@ Decision decide(const fish::SpeciesParameters& parameters,
 Reasoning reason(const fish::SpeciesParameters& parameters,
                  const fish::Mind& mind,
                  const Senses& senses,
-                 const Feelings& feelings) {
+                 const fish::Feelings& feelings) {
     const Case of{parameters, mind, senses, feelings};
     Reasoning reasoning;
     reasoning.decision.alarm = of.alarm;

@@ -10,7 +10,7 @@
 #include "common/units/ids.h"
 #include "master/fish/courses.h"
 #include "master/fish/fish_view.h"
-#include "master/motor/gaits.h"
+#include "master/fish/gaits.h"
 
 namespace aquarama::fish {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/decide/recommendation.h"
+#include "master/behaviour/recommendation.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ struct Moment {
     fish::SpeciesParameters parameters;
     fish::Mind mind;
     Senses senses;
-    Feelings feelings;
+    fish::Feelings feelings;
 };
 
 TEST(Recommendation, isWelcomeAtEase) {

@@ -2,7 +2,7 @@
 // The intention generator's word on what the secondary controller recommends (paper, section 5.1).
 #pragma once
 
-#include "master/behaviour/feel/mental_state.h"
+#include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/minds.h"
 #include "master/fish/species_parameters.h"
@@ -15,6 +15,6 @@ namespace aquarama::behaviour {
 [[nodiscard]] bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
                                          const fish::Mind& mind,
                                          const Senses& senses,
-                                         const Feelings& feelings);
+                                         const fish::Feelings& feelings);
 
 }  // namespace aquarama::behaviour
