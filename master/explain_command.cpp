@@ -14,9 +14,9 @@
 #include "common/wire/recording.h"
 #include "master/commands.h"
 #include "master/conductor/ask.h"
-#include "master/production/living_world.h"
-#include "master/production/production.h"
-#include "master/record/playback.h"
+#include "master/simulation/assets.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/playback.h"
 
 namespace aquarama {
 
@@ -63,8 +63,8 @@ void explainReplay(const ExplainOptions& options) {
     if (options.tick > recording.lastTick().value)
         throw Error(options.recording + ": ends at tick " +
                     std::to_string(recording.lastTick().value) + "; choose an earlier one");
-    production::LivingWorld world(production::worldOptionsOf(recording.production));
-    record::Playback playback(recording, world);
+    simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
+    simulation::Playback playback(recording, world);
     while (world.tick().value < options.tick) playback.advance();
     if (playback.difference())
         std::cerr << options.recording << ": from tick " << playback.difference()->tick.value

@@ -23,10 +23,10 @@
 #include "common/wire/recording.h"
 #include "master/commands.h"
 #include "master/conductor/conductor.h"
-#include "master/production/living_world.h"
-#include "master/production/production.h"
-#include "master/record/playback.h"
-#include "master/record/recorder.h"
+#include "master/simulation/assets.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/playback.h"
+#include "master/simulation/recorder.h"
 
 namespace aquarama {
 
@@ -68,10 +68,9 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
 }
 
 // What the nodes are told of the cast, and the blobs that they may then ask for.
-std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& production,
-                                       conductor::Blobs& blobs) {
+std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& assets, conductor::Blobs& blobs) {
     std::vector<wire::SpeciesBlobs> cast;
-    for (const wire::SpeciesAssets& species : production.cast) {
+    for (const wire::SpeciesAssets& species : assets.cast) {
         const auto text = std::as_bytes(std::span{species.text});
         cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
         blobs.emplace(cast.back().species, net::ByteVector{text.begin(), text.end()});
@@ -82,8 +81,8 @@ std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& production,
 
 // What is shown: the living world, or a recorded or replayed one about it.
 struct Shown {
-    const wire::AssetBundle& production;
-    const production::LivingWorld& world;
+    const wire::AssetBundle& assets;
+    const simulation::LivingWorld& world;
     conductor::Simulation& simulation;
 };
 
@@ -96,8 +95,8 @@ void show(const config::Rig& rig,
     conductor::Blobs blobs;
     wire::Welcome welcome;
     welcome.rigText = config::writeRig(rig);
-    welcome.sceneText = shown.production.scene;
-    welcome.cast = castOf(shown.production, blobs);
+    welcome.sceneText = shown.assets.scene;
+    welcome.cast = castOf(shown.assets, blobs);
     const auto school = shown.world.world().traits();
     welcome.school.assign(school.begin(), school.end());
     conductor::Conductor conductor(
@@ -110,16 +109,16 @@ void show(const config::Rig& rig,
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
-    const wire::AssetBundle production = production::readProduction(
+    const wire::AssetBundle assets = simulation::readAssets(
         options.scenePath.empty() ? config::scenePathOf(rig, options.rigPath) : options.scenePath,
         {.seed = options.seed, .fish = options.fish});
-    production::LivingWorld world(production::worldOptionsOf(production));
+    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
     const conductor::ConductorOptions conducting = conductorOptions(rig, options);
     if (options.recordPath.empty())
-        return show(rig, conducting, {production, world, world}, std::move(channels));
-    record::RecordingFile file(options.recordPath, production);
-    record::RecordedWorld recorded(world, file);
-    show(rig, conducting, {production, world, recorded}, std::move(channels));
+        return show(rig, conducting, {assets, world, world}, std::move(channels));
+    simulation::RecordingFile file(options.recordPath, assets);
+    simulation::RecordedWorld recorded(world, file);
+    show(rig, conducting, {assets, world, recorded}, std::move(channels));
 }
 
 void showAgain(const config::Rig& rig,
@@ -128,9 +127,9 @@ void showAgain(const config::Rig& rig,
     const wire::Recording recording = wire::readRecording(options.replayPath);
     for (const std::string& doubt : wire::doubtsAbout(recording))
         logWarning("{}: {}", options.replayPath, doubt);
-    production::LivingWorld world(production::worldOptionsOf(recording.production));
+    simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
-    conducting.seed = recording.production.seed;
+    conducting.seed = recording.assets.seed;
     // In lockstep the world runs ahead of the frames: there these are counted.
     conductor::Conductor* running = nullptr;
     std::function<void()> onEnd = [&running] { running->stop(); };
@@ -139,8 +138,8 @@ void showAgain(const config::Rig& rig,
         conducting.frames = std::min(conducting.frames.value_or(frames), frames);
         onEnd = [] {};
     }
-    record::ReplayedWorld replayed(recording, world, onEnd);
-    show(rig, conducting, {recording.production, world, replayed}, std::move(channels), &running);
+    simulation::ReplayedWorld replayed(recording, world, onEnd);
+    show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
 }
 
 void runMaster(const MasterOptions& options) {
@@ -148,7 +147,7 @@ void runMaster(const MasterOptions& options) {
     const config::Rig rig = config::readRig(options.rigPath);
     wall::checkGeometry(rig, options.rigPath);
     cli::requireFolder("--trace", options.traceFolder);
-    if (!options.recordPath.empty()) record::requireNewRecording(options.recordPath);
+    if (!options.recordPath.empty()) simulation::requireNewRecording(options.recordPath);
     cli::requireFile("--record", options.recordPath);
     auto channels = net::bindMaster(rig.controlAddress, rig.stateAddress);
     (options.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));

@@ -10,9 +10,9 @@
 #include "common/units/error.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
-#include "master/production/living_world.h"
-#include "master/production/production.h"
-#include "master/record/playback.h"
+#include "master/simulation/assets.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/playback.h"
 
 namespace aquarama {
 
@@ -26,8 +26,8 @@ void tell(const std::string& path, const wire::Recording& recording) {
 int check(const std::string& path) {
     const wire::Recording recording = wire::readRecording(path);
     tell(path, recording);
-    production::LivingWorld world(production::worldOptionsOf(recording.production));
-    record::Playback playback(recording, world);
+    simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
+    simulation::Playback playback(recording, world);
     while (!playback.over()) playback.advance();
     std::cout << fmt::format("{}: {} ticks, {} inputs, {} hashes compared\n",
                              path,
@@ -41,7 +41,7 @@ int check(const std::string& path) {
             "{}: the replay is the same world, its hash is {:016x}\n", path, world.hash());
         return 0;
     }
-    const record::Difference& found = *playback.difference();
+    const simulation::Difference& found = *playback.difference();
     std::cout << fmt::format(
         "{}: differs at tick {} (recorded {:016x}, replayed {:016x}); {}\n",
         path,
@@ -77,7 +77,7 @@ std::string wordsFor(const wire::RecordedInput& input) {
 int inspect(const std::string& path) {
     constexpr std::size_t kMostInputsShown = 20;
     const wire::Recording recording = wire::readRecording(path);
-    const wire::AssetBundle& production = recording.production;
+    const wire::AssetBundle& assets = recording.assets;
     std::cout << fmt::format(
         "{}: a recording of a show\n"
         "written by   {} (protocol {})\n"
@@ -89,9 +89,9 @@ int inspect(const std::string& path) {
         recording.protocol,
         recording.lastTick().value,
         static_cast<double>(recording.lastTick().value) / kTicksPerSecond,
-        production.seed,
-        production.scene.size());
-    for (const wire::SpeciesAssets& species : production.cast)
+        assets.seed,
+        assets.scene.size());
+    for (const wire::SpeciesAssets& species : assets.cast)
         std::cout << fmt::format("species      {:>7} of {}, repertoire {} of {} bytes\n",
                                  species.fish,
                                  species.file.substr(species.file.rfind(' ') + 1),

@@ -92,7 +92,7 @@ class Reader {
 
     Recording read() {
         readHeader();
-        while (recording_.production.cast.size() < speciesCount_) readSpecies();
+        while (recording_.assets.cast.size() < speciesCount_) readSpecies();
         while (!recording_.end && nextEntry()) readEvent();
         if (recording_.end && at_ != bytes_.size()) fail("goes on behind its end");
         return std::move(recording_);
@@ -149,9 +149,9 @@ class Reader {
             fail("has a damaged header");
         recording_.protocol = header.protocol();
         recording_.build = printed(header.build());
-        recording_.production.seed = header.seed();
-        recording_.production.sceneFile = source_ + ": its scene";
-        recording_.production.scene = header.scene();
+        recording_.assets.seed = header.seed();
+        recording_.assets.sceneFile = source_ + ": its scene";
+        recording_.assets.scene = header.scene();
         speciesCount_ = header.species_count();
     }
 
@@ -164,10 +164,10 @@ class Reader {
             fail("has a damaged species");
         fish_ += species.fish();
         const auto* first = reinterpret_cast<const std::byte*>(species.repertoire().data());
-        recording_.production.cast.push_back({source_ + ": its " + printed(species.file()),
-                                              species.text(),
-                                              {first, first + species.repertoire().size()},
-                                              species.fish()});
+        recording_.assets.cast.push_back({source_ + ": its " + printed(species.file()),
+                                          species.text(),
+                                          {first, first + species.repertoire().size()},
+                                          species.fish()});
     }
 
     void readEvent() {
@@ -261,18 +261,18 @@ Tick Recording::lastTick() const {
     return last;
 }
 
-Packet beginningOf(const AssetBundle& production) {
+Packet beginningOf(const AssetBundle& assets) {
     v1::RecordingEntry entry;
     v1::RecordingHeader& header = *entry.mutable_header();
     header.set_magic(std::string(kMagic));
     header.set_version(kRecordingVersion);
     header.set_protocol(kProtocolMajor);
     header.set_build(AQUARAMA_VERSION);
-    header.set_seed(production.seed);
-    header.set_scene(production.scene);
-    header.set_species_count(static_cast<std::uint32_t>(production.cast.size()));
+    header.set_seed(assets.seed);
+    header.set_scene(assets.scene);
+    header.set_species_count(static_cast<std::uint32_t>(assets.cast.size()));
     Packet bytes = delimited(entry);
-    for (const SpeciesAssets& species : production.cast) {
+    for (const SpeciesAssets& species : assets.cast) {
         write(species, *entry.mutable_species());
         append(bytes, delimited(entry));
     }

@@ -66,7 +66,7 @@ struct RecordedHash {
 struct Recording {
     std::uint32_t protocol = kProtocolMajor;
     std::string build;
-    AssetBundle production;
+    AssetBundle assets;
     std::vector<RecordedInput> inputs;      // in the order in which they came
     std::vector<RecordedHash> checkpoints;  // in the order of ticks
     std::optional<RecordedHash> end;        // without: the recording was cut short
@@ -76,7 +76,7 @@ struct Recording {
 };
 
 // The file, piece by piece: first beginningOf(), at last endOf().
-[[nodiscard]] Packet beginningOf(const AssetBundle& production);
+[[nodiscard]] Packet beginningOf(const AssetBundle& assets);
 [[nodiscard]] Packet entryOf(const RecordedInput& input);
 [[nodiscard]] Packet entryOf(const RecordedHash& checkpoint);
 [[nodiscard]] Packet endOf(const RecordedHash& end);

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "common/config/species.h"
-#include "master/production/production.h"
+#include "master/simulation/assets.h"
 
 namespace aquarama::study {
 
@@ -22,12 +22,12 @@ float halfWidthOf(const wire::SpeciesAssets& species) {
 }  // namespace
 
 Scenario readScenario(const std::filesystem::path& scene) {
-    const wire::AssetBundle production = production::readProduction(scene.string(), {});
+    const wire::AssetBundle assets = simulation::readAssets(scene.string(), {});
     Scenario scenario;
-    scenario.world = production::worldOptionsOf(production);
+    scenario.world = simulation::worldOptionsOf(assets);
     scenario.world.scene.tour.reset();  // fish are measured, not how they make way
     scenario.name = scenario.world.scene.name;
-    for (const wire::SpeciesAssets& species : production.cast)
+    for (const wire::SpeciesAssets& species : assets.cast)
         scenario.halfWidths.push_back(halfWidthOf(species));
     return scenario;
 }

@@ -27,11 +27,11 @@ int fuzzRecording(const std::uint8_t* bytes, std::size_t size) {
         const wire::Recording recording =
             wire::decodeRecording(std::as_bytes(std::span(bytes, size)), "fuzzed");
         std::size_t fish = 0;
-        for (const wire::SpeciesAssets& species : recording.production.cast) fish += species.fish;
+        for (const wire::SpeciesAssets& species : recording.assets.cast) fish += species.fish;
         promise(fish <= kMostFish, "the fish of a recording are bounded");
         for (const wire::RecordedInput& input : recording.inputs)
             promise(input.tick <= recording.lastTick(), "nothing comes after the last tick");
-        wire::Packet again = wire::beginningOf(recording.production);
+        wire::Packet again = wire::beginningOf(recording.assets);
         const wire::Packet events = inputsOf(recording);
         again.insert(again.end(), events.begin(), events.end());
         promise(inputsOf(wire::decodeRecording(again, "again")) == events,

@@ -5,20 +5,20 @@
 
 #include "common/config/scene.h"
 #include "common/units/digest.h"
-#include "master/production/living_world.h"
-#include "master/production/production.h"
+#include "master/simulation/assets.h"
+#include "master/simulation/living_world.h"
 
 namespace aquarama::bench {
 
 namespace {
 
-session::Admission admissionTo(const wire::AssetBundle& production, const world::World& world) {
+session::Admission admissionTo(const wire::AssetBundle& assets, const world::World& world) {
     session::Admission admission;
-    admission.welcome.seed = production.seed;
+    admission.welcome.seed = assets.seed;
     const auto school = world.traits();
     admission.welcome.school.assign(school.begin(), school.end());
-    admission.scene = config::parseScene(production.scene, production.sceneFile);
-    for (const wire::SpeciesAssets& species : production.cast) {
+    admission.scene = config::parseScene(assets.scene, assets.sceneFile);
+    for (const wire::SpeciesAssets& species : assets.cast) {
         const auto text = std::as_bytes(std::span{species.text});
         admission.welcome.cast.push_back(
             {digestOf(text), digestOf(species.repertoire), species.fish});
@@ -27,7 +27,7 @@ session::Admission admissionTo(const wire::AssetBundle& production, const world:
     return admission;
 }
 
-wire::StateFrame frameAfter(const production::LivingWorld& world, const wire::StateFrame& last) {
+wire::StateFrame frameAfter(const simulation::LivingWorld& world, const wire::StateFrame& last) {
     wire::FoodCloud food;
     world.food(food);
     wire::StateFrame frame{.frame = {last.frame.value + 1},
@@ -50,11 +50,10 @@ Sea makeSea(const std::string& scenePath,
             std::optional<std::uint32_t> fish,
             int ticksBefore,
             int frames) {
-    const wire::AssetBundle production =
-        production::readProduction(scenePath, {.seed = 1, .fish = fish});
-    production::LivingWorld world(production::worldOptionsOf(production));
+    const wire::AssetBundle assets = simulation::readAssets(scenePath, {.seed = 1, .fish = fish});
+    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
     for (int i = 0; i < ticksBefore; ++i) world.advance();
-    Sea sea{admissionTo(production, world.world()), {}};
+    Sea sea{admissionTo(assets, world.world()), {}};
     wire::StateFrame last = frameAfter(world, {});
     for (int i = 0; i < frames; ++i) {
         world.advance();

@@ -28,12 +28,12 @@ std::string refusalOf(const Packet& file) {
 TEST(RecordingFormat, everyEntryComesBack) {
     const Recording recording = decodeRecording(joined(sampleEntries()), "show.aqrec");
     EXPECT_EQ(recording.protocol, kProtocolMajor);
-    EXPECT_EQ(recording.production.seed, 4000000000U);
-    EXPECT_EQ(recording.production.scene, sampleProduction().scene);
-    ASSERT_EQ(recording.production.cast.size(), 2U);
-    EXPECT_EQ(recording.production.cast[0].text, sampleProduction().cast[0].text);
-    EXPECT_EQ(recording.production.cast[0].repertoire, sampleProduction().cast[0].repertoire);
-    EXPECT_EQ(recording.production.cast[0].fish, 51U);
+    EXPECT_EQ(recording.assets.seed, 4000000000U);
+    EXPECT_EQ(recording.assets.scene, sampleAssets().scene);
+    ASSERT_EQ(recording.assets.cast.size(), 2U);
+    EXPECT_EQ(recording.assets.cast[0].text, sampleAssets().cast[0].text);
+    EXPECT_EQ(recording.assets.cast[0].repertoire, sampleAssets().cast[0].repertoire);
+    EXPECT_EQ(recording.assets.cast[0].fish, 51U);
     ASSERT_EQ(recording.inputs.size(), 3U);
     EXPECT_EQ(recording.inputs[0].tick, Tick{17});
     const auto& food = std::get<RecordedFood>(recording.inputs[0].input);
@@ -52,7 +52,7 @@ TEST(RecordingFormat, everyEntryComesBack) {
 
 TEST(RecordingFormat, errorsNameTheFileOfASpeciesButNotItsFolder) {
     const Recording recording = decodeRecording(joined(sampleEntries()), "show.aqrec");
-    EXPECT_EQ(recording.production.cast[0].file, "show.aqrec: its scad.txtpb");
+    EXPECT_EQ(recording.assets.cast[0].file, "show.aqrec: its scad.txtpb");
 }
 
 // Whatever ended the program that wrote it.
@@ -119,16 +119,16 @@ TEST(RecordingFormat, whatCannotBeIsRefusedWithItsPlace) {
                 HasSubstr("beyond full"));
     EXPECT_THAT(refusal(entryOf(RecordedInput{{700}, RecordedFood{{}, 1U << 30U}})),
                 HasSubstr("input"));
-    EXPECT_THAT(refusal(beginningOf(sampleProduction())), HasSubstr("cannot be there"));
+    EXPECT_THAT(refusal(beginningOf(sampleAssets())), HasSubstr("cannot be there"));
     EXPECT_THAT(refusal(Packet{std::byte{0}}), HasSubstr("byte"));
     EXPECT_THAT(refusal(Packet(5, std::byte{0xFF})), HasSubstr("damaged"));
     EXPECT_THAT(refusal(endOf({{700}, 0})), HasSubstr("behind its end"));
 }
 
 TEST(RecordingFormat, moreFishThanAWorldHoldsAreRefused) {
-    AssetBundle production = sampleProduction();
-    production.cast[1].fish = kMostFish - 50;
-    EXPECT_THAT(refusalOf(beginningOf(production)), HasSubstr("damaged species"));
+    AssetBundle assets = sampleAssets();
+    assets.cast[1].fish = kMostFish - 50;
+    EXPECT_THAT(refusalOf(beginningOf(assets)), HasSubstr("damaged species"));
 }
 
 // A length that promises more than there is takes no memory.

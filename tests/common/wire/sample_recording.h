@@ -8,7 +8,7 @@
 
 namespace aquarama::wire {
 
-inline AssetBundle sampleProduction() {
+inline AssetBundle sampleAssets() {
     const std::vector<std::byte> repertoire(300, std::byte{0x5A});
     return {4000000000U,
             "scene.txtpb",
@@ -19,7 +19,7 @@ inline AssetBundle sampleProduction() {
 
 // Its entries one by one, the header and the species first.
 inline std::vector<Packet> sampleEntries() {
-    return {beginningOf(sampleProduction()),
+    return {beginningOf(sampleAssets()),
             entryOf(RecordedHash{{0}, 0xFEDCBA9876543210U}),
             entryOf(RecordedInput{{17}, RecordedFood{{1.5F, -2.0F, 30.25F}, 12}}),
             entryOf(RecordedInput{{17}, Steering{127, -127, 0, 5, -1}}),

@@ -8,7 +8,7 @@
 
 #include "master/conductor/simulation.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 
 class SimulationDecorator : public conductor::Simulation {
   public:
@@ -27,4 +27,4 @@ class SimulationDecorator : public conductor::Simulation {
     conductor::Simulation& world_;
 };
 
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/explain/lines.h"
+#include "master/simulation/lines.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include "common/place/angle.h"
 #include "common/units/ids.h"
 
-namespace aquarama::explain {
+namespace aquarama::simulation {
 
 namespace {
 
@@ -291,4 +291,4 @@ std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& ot
     return Screen(insight, others).drawn();
 }
 
-}  // namespace aquarama::explain
+}  // namespace aquarama::simulation

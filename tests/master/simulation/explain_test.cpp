@@ -6,14 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "common/wire/envelope.h"
-#include "master/explain/insight.h"
-#include "master/explain/lines.h"
-#include "master/production/living_world.h"
-#include "master/production/production.h"
+#include "master/simulation/assets.h"
+#include "master/simulation/insight.h"
+#include "master/simulation/lines.h"
+#include "master/simulation/living_world.h"
 #include "tests/master/world/few_fish.h"
-#include "tests/support/synthetic_production.h"
+#include "tests/support/synthetic_assets.h"
 
-namespace aquarama::explain {
+namespace aquarama::simulation {
 namespace {
 
 using testing::AllOf;
@@ -21,14 +21,14 @@ using testing::Contains;
 using testing::HasSubstr;
 
 // A world that has lived for so many ticks.
-struct Lived final : production::LivingWorld {
-    Lived(const world::WorldOptions& options, int ticks) : production::LivingWorld(options) {
+struct Lived final : LivingWorld {
+    Lived(const world::WorldOptions& options, int ticks) : LivingWorld(options) {
         for (int i = 0; i < ticks; ++i) advance();
     }
 };
 
 TEST(Explain, lookingIntoAMindChangesNothing) {
-    const world::WorldOptions options = production::worldOptionsOf(test::syntheticProduction());
+    const world::WorldOptions options = worldOptionsOf(test::syntheticAssets());
     Lived watched(options, 200);
     Lived alone(options, 200);
     for (int tick = 0; tick < 60; ++tick) {
@@ -42,7 +42,7 @@ TEST(Explain, lookingIntoAMindChangesNothing) {
 
 // The nodes draw it, terminals print it.
 TEST(Explain, everyMindFitsOnAScreenOfPlainText) {
-    Lived world(production::worldOptionsOf(test::syntheticProduction()), 100);
+    Lived world(worldOptionsOf(test::syntheticAssets()), 100);
     for (int tick = 0; tick < 300; ++tick) {
         world.advance();
         for (std::uint32_t fish = 0; fish < 41; ++fish) {
@@ -59,7 +59,7 @@ TEST(Explain, everyMindFitsOnAScreenOfPlainText) {
 }
 
 TEST(Explain, aFishThatIsNotThereHasNoLines) {
-    const Lived world(production::worldOptionsOf(test::syntheticProduction()), 1);
+    const Lived world(worldOptionsOf(test::syntheticAssets()), 1);
     const wire::Explanation explanation = world.explain(41);
     EXPECT_EQ(explanation.school, 41U);
     EXPECT_TRUE(explanation.lines.empty());
@@ -67,7 +67,7 @@ TEST(Explain, aFishThatIsNotThereHasNoLines) {
 
 // Exactly one rule wins; whatever is after it has lost, each for a reason that is printed.
 TEST(Explain, oneIntentionWinsAndEveryOtherSaysWhyItLost) {
-    Lived world(production::worldOptionsOf(test::syntheticProduction()), 300);
+    Lived world(worldOptionsOf(test::syntheticAssets()), 300);
     for (std::uint32_t fish = 0; fish < 41; ++fish) {
         const auto insight = insightInto(world.world(), fish);
         ASSERT_TRUE(insight);
@@ -112,4 +112,4 @@ TEST(Explain, anEatenFishIsSaidToBeAway) {
 }
 
 }  // namespace
-}  // namespace aquarama::explain
+}  // namespace aquarama::simulation

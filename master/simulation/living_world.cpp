@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/production/living_world.h"
+#include "master/simulation/living_world.h"
 
 #include "common/wire/food_record.h"
-#include "master/explain/insight.h"
-#include "master/explain/lines.h"
+#include "master/simulation/insight.h"
+#include "master/simulation/lines.h"
 
-namespace aquarama::production {
+namespace aquarama::simulation {
 
 namespace {
 
@@ -46,9 +46,9 @@ wire::Eye LivingWorld::eye() const {
 wire::Explanation LivingWorld::explain(std::uint32_t fish) const {
     wire::Explanation explanation{
         fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    if (const auto insight = explain::insightInto(world_, fish))
-        explanation.lines = explain::linesOf(*insight, {world_.view(), species_});
+    if (const auto insight = insightInto(world_, fish))
+        explanation.lines = linesOf(*insight, {world_.view(), species_});
     return explanation;
 }
 
-}  // namespace aquarama::production
+}  // namespace aquarama::simulation

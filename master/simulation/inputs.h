@@ -5,9 +5,9 @@
 #include "common/wire/recording.h"
 #include "master/world/input.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 
 [[nodiscard]] wire::RecordedInput recorded(Tick tick, const world::WorldInput& input);
 [[nodiscard]] world::WorldInput inputOf(const wire::RecordedInput& recorded);
 
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/production/production.h"
+#include "master/simulation/assets.h"
 
 #include <algorithm>
 #include <string>
@@ -18,7 +18,7 @@
 #include "master/capture/compile/progress_bar.h"
 #include "master/capture/compile/repertoire_cache.h"
 
-namespace aquarama::production {
+namespace aquarama::simulation {
 
 namespace {
 
@@ -71,35 +71,35 @@ config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
 
 }  // namespace
 
-wire::AssetBundle readProduction(const std::string& scenePath, const AssetChoice& choice) {
+wire::AssetBundle readAssets(const std::string& scenePath, const AssetChoice& choice) {
     const config::Scene scene = chosenScene(scenePath, choice);
     const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, scenePath);
     place::checkRoom(scene, scenePath, fishIn(scene), cast.front().species.size.meanMetres);
-    wire::AssetBundle production{.seed = choice.seed,
-                                 .sceneFile = scenePath,
-                                 .scene = config::writeScene(scene),
-                                 .cast = {}};
+    wire::AssetBundle assets{.seed = choice.seed,
+                             .sceneFile = scenePath,
+                             .scene = config::writeScene(scene),
+                             .cast = {}};
     std::vector<capture::RepertoireFile> captured = capturedOnce(cast);
     for (std::size_t i = 0; i < cast.size(); ++i)
-        production.cast.push_back(
+        assets.cast.push_back(
             {cast[i].path, cast[i].text, std::move(captured[i].bytes), scene.cast[i].fish});
-    return production;
+    return assets;
 }
 
-world::WorldOptions worldOptionsOf(const wire::AssetBundle& production) {
+world::WorldOptions worldOptionsOf(const wire::AssetBundle& assets) {
     world::WorldOptions options;
-    options.seed = production.seed;
-    options.scene = config::parseScene(production.scene, production.sceneFile);
-    if (options.scene.cast.size() != production.cast.size())
-        throw Error(production.sceneFile + ": its cast has " +
+    options.seed = assets.seed;
+    options.scene = config::parseScene(assets.scene, assets.sceneFile);
+    if (options.scene.cast.size() != assets.cast.size())
+        throw Error(assets.sceneFile + ": its cast has " +
                     std::to_string(options.scene.cast.size()) + " members, and there are " +
-                    std::to_string(production.cast.size()) + " species with it");
-    for (std::size_t i = 0; i < production.cast.size(); ++i)
-        options.cast.push_back(worldSpeciesOf(production.cast[i], options.scene.cast[i].start));
+                    std::to_string(assets.cast.size()) + " species with it");
+    for (std::size_t i = 0; i < assets.cast.size(); ++i)
+        options.cast.push_back(worldSpeciesOf(assets.cast[i], options.scene.cast[i].start));
     options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,
                                  1U,
                                  std::max(std::thread::hardware_concurrency(), 1U));
     return options;
 }
 
-}  // namespace aquarama::production
+}  // namespace aquarama::simulation

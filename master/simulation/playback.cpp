@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/record/playback.h"
+#include "master/simulation/playback.h"
 
 #include <utility>
 
 #include "common/units/log.h"
-#include "master/record/inputs.h"
+#include "master/simulation/inputs.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 
 Playback::Playback(const wire::Recording& recording, conductor::Simulation& world)
     : recording_(recording), world_(world) {
@@ -55,4 +55,4 @@ void ReplayedWorld::apply(const world::WorldInput& /*input*/) {
         logWarning("this is a replay: what visitors do does not reach its world");
 }
 
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

@@ -17,7 +17,7 @@
 #include "master/fish/species_parameters.h"
 #include "master/world/world.h"
 
-namespace aquarama::explain {
+namespace aquarama::simulation {
 
 struct Insight {
     std::uint32_t fish = 0;
@@ -38,4 +38,4 @@ struct Insight {
 // Empty where the world has no such fish.
 [[nodiscard]] std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish);
 
-}  // namespace aquarama::explain
+}  // namespace aquarama::simulation

@@ -9,9 +9,9 @@
 
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
-#include "master/record/simulation_decorator.h"
+#include "master/simulation/simulation_decorator.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
@@ -23,7 +23,7 @@ void requireNewRecording(const std::string& path);
 class RecordingFile {
   public:
     // Throws Error where there is such a file already, and where it cannot be written.
-    RecordingFile(std::string path, const wire::AssetBundle& production);
+    RecordingFile(std::string path, const wire::AssetBundle& assets);
 
     // A show does not end because a disk is full: the first entry that cannot be written is
     // reported, and nothing is recorded from then on.
@@ -54,4 +54,4 @@ class RecordedWorld final : public SimulationDecorator {
     std::vector<world::WorldInput> pending_;
 };
 
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

@@ -10,13 +10,13 @@
 #include <unistd.h>
 
 #include "common/units/error.h"
-#include "master/production/living_world.h"
-#include "master/production/production.h"
-#include "master/record/playback.h"
-#include "master/record/recorder.h"
-#include "tests/support/synthetic_production.h"
+#include "master/simulation/assets.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/playback.h"
+#include "master/simulation/recorder.h"
+#include "tests/support/synthetic_assets.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 namespace {
 
 using testing::HasSubstr;
@@ -34,9 +34,9 @@ class Record : public testing::Test {
 
     // Returns the hash of the world at every tick.
     std::vector<std::uint64_t> recordAShow() {
-        const wire::AssetBundle production = test::syntheticProduction();
-        production::LivingWorld world(production::worldOptionsOf(production));
-        RecordingFile file(path(), production);
+        const wire::AssetBundle assets = test::syntheticAssets();
+        LivingWorld world(worldOptionsOf(assets));
+        RecordingFile file(path(), assets);
         RecordedWorld recorded(world, file);
         std::vector<std::uint64_t> hashes{recorded.hash()};
         while (recorded.tick().value < kTicks) {
@@ -56,7 +56,7 @@ class Record : public testing::Test {
 };
 
 std::optional<Difference> differenceOf(const wire::Recording& recording) {
-    production::LivingWorld world(production::worldOptionsOf(recording.production));
+    LivingWorld world(worldOptionsOf(recording.assets));
     Playback playback(recording, world);
     while (!playback.over()) playback.advance();
     return playback.difference();
@@ -69,9 +69,9 @@ TEST_F(Record, aReplayIsTheSameWorldTickForTickOnAnyNumberOfThreads) {
     EXPECT_EQ(recording.checkpoints.size(), 2U);
     ASSERT_TRUE(recording.end);
     for (const unsigned threads : {1U, 2U, 4U}) {
-        world::WorldOptions options = production::worldOptionsOf(recording.production);
+        world::WorldOptions options = worldOptionsOf(recording.assets);
         options.threads = threads;
-        production::LivingWorld world(options);
+        LivingWorld world(options);
         Playback playback(recording, world);
         while (!playback.over()) {
             playback.advance();
@@ -105,12 +105,12 @@ TEST_F(Record, anotherSeedSceneSpeciesOrCheckpointGivesADifference) {
         return difference ? std::optional{difference->tick.value} : std::nullopt;
     };
     EXPECT_EQ(firstDifference([](wire::Recording&) {}), std::nullopt);
-    EXPECT_EQ(firstDifference([](wire::Recording& r) { ++r.production.seed; }), 0U);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) { ++r.assets.seed; }), 0U);
     EXPECT_EQ(firstDifference([](wire::Recording& r) {
-                  r.production.scene.replace(r.production.scene.find("200"), 3, "201");
+                  r.assets.scene.replace(r.assets.scene.find("200"), 3, "201");
               }),
               0U);
-    EXPECT_EQ(firstDifference([](wire::Recording& r) { --r.production.cast[0].fish; }), 0U);
+    EXPECT_EQ(firstDifference([](wire::Recording& r) { --r.assets.cast[0].fish; }), 0U);
     EXPECT_EQ(firstDifference([](wire::Recording& r) { r.checkpoints[1].hash ^= 1U; }), 600U);
     EXPECT_EQ(firstDifference([](wire::Recording& r) { r.end->hash ^= 1U; }), kTicks);
     EXPECT_EQ(firstDifference([](wire::Recording& r) { ++r.inputs[1].tick.value; }), 600U);
@@ -120,20 +120,20 @@ TEST_F(Record, aDamagedRepertoireOrSpeciesIsNamed) {
     recordAShow();
     const auto refusalOf = [](const wire::Recording& recording) -> std::string {
         try {
-            static_cast<void>(production::worldOptionsOf(recording.production));
+            static_cast<void>(worldOptionsOf(recording.assets));
         } catch (const Error& error) {
             return error.what();
         }
         return "";
     };
     wire::Recording recording = wire::readRecording(path());
-    recording.production.cast[0].repertoire[5000] ^= std::byte{1};
+    recording.assets.cast[0].repertoire[5000] ^= std::byte{1};
     EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its bigeye_scad.txtpb"));
     recording = wire::readRecording(path());
-    recording.production.cast[1].text += "\nfins_of_gold: 3\n";
+    recording.assets.cast[1].text += "\nfins_of_gold: 3\n";
     EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its blacktip_reef_shark.txtpb:"));
     recording = wire::readRecording(path());
-    recording.production.cast.pop_back();
+    recording.assets.cast.pop_back();
     EXPECT_THAT(refusalOf(recording), HasSubstr("show.aqrec: its scene"));
 }
 
@@ -150,10 +150,10 @@ TEST_F(Record, aFileThatWasCutShortReplaysUpToThere) {
 
 TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
     std::ofstream(path()) << "dear diary";
-    EXPECT_THROW(RecordingFile(path(), test::syntheticProduction()), Error);
+    EXPECT_THROW(RecordingFile(path(), test::syntheticAssets()), Error);
     EXPECT_EQ(test::textOf(path()), "dear diary");
     try {
-        const RecordingFile nowhere("/nowhere/show.aqrec", test::syntheticProduction());
+        const RecordingFile nowhere("/nowhere/show.aqrec", test::syntheticAssets());
         FAIL() << "it was opened";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("/nowhere/show.aqrec: cannot be written: No such"));
@@ -162,9 +162,9 @@ TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
 
 // A limit of the file's size stands for a full disk.
 TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
-    const wire::AssetBundle production = test::syntheticProduction();
-    production::LivingWorld world(production::worldOptionsOf(production));
-    RecordingFile file(path(), production);
+    const wire::AssetBundle assets = test::syntheticAssets();
+    LivingWorld world(worldOptionsOf(assets));
+    RecordingFile file(path(), assets);
     RecordedWorld recorded(world, file);
     ASSERT_TRUE(file.recording());
 
@@ -187,7 +187,7 @@ TEST_F(Record, theShowGoesOnWhenTheDiskIsFull) {
 TEST_F(Record, visitorsDoNotReachAReplayAndItEndsOnce) {
     const std::vector<std::uint64_t> hashes = recordAShow();
     const wire::Recording recording = wire::readRecording(path());
-    production::LivingWorld world(production::worldOptionsOf(recording.production));
+    LivingWorld world(worldOptionsOf(recording.assets));
     int ends = 0;
     ReplayedWorld replayed(recording, world, [&] { ++ends; });
     while (replayed.tick().value < kTicks) {
@@ -201,4 +201,4 @@ TEST_F(Record, visitorsDoNotReachAReplayAndItEndsOnce) {
 }
 
 }  // namespace
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

@@ -10,7 +10,7 @@
 #include "common/wire/recording.h"
 #include "master/world/world.h"
 
-namespace aquarama::production {
+namespace aquarama::simulation {
 
 struct AssetChoice {
     std::uint32_t seed = 1;
@@ -19,10 +19,9 @@ struct AssetChoice {
 
 // Reads the scene and the files of its cast; a species that was never shown on this machine is
 // captured, behind a bar of progress. Throws Error with file:line:column.
-[[nodiscard]] wire::AssetBundle readProduction(const std::string& scenePath,
-                                               const AssetChoice& choice);
+[[nodiscard]] wire::AssetBundle readAssets(const std::string& scenePath, const AssetChoice& choice);
 
 // Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.
-[[nodiscard]] world::WorldOptions worldOptionsOf(const wire::AssetBundle& production);
+[[nodiscard]] world::WorldOptions worldOptionsOf(const wire::AssetBundle& assets);
 
-}  // namespace aquarama::production
+}  // namespace aquarama::simulation

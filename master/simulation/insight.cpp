@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/explain/insight.h"
+#include "master/simulation/insight.h"
 
 #include "master/behaviour/perceive/perceive.h"
 
-namespace aquarama::explain {
+namespace aquarama::simulation {
 
 std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish) {
     if (fish >= world.traits().size()) return std::nullopt;
@@ -30,4 +30,4 @@ std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish
     return insight;
 }
 
-}  // namespace aquarama::explain
+}  // namespace aquarama::simulation

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "master/explain/insight.h"
 #include "master/fish/fish_view.h"
+#include "master/simulation/insight.h"
 
-namespace aquarama::explain {
+namespace aquarama::simulation {
 
 inline constexpr std::size_t kScreenLines = 24;
 inline constexpr std::size_t kScreenColumns = 78;
@@ -23,4 +23,4 @@ struct Acquaintances {
 
 [[nodiscard]] std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others);
 
-}  // namespace aquarama::explain
+}  // namespace aquarama::simulation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/record/recorder.h"
+#include "master/simulation/recorder.h"
 
 #include <cerrno>
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 #include "common/units/error.h"
 #include "common/units/log.h"
-#include "master/record/inputs.h"
+#include "master/simulation/inputs.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 
 namespace {
 
@@ -31,11 +31,11 @@ void requireNewRecording(const std::string& path) {
         throw Error(path + ": is there already; a recording never overwrites a file: name another");
 }
 
-RecordingFile::RecordingFile(std::string path, const wire::AssetBundle& production)
+RecordingFile::RecordingFile(std::string path, const wire::AssetBundle& assets)
     : path_(std::move(path)) {
     requireNewRecording(path_);
     file_.open(path_, std::ios::binary);
-    if (!file_ || !wrote(file_, wire::beginningOf(production)))
+    if (!file_ || !wrote(file_, wire::beginningOf(assets)))
         throw Error(path_ + ": cannot be written: " + reason());
 }
 
@@ -63,4 +63,4 @@ void RecordedWorld::advance() {
     if (world_.tick().value % kTicksBetweenCheckpoints == 0) file_.add(wire::entryOf(now()));
 }
 
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/record/inputs.h"
+#include "master/simulation/inputs.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 
 namespace {
 
@@ -37,4 +37,4 @@ world::WorldInput inputOf(const wire::RecordedInput& recorded) {
                       recorded.input);
 }
 
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

@@ -10,9 +10,9 @@
 
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
-#include "master/record/simulation_decorator.h"
+#include "master/simulation/simulation_decorator.h"
 
-namespace aquarama::record {
+namespace aquarama::simulation {
 
 // Where a replay first was another world than the recorded one.
 struct Difference {
@@ -60,4 +60,4 @@ class ReplayedWorld final : public SimulationDecorator {
     bool toldOfInput_ = false, toldOfDifference_ = false, ended_ = false;
 };
 
-}  // namespace aquarama::record
+}  // namespace aquarama::simulation

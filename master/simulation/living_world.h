@@ -8,7 +8,7 @@
 #include "master/conductor/simulation.h"
 #include "master/world/world.h"
 
-namespace aquarama::production {
+namespace aquarama::simulation {
 
 class LivingWorld : public conductor::Simulation {
   public:
@@ -30,4 +30,4 @@ class LivingWorld : public conductor::Simulation {
     std::vector<std::string> species_;  // their names, in the order of the cast
 };
 
-}  // namespace aquarama::production
+}  // namespace aquarama::simulation

@@ -24,7 +24,7 @@ inline std::string textOf(const std::string& path) {
 }
 
 // A school of 40 about a reef that hungers soon, and a shark that hunts it.
-inline wire::AssetBundle syntheticProduction(std::uint32_t seed = 1) {
+inline wire::AssetBundle syntheticAssets(std::uint32_t seed = 1) {
     const std::string species = AQUARAMA_SOURCE_DIR "/config/species/";
     motion::Repertoire scad = world::syntheticScad();
     scad.species = "synthetic_scad";
@@ -32,14 +32,14 @@ inline wire::AssetBundle syntheticProduction(std::uint32_t seed = 1) {
     config::Scene scene;
     scene.name = "tank";
     scene.plankton = 200;
-    wire::AssetBundle production{.seed = seed, .sceneFile = "scene", .scene = {}, .cast = {}};
+    wire::AssetBundle assets{.seed = seed, .sceneFile = "scene", .scene = {}, .cast = {}};
     for (const auto& [name, fish] :
          {std::pair{"bigeye_scad.txtpb", 40U}, std::pair{"blacktip_reef_shark.txtpb", 1U}}) {
         scene.cast.push_back({.species = name, .fish = fish});
-        production.cast.push_back({name, textOf(species + name), repertoire, fish});
+        assets.cast.push_back({name, textOf(species + name), repertoire, fish});
     }
-    production.scene = config::writeScene(scene);
-    return production;
+    assets.scene = config::writeScene(scene);
+    return assets;
 }
 
 }  // namespace aquarama::test
