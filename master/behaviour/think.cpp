@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/think.h"
 
-#include "master/behaviour/act/act.h"
+#include "master/behaviour/act/routines.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive/perceive.h"

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "master/behaviour/act/routine.h"
+#include "master/behaviour/act/routines.h"
 #include "master/behaviour/perceive/environment.h"
 #include "master/fish/courses.h"
 #include "master/fish/minds.h"

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/place/place.h"
-#include "master/behaviour/act/hunt.h"
+#include "master/behaviour/act/routines.h"
 #include "master/study/school_figures.h"
 
 namespace aquarama::study {

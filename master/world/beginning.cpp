@@ -12,7 +12,7 @@
 #include "common/place/angle.h"
 #include "common/units/random_streams.h"
 #include "master/behaviour/act/home.h"
-#include "master/behaviour/act/school.h"
+#include "master/behaviour/act/routines.h"
 #include "master/surroundings/journey.h"
 
 namespace aquarama::world {

@@ -10,7 +10,7 @@
 #include "common/place/angle.h"
 #include "common/units/error.h"
 #include "common/units/folded_hash.h"
-#include "master/behaviour/act/school.h"
+#include "master/behaviour/act/routines.h"
 #include "master/behaviour/temperament.h"
 #include "master/behaviour/think.h"
 #include "master/fish/drives.h"

@@ -17,7 +17,7 @@
 #include "common/motion/motor.h"
 #include "common/units/ids.h"
 #include "common/units/worker_pool.h"
-#include "master/behaviour/act/routine.h"
+#include "master/behaviour/act/routines.h"
 #include "master/behaviour/perceive/environment.h"
 #include "master/fish/adaptation.h"
 #include "master/fish/courses.h"

@@ -1,15 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/act.h"
-
-#include "master/behaviour/act/avoid_fish.h"
-#include "master/behaviour/act/avoid_obstacle.h"
-#include "master/behaviour/act/eat.h"
-#include "master/behaviour/act/escape.h"
-#include "master/behaviour/act/hunt.h"
-#include "master/behaviour/act/leave.h"
-#include "master/behaviour/act/mate.h"
-#include "master/behaviour/act/school.h"
-#include "master/behaviour/act/wander.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/avoid_obstacle.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "common/place/angle.h"
 #include "master/behaviour/act/company.h"
 #include "master/behaviour/act/pursue.h"
-#include "master/behaviour/act/school.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 

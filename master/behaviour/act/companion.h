@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "master/behaviour/act/routine.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 

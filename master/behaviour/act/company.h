@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "master/behaviour/act/routine.h"
+#include "master/behaviour/act/routines.h"
 #include "master/behaviour/perceive/senses.h"
 #include "master/fish/fish_view.h"
 

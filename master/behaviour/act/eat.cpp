@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/eat.h"
-
 #include "common/place/angle.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/routines.h"
 #include "master/fish/mouth.h"
 
 namespace aquarama::behaviour {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/hunt.h"
-
 #include <algorithm>
 
 #include "common/place/angle.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/routines.h"
 #include "master/fish/mouth.h"
 
 namespace aquarama::behaviour {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/leave.h"
-
 #include <algorithm>
 
 #include "common/place/angle.h"
 #include "master/behaviour/act/home.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/mate.h"
-
 #include <algorithm>
 
 #include "common/units/hash.h"
 #include "master/behaviour/act/courtship.h"
-#include "master/behaviour/act/wander.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 

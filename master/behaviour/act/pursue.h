@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "master/behaviour/act/routine.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 
@@ -18,5 +18,11 @@ namespace aquarama::behaviour {
 
 // The course along `request` (any length), with what pushes taken into account.
 [[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 request, float speed);
+
+// Away from the predators in sight: a unit vector, the nearer predator counting the more; none
+// where none is seen. Before a predator that comes at it a fish goes aside rather than ahead, and
+// so slips round behind it: that is how a school fountains about an attacker (Hall, Wardle &
+// MacLennan 1986).
+[[nodiscard]] glm::vec3 flightFrom(const Situation& situation);
 
 }  // namespace aquarama::behaviour

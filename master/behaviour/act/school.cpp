@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/school.h"
-
 #include <algorithm>
 #include <array>
 
 #include "common/place/angle.h"
 #include "common/place/noise.h"
 #include "common/units/random_streams.h"
-#include "master/behaviour/act/avoid_obstacle.h"
 #include "master/behaviour/act/company.h"
-#include "master/behaviour/act/flight.h"
+#include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 

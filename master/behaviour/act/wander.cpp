@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/act/wander.h"
-
 #include <algorithm>
 
 #include "common/place/angle.h"
@@ -9,6 +7,7 @@
 #include "master/behaviour/act/company.h"
 #include "master/behaviour/act/home.h"
 #include "master/behaviour/act/pursue.h"
+#include "master/behaviour/act/routines.h"
 
 namespace aquarama::behaviour {
 

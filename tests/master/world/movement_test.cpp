@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "master/behaviour/act/home.h"
-#include "master/behaviour/act/wander.h"
+#include "master/behaviour/act/routines.h"
 #include "master/surroundings/obstacles.h"
 #include "tests/master/world/scene_of_synthetic_fish.h"
 #include "tests/master/world/school_shape.h"
