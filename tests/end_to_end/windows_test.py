@@ -103,7 +103,7 @@ class Windows(unittest.TestCase):
 
         self.assertEqual(steered(), "nobody steers")
         self.display.hold(window, "keydown", "w")
-        wait_until(lambda: steered() == "middle steers", 30, "the window's hand at the helm")
+        wait_until(lambda: steered() == "middle steers", 30, "the window has control")
         self.display.hold(window, "keyup", "w")
         wait_until(lambda: steered() == "nobody steers", 30, "the hand to let go")
         self.display.press(window, "q")

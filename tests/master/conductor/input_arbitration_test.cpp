@@ -43,7 +43,7 @@ TEST_F(InputArbitrationTest, theLatestThatTakesHoldWins) {
     EXPECT_TRUE(says("a", kAhead)) << "it takes hold anew";
     EXPECT_FALSE(says("b", kBack));
     EXPECT_TRUE(says("a", kNothing));
-    EXPECT_TRUE(says("b", kBack)) << "still held, and the helm is free";
+    EXPECT_TRUE(says("b", kBack)) << "still held, and nobody has control";
 }
 
 TEST_F(InputArbitrationTest, aHandThatFallsSilentLosesTheHelm) {
