@@ -26,7 +26,6 @@ class TerminalSteering {
 
 inline constexpr std::string_view kTerminalSteeringHelp =
     "w s ahead, back   a d aside   left right turn   up down rise, sink   r f nose up, down   "
-    "space "
-    "lets go   q leaves";
+    "space lets go   q leaves";
 
 }  // namespace aquarama::conductor

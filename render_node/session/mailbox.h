@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a node's net thread and its render thread meet: states and releases one way, bounded, and
-// the end of either. The lock is held for a move only.
+// The exchange between a node's net thread and its render thread: states and releases one way,
+// bounded, and the end of either. The lock is held for a move only.
 #pragma once
 
 #include <condition_variable>

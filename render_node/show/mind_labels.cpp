@@ -81,9 +81,9 @@ std::vector<Label> mindLabels(const FishPlace& fish,
                         glyph.y * static_cast<float>(rows.size()));
     const float aside = reach.x + bracket.x;
     const bool toTheRight = fish.middle.x < size.x / 2;
-    const glm::vec2 wished(toTheRight ? fish.middle.x + aside : fish.middle.x - aside - box.x,
-                           fish.middle.y - box.y / 2);
-    glm::vec2 corner = glm::clamp(wished, border, glm::max(size - border - box, border));
+    const glm::vec2 desired(toTheRight ? fish.middle.x + aside : fish.middle.x - aside - box.x,
+                            fish.middle.y - box.y / 2);
+    glm::vec2 corner = glm::clamp(desired, border, glm::max(size - border - box, border));
     for (std::string& row : rows) {
         labels.push_back({corner, std::move(row)});
         corner.y += glyph.y;

@@ -18,7 +18,7 @@ namespace {
 
 using namespace aquarama;
 
-struct Request {
+struct Options {
     std::vector<float> eye{0.0F, -6.0F, 0.0F};
     std::vector<std::string> portraits;
     float metresAway = 0.7F, turnDegrees = 0.0F, lengthMetres = 0.24F, phase = 0.1F, speed = 0.8F;
@@ -62,27 +62,27 @@ void addPlate(test::Still& still) {
     }
 }
 
-test::Still stillOf(const Request& request, test::Still still) {
-    still.camera.eyeMetres = {request.eye.at(0), request.eye.at(1), request.eye.at(2)};
-    if (request.openSea) still.options.place = config::PlaceKind::OpenSea;
-    const auto tier = std::ranges::find(config::kTierNames, request.tier);
+test::Still stillOf(const Options& options, test::Still still) {
+    still.camera.eyeMetres = {options.eye.at(0), options.eye.at(1), options.eye.at(2)};
+    if (options.openSea) still.options.place = config::PlaceKind::OpenSea;
+    const auto tier = std::ranges::find(config::kTierNames, options.tier);
     still.options.quality = static_cast<config::QualityTier>(tier - config::kTierNames.begin());
-    const auto water = std::ranges::find(config::kWaterTypeNames, request.water);
+    const auto water = std::ranges::find(config::kWaterTypeNames, options.water);
     still.options.water = static_cast<config::WaterType>(water - config::kWaterTypeNames.begin());
-    if (request.plate) addPlate(still);
+    if (options.plate) addPlate(still);
     // Side by side, the first in the middle.
     test::Camera camera = still.camera;
-    for (const std::string& species : request.portraits) {
+    for (const std::string& species : options.portraits) {
         still.fish.push_back(test::portraitOf(
-            species, camera, request.metresAway, request.turnDegrees, request.lengthMetres));
-        still.fish.back().phase = request.phase;
-        still.fish.back().speedBodyLengths = request.speed;
-        camera.azimuthDegrees += 60.0F * request.lengthMetres / request.metresAway;
+            species, camera, options.metresAway, options.turnDegrees, options.lengthMetres));
+        still.fish.back().phase = options.phase;
+        still.fish.back().speedBodyLengths = options.speed;
+        camera.azimuthDegrees += 60.0F * options.lengthMetres / options.metresAway;
     }
     test::Camera ahead = still.camera;
     const glm::vec3 centre =
-        test::portraitOf("bigeye_scad", ahead, request.ballMetres, 0.0F, 0.24F).placeMetres;
-    for (test::StillFish& fish : test::ballOf("bigeye_scad", request.ball, centre, 1.6F))
+        test::portraitOf("bigeye_scad", ahead, options.ballMetres, 0.0F, 0.24F).placeMetres;
+    for (test::StillFish& fish : test::ballOf("bigeye_scad", options.ball, centre, 1.6F))
         still.fish.push_back(std::move(fish));
     return still;
 }
@@ -91,10 +91,10 @@ test::Still stillOf(const Request& request, test::Still still) {
 
 int main(int argc, char** argv) try {
     CLI::App app{"Draws one still of the sea to a PNG."};
-    Request request;
+    Options options;
     test::Still still;
     still.camera.sizePixels = {960, 540};
-    app.add_option("--eye", request.eye, "x y z, metres")->expected(3);
+    app.add_option("--eye", options.eye, "x y z, metres")->expected(3);
     app.add_option("--azimuth", still.camera.azimuthDegrees, "degrees to the right of -z");
     app.add_option("--elevation", still.camera.elevationDegrees, "degrees up");
     app.add_option("--fov", still.camera.heightDegrees, "degrees, vertical");
@@ -103,26 +103,26 @@ int main(int argc, char** argv) try {
     app.add_option("--time", still.timeSeconds, "seconds");
     app.add_option("--daylight", still.daylight, "1 noon .. 0 night");
     app.add_option("--seed", still.options.seed, "of the place");
-    app.add_option("--quality", request.tier, "tier")
+    app.add_option("--quality", options.tier, "tier")
         ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
-    app.add_option("--water", request.water, "Jerlov's type")
+    app.add_option("--water", options.water, "Jerlov's type")
         ->check(CLI::IsMember({"I", "IA", "IB", "II", "III", "1C", "3C"}));
-    app.add_option("--portrait", request.portraits, "species before the camera");
-    app.add_option("--away", request.metresAway, "of the portraits, metres");
-    app.add_option("--turn", request.turnDegrees, "0 left side, 90 face, 180 right side");
-    app.add_option("--length", request.lengthMetres, "of the portraits, metres");
-    app.add_option("--phase", request.phase, "of the portraits' beat, 0 .. 1");
-    app.add_option("--speed", request.speed, "of the portraits, body lengths a second");
-    app.add_option("--ball", request.ball, "so many scad in a ball");
-    app.add_option("--ball-away", request.ballMetres, "metres");
+    app.add_option("--portrait", options.portraits, "species before the camera");
+    app.add_option("--away", options.metresAway, "of the portraits, metres");
+    app.add_option("--turn", options.turnDegrees, "0 left side, 90 face, 180 right side");
+    app.add_option("--length", options.lengthMetres, "of the portraits, metres");
+    app.add_option("--phase", options.phase, "of the portraits' beat, 0 .. 1");
+    app.add_option("--speed", options.speed, "of the portraits, body lengths a second");
+    app.add_option("--ball", options.ball, "so many scad in a ball");
+    app.add_option("--ball-away", options.ballMetres, "metres");
     app.add_flag_callback(
         "--no-lod", [&] { still.options.levelsOfDetail = false; }, "all fish are heroes");
-    app.add_flag("--plate", request.plate, "the whole cast at its true size, 2 m away");
-    app.add_flag("--open-sea", request.openSea, "no floor");
-    app.add_option("--out", request.out, "PNG file");
+    app.add_flag("--plate", options.plate, "the whole cast at its true size, 2 m away");
+    app.add_flag("--open-sea", options.openSea, "no floor");
+    app.add_option("--out", options.out, "PNG file");
     CLI11_PARSE(app, argc, argv);
     const auto context = context::makeOffscreenContext("auto", {16, 16});
-    wall::writePng(request.out, test::pictureOf(stillOf(request, still)));
+    wall::writePng(options.out, test::pictureOf(stillOf(options, still)));
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "aquarama_draw_still: %s\n", error.what());

@@ -25,7 +25,7 @@ namespace {
 
 using namespace aquarama;
 
-struct Request {
+struct Options {
     std::uint64_t seed = 1;
     int paths = 30000;
     std::string out = "water_lobes_table.cpp";
@@ -95,7 +95,7 @@ struct Water {
 scene::WaterLobe traced(const Water& water,
                         double irradiance,
                         glm::dvec3 direction,
-                        const Request& request) {
+                        const Options& options) {
     const glm::dvec3 sun{scene::sunInWater()};
     const double farthest =
         direction.y > 0 ? std::min(water.depth / direction.y, kFarthest) : kFarthest;
@@ -108,18 +108,18 @@ scene::WaterLobe traced(const Water& water,
                                    direction,
                                    ranges.back() * water.scale()};
         lights.push_back(
-            test::scatteredIn(water.phase, seen, sun, request.paths, request.seed).mean /
+            test::scatteredIn(water.phase, seen, sun, options.paths, options.seed).mean /
             (water.albedo * irradiance * scene::plainLobe(direction, sun)));
     }
     return fitted(ranges, lights, guessedLoss(water.albedo, direction.y, water.phase.peakShare()));
 }
 
-void write(const Request& request) {
+void write(const Options& options) {
     const test::ForwardPhase phase{kPeakRadians};
-    std::ofstream file(request.out);
+    std::ofstream file(options.out);
     file << "// SPDX-License-Identifier: Apache-2.0\n"
             "// Written by aquarama_trace_water --seed "
-         << request.seed << " --paths " << request.paths
+         << options.seed << " --paths " << options.paths
          << ": trace it anew, do not edit it.\n"
             "#include \"render_node/scene/water_lobes.h\"\n\nnamespace aquarama::scene {\n\n"
             "// clang-format off\n"
@@ -131,8 +131,8 @@ void write(const Request& request) {
                                                   water.scaledAlbedo(),
                                                   depth * water.scale(),
                                                   glm::dvec3{scene::sunInWater()},
-                                                  8 * request.paths,
-                                                  request.seed)
+                                                  8 * options.paths,
+                                                  options.seed)
                                      .mean;
             std::fprintf(stderr, "albedo %.2f depth %.2f irradiance %.4g\n", albedo, depth, light);
             for (const double rise : scene::kLobeRises) {
@@ -143,7 +143,7 @@ void write(const Request& request) {
                         lobe = traced(water,
                                       light,
                                       directionOf(rise, azimuth, glm::dvec3{scene::sunInWater()}),
-                                      request);
+                                      options);
                     file << '{' << std::lround(1000 * std::log(lobe.source)) << ','
                          << std::lround(1000 * lobe.loss) << "},";
                 }
@@ -152,11 +152,11 @@ void write(const Request& request) {
             file.flush();
         }
     file << "}};\n// clang-format on\n\n}  // namespace aquarama::scene\n";
-    if (!file) throw Error("cannot write " + request.out + ": is the folder there?");
+    if (!file) throw Error("cannot write " + options.out + ": is the folder there?");
 }
 
 // CIEDE2000 over range and depth, for every type of water.
-bool compare(const Request& request) {
+bool compare(const Options& options) {
     constexpr double kMost = 2.2;  // 2 but for the noise, in the haziest type
     const test::ForwardPhase phase{kPeakRadians};
     bool isWithin = true;
@@ -165,7 +165,7 @@ bool compare(const Request& request) {
         std::vector<double> off = test::differences(
             phase,
             static_cast<config::WaterType>(i),
-            {{2.0, 5.0, 10.0, 20.0}, {2.0, 6.0, 18.0}, request.paths, request.seed + 1000});
+            {{2.0, 5.0, 10.0, 20.0}, {2.0, 6.0, 18.0}, options.paths, options.seed + 1000});
         std::ranges::sort(off);
         const double mean =
             std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size());
@@ -184,14 +184,14 @@ bool compare(const Request& request) {
 
 int main(int argc, char** argv) try {
     CLI::App app{"Traces how sea water scatters light and writes the table of its lobes."};
-    Request request;
-    app.add_option("--seed", request.seed, "of the paths");
-    app.add_option("--paths", request.paths, "for each of the 4 000 radiances");
-    app.add_option("--out", request.out, "C++ file");
-    app.add_flag("--compare", request.compare, "the table that is built in with a new tracing");
+    Options options;
+    app.add_option("--seed", options.seed, "of the paths");
+    app.add_option("--paths", options.paths, "for each of the 4 000 radiances");
+    app.add_option("--out", options.out, "C++ file");
+    app.add_flag("--compare", options.compare, "the table that is built in with a new tracing");
     CLI11_PARSE(app, argc, argv);
-    if (request.compare) return compare(request) ? 0 : 1;
-    write(request);
+    if (options.compare) return compare(options) ? 0 : 1;
+    write(options);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "aquarama_trace_water: %s\n", error.what());

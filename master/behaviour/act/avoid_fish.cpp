@@ -74,8 +74,8 @@ fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
                            (mind.likes & fish::kLikesSchooling) != 0;
     if (schooling && view.kind[threat.object] == situation.parameters.kind)
         return leanAway(situation, aside);
-    const glm::vec3 request = senses.heading + aside * kTurnAway + roomFrom(situation);
-    return heading(situation, request, speedPast(situation));
+    const glm::vec3 desired = senses.heading + aside * kTurnAway + roomFrom(situation);
+    return heading(situation, desired, speedPast(situation));
 }
 
 }  // namespace aquarama::behaviour

@@ -23,8 +23,8 @@ float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& fee
 
 fish::Course escape(const Situation& situation, const fish::Mind& mind) {
     const Senses& senses = situation.senses;
-    const glm::vec3 request = senses.heading + flightFrom(situation) * kFlee + roomFrom(situation);
-    fish::Course course = heading(situation, request, situation.parameters.fast);
+    const glm::vec3 desired = senses.heading + flightFrom(situation) * kFlee + roomFrom(situation);
+    fish::Course course = heading(situation, desired, situation.parameters.fast);
     if ((mind.likes & fish::kLikesSchooling) != 0) {
         const float alone = dread(situation.parameters, situation.feelings);
         const glm::vec3 together = school(situation).direction;

@@ -53,10 +53,10 @@ fish::Course pursue(const Situation& situation,
     return heading(situation, direction, std::min(speed, pace + chase));
 }
 
-fish::Course heading(const Situation& situation, glm::vec3 request, float speed) {
+fish::Course heading(const Situation& situation, glm::vec3 desired, float speed) {
     const Senses& senses = situation.senses;
     const glm::vec3 direction =
-        place::levelled(place::directionOf(request + wayRound(situation), senses.heading));
+        place::levelled(place::directionOf(desired + wayRound(situation), senses.heading));
     return {direction, speed, senses.urgency};
 }
 

@@ -16,8 +16,8 @@ namespace aquarama::behaviour {
                                   float speed,
                                   glm::vec3 velocity = {});
 
-// The course along `request` (any length), with what pushes taken into account.
-[[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 request, float speed);
+// The course along the desired direction (any length), bent by what pushes.
+[[nodiscard]] fish::Course heading(const Situation& situation, glm::vec3 desired, float speed);
 
 // Away from the predators in sight: a unit vector, the nearer predator counting the more; none
 // where none is seen. Before a predator that comes at it a fish goes aside rather than ahead, and

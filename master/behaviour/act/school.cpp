@@ -180,11 +180,11 @@ fish::Course school(const Situation& situation) {
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 way = gathers ? commonWay(environment, situation.fish, senses.position)
                                   : glimpses(situation, glance, alarm) * kRejoin;
-    const glm::vec3 request = senses.heading * kKeepCourse + pullOf(company) + way * follow +
+    const glm::vec3 desired = senses.heading * kKeepCourse + pullOf(company) + way * follow +
                               whim(environment.seed, situation.fish, environment.tick) *
                                   (kWander * (1 - kAttentive * alarm)) +
                               clearing(situation) + wayRound(situation);
-    return {place::levelled(place::directionOf(request, senses.heading)),
+    return {place::levelled(place::directionOf(desired, senses.heading)),
             wantedSpeed(situation, company, alarm),
             senses.urgency};
 }

@@ -69,7 +69,7 @@ fish::Course wander(const Situation& situation) {
     const Bound bound = boundFor(environment, parameters, situation.fish, senses.position);
     const Spell spell = spellOf(environment.seed, situation.fish, environment.tick);
     const float calm = std::max(0.0F, 1 - senses.urgency);
-    const glm::vec3 request =
+    const glm::vec3 desired =
         senses.heading * kKeepCourse +
         place::directionOf(bound.towards, senses.heading) *
             ((kGo + kGoHome * bound.strayed) * calm) +
@@ -77,7 +77,7 @@ fish::Course wander(const Situation& situation) {
         roomFrom(situation);
     const float pace = paceOf(parameters, environment.seed, situation.fish, environment.tick);
     // Far from home nobody hovers.
-    return heading(situation, request, std::max(pace, parameters.slow * bound.strayed));
+    return heading(situation, desired, std::max(pace, parameters.slow * bound.strayed));
 }
 
 }  // namespace aquarama::behaviour

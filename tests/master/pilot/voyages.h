@@ -24,8 +24,8 @@ inline Voyage voyageIn(const config::Scene& scene, std::uint32_t seed = 1) {
 inline Steering whim(std::uint32_t seed, std::uint64_t tick) {
     const auto second = static_cast<std::uint32_t>(tick / 45);
     const auto axis = [&](std::uint32_t stream) {
-        const float request = 2 * signedUnitOf(hashOf(hashOf(seed, stream), second));
-        return static_cast<std::int8_t>(request > 1 ? 127 : request < -1 ? -127 : 127 * request);
+        const float desired = 2 * signedUnitOf(hashOf(hashOf(seed, stream), second));
+        return static_cast<std::int8_t>(desired > 1 ? 127 : desired < -1 ? -127 : 127 * desired);
     };
     return {axis(1), axis(2), axis(3), axis(4), axis(5)};
 }

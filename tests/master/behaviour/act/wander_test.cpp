@@ -27,7 +27,7 @@ TEST(Wandering, everyPlaceIsInTheWaterAndAnotherFollowsIt) {
 }
 
 // Two fish that head along +x, side by side; what the first wants.
-glm::vec3 wishBeside(float rightMetres) {
+glm::vec3 courseBeside(float rightMetres) {
     Aquarium water;
     water.speciesParameters[0].habits.role = config::Role::Pacifist;
     water.addFish({}, 0, 0.3F);
@@ -36,8 +36,9 @@ glm::vec3 wishBeside(float rightMetres) {
 }
 
 TEST(Wandering, aFishGivesWayToOneBesideIt) {
-    EXPECT_LT(wishBeside(0.1F).z, wishBeside(1.0F).z - 0.05F) << "to the left of one on the right";
-    EXPECT_GT(wishBeside(-0.1F).z, wishBeside(-1.0F).z + 0.05F);
+    EXPECT_LT(courseBeside(0.1F).z, courseBeside(1.0F).z - 0.05F)
+        << "to the left of one on the right";
+    EXPECT_GT(courseBeside(-0.1F).z, courseBeside(-1.0F).z + 0.05F);
 }
 
 }  // namespace
