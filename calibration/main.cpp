@@ -14,8 +14,8 @@
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
 #include "common/config/stereo_names.h"
-#include "common/units/angle.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
+#include "common/units/units.h"
 #include "common/wall/wall.h"
 
 namespace aquarama {

@@ -3,7 +3,7 @@
 file(GLOB files LIST_DIRECTORIES false ${FOLDER}/*)
 list(APPEND files ${SHARED})
 list(SORT files)
-set(source "#include \"render_node/gl/embedded_shaders.h\"\n\n#include <array>\n\nnamespace aquarama::gl {\n\nnamespace {\n\n")
+set(source "#include \"render_node/gl/program.h\"\n\n#include <array>\n\nnamespace aquarama::gl {\n\nnamespace {\n\n")
 string(APPEND source "constexpr std::array kShaders{\n")
 foreach(file IN LISTS files)
   get_filename_component(name ${file} NAME)

@@ -10,13 +10,12 @@
 
 #include "common/config/rig.h"
 #include "common/config/scene.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
 #include "master/conductor/ask.h"
-#include "master/simulation/assets.h"
 #include "master/simulation/living_world.h"
-#include "master/simulation/playback.h"
+#include "master/simulation/recorded_world.h"
 
 namespace aquarama {
 

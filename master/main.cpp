@@ -17,16 +17,13 @@
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
-#include "common/units/error.h"
 #include "common/units/log.h"
 #include "common/wall/wall.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
 #include "master/conductor/conductor.h"
-#include "master/simulation/assets.h"
 #include "master/simulation/living_world.h"
-#include "master/simulation/playback.h"
-#include "master/simulation/recorder.h"
+#include "master/simulation/recorded_world.h"
 
 namespace aquarama {
 

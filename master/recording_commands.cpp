@@ -7,12 +7,11 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "common/units/digest.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
-#include "master/simulation/assets.h"
 #include "master/simulation/living_world.h"
-#include "master/simulation/playback.h"
+#include "master/simulation/recorded_world.h"
 
 namespace aquarama {
 

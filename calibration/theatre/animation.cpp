@@ -9,8 +9,8 @@
 #include <webp/mux.h>
 
 #include "calibration/theatre/clip.h"
-#include "common/units/error.h"
-#include "common/units/ids.h"
+#include "common/units/log.h"
+#include "common/units/units.h"
 
 namespace aquarama::theatre {
 

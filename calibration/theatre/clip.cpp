@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/theatre/clip.h"
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::theatre {
 

@@ -16,7 +16,7 @@
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/snapshot.h"
 #include "common/cli/signals.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/frame_pipe.h"
 
 namespace aquarama::theatre {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "calibration/theatre/compose.h"
-#include "common/units/error.h"
-#include "common/wall/eyes.h"
+#include "common/units/log.h"
 #include "common/wall/png_file.h"
+#include "common/wall/wall.h"
 
 namespace aquarama::theatre {
 

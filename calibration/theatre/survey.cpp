@@ -5,9 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/units/angle.h"
-#include "common/wall/blend.h"
-#include "common/wall/outline.h"
+#include "common/units/units.h"
+#include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 
 namespace aquarama::theatre {

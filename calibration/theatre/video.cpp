@@ -14,8 +14,8 @@ extern "C" {
 }
 
 #include "calibration/theatre/clip.h"
-#include "common/units/error.h"
-#include "common/units/ids.h"
+#include "common/units/log.h"
+#include "common/units/units.h"
 
 namespace aquarama::theatre {
 

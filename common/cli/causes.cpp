@@ -10,7 +10,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::cli {
 

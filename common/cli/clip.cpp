@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::cli {
 

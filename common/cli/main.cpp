@@ -16,7 +16,7 @@
 #include "common/cli/siblings.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama {
 

@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::cli {
 

@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::cli {
 

@@ -18,7 +18,7 @@
 #include "common/cli/outputs.h"
 #include "common/cli/preflight.h"
 #include "common/cli/siblings.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::cli {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/cli/siblings.h"
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::cli {
 

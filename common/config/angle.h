@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "common/units/angle.h"
+#include "common/units/units.h"
 
 namespace aquarama::config {
 

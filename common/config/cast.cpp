@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "common/config/text_reader.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::config {
 

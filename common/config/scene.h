@@ -13,7 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/config/source_place.h"
-#include "common/units/limits.h"
+#include "common/units/units.h"
 
 namespace aquarama::config {
 

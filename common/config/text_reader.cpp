@@ -10,7 +10,7 @@
 
 #include <google/protobuf/io/tokenizer.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::config {
 

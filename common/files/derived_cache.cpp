@@ -12,7 +12,7 @@
 #include <zlib.h>
 
 #include "common/files/files.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::files {
 

@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
-#include "common/motion/orientation.h"
 
 namespace aquarama::motion {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // meanHeadingReference() on vectors of fish, operation for operation.
 #include "common/motion/headings.h"
-#include "common/motion/motor_tick.h"
+#include "common/motion/motor_tables.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "common/motion/headings_simd.cpp"

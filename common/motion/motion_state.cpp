@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "common/motion/orientation.h"
-
 namespace aquarama::motion {
 namespace {
 

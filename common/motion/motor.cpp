@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/motion/headings.h"
-#include "common/motion/motor_tick.h"
+#include "common/motion/motor_tables.h"
 
 namespace aquarama::motion {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <hwy/highway.h>
 
-#include "common/motion/motor_tick.h"
+#include "common/motion/motor_tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aquarama::motion::HWY_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "common/motion/motor.h"
-#include "common/motion/motor_tick.h"
+#include "common/motion/motor_tables.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "common/motion/motor_simd.cpp"

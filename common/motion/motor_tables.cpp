@@ -1,12 +1,112 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "common/motion/motor_tables.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
-#include "common/motion/warp_plan.h"
-#include "common/units/ids.h"
+#include "common/units/units.h"
 
 namespace aquarama::motion {
+namespace {
+
+constexpr std::size_t kCycle = kPhases;
+constexpr double kNoWayBodyLengths = 1e-6;  // over some phases: too short to have a direction
+
+void integrate(const ActionSegment& segment, GaitPath& path) {
+    path.rotation[0] = glm::dquat(1, 0, 0, 0);
+    for (std::size_t k = 0; k + 1 < kPathSamples; ++k) {
+        const FrameIncrement& step = segment.increments[k % kCycle];
+        const glm::dquat turn(step.rotation);
+        path.translation[k + 1] =
+            path.translation[k] + path.rotation[k] * glm::dvec3(step.translation);
+        // The nearer of the two quaternions of a rotation, so that the path may be interpolated.
+        path.rotation[k + 1] = glm::normalize(path.rotation[k] * (turn.w < 0 ? turn * -1.0 : turn));
+    }
+}
+
+// The path with the cycle repeated before and after it.
+glm::dquat rotationAt(const GaitPath& path, int phase) {
+    if (phase >= 0) return path.rotation[static_cast<std::size_t>(phase)];
+    const int inCycle = phase + kPhases;
+    return glm::conjugate(path.rotation[kCycle]) * path.rotation[static_cast<std::size_t>(inCycle)];
+}
+
+// The mean of the frames within half a cycle of `phase`.
+glm::dquat meanAt(const GaitPath& path, int phase) {
+    constexpr int kHalf = kPhases / 2;
+    glm::dquat sum = (rotationAt(path, phase - kHalf) + rotationAt(path, phase + kHalf)) * 0.5;
+    for (int near = phase - kHalf + 1; near < phase + kHalf; ++near) {
+        sum = sum + rotationAt(path, near);
+    }
+    return glm::normalize(sum);
+}
+
+// The least rotation that brings the body's x axis along the path at phase k; the path is taken
+// over a sixteenth of a turn, less at its ends.
+glm::dquat alongPath(const GaitPath& path, std::size_t k) {
+    const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
+    const std::size_t from = k < reach ? k : k - reach;
+    const std::size_t to = std::min(k + reach, kCycle);
+    const glm::dvec3 way =
+        glm::conjugate(path.rotation[k]) * (path.translation[to] - path.translation[from]);
+    if (way.x < kNoWayBodyLengths) return {1, 0, 0, 0};
+    const double length = std::sqrt(glm::dot(way, way));
+    return glm::normalize(glm::dquat(1 + way.x / length, 0, -way.z / length, way.y / length));
+}
+
+// A turn that plays to its end is no cycle, and has no mean over one. Its frame looks along its
+// path, from which the bent body points away; but at the end where the straight body does, since
+// there the water soon takes what is left of a slip.
+glm::dquat courseAt(const GaitPath& path, std::size_t k) {
+    constexpr std::size_t kLastQuarter = kCycle / 4;
+    const double left =
+        std::min(1.0, static_cast<double>(kCycle - k) / static_cast<double>(kLastQuarter));
+    const double share = left * left * (3 - 2 * left);
+    const glm::dquat straight(1, 0, 0, 0);
+    return path.rotation[k] * glm::normalize(straight * (1 - share) + alongPath(path, k) * share);
+}
+
+std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsToEnd) {
+    std::array<glm::dquat, kCycleSamples> means{};
+    for (std::size_t k = 0; k < kCycleSamples; ++k) {
+        means[k] = playsToEnd ? courseAt(path, k) : meanAt(path, static_cast<int>(k));
+    }
+    return means;
+}
+
+// Central difference of the body frame's origin, taken in the second cycle, which has a first
+// before it; seen in mean axes. Where a turn begins and ends, one side is not its own.
+double forwardAt(const GaitPath& path, std::size_t k, bool playsToEnd) {
+    const std::size_t at = kCycle + k % kCycle;
+    const bool begins = playsToEnd && k == 0;
+    const bool ends = playsToEnd && k == kCycle;
+    const glm::dvec3 before = path.translation[begins ? at : at - 1];
+    const glm::dvec3 after = path.translation[ends ? at : at + 1];
+    const glm::dvec3 step = (after - before) * (begins || ends ? 1.0 : 0.5);
+    const glm::dvec3 inBody = glm::conjugate(path.rotation[at]) * step;
+    return (glm::conjugate(path.bodyFromMean[k]) * inBody).x;
+}
+
+}  // namespace
+
+GaitPath pathOf(const ActionSegment& segment) {
+    GaitPath path;
+    integrate(segment, path);
+    const auto means = meansOf(path, segment.playsToEnd);
+    for (std::size_t k = 0; k < kCycleSamples; ++k) {
+        path.bodyFromMean[k] = glm::conjugate(path.rotation[k]) * means[k];
+    }
+    for (std::size_t k = 0; k < kCycleSamples; ++k) {
+        const std::size_t now = k % kCycle;
+        const glm::dquat turn = glm::conjugate(means[now]) * means[now + 1];
+        path.mean[k] = {glm::dvec3(turn.x, turn.y, turn.z) / turn.w,
+                        forwardAt(path, k, segment.playsToEnd)};
+    }
+    return path;
+}
+
 namespace {
 
 Quaternion narrow(const glm::dquat& q) {
@@ -139,6 +239,106 @@ float recordedSpeedBodyLengths(const MotorTables& tables, Action action) {
 
 float recordedTurnRate(const MotorTables& tables, Action action) {
     return tables.segments[static_cast<std::size_t>(action)].turnRate;
+}
+
+namespace {
+
+// A repertoire that hardly moves would warp for seconds; this step keeps K within its 8 bits.
+constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
+
+using Pose = std::array<glm::vec3, body::kNodalPoints>;  // body lengths
+using Cycle = std::array<Pose, kPhases + 1>;             // the last pose repeats the first
+// [phase of A][phase of B]: the largest squared travel from one pose to the other.
+using Travels = std::array<std::array<float, kPhases>, kPhases + 1>;
+
+Cycle cycleOf(const ActionSegment& segment) {
+    Cycle cycle;
+    for (std::size_t k = 0; k < cycle.size(); ++k) {
+        for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
+            const auto& d = segment.nodes[k % kPhases][i];
+            cycle[k][i] = glm::vec3(d[0], d[1], d[2]) * kPoseUnit;
+        }
+    }
+    return cycle;
+}
+
+// The paper watches node 22, the tail; we watch every nodal point, since a tail that comes back to
+// its place may leave the head far from its own.
+float squaredTravel(const Pose& a, const Pose& b) {
+    float most = 0;
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
+        const glm::vec3 d = a[i] - b[i];
+        most = std::max(most, (d.x * d.x + d.y * d.y) + d.z * d.z);
+    }
+    return most;
+}
+
+Pose poseAt(const Cycle& cycle, unsigned phase) {
+    const std::size_t cell = (phase & 0xFFFFU) >> kPhaseCellBits;
+    const float share = static_cast<float>(phase & 1023U) * kPhaseCellUnit;
+    Pose pose;
+    for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
+        pose[i] = cycle[cell][i] + share * (cycle[cell + 1][i] - cycle[cell][i]);
+    }
+    return pose;
+}
+
+// The furthest that any nodal point moves in a tick of any segment: what the eye knows already.
+float largestStep(const std::vector<Cycle>& cycles,
+                  const std::array<std::int16_t, kActions>& phaseRates) {
+    float most = kSmallestStepBodyLengths * kSmallestStepBodyLengths;
+    for (std::size_t action = 0; action < cycles.size(); ++action) {
+        for (unsigned k = 0; k < kPhases; ++k) {
+            const Pose next = poseAt(
+                cycles[action], (k << kPhaseCellBits) + static_cast<unsigned>(phaseRates[action]));
+            most = std::max(most, squaredTravel(cycles[action][k], next));
+        }
+    }
+    return std::sqrt(most);
+}
+
+Travels travelsBetween(const Cycle& a, const Cycle& b) {
+    Travels travels;
+    for (std::size_t k = 0; k <= kPhases; ++k) {
+        for (std::size_t m = 0; m < kPhases; ++m) travels[k][m] = squaredTravel(a[k], b[m]);
+    }
+    return travels;
+}
+
+// Travel within the cell is convex in the phase, so its ends bound it.
+float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
+    return std::max(travels[cell][to], travels[cell + 1][to]);
+}
+
+WarpPlan planFor(const Travels& travels, std::size_t cell, bool enterAtStart, float step) {
+    std::size_t entry = 0;
+    for (std::size_t m = 1; m < kPhases && !enterAtStart; ++m) {
+        if (travelFromCell(travels, cell, m) < travelFromCell(travels, cell, entry)) entry = m;
+    }
+    const float steps = std::sqrt(travelFromCell(travels, cell, entry)) / step;
+    const auto frames = static_cast<int>(steps);  // ceil(steps) - 1, but for whole numbers
+    return {static_cast<std::uint16_t>(entry << kPhaseCellBits),
+            static_cast<std::uint8_t>(std::min(frames, 255))};
+}
+
+}  // namespace
+
+WarpPlans planWarps(const Repertoire& repertoire,
+                    const std::array<std::int16_t, kActions>& phaseRates) {
+    std::vector<Cycle> cycles;
+    for (const ActionSegment& segment : repertoire.segments) cycles.push_back(cycleOf(segment));
+    const float step = largestStep(cycles, phaseRates);
+    WarpPlans plans;
+    for (std::size_t from = 0; from < kActions; ++from) {
+        for (std::size_t to = 0; to < kActions; ++to) {
+            const Travels travels = travelsBetween(cycles[from], cycles[to]);
+            const bool enterAtStart = repertoire.segments[to].playsToEnd;
+            for (std::size_t cell = 0; cell < kPhases; ++cell) {
+                plans[from][cell][to] = planFor(travels, cell, enterAtStart, step);
+            }
+        }
+    }
+    return plans;
 }
 
 }  // namespace aquarama::motion

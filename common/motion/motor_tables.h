@@ -1,16 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the motor step reads of a species: about 60 kB, of which a steady school touches 36.
+// Where one cycle of a segment takes the body frame, in doubles and without libm: what the motor's
+// tables are made of.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
-#include "common/motion/gait_path.h"
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
-#include "common/motion/orientation.h"
 #include "common/motion/repertoire.h"
+#include "common/units/units.h"
 
 namespace aquarama::motion {
+
+inline constexpr std::size_t kPathSamples = 2 * kPhases + 1;
+inline constexpr std::size_t kCycleSamples = kPhases + 1;  // the last repeats the first
+
+// How the cycle-mean frame moves at a phase, in its own axes and in 1/64 of a cycle.
+struct MeanMotion {
+    glm::dvec3 halfTurn{};  // tangent of half the angle, along the axis
+    double forward = 0.0;   // body lengths
+};
+
+struct GaitPath {
+    // The body frame at phase k as seen from phase 0, over two cycles: a tick that runs over the
+    // end of a cycle then needs no case of its own.
+    std::array<glm::dquat, kPathSamples> rotation{};
+    std::array<glm::dvec3, kPathSamples> translation{};  // body lengths
+    // From body axes to the cycle-mean frame, which the tail beat does not sway: it points where
+    // the fish goes.
+    std::array<glm::dquat, kCycleSamples> bodyFromMean{};
+    std::array<MeanMotion, kCycleSamples> mean{};
+};
+
+[[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
+
+// What the motor step reads of a species: about 60 kB, of which a steady school touches 36.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
@@ -53,5 +83,167 @@ class MotorTables {
     std::array<std::int32_t, kActions> turnRate{};
     SpeedLoss loss;
 };
+
+// Which phase a motion warp glides to, and in how many frames (paper, section 4.2).
+
+using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
+
+// [from][cell of its phase][to]. phaseRates: as recorded, 1/65536 of a cycle in a tick.
+[[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
+                                  const std::array<std::int16_t, kActions>& phaseRates);
+
+// What a tick does to one fish before it steers: which segment plays, and where that takes the body
+// frame. Shared by the plain and the vectorised step.
+
+// Limits of what a fish adds to the recorded motion, per tick of 1/60 s. The gains let it settle
+// without a jerk; the rates keep it within what a fish does.
+inline constexpr float kPitchGain = 0.1F;
+inline constexpr float kPitchRate = 0.017453293F;     // 60 degrees a second
+inline constexpr float kSteepestPitch = 0.86602540F;  // sine of 60 degrees
+inline constexpr float kRollGain = 0.05F;
+inline constexpr float kRollRate = 0.013089969F;        // 45 degrees a second
+inline constexpr float kNoseVerticalSquared = 0.0025F;  // sine of 3 degrees: no roll to measure
+inline constexpr float kPitchUnit = 1.0F / 32768.0F;    // of MotorCommands::pitch
+inline constexpr float kYawUnit = 1.0F / 1048576.0F;    // of MotorCommands::yawRate, radians
+inline constexpr float kUnitsPerMillimetre = 65.536F;   // position
+inline constexpr float kLongestStepUnits = 4194304.0F;  // 2^22, 64 m: rounds exactly up to there
+inline constexpr float kLevelAxisBias = 0.0009765625F;  // gives a vertical nose a way to fall
+inline constexpr float kTiniest = 5.9604645e-08F;       // 2^-24: divides where nothing is left
+inline constexpr std::uint32_t kInverseRootGuess = 0x5F3759DFU;
+inline constexpr float kFastest = 4194303.0F;       // kFastestUnits
+inline constexpr float kBrakeUnit = 1.0F / 255.0F;  // of MotorCommands::brake
+// Body lengths in a tick for each speed unit.
+inline constexpr float kLengthsPerSpeedUnit =
+    1.0F / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));
+
+// A range is stepped in whole vectors of this many fish on every machine, and what is left plainly.
+inline constexpr std::size_t kWidestLanes = 16;
+
+// The columns of the states and commands, as plain pointers: their stores alias nothing.
+struct MotorColumns {
+    const std::uint8_t* wanted;
+    const std::int16_t* phaseRate;
+    std::uint16_t *phase, *fromPhase;
+    std::uint8_t *segment, *fromSegment, *warpFrame, *warpLength;
+};
+
+[[nodiscard]] inline MotorColumns columnsOf(const MotorCommands& commands, MotionStates& states) {
+    return {commands.segment.data(),
+            commands.phaseRate.data(),
+            states.phase.data(),
+            states.fromPhase.data(),
+            states.segment.data(),
+            states.fromSegment.data(),
+            states.warpFrame.data(),
+            states.warpLength.data()};
+}
+
+// One tick's travel along the recorded path, as seen from a frame that the fish carries along.
+struct Travel {
+    PathSample start, end;
+    Quaternion bodyFromMean;  // at the end
+    std::int32_t rate = 0;    // by which the path's speeds are multiplied
+};
+
+[[nodiscard]] inline Quaternion lerp(const Quaternion& a, const Quaternion& b, float share) {
+    return {a.w + share * (b.w - a.w),
+            a.x + share * (b.x - a.x),
+            a.y + share * (b.y - a.y),
+            a.z + share * (b.z - a.z)};
+}
+
+[[nodiscard]] inline PathSample lerp(const PathSample& a, const PathSample& b, float share) {
+    PathSample at{.rotation = lerp(a.rotation, b.rotation, share)};
+    for (std::size_t i = 0; i < at.translationAndSpeed.size(); ++i) {
+        const float here = a.translationAndSpeed[i];
+        at.translationAndSpeed[i] = here + share * (b.translationAndSpeed[i] - here);
+    }
+    return at;
+}
+
+[[nodiscard]] inline float fractionOf(std::uint32_t phase) {
+    return static_cast<float>(phase & 1023U) * kPhaseCellUnit;
+}
+
+inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::size_t i) {
+    const WarpPlan plan =
+        tables.segments[fish.segment[i]].warpTo[fish.phase[i] >> kPhaseCellBits][fish.wanted[i]];
+    fish.fromSegment[i] = fish.segment[i];
+    fish.fromPhase[i] = fish.phase[i];
+    fish.segment[i] = fish.wanted[i];
+    fish.phase[i] = plan.entryPhase;
+    fish.warpFrame[i] = 0;
+    fish.warpLength[i] = plan.frames;
+}
+
+// The rate at which a fish plays its segment: a turn has no way back.
+[[nodiscard]] inline std::int32_t commandedRate(const SegmentTables& playing, std::int32_t rate) {
+    return playing.playsToEnd && rate < 0 ? -rate : rate;
+}
+
+// What a fish does in a tick: it warps, or plays its segment between two phases of the two-cycle
+// path.
+struct Playing {
+    bool warps = true;
+    std::int32_t from = 0, to = 0;
+};
+
+// Advances segment, phase and warp counter by a tick. Counters run whether or not anyone looks. The
+// commanded rate is that of the commanded segment; a turn that others wait for plays as recorded. A
+// turn is left at its end only, and by a warp even if the same turn follows.
+[[nodiscard]] inline Playing advanceSegment(const MotorTables& tables,
+                                            const MotorColumns& fish,
+                                            std::size_t i) {
+    if (fish.warpFrame[i] != fish.warpLength[i]) {
+        ++fish.warpFrame[i];
+        return {};
+    }
+    const SegmentTables& playing = tables.segments[fish.segment[i]];
+    const bool leaves = fish.wanted[i] != fish.segment[i];
+    const std::int32_t phase = fish.phase[i];
+    const std::int32_t rate =
+        leaves ? playing.phaseRate : commandedRate(playing, fish.phaseRate[i]);
+    const bool mayEnter = fish.wanted[i] < kActions;
+    if (mayEnter && (playing.playsToEnd ? phase + rate > 0xFFFF : leaves)) {
+        startWarp(tables, fish, i);
+        return {};
+    }
+    fish.phase[i] = static_cast<std::uint16_t>(phase + rate);
+    const std::int32_t from = rate < 0 ? phase + 65536 : phase;
+    return {.warps = false, .from = from, .to = from + rate};
+}
+
+[[nodiscard]] inline Quaternion swayAt(const SegmentTables& tables, std::uint32_t phase) {
+    const std::size_t cell = phase >> kPhaseCellBits;
+    return lerp(tables.bodyFromMean[cell], tables.bodyFromMean[cell + 1], fractionOf(phase));
+}
+
+// The path's speed in units, at a phase rate.
+[[nodiscard]] inline float pathSpeed(float perRate, float rate) {
+    return roundToEven(std::min(std::max(perRate * rate, -kFastest), kFastest));
+}
+
+// The paper does not say what the body frame does during a warp; frozen, the fish would halt. Here
+// its mean frame goes straight on, while the body's sway goes over from that of the last pose to
+// that of the first: so a warp never turns the course.
+[[nodiscard]] inline Travel warpingTravel(const MotorTables& tables,
+                                          const MotorColumns& fish,
+                                          std::size_t i) {
+    const SegmentTables& next = tables.segments[fish.segment[i]];
+    const Quaternion last = swayAt(tables.segments[fish.fromSegment[i]], fish.fromPhase[i]);
+    const Quaternion first = swayAt(next, fish.phase[i]);
+    const float steps = 1.0F / static_cast<float>(fish.warpLength[i] + 1);
+    const auto swayAfter = [&](int frames) {
+        return normalised(lerp(last, first, static_cast<float>(frames) * steps));
+    };
+    const Quaternion sway = swayAfter(fish.warpFrame[i] + 1);
+    const std::int32_t rate = commandedRate(next, fish.phaseRate[i]);
+    const float speed = next.path[fish.phase[i] >> kPhaseCellBits].translationAndSpeed[3];
+    const float way = pathSpeed(speed, static_cast<float>(rate)) * kLengthsPerSpeedUnit;
+    return {.start = {conjugate(swayAfter(fish.warpFrame[i])), {0.0F, 0.0F, 0.0F, speed}},
+            .end = {conjugate(sway), {way, 0.0F, 0.0F, speed}},
+            .bodyFromMean = sway,
+            .rate = rate};
+}
 
 }  // namespace aquarama::motion

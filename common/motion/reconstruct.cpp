@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/reconstruct.h"
 
-#include "common/motion/phase_sample.h"
+#include "common/motion/repertoire.h"
 
 namespace aquarama::motion {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The action repertoire of a species: one cycle of each action, captured from the biomechanical
-// fish (paper, section 3).
+// Little-endian numbers to and from bytes; the reader never passes its end and says so by `ok()`.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,6 +17,72 @@
 #include "common/body/fish_body.h"
 
 namespace aquarama::motion {
+
+class ByteWriter {
+  public:
+    template <class Unsigned>
+    void unsignedNumber(Unsigned value) {
+        for (std::size_t byte = 0; byte < sizeof(Unsigned); ++byte) {
+            bytes_.push_back(
+                static_cast<std::byte>(static_cast<std::uint64_t>(value) >> 8U * byte));
+        }
+    }
+    void int16(std::int16_t value) { unsignedNumber(static_cast<std::uint16_t>(value)); }
+    void float32(float value) { unsignedNumber(std::bit_cast<std::uint32_t>(value)); }
+    template <class Container>
+    void characters(const Container& text) {
+        for (const auto character : text) unsignedNumber(static_cast<std::uint8_t>(character));
+    }
+
+    [[nodiscard]] std::vector<std::byte> take() && { return std::move(bytes_); }
+    [[nodiscard]] std::span<const std::byte> written() const { return bytes_; }
+
+  private:
+    std::vector<std::byte> bytes_;
+};
+
+// After the first number that is not wholly there, every number is zero and ok() is false.
+class ByteReader {
+  public:
+    explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+    template <class Unsigned>
+    [[nodiscard]] Unsigned unsignedNumber() {
+        std::uint64_t value = 0;
+        const std::span<const std::byte> bytes = take(sizeof(Unsigned));
+        for (std::size_t byte = 0; byte < bytes.size(); ++byte) {
+            value |= std::to_integer<std::uint64_t>(bytes[byte]) << 8U * byte;
+        }
+        return static_cast<Unsigned>(value);
+    }
+    [[nodiscard]] std::int16_t int16() {
+        return static_cast<std::int16_t>(unsignedNumber<std::uint16_t>());
+    }
+    [[nodiscard]] float float32() { return std::bit_cast<float>(unsignedNumber<std::uint32_t>()); }
+    [[nodiscard]] std::string characters(std::size_t count) {
+        std::string text;
+        for (const std::byte byte : take(count)) text += std::to_integer<char>(byte);
+        return text;
+    }
+
+    [[nodiscard]] bool ok() const { return ok_; }
+    [[nodiscard]] std::size_t remaining() const { return rest_.size(); }
+
+  private:
+    std::span<const std::byte> take(std::size_t count) {
+        ok_ = ok_ && count <= rest_.size();
+        if (!ok_) return {};
+        const auto taken = rest_.first(count);
+        rest_ = rest_.subspan(count);
+        return taken;
+    }
+
+    std::span<const std::byte> rest_;
+    bool ok_ = true;
+};
+
+// The action repertoire of a species: one cycle of each action, captured from the biomechanical
+// fish (paper, section 3).
 
 inline constexpr int kPhases = 64;  // samples of one cycle; phase k is at k / 64 of the period
 
@@ -89,5 +156,24 @@ void addGlide(Repertoire& repertoire);
 // version or out of bounds; sizes are checked before memory is taken.
 [[nodiscard]] Repertoire decodeRepertoire(std::span<const std::byte> bytes,
                                           const std::string& source);
+
+// Where a presented phase lies between two samples of the cycle.
+
+struct PhaseSample {
+    std::size_t before = 0, after = 0;
+    float share = 0.0F;  // of `after`
+};
+
+// A phase outside of [0, 1) plays its nearest end.
+[[nodiscard]] inline PhaseSample sampleAt(float phase) {
+    const float at = std::clamp(phase, 0.0F, 1.0F) * kPhases;
+    const auto before = static_cast<std::size_t>(at);
+    return {before % kPhases, (before + 1) % kPhases, at - static_cast<float>(before)};
+}
+
+[[nodiscard]] inline const ActionSegment& segmentOf(const Repertoire& repertoire,
+                                                    std::uint32_t segment) {
+    return repertoire.segments[std::min<std::size_t>(segment, kActions - 1)];
+}
 
 }  // namespace aquarama::motion

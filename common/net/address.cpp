@@ -8,7 +8,7 @@
 
 #include <arpa/inet.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::net {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/files/files.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::net {
 namespace {

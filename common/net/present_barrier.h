@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/net/clock.h"
-#include "common/units/ids.h"
+#include "common/units/units.h"
 
 namespace aquarama::net {
 

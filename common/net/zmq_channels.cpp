@@ -11,7 +11,7 @@
 #include "common/net/address.h"
 #include "common/net/channels.h"
 #include "common/net/wake_event.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::net {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place: sea floor, rocks and plants as functions of its kind and a seed, the same in the
-// master (avoidance) and the nodes (drawing).
+// Angles and sizes of vectors by exact arithmetic: two machines' libm do not agree to the bit.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,63 @@
 #include "common/config/scene.h"
 
 namespace aquarama::place {
+
+inline constexpr float kPi = 3.14159265F;
+
+// Angle of (x, y) from the x axis, -pi to pi, within 2e-5 rad (Abramowitz & Stegun 4.4.49).
+[[nodiscard]] constexpr float angleOf(float y, float x) {
+    const float absX = x < 0 ? -x : x;
+    const float absY = y < 0 ? -y : y;
+    const float larger = std::max(absX, absY);
+    if (larger <= 0) return 0;
+    const float t = std::min(absX, absY) / larger;
+    const float s = t * t;
+    const float tail = -0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F));
+    float angle = t * (0.9998660F + s * tail);
+    if (absY > absX) angle = kPi / 2 - angle;
+    if (x < 0) angle = kPi - angle;
+    return y < 0 ? -angle : angle;
+}
+
+[[nodiscard]] inline float dot(glm::vec3 a, glm::vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+[[nodiscard]] inline float lengthOf(glm::vec3 v) {
+    return std::sqrt(dot(v, v));
+}
+
+// The direction of v; `otherwise` where v has none.
+[[nodiscard]] inline glm::vec3 directionOf(glm::vec3 v, glm::vec3 otherwise) {
+    const float length = lengthOf(v);
+    return length > 1.0e-6F ? v / length : otherwise;
+}
+
+// The turn about the world's up that brings the course of `from` to that of `to`, left positive.
+[[nodiscard]] inline float yawBetween(glm::vec3 from, glm::vec3 to) {
+    return angleOf(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z);
+}
+
+// No fish here wants to climb or dive more steeply than by 25 degrees.
+[[nodiscard]] inline glm::vec3 levelled(glm::vec3 direction) {
+    constexpr float kSteepest = 0.42F;  // sine of 25 degrees
+    const float y = std::clamp(direction.y, -kSteepest, kSteepest);
+    const float horizontal = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    if (horizontal < 1.0e-4F) return {1, 0, 0};
+    const float scale = std::sqrt(1 - y * y) / horizontal;
+    return {direction.x * scale, y, direction.z * scale};
+}
+
+// Noise by integer hashes: the same bits on every machine, from a seed and a place alone.
+
+// Smooth (C2) value noise, -1 to 1, lattice of side 1.
+[[nodiscard]] float valueNoise(std::uint32_t seed, glm::vec2 place);
+
+// Octaves of it, each of twice the frequency and half the height; within -2 to 2.
+[[nodiscard]] float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves);
+
+// The place: sea floor, rocks and plants as functions of its kind and a seed, the same in the
+// master (avoidance) and the nodes (drawing).
 
 // World frame: metres, Y up. The surface of the sea is the plane y = 0; the reef's eye is at
 // kEyePosition, looking along -Z.

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::place {
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "common/skin/limit_table.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
 #include <span>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <opensubdiv/far/stencilTableFactory.h>
@@ -11,11 +15,69 @@
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
 #include "common/skin/attachments.h"
-#include "common/skin/face_grid.h"
-#include "common/skin/skin_places.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::skin {
+
+namespace {
+
+// The two ends of the edge on which a border point lies, and how many cuts it is from the first.
+struct OnEdge {
+    std::uint16_t from, to;
+    int step;
+};
+
+OnEdge onEdge(const std::array<std::uint16_t, 4>& face, int i, int j, int cuts) {
+    if (j == 0) return {face[0], face[1], i};
+    if (i == cuts) return {face[1], face[2], j};
+    if (j == cuts) return {face[3], face[2], i};
+    return {face[0], face[3], j};
+}
+
+}  // namespace
+
+FaceGrid::FaceGrid(const body::ControlCage& cage, int cuts) : cuts_{cuts} {
+    using EdgePoint = std::array<int, 3>;  // lower end, higher end, cuts from the lower
+    std::map<EdgePoint, std::uint32_t> edgePoints;
+    locations_.resize(cage.vertices.size());
+
+    const auto number = [&](std::uint32_t face, int i, int j) -> std::uint32_t {
+        const Location location{face,
+                                static_cast<float>(i) / static_cast<float>(cuts),
+                                static_cast<float>(j) / static_cast<float>(cuts)};
+        const bool atI = i == 0 || i == cuts, atJ = j == 0 || j == cuts;
+        const auto& corners = cage.faces[face];
+        if (atI && atJ) {
+            const std::uint16_t corner = j == 0 ? corners[i == 0 ? 0 : 1] : corners[i == 0 ? 3 : 2];
+            locations_[corner] = location;
+            return corner;
+        }
+        const auto fresh = static_cast<std::uint32_t>(locations_.size());
+        if (atI || atJ) {
+            auto [from, to, step] = onEdge(corners, i, j, cuts);
+            if (from > to) {
+                std::swap(from, to);
+                step = cuts - step;
+            }
+            const auto [found, isNew] = edgePoints.try_emplace({from, to, step}, fresh);
+            if (!isNew) return found->second;
+        }
+        locations_.push_back(location);
+        return fresh;
+    };
+
+    for (std::uint32_t face = 0; face < cage.faces.size(); ++face) {
+        for (int j = 0; j <= cuts; ++j) {
+            for (int i = 0; i <= cuts; ++i) numbers_.push_back(number(face, i, j));
+        }
+    }
+}
+
+std::uint32_t FaceGrid::at(std::size_t face, int i, int j) const {
+    const std::size_t side = static_cast<std::size_t>(cuts_) + 1;
+    return numbers_[face * side * side + static_cast<std::size_t>(j) * side +
+                    static_cast<std::size_t>(i)];
+}
 
 namespace {
 
@@ -211,6 +273,64 @@ LimitTable makeLimitTable(const body::FishBody& body, int level) {
     paintPlaces(body, grid, table);
     append(body, makeAttachments(body, headAtRest(*refiner, body)), table);
     return table;
+}
+
+namespace {
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+Pair ordered(std::uint32_t a, std::uint32_t b) {
+    return {std::min(a, b), std::max(a, b)};
+}
+
+// The edges that only the two triangles of one quad share. A quad's triangles follow each other,
+// and those of attachments stand between.
+std::set<Pair> diagonalsOf(const LimitTable& table) {
+    std::vector<std::array<std::uint32_t, 3>> skin;
+    for (std::size_t t = 0; t < table.indices.size(); t += 3) {
+        const std::array triangle{table.indices[t], table.indices[t + 1], table.indices[t + 2]};
+        if (std::ranges::max(triangle) < table.skinVertices) skin.push_back(triangle);
+    }
+    std::set<Pair> diagonals;
+    for (std::size_t t = 0; t + 1 < skin.size(); t += 2) {
+        std::vector<std::uint32_t> shared;
+        for (const std::uint32_t vertex : skin[t])
+            if (std::ranges::find(skin[t + 1], vertex) != skin[t + 1].end())
+                shared.push_back(vertex);
+        diagonals.insert(ordered(shared.at(0), shared.at(1)));
+    }
+    return diagonals;
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
+                                                         int level,
+                                                         const LimitTable& coarser) {
+    const FaceGrid fine{body.cage, 1 << level};
+    const FaceGrid coarse{body.cage, 1 << (level - 1)};
+    const std::set<Pair> diagonals = diagonalsOf(coarser);
+    std::vector<std::array<std::uint32_t, 2>> parents(fine.locations().size());
+    const int n = fine.cuts();
+    const auto parentsAt = [&](std::size_t face, int i, int j) -> std::array<std::uint32_t, 2> {
+        const int di = i % 2, dj = j % 2;
+        if (di == 0 || dj == 0)
+            return {fine.at(face, i - di, j - dj), fine.at(face, i + di, j + dj)};
+        const Pair rising =
+            ordered(coarse.at(face, i / 2, j / 2), coarse.at(face, i / 2 + 1, j / 2 + 1));
+        if (diagonals.contains(rising))
+            return {fine.at(face, i - 1, j - 1), fine.at(face, i + 1, j + 1)};
+        return {fine.at(face, i + 1, j - 1), fine.at(face, i - 1, j + 1)};
+    };
+    for (std::size_t face = 0; face < body.cage.faces.size(); ++face)
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) parents[fine.at(face, i, j)] = parentsAt(face, i, j);
+    // Attachments are the same at every level.
+    for (std::size_t k = coarser.skinVertices; k < coarser.vertices.size(); ++k) {
+        const auto own = static_cast<std::uint32_t>(parents.size());
+        parents.push_back({own, own});
+    }
+    return parents;
 }
 
 }  // namespace aquarama::skin

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a species at one level of detail: how each vertex follows from the control points,
-// and its triangles.
+// Numbers the vertices of a cage whose faces are each cut into n x n pieces, so that faces share
+// those on their borders.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,6 +16,31 @@
 #include "common/body/fish_body.h"
 
 namespace aquarama::skin {
+
+// Vertex numbers of one face, row by row: column i is at u = i / n, row j at v = j / n. Corners of
+// the face are the cage's own vertices.
+class FaceGrid {
+  public:
+    FaceGrid(const body::ControlCage& cage, int cuts);
+
+    struct Location {
+        std::uint32_t face = 0;
+        float u = 0, v = 0;
+    };
+
+    [[nodiscard]] int cuts() const { return cuts_; }
+    [[nodiscard]] std::uint32_t at(std::size_t face, int i, int j) const;
+    // For each vertex a place where it lies, ordered by vertex.
+    [[nodiscard]] const std::vector<Location>& locations() const { return locations_; }
+
+  private:
+    int cuts_;
+    std::vector<std::uint32_t> numbers_;
+    std::vector<Location> locations_;
+};
+
+// The surface of a species at one level of detail: how each vertex follows from the control points,
+// and its triangles.
 
 // Level 0 is the control mesh itself (paper, section 6); 1 and 2 lie on the Catmull-Clark limit
 // surface, at the corners of the faces that so many refinements make.
@@ -63,5 +89,15 @@ struct SkinPoint {
 
 // Takes 5 to 50 ms.
 [[nodiscard]] LimitTable makeLimitTable(const body::FishBody& body, int level);
+
+// How a level of detail hangs on the next coarser one, so that a mesh may grow out of it without a
+// jump.
+
+// For each vertex of makeLimitTable(body, level) the two vertices of the same table in whose middle
+// the triangles of the next coarser level have it; twice itself for those that the coarser level
+// has too. level is at least 1.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
+                                                                       int level,
+                                                                       const LimitTable& coarser);
 
 }  // namespace aquarama::skin

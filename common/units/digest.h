@@ -4,12 +4,16 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 namespace aquarama {
 
@@ -21,5 +25,46 @@ struct Digest {
 [[nodiscard]] Digest digestOf(std::span<const std::byte> content);
 [[nodiscard]] Digest digestOf(std::string_view content);
 [[nodiscard]] std::string toHex(const Digest& digest);  // 64 lower-case digits
+
+// Folds arrays into one number: equal states have equal hashes.
+
+template <class Value>
+[[nodiscard]] std::uint64_t bitsOf(Value value) {
+    if constexpr (std::is_same_v<Value, float>)
+        return std::bit_cast<std::uint32_t>(value);
+    else
+        return static_cast<std::uint64_t>(value);
+}
+
+// The multiply-and-shift of splitmix64.
+template <class Value>
+[[nodiscard]] std::uint64_t foldedOne(std::uint64_t hash, Value value) {
+    hash = (hash ^ bitsOf(value)) * 0xbf58476d1ce4e5b9U;
+    return hash ^ hash >> 29U;
+}
+
+// Eight chains side by side: one alone would wait for each of its multiplications, and a quarter of
+// a million fish are folded at every tick.
+template <class Value, class Projection = std::identity>
+[[nodiscard]] std::uint64_t folded(std::uint64_t hash,
+                                   const std::vector<Value>& values,
+                                   Projection projection = {}) {
+    constexpr std::size_t kChains = 8;
+    std::array<std::uint64_t, kChains> chains;
+    for (std::size_t c = 0; c < kChains; ++c) chains[c] = foldedOne(hash, c);
+    std::size_t i = 0;
+    for (; i + kChains <= values.size(); i += kChains)
+        for (std::size_t c = 0; c < kChains; ++c)
+            chains[c] = foldedOne(chains[c], std::invoke(projection, values[i + c]));
+    for (std::size_t c = 0; i + c < values.size(); ++c)
+        chains[c] = foldedOne(chains[c], std::invoke(projection, values[i + c]));
+    for (const std::uint64_t chain : chains) hash = foldedOne(hash, chain);
+    return foldedOne(hash, values.size());
+}
+
+template <class... Vectors>
+[[nodiscard]] std::size_t bytesIn(const Vectors&... vectors) {
+    return (... + (vectors.size() * sizeof(vectors[0])));
+}
 
 }  // namespace aquarama

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line in the log of this process. Formatted here and written there: spdlog's own templates would
-// take the compiler six seconds in every source that says something.
+// The one exception of the project: thrown while something starts, caught once in each main().
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
 namespace aquarama {
+
+// Says what is wrong, where, and what to do, in one line: "config/desk.txtpb:12:3: projector "left"
+// ...; move it". Nothing throws inside the frame loop; there a bad packet is an empty optional, and
+// is counted.
+class Error : public std::runtime_error {
+  public:
+    explicit Error(const std::string& whatWhereAndWhatToDo)
+        : std::runtime_error(whatWhereAndWhatToDo) {}
+};
+
+// A line in the log of this process. Formatted here and written there: spdlog's own templates would
+// take the compiler six seconds in every source that says something.
 
 void writeInfo(const std::string& line);
 void writeWarning(const std::string& line);

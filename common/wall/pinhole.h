@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -45,5 +46,13 @@ class Pinhole {
 
 // Azimuth of a point about the screen's axis: 0 straight ahead, positive to the right.
 [[nodiscard]] double azimuthOf(glm::dvec3 point);
+
+// The border of what a projector lights on the screen, as a closely spaced set of points.
+
+// Points where the picture's border falls on the screen and where the screen's border falls into
+// the picture: together they enclose all that is lit. Empty when the projector misses the screen.
+[[nodiscard]] std::vector<glm::dvec3> litOutline(const config::Screen& screen,
+                                                 const Pinhole& projector,
+                                                 double spillMetres);
 
 }  // namespace aquarama::wall

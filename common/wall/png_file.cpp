@@ -10,7 +10,7 @@
 
 #include <png.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::wall {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From projector pixel to screen point to view ray, and the blend between neighbours: analytic, for
-// a cylinder.
+// The viewer's eyes before the wall, and how a channel shows a picture to each.
 #pragma once
 
 #include <optional>
@@ -13,9 +12,22 @@
 #include <glm/vec3.hpp>
 
 #include "common/config/rig.h"
-#include "common/wall/eyes.h"
+#include "common/wall/pinhole.h"
 
 namespace aquarama::wall {
+
+// Between the eyes, where a mono picture is seen from; or one of them.
+enum class EyeSide : std::uint8_t { Between, Left, Right };
+
+// Wall frame, metres. The viewer faces the screen's middle whatever the channel: neighbours, each
+// with the same two eyes, then agree in their overlap.
+[[nodiscard]] glm::dvec3 eyePosition(const config::Rig& rig, EyeSide side);
+
+// The rig's, unless the channel's display has its own.
+[[nodiscard]] config::Stereo stereoOf(const config::Rig& rig, std::size_t channel);
+
+// From projector pixel to screen point to view ray, and the blend between neighbours: analytic, for
+// a cylinder.
 
 // Where a projector's pixel (continuous, top left corner of the picture is (0, 0), texel centres at
 // +0.5) lights the screen, wall frame; nothing where its ray misses the screen.
@@ -74,5 +86,19 @@ inline constexpr double kDarkBorder = 0.005;
 // Throws Error (with `source`) when a projector misses the screen, the screen is not covered, or
 // neighbours leave a gap.
 void checkGeometry(const config::Rig& rig, const std::string& source);
+
+// The blend of a whole rig made ready for many points: what blendWeight of wall.h computes.
+
+class Blend {
+  public:
+    explicit Blend(const config::Rig& rig);
+    [[nodiscard]] double weight(std::size_t channel, glm::dvec3 screenPointMetres) const;
+    [[nodiscard]] const Pinhole& projector(std::size_t channel) const {
+        return projectors_[channel];
+    }
+
+  private:
+    std::vector<Pinhole> projectors_;
+};
 
 }  // namespace aquarama::wall

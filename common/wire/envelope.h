@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "common/units/digest.h"
-#include "common/units/ids.h"
-#include "common/units/limits.h"
-#include "common/units/steering.h"
+#include "common/units/units.h"
 #include "common/wire/messages.h"
 
 namespace aquarama::wire {

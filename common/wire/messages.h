@@ -14,7 +14,7 @@
 #include "common/config/quality.h"
 #include "common/motion/motion_state.h"
 #include "common/units/digest.h"
-#include "common/units/ids.h"
+#include "common/units/units.h"
 #include "common/wire/food_record.h"
 
 namespace aquarama::wire {

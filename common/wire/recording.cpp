@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wire/recording.pb.h"
 
 namespace aquarama::wire {

@@ -14,8 +14,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/units/ids.h"
-#include "common/units/steering.h"
+#include "common/units/units.h"
 #include "common/wire/envelope.h"
 
 namespace aquarama::wire {

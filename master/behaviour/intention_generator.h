@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "master/behaviour/mental_state.h"
-#include "master/behaviour/perceive/senses.h"
+#include "master/behaviour/perceive/perceive.h"
+#include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
-#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 
@@ -75,5 +75,15 @@ struct Reasoning {
                                const fish::Mind& mind,
                                const Senses& senses,
                                const fish::Feelings& feelings);
+
+// The intention generator's word on what the secondary controller recommends (paper, section 5.1).
+
+// Whether a fish with this intention may swim another pattern for a while, for no reason but
+// variety. Not while a stroke counts: in flight, in fear, in another's way, near what it eats, in
+// courtship.
+[[nodiscard]] bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
+                                         const fish::Mind& mind,
+                                         const Senses& senses,
+                                         const fish::Feelings& feelings);
 
 }  // namespace aquarama::behaviour

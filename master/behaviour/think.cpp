@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/think.h"
 
-#include "master/behaviour/act/routines.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive/perceive.h"
-#include "master/behaviour/recommendation.h"
-#include "master/fish/drives.h"
+#include "master/behaviour/routines.h"
+#include "master/fish/minds.h"
 
 namespace aquarama::behaviour {
 

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-#include "master/behaviour/act/routines.h"
-#include "master/behaviour/perceive/environment.h"
-#include "master/fish/courses.h"
+#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/routines.h"
 #include "master/fish/minds.h"
+#include "master/fish/secondary_controller.h"
 
 namespace aquarama::behaviour {
 

@@ -12,11 +12,9 @@
 #include "common/cli/python.h"
 #include "common/cli/signals.h"
 #include "common/files/files.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/compile/config_folder.h"
-#include "master/capture/compile/progress_bar.h"
-#include "master/capture/compile/repertoire_cache.h"
 #include "master/capture/report/report_data.h"
 
 namespace aquarama {

@@ -10,12 +10,10 @@
 
 #include "common/cli/outputs.h"
 #include "common/files/files.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/compile/config_folder.h"
-#include "master/capture/compile/repertoire_cache.h"
 #include "master/capture/exchange/c3d.h"
-#include "master/capture/exchange/csv.h"
 #include "master/capture/exchange/gltf.h"
 
 namespace aquarama {

@@ -10,12 +10,9 @@
 #include "common/cli/outputs.h"
 #include "common/cli/python.h"
 #include "common/files/files.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/compile/capture_repertoire.h"
-#include "master/capture/compile/config_folder.h"
-#include "master/capture/compile/progress_bar.h"
-#include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/fidelity/fidelity_csv.h"
+#include "master/capture/fidelity/fidelity.h"
 
 namespace aquarama {
 

@@ -6,9 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/compile/config_folder.h"
-#include "master/capture/search/gait_table.h"
+#include "master/capture/search/gait_trial.h"
 
 namespace aquarama {
 

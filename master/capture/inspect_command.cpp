@@ -7,9 +7,8 @@
 
 #include "common/cli/outputs.h"
 #include "common/cli/python.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/report/inspect.h"
 #include "master/capture/report/report_data.h"
 
 namespace aquarama {

@@ -14,14 +14,11 @@
 
 #include "common/cli/outputs.h"
 #include "common/files/files.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/compile/config_folder.h"
-#include "master/capture/compile/progress_bar.h"
-#include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/search/gait_table.h"
+#include "master/capture/search/gait_trial.h"
 #include "master/capture/search/search.h"
 #include "master/capture/search/species_text.h"
-#include "master/capture/search/turn_strength.h"
 
 namespace aquarama {
 

@@ -9,7 +9,7 @@
 
 #include "common/net/channels.h"
 #include "common/net/clock.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wire/envelope.h"
 
 namespace aquarama::conductor {

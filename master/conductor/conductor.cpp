@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::conductor {
 namespace {

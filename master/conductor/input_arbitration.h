@@ -9,7 +9,7 @@
 
 #include "common/net/channels.h"
 #include "common/net/clock.h"
-#include "common/units/steering.h"
+#include "common/units/units.h"
 
 namespace aquarama::conductor {
 

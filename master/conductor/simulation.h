@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "common/motion/motion_state.h"
-#include "common/units/ids.h"
+#include "common/units/units.h"
 #include "common/wire/envelope.h"
 #include "common/wire/messages.h"
-#include "master/world/input.h"
+#include "master/world/events.h"
 
 namespace aquarama::conductor {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/units/steering.h"
+#include "common/units/units.h"
 
 namespace aquarama::conductor {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fish can see of one another at the start of a tick, world frame. Nothing in it changes while
-// the fish think.
+// A species as its fish's minds use it: its habits, and names resolved to indices of the cast.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +8,23 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/config/habits.h"
+#include "common/units/units.h"
+
 namespace aquarama::fish {
+
+struct SpeciesParameters {
+    std::uint8_t kind = 0;                 // its own index in the cast
+    std::uint32_t first = 0, last = 0;     // its fish are [first, last) of all
+    std::uint64_t hunts = 0;               // a bit for each kind that it eats
+    std::uint64_t huntedBy = 0;            // a bit for each kind that eats it
+    std::uint64_t shadows = 0;             // a bit for each kind that it likes to follow
+    float slow = 1, medium = 2, fast = 3;  // body lengths a second, of its repertoire
+    config::Habits habits;
+};
+
+// What fish can see of one another at the start of a tick, world frame. Nothing in it changes while
+// the fish think.
 
 inline constexpr std::uint32_t kNobody = 0xffffffffU;  // no fish, no particle
 
@@ -51,5 +66,14 @@ struct FishView {
     void fetch(std::size_t i) const { __builtin_prefetch(&fish[i]); }
     [[nodiscard]] bool shows(std::size_t i, Sign sign) const { return (signs[i] & sign) != 0; }
 };
+
+// Where a fish's mouth is.
+
+// Of the mouth before the origin of the body frame: nodal point 0 of every species' rest shape.
+inline constexpr float kMouthBodyLengths = 0.385F;
+
+[[nodiscard]] inline glm::vec3 mouthOf(const FishView& view, std::uint32_t fish) {
+    return view.position(fish) + view.heading(fish) * (kMouthBodyLengths * view.fish[fish].length);
+}
 
 }  // namespace aquarama::fish

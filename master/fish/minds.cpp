@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/fish/minds.h"
 
-#include "common/units/folded_hash.h"
+#include <algorithm>
+#include <cmath>
+
+#include "common/units/digest.h"
+#include "common/units/units.h"
+#include "master/fish/secondary_controller.h"
 
 namespace aquarama::fish {
 
@@ -28,6 +34,107 @@ std::uint64_t Minds::hash() const {
 
 std::size_t Minds::bytes() const {
     return bytesIn(minds_);
+}
+
+namespace {
+
+constexpr float kTicksASecond = static_cast<float>(kTicksPerSecond);
+
+float seconds(std::uint32_t ticks) {
+    return static_cast<float>(ticks) / kTicksASecond;
+}
+
+std::uint32_t ticksOf(float seconds) {
+    return static_cast<std::uint32_t>(
+        std::min(seconds * kTicksASecond, static_cast<float>(kLongAgo) / 2));
+}
+
+// R of the thesis: 1 after a meal, 0 when it is digested.
+float undigested(const SpeciesParameters& parameters, const Mind& mind) {
+    return std::max(0.0F, 1 - parameters.habits.digestionPerSecond * seconds(mind.sinceMeal));
+}
+
+}  // namespace
+
+float innerHunger(const SpeciesParameters& parameters, const Mind& mind) {
+    const float stomach = static_cast<float>(mind.eaten) * undigested(parameters, mind);
+    return std::clamp(1 - stomach / parameters.habits.appetiteParticles, 0.0F, 1.0F);
+}
+
+bool isGorged(const SpeciesParameters& parameters, const Mind& mind) {
+    return static_cast<float>(mind.eaten) > 2 * parameters.habits.appetiteParticles;
+}
+
+float innerLibido(const SpeciesParameters& parameters, const Mind& mind, float hunger) {
+    if (!mates(parameters)) return 0;
+    return std::min(1.0F, parameters.habits.libidoPerSecond * seconds(mind.sinceSpawning)) *
+           (1 - hunger);
+}
+
+bool mates(const SpeciesParameters& parameters) {
+    return parameters.habits.role == config::Role::Pacifist &&
+           parameters.habits.libidoPerSecond > 0;
+}
+
+void passTime(const SpeciesParameters& parameters, Mind& mind) {
+    for (std::uint32_t* ticks : {&mind.pursued,
+                                 &mind.sinceRemembered,
+                                 &mind.sinceMeal,
+                                 &mind.sinceSpawning,
+                                 &mind.sinceChase,
+                                 &mind.sinceStage})
+        if (*ticks < kLongAgo) *ticks += kTicksBetweenThoughts;
+    if (undigested(parameters, mind) <= 0) mind.eaten = 0;
+}
+
+void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mind& mind) {
+    const float meal = std::max(1.0F, std::ceil(parameters.habits.appetiteParticles));
+    const float left =
+        std::clamp((1 - hunger) * parameters.habits.appetiteParticles / meal, 0.0F, 1.0F);
+    mind.eaten = static_cast<std::uint16_t>(meal);
+    mind.sinceMeal = ticksOf((1 - left) / parameters.habits.digestionPerSecond);
+    const float growth = parameters.habits.libidoPerSecond * std::max(1 - hunger, 0.0F);
+    mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
+}
+
+namespace {
+
+bool wouldMate(const SpeciesParameters& parameters, const Mind& mind, Intention aim) {
+    if (!mates(parameters)) return false;
+    return aim == Intention::Mate ||
+           innerLibido(parameters, mind, innerHunger(parameters, mind)) > kDesire;
+}
+
+// Of a kind that neither mates nor hunts only this much differs from fish to fish.
+unsigned moodOf(std::uint8_t likes, Intention aim) {
+    return ((likes & kIsFemale) != 0 ? unsigned{kFemale} : 0U) |
+           (aim == Intention::School ? unsigned{kSchooling} : 0U);
+}
+
+}  // namespace
+
+void showMood(const SpeciesParameters& parameters,
+              const Minds& minds,
+              std::uint32_t fish,
+              FishView& view) {
+    const unsigned away = view.signs[fish] & unsigned{kAway};
+    const Mind& mind = minds[fish];
+    if (parameters.habits.role ==
+        config::Role::Prey) {  // most fish are; they need but three bytes of their mind
+        const bool schools =
+            mind.intention == Intention::School || mind.remembered == Intention::School;
+        view.signs[fish] = static_cast<std::uint8_t>(
+            away | moodOf(mind.likes, schools ? Intention::School : mind.intention));
+        return;
+    }
+    const Aim aim = aimOf(mind);
+    unsigned signs = away | moodOf(mind.likes, aim.intention);
+    if (wouldMate(parameters, mind, aim.intention)) signs |= kWilling;
+    if (parameters.habits.role == config::Role::Predator && aim.intention == Intention::Eat)
+        signs |= kHunting;
+    view.signs[fish] = static_cast<std::uint8_t>(signs);
+    view.stage[fish] = mind.stage;
+    view.partner[fish] = aim.intention == Intention::Mate ? aim.target : kNobody;
 }
 
 }  // namespace aquarama::fish

@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/simulation/insight.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "common/place/place.h"
+#include "common/units/units.h"
 #include "master/behaviour/perceive/perceive.h"
 
 namespace aquarama::simulation {
@@ -28,6 +39,283 @@ std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish
     insight.reasoning =
         behaviour::reason(insight.parameters, insight.mind, insight.senses, insight.feelings);
     return insight;
+}
+
+namespace {
+
+using fmt::format;
+
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
+double seconds(std::uint32_t ticks) {
+    return static_cast<double>(ticks) / kTicksPerSecond;
+}
+
+const char* wordFor(fish::Intention intention) {
+    constexpr std::array<const char*, fish::kIntentions> kWords{
+        "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
+    return kWords[static_cast<std::size_t>(intention)];
+}
+
+const char* wordFor(config::Role role) {
+    constexpr std::array<const char*, 3> kWords{"prey", "pacifist", "predator"};
+    return kWords[static_cast<std::size_t>(role)];
+}
+
+std::string likesOf(const fish::Mind& mind) {
+    std::string words = (mind.likes & fish::kIsFemale) != 0 ? "female" : "male";
+    constexpr std::array<std::pair<fish::Like, const char*>, 5> kWords{
+        {{fish::kLikesSchooling, "company"},
+         {fish::kLikesBrightness, "light"},
+         {fish::kLikesDarkness, "darkness"},
+         {fish::kLikesWarmth, "warmth"},
+         {fish::kLikesCold, "cold"}}};
+    bool first = true;
+    for (const auto& [like, word] : kWords) {
+        if ((mind.likes & like) == 0) continue;
+        words += std::exchange(first, false) ? ", likes " : ", ";
+        words += word;
+    }
+    return words;
+}
+
+double degreesLeft(glm::vec3 heading, glm::vec3 direction) {
+    return static_cast<double>(place::yawBetween(heading, direction)) * kDegreesPerRadian;
+}
+
+std::string whereabouts(glm::vec3 heading, glm::vec3 offset) {
+    const double degrees = degreesLeft(heading, offset);
+    const double aside = std::abs(degrees);
+    const char* side = degrees > 0 ? "left" : "right";
+    if (aside < 25) return "ahead";
+    if (aside < 65) return format("ahead {}", side);
+    if (aside < 115) return side;
+    return aside < 155 ? format("behind {}", side) : std::string("behind");
+}
+
+// The screen grows line by line; a head stands in the margin of its first line.
+class Screen {
+  public:
+    Screen(const Insight& insight, const Acquaintances& others) : of_(insight), others_(others) {}
+
+    std::vector<std::string> drawn() {
+        title();
+        if (of_.away) {
+            add("", "it is away: eaten, or not yet come. Nobody sees it, and it thinks nothing.");
+            return std::move(lines_);
+        }
+        sees();
+        feels();
+        intends();
+        does();
+        why();
+        return std::move(lines_);
+    }
+
+  private:
+    void add(const char* head, const std::string& text) {
+        lines_.push_back(format("{:<9}{}", head, text).substr(0, kScreenColumns));
+    }
+
+    [[nodiscard]] double lengths(double metres) const {
+        return metres / std::max(1e-3, static_cast<double>(of_.lengthMetres));
+    }
+
+    [[nodiscard]] const std::string& speciesOf(std::uint32_t fish) const {
+        return others_.species[others_.view.kind[fish]];
+    }
+
+    [[nodiscard]] std::string named(std::uint32_t fish) const {
+        if (fish >= others_.view.size()) return format("#{}", fish);
+        return format("#{} {}", fish, speciesOf(fish));
+    }
+
+    [[nodiscard]] std::string at(const behaviour::Sighting& sighting,
+                                 const std::string& who) const {
+        if (!sighting.seen()) return "-";
+        return format("{}, {:.1f} L {}",
+                      who,
+                      lengths(static_cast<double>(sighting.distance)),
+                      whereabouts(of_.senses.heading, sighting.offset));
+    }
+
+    void title() {
+        add("FISH", format("{} {}   tick {}", of_.fish, speciesOf(of_.fish), of_.tick.value));
+        add("",
+            format("{:.3f} m long (1 L), {}, {}",
+                   of_.lengthMetres,
+                   wordFor(of_.parameters.habits.role),
+                   likesOf(of_.mind)));
+    }
+
+    [[nodiscard]] std::string listed(const behaviour::Neighbours& near) const {
+        std::string list = near.count == 0 ? "-" : "";
+        for (std::size_t i = 0; i < near.count; ++i) {
+            const double distance = std::sqrt(static_cast<double>(near.distanceSquared[i]));
+            const std::string one =
+                format("{}#{} {:.1f}", i == 0 ? "" : "  ", near.fish[i], lengths(distance));
+            if (list.size() + one.size() > kListColumns) return list + "  ..";
+            list += one;
+        }
+        return list;
+    }
+
+    [[nodiscard]] std::string predators() const {
+        const behaviour::Senses& senses = of_.senses;
+        if (senses.predatorCount == 0) return "-";
+        const std::string others =
+            senses.predatorCount > 1 ? format(" and {} more", senses.predatorCount - 1) : "";
+        return at(senses.predators[0], named(senses.predators[0].object)) + others;
+    }
+
+    [[nodiscard]] std::string fishSeen(const behaviour::Sighting& sighting) const {
+        return at(sighting, named(sighting.object));
+    }
+
+    void sees() {
+        const behaviour::Senses& senses = of_.senses;
+        add("SEES", "schoolmates " + listed(senses.schoolmates));
+        add("", "others      " + listed(senses.others));
+        add("", "predator    " + predators());
+        add("", "food        " + at(senses.food, format("particle {}", senses.food.object)));
+        add("", "mate        " + fishSeen(senses.mate) + "   prey " + fishSeen(senses.prey));
+        add("",
+            format("submarine   {:.1f} m   light {:.0f} %   water {:.1f} C",
+                   senses.submarineMetres,
+                   100 * static_cast<double>(senses.light),
+                   senses.celsius));
+    }
+
+    [[nodiscard]] static std::string bar(float value) {
+        constexpr std::size_t kCells = 20;
+        const auto full =
+            static_cast<std::size_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * float{kCells}));
+        return format("[{:.<{}}] {:.2f}", std::string(full, '#'), kCells, value);
+    }
+
+    void feels() {
+        add("FEELS", "hunger " + bar(of_.feelings.hunger));
+        add("", "libido " + bar(of_.feelings.libido));
+        add("", "fear   " + bar(of_.feelings.fear));
+    }
+
+    [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
+        if (target == fish::kNobody) return wordFor(intention);
+        const bool isParticle = intention == fish::Intention::Eat &&
+                                of_.parameters.habits.role != config::Role::Predator;
+        return format("{} {}",
+                      wordFor(intention),
+                      isParticle ? format("particle {}", target) : named(target));
+    }
+
+    void intends() {
+        const fish::Mind& mind = of_.mind;
+        add("INTENDS",
+            format("{}, its aim for {:.1f} s",
+                   targeted(mind.intention, mind.target),
+                   seconds(mind.pursued)));
+        if (mind.remembered != fish::Intention::Wander)
+            add("",
+                format("remembers: {}, {:.1f} s ago",
+                       targeted(mind.remembered, mind.rememberedTarget),
+                       seconds(mind.sinceRemembered)));
+    }
+
+    void does() {
+        const fish::Course& course = of_.course;
+        const double climb =
+            std::asin(std::clamp(static_cast<double>(course.direction.y), -1.0, 1.0)) *
+            kDegreesPerRadian;
+        const double left = degreesLeft(of_.senses.heading, course.direction);
+        add("DOES",
+            format("{} at {:.0f} %, swims {:.2f} L/s, urgency {:.2f}",
+                   motion::nameOf(of_.segment),
+                   100 * static_cast<double>(of_.phase),
+                   of_.swims,
+                   course.urgency));
+        add("",
+            format("wants {:.0f} degrees {}, {:.0f} {}, {:.2f} L/s",
+                   std::abs(left),
+                   left < 0 ? "right" : "left",
+                   std::abs(climb),
+                   climb < 0 ? "down" : "up",
+                   course.speed));
+    }
+
+    [[nodiscard]] std::string verdictOn(behaviour::PriorityRule rule,
+                                        const behaviour::Weighed& weighed) const;
+    void why();
+
+    static constexpr std::size_t kListColumns = 54;
+    const Insight& of_;
+    const Acquaintances& others_;
+    std::vector<std::string> lines_;
+};
+
+constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
+    "obstacle", "other fish", "fear", "memory", "hunger", "libido", "climate", "company", "ease"};
+
+std::string notInView(behaviour::PriorityRule rule) {
+    switch (rule) {
+        case behaviour::PriorityRule::OtherFish:
+            return "nobody is in its way";
+        case behaviour::PriorityRule::Climate:
+            return "it is nowhere better";
+        case behaviour::PriorityRule::Memory:
+            return "what was interrupted cannot be resumed";
+        default:
+            return "none is in view";
+    }
+}
+
+std::string Screen::verdictOn(behaviour::PriorityRule rule,
+                              const behaviour::Weighed& weighed) const {
+    const bool shelters =
+        rule == behaviour::PriorityRule::Fear && weighed.intention == fish::Intention::School;
+    switch (weighed.verdict) {
+        case behaviour::Verdict::Wins:
+            return format("WINS: {}{}",
+                          targeted(weighed.intention, weighed.target),
+                          shelters ? ", for shelter" : "");
+        case behaviour::Verdict::Outranked:
+            return format("{}: comes after {}",
+                          targeted(weighed.intention, weighed.target),
+                          kPriorityRuleNames[static_cast<std::size_t>(of_.reasoning.winner)]);
+        case behaviour::Verdict::AgainstHabits:
+            return "not in its nature";
+        case behaviour::Verdict::TooWeak:
+            return format("too weak, {:.2f} of {:.2f}", weighed.value, weighed.threshold);
+        case behaviour::Verdict::NoTarget:
+            return notInView(rule);
+        case behaviour::Verdict::Nothing:
+            return "nothing was interrupted";
+        case behaviour::Verdict::TooOld:
+            return format(
+                "forgotten: {:.1f} s ago, more than {:.0f}", weighed.value, weighed.threshold);
+        case behaviour::Verdict::Resting:
+            return "rests from the last chase";
+        case behaviour::Verdict::Yields:
+            break;
+    }
+    return rule == behaviour::PriorityRule::Hunger ? "yields to libido" : "yields to hunger";
+}
+
+void Screen::why() {
+    const bool changes = of_.reasoning.decision.intention != of_.mind.intention;
+    for (std::size_t i = 0; i < behaviour::kPriorityRules; ++i)
+        add(i == 0 ? "WHY" : "",
+            format("{:<12}{}",
+                   kPriorityRuleNames[i],
+                   verdictOn(static_cast<behaviour::PriorityRule>(i), of_.reasoning.rules[i])) +
+                (changes && i == static_cast<std::size_t>(of_.reasoning.winner)
+                     ? ", at its next thought"
+                     : ""));
+}
+
+}  // namespace
+
+std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others) {
+    return Screen(insight, others).drawn();
 }
 
 }  // namespace aquarama::simulation

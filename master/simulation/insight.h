@@ -4,17 +4,21 @@
 // is, and what they give is thrown away.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "common/motion/repertoire.h"
-#include "common/units/ids.h"
+#include "common/units/units.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/mental_state.h"
-#include "master/behaviour/perceive/senses.h"
-#include "master/fish/courses.h"
+#include "master/behaviour/perceive/perceive.h"
+#include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
-#include "master/fish/species_parameters.h"
+#include "master/fish/secondary_controller.h"
 #include "master/world/world.h"
 
 namespace aquarama::simulation {
@@ -37,5 +41,18 @@ struct Insight {
 
 // Empty where the world has no such fish.
 [[nodiscard]] std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish);
+
+// An insight as a screen of text: at most 24 lines of 78 characters, printable ASCII.
+
+inline constexpr std::size_t kScreenLines = 24;
+inline constexpr std::size_t kScreenColumns = 78;
+
+// Of whom the fish is aware: where all are, and what their species are called, by FishView::kind.
+struct Acquaintances {
+    const fish::FishView& view;
+    std::span<const std::string> species;
+};
+
+[[nodiscard]] std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others);
 
 }  // namespace aquarama::simulation

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/simulation/living_world.h"
 
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "common/config/cast.h"
+#include "common/config/scene.h"
+#include "common/config/species.h"
+#include "common/files/files.h"
+#include "common/motion/motor.h"
+#include "common/motion/repertoire.h"
+#include "common/place/water.h"
+#include "common/units/log.h"
 #include "common/wire/food_record.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/simulation/insight.h"
-#include "master/simulation/lines.h"
 
 namespace aquarama::simulation {
 
@@ -49,6 +64,88 @@ wire::Explanation LivingWorld::explain(std::uint32_t fish) const {
     if (const auto insight = insightInto(world_, fish))
         explanation.lines = linesOf(*insight, {world_.view(), species_});
     return explanation;
+}
+
+namespace {
+
+// One core moves a few thousand fish well inside a tick; more threads would only wait for each
+// other.
+constexpr std::uint32_t kFishOfAThread = 2000;
+
+// The first show of a species on this machine simulates it; later ones find what it swam.
+std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::CastSpecies>& cast) {
+    std::vector<capture::SpeciesText> texts;
+    for (const config::CastSpecies& member : cast) texts.push_back({member.path, member.text});
+    capture::ProgressBar bar("capturing");
+    std::vector<capture::RepertoireFile> files =
+        capture::repertoiresFor(texts,
+                                files::cacheFolder() / "repertoires",
+                                {.progress = [&](double share) { bar.show(share); }});
+    for (const capture::RepertoireFile& file : files)
+        if (!file.error.empty()) throw Error(file.error);
+    return files;
+}
+
+world::WorldSpecies worldSpeciesOf(const wire::SpeciesAssets& produced,
+                                   const std::optional<config::Start>& start) {
+    const config::Species species = config::parseSpecies(produced.text, produced.file);
+    return {.tables = motion::makeMotorTables(
+                motion::decodeRepertoire(produced.repertoire, produced.file)),
+            .fish = produced.fish,
+            .size = species.size,
+            .name = species.name,
+            .habits = species.habits,
+            .start = start};
+}
+
+std::uint32_t fishIn(const config::Scene& scene) {
+    std::uint32_t fish = 0;
+    for (const config::CastMember& member : scene.cast) fish += member.fish;
+    return fish;
+}
+
+// The scene with the number of fish that is asked for.
+config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
+    config::Scene scene = config::readScene(path);
+    config::CastMember& school = scene.cast.front();
+    school.fish = choice.fish.value_or(school.fish);
+    if (school.fish == 0 && scene.place != config::PlaceKind::OpenSea)
+        throw Error(config::placed(
+            path, school.place, "0 fish: only an open sea may be without; take another --scene"));
+    return scene;
+}
+
+}  // namespace
+
+wire::AssetBundle readAssets(const std::string& scenePath, const AssetChoice& choice) {
+    const config::Scene scene = chosenScene(scenePath, choice);
+    const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, scenePath);
+    place::checkRoom(scene, scenePath, fishIn(scene), cast.front().species.size.meanMetres);
+    wire::AssetBundle assets{.seed = choice.seed,
+                             .sceneFile = scenePath,
+                             .scene = config::writeScene(scene),
+                             .cast = {}};
+    std::vector<capture::RepertoireFile> captured = capturedOnce(cast);
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        assets.cast.push_back(
+            {cast[i].path, cast[i].text, std::move(captured[i].bytes), scene.cast[i].fish});
+    return assets;
+}
+
+world::WorldOptions worldOptionsOf(const wire::AssetBundle& assets) {
+    world::WorldOptions options;
+    options.seed = assets.seed;
+    options.scene = config::parseScene(assets.scene, assets.sceneFile);
+    if (options.scene.cast.size() != assets.cast.size())
+        throw Error(assets.sceneFile + ": its cast has " +
+                    std::to_string(options.scene.cast.size()) + " members, and there are " +
+                    std::to_string(assets.cast.size()) + " species with it");
+    for (std::size_t i = 0; i < assets.cast.size(); ++i)
+        options.cast.push_back(worldSpeciesOf(assets.cast[i], options.scene.cast[i].start));
+    options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,
+                                 1U,
+                                 std::max(std::thread::hardware_concurrency(), 1U));
+    return options;
 }
 
 }  // namespace aquarama::simulation

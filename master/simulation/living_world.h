@@ -2,9 +2,12 @@
 // The world as the conductor knows it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
 #include "master/world/world.h"
 
@@ -29,5 +32,20 @@ class LivingWorld : public conductor::Simulation {
     world::World world_;
     std::vector<std::string> species_;  // their names, in the order of the cast
 };
+
+// From files to a world: what a show is made of is read once, as bytes, and the same bytes make the
+// world of the show, of its replay and of a study.
+
+struct AssetChoice {
+    std::uint32_t seed = 1;
+    std::optional<std::uint32_t> fish;  // of the first species, instead of the scene's number
+};
+
+// Reads the scene and the files of its cast; a species that was never shown on this machine is
+// captured, behind a bar of progress. Throws Error with file:line:column.
+[[nodiscard]] wire::AssetBundle readAssets(const std::string& scenePath, const AssetChoice& choice);
+
+// Throws Error where a file or a repertoire is wrong. Threads: as many as serve so many fish.
+[[nodiscard]] world::WorldOptions worldOptionsOf(const wire::AssetBundle& assets);
 
 }  // namespace aquarama::simulation

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/study/chronicle.h"
 
 #include <algorithm>
@@ -8,7 +9,188 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/place/place.h"
+#include "master/behaviour/routines.h"
+#include "master/study/quantities.h"
+
 namespace aquarama::study {
+
+namespace {
+
+constexpr int kSamples = 32;  // along the shorter middle line
+
+glm::vec3 pointOf(const Rod& rod, float behindNose) {
+    return rod.origin + rod.heading * (rod.length * (kNoseAhead - behindNose));
+}
+
+float distanceTo(const Rod& rod, glm::vec3 point) {
+    const float along = glm::dot(point - rod.origin, rod.heading);
+    const float nearest = std::clamp(along, (kNoseAhead - 1) * rod.length, kNoseAhead * rod.length);
+    return glm::distance(point, rod.origin + rod.heading * nearest);
+}
+
+bool mayTouch(const Rod& a, const Rod& b, float room) {
+    const float reach = (1 - kNoseAhead) * (a.length + b.length) + room;
+    const glm::vec3 apart = b.origin - a.origin;
+    return glm::dot(apart, apart) < reach * reach;
+}
+
+}  // namespace
+
+void rodsOf(const fish::FishView& view, std::span<const float> halfWidths, std::vector<Rod>& rods) {
+    rods.resize(view.size());
+    for (std::size_t fish = 0; fish < view.size(); ++fish) {
+        const float length = view.shows(fish, fish::kAway) ? 0.0F : view.fish[fish].length;
+        rods[fish] = {
+            view.position(fish), view.heading(fish), length, length * halfWidths[view.kind[fish]]};
+    }
+}
+
+float distanceBetween(const Rod& a, const Rod& b) {
+    float nearest = distanceTo(b, pointOf(a, 0));
+    for (int i = 1; i <= kSamples; ++i)
+        nearest = std::min(nearest, distanceTo(b, pointOf(a, static_cast<float>(i) / kSamples)));
+    return nearest;
+}
+
+float overlapOf(const Rod& a, const Rod& b) {
+    if (a.length == 0 || b.length == 0) return 0;
+    const float room = a.halfWidth + b.halfWidth;
+    if (!mayTouch(a, b, room)) return 0;
+    const Rod& shorter = a.length < b.length ? a : b;
+    const Rod& other = a.length < b.length ? b : a;
+    int inside = 0;
+    for (int i = 0; i <= kSamples; ++i)
+        inside += distanceTo(other, pointOf(shorter, static_cast<float>(i) / kSamples)) < room;
+    return static_cast<float>(inside) / (kSamples + 1);
+}
+
+std::span<const BodyOverlap> OverlapLog::note(Tick tick,
+                                              std::span<const Rod> rods,
+                                              std::span<const fish::Intention> intentions) {
+    fresh_.clear();
+    for (std::uint32_t a = 0; a < rods.size(); ++a)
+        for (std::uint32_t b = a + 1; b < rods.size(); ++b)
+            if (const float share = overlapOf(rods[a], rods[b]); share > 0)
+                meet({.a = a,
+                      .b = b,
+                      .intentionOfA = intentions[a],
+                      .intentionOfB = intentions[b],
+                      .from = tick},
+                     share);
+    std::erase_if(open_, [&](const auto& entry) {
+        if (entry.second.last.value == tick.value) return false;
+        ended_.push_back(entry.second.overlap);
+        return true;
+    });
+    return fresh_;
+}
+
+void OverlapLog::meet(const BodyOverlap& overlap, float share) {
+    const auto [entry, isNew] =
+        open_.try_emplace({overlap.a, overlap.b}, Open{overlap, 0, overlap.from});
+    if (isNew) fresh_.push_back(overlap);
+    Open& open = entry->second;
+    open.last = overlap.from;
+    open.overlap.ticks += between_;
+    open.overlap.deepest = std::max(open.overlap.deepest, share);
+    open.deepRun = share > kDeepShare ? open.deepRun + between_ : 0;
+    open.overlap.deepTicks = std::max(open.overlap.deepTicks, open.deepRun);
+    pairTicks_ += between_;
+}
+
+std::vector<BodyOverlap> OverlapLog::all() const {
+    std::vector<BodyOverlap> all = ended_;
+    for (const auto& [pair, open] : open_) all.push_back(open.overlap);
+    return all;
+}
+
+namespace {
+
+constexpr std::uint64_t kTicksBetweenGlances = 5;
+
+}  // namespace
+
+bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod) {
+    if (rod.length == 0) return false;
+    const glm::vec3 at = rod.origin;
+    if (at.y > -rod.halfWidth) return true;
+    if (at.y < place::floorHeight(obstacles.place, {at.x, at.z}) + rod.halfWidth) return true;
+    return std::ranges::any_of(obstacles.rocks, [&](const place::Rock& rock) {
+        return glm::distance(rock.centre, at) < rock.radiusMetres + rod.halfWidth;
+    });
+}
+
+Diary::Diary(const world::World& world, std::vector<float> halfWidths)
+    : halfWidths_(std::move(halfWidths)),
+      overlaps_(kTicksBetweenGlances),
+      bumps_(world.view().size()),
+      intention_(world.view().size()),
+      target_(world.view().size()),
+      rushes_(world.view().size()),
+      before_(world.counts()) {
+    for (std::size_t fish = 0; fish < intention_.size(); ++fish) {
+        intention_[fish] = world.minds()[fish].intention;
+        target_[fish] = world.minds()[fish].target;
+    }
+}
+
+void Diary::note(const world::World& world) {
+    ++tally_.ticks;
+    tally_.particles = world.counts().meals - before_.meals;
+    tally_.catches = world.counts().catches - before_.catches;
+    for (std::size_t fish = 0; fish < world.view().size(); ++fish)
+        if (!world.view().shows(fish, fish::kAway)) noteMind(world, fish);
+    if (world.tick().value % kTicksBetweenGlances != 0) return;
+    ++tally_.glances;
+    noteBodies(world);
+    noteSchool(world);
+}
+
+void Diary::noteMind(const world::World& world, std::size_t fish) {
+    const fish::Minds& minds = world.minds();
+    const fish::Intention intention = minds[fish].intention;
+    const bool hunts =
+        world.speciesParameters()[world.view().kind[fish]].habits.role == config::Role::Predator;
+    const bool isNew = intention != intention_[fish];
+    const bool another = isNew || minds[fish].target != target_[fish];
+    ++tally_.fishTicks;
+    ++tally_.intentionTicks.at(static_cast<std::size_t>(intention));
+    tally_.changes += isNew ? 1 : 0;
+    if (intention == fish::Intention::Eat && !hunts && another) {
+        ++tally_.tries;
+    }
+    const bool rushes = hunts && intention == fish::Intention::Eat &&
+                        minds[fish].stage == static_cast<std::uint8_t>(behaviour::HuntStage::Rush);
+    tally_.rushes += rushes && rushes_[fish] == 0 ? 1 : 0;
+    rushes_[fish] = rushes ? 1 : 0;
+    intention_[fish] = intention;
+    target_[fish] = minds[fish].target;
+}
+
+void Diary::noteBodies(const world::World& world) {
+    rodsOf(world.view(), halfWidths_, rods_);
+    const std::uint64_t before = overlaps_.pairTicks();
+    tally_.touches += overlaps_.note(world.tick(), rods_, intention_).size();
+    tally_.overlapTicks += 2 * static_cast<double>(overlaps_.pairTicks() - before);
+    for (std::size_t fish = 0; fish < rods_.size(); ++fish) {
+        const bool bumps = isInTerrain(world.surroundings().obstacles, rods_[fish]);
+        tally_.bumps += bumps && bumps_[fish] == 0 ? 1 : 0;
+        bumps_[fish] = bumps ? 1 : 0;
+    }
+}
+
+void Diary::noteSchool(const world::World& world) {
+    const fish::SpeciesParameters& first = world.speciesParameters().front();
+    const SchoolFigures figures = schoolFigures(world.view(), first.first, first.last);
+    tally_.nearestNeighbour += figures.nearestNeighbour;
+    tally_.polarisation += figures.polarisation;
+    tally_.rotation += figures.rotation;
+    const Synchrony synchrony = synchronyOf(world.states(), first.first, first.last);
+    tally_.resultant += synchrony.resultant;
+    tally_.sameSegment += synchrony.sameSegment;
+    tally_.inStep += synchrony.inStep;
+}
 
 namespace {
 

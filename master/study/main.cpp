@@ -14,13 +14,10 @@
 #include "common/cli/program.h"
 #include "common/cli/python.h"
 #include "common/files/files.h"
-#include "common/units/error.h"
-#include "master/capture/compile/config_folder.h"
-#include "master/capture/compile/progress_bar.h"
-#include "master/capture/compile/repertoire_cache.h"
+#include "common/units/log.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/study/chronicle.h"
-#include "master/study/scenarios.h"
-#include "master/study/study_csv.h"
+#include "master/study/study.h"
 
 namespace aquarama {
 

@@ -1,12 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/study/quantities.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <vector>
 
-#include "common/units/ids.h"
+#include <glm/geometric.hpp>
+
+#include "common/units/hash.h"
+#include "common/units/units.h"
 
 namespace aquarama::study {
+
+namespace {
+
+constexpr std::uint32_t kPellets = 12;
+constexpr std::uint32_t kPinches = 701;  // stream of the seed
+
+// In the upper half of the water, not at its borders.
+glm::vec3 placeOf(const place::Region& water, std::uint32_t hash) {
+    const glm::vec3 share{
+        signedUnitOf(hash), unitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
+    return water.centre + water.halfExtent * share * 0.6F;
+}
+
+}  // namespace
+
+void Feeding::before(world::World& world) {
+    if (between_ == 0 || world.tick().value % between_ != 0) return;
+    if (waits_) ticks_ += between_;
+    const place::Region& water = world.surroundings().obstacles.water;
+    world.apply(
+        world::DropFood{placeOf(water, hashOf(hashOf(seed_, kPinches), pinches_)), kPellets});
+    ++pinches_;
+    waits_ = true;
+    thrownAt_ = world.tick().value;
+    eatenBefore_ = eaten_;
+}
+
+void Feeding::after(const world::World& world, std::uint64_t particlesEaten) {
+    eaten_ = particlesEaten;
+    if (!waits_ || eaten_ - eatenBefore_ < kPellets / 2) return;
+    ticks_ += world.tick().value - thrownAt_;
+    waits_ = false;
+}
+
+double Feeding::meanSeconds() const {
+    const std::uint32_t timed = pinches_ - (waits_ ? 1 : 0);
+    if (timed == 0) return std::numeric_limits<double>::quiet_NaN();
+    return static_cast<double>(ticks_) / timed / static_cast<double>(kTicksPerSecond);
+}
 
 namespace {
 
@@ -70,6 +116,75 @@ Figures figuresOf(const Diary& diary, double pinchSeconds) {
     set(Quantity::Rotation, share(tally.rotation, count(tally.glances)));
     set(Quantity::Changes, share(count(tally.changes), fishMinutes));
     return figures;
+}
+
+namespace {
+
+constexpr double kRadiansOfPhase = 2 * std::numbers::pi / 65536;
+constexpr int kInStepPhase = 65536 / 16;
+
+// Around the cycle.
+int phaseBetween(std::uint16_t a, std::uint16_t b) {
+    return std::abs(static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)));
+}
+
+std::vector<std::size_t> present(const fish::FishView& view, std::size_t first, std::size_t last) {
+    std::vector<std::size_t> fish;
+    for (std::size_t i = first; i < last; ++i)
+        if (!view.shows(i, fish::kAway)) fish.push_back(i);
+    return fish;
+}
+
+float distanceToNearest(const fish::FishView& view,
+                        const std::vector<std::size_t>& all,
+                        std::size_t one) {
+    float nearest = std::numeric_limits<float>::max();
+    for (const std::size_t other : all)
+        if (other != one)
+            nearest = std::min(nearest, glm::distance(view.position(one), view.position(other)));
+    return nearest;
+}
+
+}  // namespace
+
+SchoolFigures schoolFigures(const fish::FishView& view, std::size_t first, std::size_t last) {
+    const std::vector<std::size_t> fish = present(view, first, last);
+    SchoolFigures figures;
+    if (fish.size() < 2) return figures;
+    const float share = 1 / static_cast<float>(fish.size());
+    glm::vec3 middle{}, heading{}, momentum{};
+    for (const std::size_t i : fish) middle += view.position(i) * share;
+    for (const std::size_t i : fish) {
+        const glm::vec3 from = view.position(i) - middle;
+        const float distance = glm::length(from);
+        heading += view.heading(i) * share;
+        if (distance > 0) momentum += glm::cross(from / distance, view.heading(i)) * share;
+        figures.radiusMetres += static_cast<double>(distance * distance * share);
+        figures.nearestNeighbour +=
+            static_cast<double>(distanceToNearest(view, fish, i) / view.fish[i].length * share);
+    }
+    figures.polarisation = static_cast<double>(glm::length(heading));
+    figures.rotation = static_cast<double>(glm::length(momentum));
+    figures.radiusMetres = std::sqrt(figures.radiusMetres);
+    return figures;
+}
+
+Synchrony synchronyOf(const motion::MotionStates& states, std::size_t first, std::size_t last) {
+    double sine = 0, cosine = 0;
+    double alike = 0, inStep = 0;
+    for (std::size_t i = first; i < last; ++i) {
+        sine += std::sin(states.phase[i] * kRadiansOfPhase);
+        cosine += std::cos(states.phase[i] * kRadiansOfPhase);
+        for (std::size_t j = i + 1; j < last; ++j) {
+            if (states.segment[i] != states.segment[j]) continue;
+            ++alike;
+            if (phaseBetween(states.phase[i], states.phase[j]) < kInStepPhase) ++inStep;
+        }
+    }
+    const auto fish = static_cast<double>(last - first);
+    if (fish < 2) return {};
+    const double pairs = fish * (fish - 1) / 2;
+    return {std::hypot(sine, cosine) / fish, alike / pairs, inStep / pairs};
 }
 
 }  // namespace aquarama::study

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/study/study.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <string>
+#include <string_view>
 
-#include "common/place/noise.h"
+#include "common/config/species.h"
+#include "common/place/place.h"
 #include "common/units/worker_pool.h"
-#include "master/study/feeding.h"
+#include "master/capture/report/report_data.h"
+#include "master/simulation/living_world.h"
+#include "master/study/quantities.h"
 
 namespace aquarama::study {
 
@@ -69,6 +77,116 @@ std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(dou
         done(static_cast<double>(++finished) / static_cast<double>(tasks.size()));
     });
     return samples;
+}
+
+namespace {
+
+constexpr std::uint64_t kTicksBetweenPinches = 30 * kTicksPerSecond;
+
+// The greatest of the body.
+float halfWidthOf(const wire::SpeciesAssets& species) {
+    return std::ranges::max(config::parseSpecies(species.text, species.file).profile.halfWidth);
+}
+
+}  // namespace
+
+Scenario readScenario(const std::filesystem::path& scene) {
+    const wire::AssetBundle assets = simulation::readAssets(scene.string(), {});
+    Scenario scenario;
+    scenario.world = simulation::worldOptionsOf(assets);
+    scenario.world.scene.tour.reset();  // fish are measured, not how they make way
+    scenario.name = scenario.world.scene.name;
+    for (const wire::SpeciesAssets& species : assets.cast)
+        scenario.halfWidths.push_back(halfWidthOf(species));
+    return scenario;
+}
+
+std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
+    std::vector<Scenario> scenarios;
+    for (const std::string_view scene :
+         {"reef", "study/school", "study/crowded_tank", "study/feeding"})
+        scenarios.push_back(
+            readScenario(configFolder / "scenes" / (std::string(scene) + ".txtpb")));
+    scenarios.back().ticksBetweenPinches = kTicksBetweenPinches;
+    return scenarios;
+}
+
+namespace {
+
+constexpr std::array<const char*, fish::kIntentions> kRoutines{
+    "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
+
+double secondsOf(std::uint64_t ticks) {
+    return static_cast<double>(ticks) / kTicksPerSecond;
+}
+
+}  // namespace
+
+std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {
+    std::ostringstream csv;
+    csv << "scenario,condition,seed";
+    for (std::size_t i = 0; i < kQuantities; ++i) csv << ',' << keyOf(static_cast<Quantity>(i));
+    csv << '\n';
+    for (std::size_t scenario = 0; scenario < samples.size(); ++scenario)
+        for (std::size_t condition = 0; condition < kConditions.size(); ++condition)
+            for (std::size_t seed = 0; seed < plan.seeds; ++seed) {
+                csv << plan.scenarios[scenario].name << ',' << kConditions.at(condition).name << ','
+                    << seed + 1;
+                for (const double value : samples[scenario].at(condition)[seed]) {
+                    csv << ',';
+                    if (!std::isnan(value)) csv << value;
+                }
+                csv << '\n';
+            }
+    return csv.str();
+}
+
+std::string hoursCsv(std::span<const Hour> hours) {
+    std::ostringstream csv;
+    csv << "hour,fewest_fish,meals,catches,returns,spawnings";
+    for (const char* routine : kRoutines) csv << ',' << routine << " share";
+    csv << ",changes_per_fish_minute,touches_per_fish_minute,overlap_percent,into_terrain,"
+           "shortest_way_m,longest_stay_s,who_stayed,farthest_out_m,spread_m,water_used_percent\n";
+    int number = 0;
+    for (const Hour& hour : hours) {
+        csv << ++number << ',' << hour.fewest << ',' << hour.counts.meals << ','
+            << hour.counts.catches << ',' << hour.counts.returns << ',' << hour.counts.spawnings;
+        for (const double share : hour.intentionShare) csv << ',' << share;
+        csv << ',';
+        report::addRow(csv,
+                       hour.changes,
+                       hour.touches,
+                       hour.overlapPercent,
+                       hour.bumps,
+                       hour.shortestWayMetres,
+                       hour.longestStaySeconds,
+                       hour.whoStayed,
+                       hour.farthestOutMetres,
+                       hour.spreadMetres,
+                       hour.waterUsedPercent);
+    }
+    return csv.str();
+}
+
+std::string overlapsCsv(const OverlapLog& log,
+                        const world::World& world,
+                        std::span<const world::WorldSpecies> cast) {
+    std::ostringstream csv;
+    csv << "species_a,species_b,routine_a,routine_b,from_s,seconds,deep_seconds,deepest_share\n";
+    const auto speciesOf = [&](std::uint32_t fish) -> const std::string& {
+        return cast[world.view().kind[fish]].name;
+    };
+    for (const BodyOverlap& overlap : log.all())
+        report::addRow(csv,
+                       speciesOf(overlap.a),
+                       speciesOf(overlap.b),
+                       kRoutines.at(static_cast<std::size_t>(overlap.intentionOfA)),
+                       kRoutines.at(static_cast<std::size_t>(overlap.intentionOfB)),
+                       secondsOf(overlap.from.value),
+                       secondsOf(overlap.ticks),
+                       secondsOf(overlap.deepTicks),
+                       overlap.deepest);
+    return csv.str();
 }
 
 }  // namespace aquarama::study

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "common/units/random_streams.h"
 
 namespace aquarama::surroundings {

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/units/ids.h"
+#include "common/units/units.h"
 #include "master/surroundings/obstacles.h"
 
 namespace aquarama::surroundings {

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/place/place.h"
-#include "master/surroundings/chart.h"
+#include "master/surroundings/climate.h"
 
 namespace aquarama::surroundings {
 

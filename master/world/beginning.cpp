@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/world/beginning.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "common/units/random_streams.h"
-#include "master/behaviour/act/home.h"
-#include "master/behaviour/act/routines.h"
-#include "master/surroundings/journey.h"
+#include "master/behaviour/home.h"
+#include "master/behaviour/routines.h"
+#include "master/surroundings/surroundings.h"
 
 namespace aquarama::world {
 
@@ -246,6 +248,47 @@ void placeFishAt(motion::MotionStates& states,
                  glm::vec3 place,
                  glm::vec3 course) {
     motion::setBodyFrame(states, fish, {place, facing(course)});
+}
+
+namespace {
+
+bool names(const std::vector<std::string>& list, const std::string& name) {
+    return std::ranges::find(list, name) != list.end();
+}
+
+std::uint64_t kindsNamed(const std::vector<WorldSpecies>& cast,
+                         const std::vector<std::string>& list) {
+    std::uint64_t kinds = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        if (names(list, cast[i].name)) kinds |= std::uint64_t{1} << i;
+    return kinds;
+}
+
+std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string& name) {
+    std::uint64_t kinds = 0;
+    for (std::size_t i = 0; i < cast.size(); ++i)
+        if (names(cast[i].habits.hunts, name)) kinds |= std::uint64_t{1} << i;
+    return kinds;
+}
+
+}  // namespace
+
+fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& cast,
+                                              std::size_t kind,
+                                              const fish::Gaits& gaits,
+                                              std::size_t first,
+                                              std::size_t last) {
+    const config::Habits& habits = cast[kind].habits;
+    return {.kind = static_cast<std::uint8_t>(kind),
+            .first = static_cast<std::uint32_t>(first),
+            .last = static_cast<std::uint32_t>(last),
+            .hunts = kindsNamed(cast, habits.hunts),
+            .huntedBy = huntersOf(cast, cast[kind].name),
+            .shadows = kindsNamed(cast, habits.shadows),
+            .slow = gaits.speed[fish::indexOf(motion::Action::ForwardSlow)],
+            .medium = gaits.speed[fish::indexOf(motion::Action::ForwardMedium)],
+            .fast = gaits.speed[fish::indexOf(motion::Action::ForwardFast)],
+            .habits = habits};
 }
 
 }  // namespace aquarama::world

@@ -2,11 +2,13 @@
 // How fish stand in the water at tick 0.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "common/motion/motion_state.h"
-#include "master/surroundings/journey.h"
+#include "master/fish/fish_view.h"
+#include "master/fish/secondary_controller.h"
 #include "master/surroundings/surroundings.h"
 #include "master/world/world.h"
 
@@ -24,5 +26,14 @@ void placeFish(const WorldOptions& options,
 
 // One fish at a place, level and along `course`; its tail beats on.
 void placeFishAt(motion::MotionStates& states, std::size_t fish, glm::vec3 place, glm::vec3 course);
+
+// From a species' file to what its fish's minds use.
+
+// Of cast[kind], whose fish are [first, last). Names that nobody of the cast bears are passed over.
+[[nodiscard]] fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& cast,
+                                                            std::size_t kind,
+                                                            const fish::Gaits& gaits,
+                                                            std::size_t first,
+                                                            std::size_t last);
 
 }  // namespace aquarama::world

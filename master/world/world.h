@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The living world: every fish perceives, feels, decides and moves, one tick at a time. Same
-// options and inputs, same world, on any number of threads.
+// How many live: who was eaten is away for a while, then another of its species comes from afar in
+// its place, so that no species dies out. It bears the same index and length.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,27 +11,54 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "common/config/habits.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
-#include "common/units/ids.h"
+#include "common/units/units.h"
 #include "common/units/worker_pool.h"
-#include "master/behaviour/act/routines.h"
-#include "master/behaviour/perceive/environment.h"
-#include "master/fish/adaptation.h"
-#include "master/fish/courses.h"
+#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
-#include "master/fish/gaits.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
 #include "master/pilot/pilot.h"
-#include "master/world/input.h"
-#include "master/world/meals.h"
-#include "master/world/population.h"
+#include "master/surroundings/surroundings.h"
+#include "master/world/events.h"
 
 namespace aquarama::world {
+
+// What happened since tick 0.
+struct WorldCounts {
+    std::uint64_t meals = 0;    // particles of food that were eaten
+    std::uint64_t catches = 0;  // fish that were
+    std::uint64_t spawnings = 0;
+    std::uint64_t returns = 0;  // others that came instead of those eaten
+    friend bool operator==(const WorldCounts&, const WorldCounts&) = default;
+};
+
+struct Absence {
+    std::uint32_t fish = 0;
+    Tick until;
+};
+
+// With room for all fish that somebody hunts; in the order in which they were eaten.
+[[nodiscard]] std::vector<Absence> makeAbsences(
+    std::span<const fish::SpeciesParameters> speciesParameters);
+// 20 to 60 seconds from now.
+[[nodiscard]] Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now);
+
+// Where one comes into sight: of places in the water, clear of rocks and sand, one that is as far
+// from the eye as the water reaches, or in the haze more than 12 m away.
+[[nodiscard]] glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
+                                     std::uint32_t fish,
+                                     Tick tick);
+
+// The living world: every fish perceives, feels, decides and moves, one tick at a time. Same
+// options and inputs, same world, on any number of threads.
 
 // The fish of one species.
 struct WorldSpecies {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -10,13 +11,15 @@
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
+#include <algorithm>
+
 #include <GLFW/glfw3.h>
 #include <glm/common.hpp>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "render_node/context/context.h"
-#include "render_node/context/driver.h"
-#include "render_node/context/gamepads.h"
+#include "render_node/context/offscreen_context.h"
+#include "render_node/context/window_context.h"
 
 namespace aquarama::context {
 
@@ -344,6 +347,40 @@ std::unique_ptr<Context> makeWindowContext(const config::Display& display,
                                            glm::ivec2 sizePixels,
                                            bool quadBuffered) {
     return std::make_unique<WindowContext>(display, title, sizePixels, quadBuffered);
+}
+
+namespace {
+
+// GLFW's axes: down is positive; triggers are -1 at rest.
+Pad padOf(const GLFWgamepadstate& state) {
+    const auto& axes = state.axes;
+    const auto trigger = [&](int axis) { return (axes[axis] + 1) / 2; };
+    return {{axes[GLFW_GAMEPAD_AXIS_LEFT_X], -axes[GLFW_GAMEPAD_AXIS_LEFT_Y]},
+            {axes[GLFW_GAMEPAD_AXIS_RIGHT_X], -axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]},
+            trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER),
+            trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER)};
+}
+
+float deflectionOf(const Pad& pad) {
+    return std::max({std::abs(pad.leftStick.x),
+                     std::abs(pad.leftStick.y),
+                     std::abs(pad.rightStick.x),
+                     std::abs(pad.rightStick.y),
+                     pad.leftTrigger,
+                     pad.rightTrigger});
+}
+
+}  // namespace
+
+Pad movedPad() {
+    Pad moved;
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+        GLFWgamepadstate state{};
+        if (glfwGetGamepadState(joystick, &state) == GLFW_FALSE) continue;
+        const Pad pad = padOf(state);
+        if (deflectionOf(pad) > deflectionOf(moved)) moved = pad;
+    }
+    return moved;
 }
 
 }  // namespace aquarama::context

@@ -2,9 +2,15 @@
 // Owners of OpenGL names.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <epoxy/gl.h>
+#include <glm/vec2.hpp>
 
 namespace aquarama::gl {
 
@@ -83,5 +89,54 @@ using Sampler = Handle<SamplerTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using VertexArray = Handle<VertexArrayTraits>;
 using ProgramHandle = Handle<ProgramTraits>;
+
+// Buffers of GL, labelled for debuggers. Their size never changes.
+
+// Uninitialised. A buffer of nothing is an error in GL: it has 16 bytes at least.
+[[nodiscard]] inline Buffer makeBuffer(std::size_t bytes, const char* label, GLbitfield flags = 0) {
+    Buffer buffer;
+    const auto size = static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16));
+    glNamedBufferStorage(buffer.name(), size, nullptr, flags);
+    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
+    return buffer;
+}
+
+// With the values.
+template <class T>
+[[nodiscard]] Buffer makeBuffer(std::span<const T> values,
+                                const char* label,
+                                GLbitfield flags = 0) {
+    if (values.empty()) return makeBuffer(0, label, flags);
+    Buffer buffer;
+    const auto size = static_cast<GLsizeiptr>(values.size_bytes());
+    glNamedBufferStorage(buffer.name(), size, values.data(), flags);
+    glObjectLabel(GL_BUFFER, buffer.name(), -1, label);
+    return buffer;
+}
+template <class T>
+[[nodiscard]] Buffer makeBuffer(const std::vector<T>& values,
+                                const char* label,
+                                GLbitfield flags = 0) {
+    return makeBuffer(std::span<const T>{values}, label, flags);
+}
+
+// A picture that can be drawn into, bound as a texture and read back.
+
+class Target {
+  public:
+    Target(GLenum format, glm::ivec2 sizePixels);
+    [[nodiscard]] unsigned framebuffer() const { return framebuffer_.name(); }
+    [[nodiscard]] unsigned texture() const { return colour_.name(); }
+    [[nodiscard]] glm::ivec2 sizePixels() const { return size_; }
+
+  private:
+    glm::ivec2 size_;
+    Texture colour_;
+    Framebuffer framebuffer_;
+};
+
+// Red, green and blue of every pixel, top row first, in the sample's range.
+template <class Sample>  // std::uint8_t, std::uint16_t or float
+[[nodiscard]] std::vector<Sample> readRgb(const Target& target);
 
 }  // namespace aquarama::gl

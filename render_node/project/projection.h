@@ -1,15 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last pass of a channel: scene picture to projector pixels, blended and encoded.
+// For each pixel of a projector the place in its frustum's picture that it shows, computed once.
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "common/config/rig.h"
-#include "common/units/ids.h"
+#include "common/units/units.h"
+#include "common/wall/wall.h"
 #include "render_node/gl/handle.h"
-#include "render_node/project/projection_map.h"
 
 namespace aquarama::project {
+
+struct ProjectionMap {
+    glm::ivec2 sizePixels{};
+    // Top row first: texture coordinate in the frustum's picture (origin at its bottom left),
+    // blend weight, 0.
+    std::vector<glm::vec4> placeAndWeight;
+};
+
+// The eye is the frustum's.
+[[nodiscard]] ProjectionMap projectionMap(const wall::WarpMap& warp,
+                                          const wall::ChannelFrustum& frustum);
+
+// The size at which the frustum's picture is as fine as the projector's pixels are in the middle of
+// its lit area. Away from there a flat picture of a concave screen only gets finer, as the tangent
+// grows faster than the angle.
+[[nodiscard]] glm::ivec2 scenePictureSize(const ProjectionMap& map);
+
+// The last pass of a channel: scene picture to projector pixels, blended and encoded.
 
 enum class Encoding : std::uint8_t {
     Dithered8,  // +-1 code of triangular noise, a function of pixel, channel and the frame's parity

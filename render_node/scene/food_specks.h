@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "render_node/gl/handle.h"
-#include "render_node/gl/shader_text.h"
+#include "render_node/gl/program.h"
 
 namespace aquarama::scene {
 

@@ -10,9 +10,8 @@
 #include "common/files/derived_cache.h"
 #include "common/place/place.h"
 #include "render_node/gl/program.h"
-#include "render_node/scene/shade.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/solid_array.h"
-#include "render_node/scene/texture.h"
 #include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {

@@ -11,7 +11,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_node/gl/handle.h"
-#include "render_node/gl/shader_text.h"
+#include "render_node/gl/program.h"
 #include "render_node/scene/mesh.h"
 #include "render_node/scene/viewpoint.h"
 

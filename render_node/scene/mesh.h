@@ -6,10 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec3.hpp>
+
+#include "common/place/place.h"
 
 namespace aquarama::scene {
 
@@ -53,5 +56,20 @@ void turnOver(Mesh& mesh, std::size_t firstIndex);
 // Area-weighted normals for all vertices from `first` on, of the triangles from `firstIndex` on.
 // Vertices at one place share their normal.
 void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex);
+
+// Where the sun stands, and how much of it and of the light from above the boulders take away:
+// computed once, as neither sun nor rock moves.
+
+// Towards the sun as seen in the water: before the wall and to its left, 55 degrees up.
+[[nodiscard]] glm::vec3 sunInWater();
+
+// 0 dark to 1 open. Boulders count as balls; soft edges, as the sun's light is already spread.
+[[nodiscard]] float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place);
+[[nodiscard]] float skyOpenness(std::span<const place::Rock> rocks,
+                                glm::vec3 place,
+                                glm::vec3 normal);
+
+// A boulder's own ball is left to its baked openness.
+void shade(Mesh& mesh, std::span<const place::Rock> others);
 
 }  // namespace aquarama::scene

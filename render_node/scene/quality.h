@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/config/quality.h"
-#include "render_node/gl/shader_text.h"
+#include "render_node/gl/program.h"
 
 namespace aquarama::scene {
 

@@ -13,8 +13,8 @@
 
 #include "common/files/derived_cache.h"
 #include "common/units/worker_pool.h"
-#include "render_node/gl/buffer.h"
 #include "render_node/gl/debug.h"
+#include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/solid_array.h"
 #include "render_node/shaders/shader_interface.h"

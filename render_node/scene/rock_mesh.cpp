@@ -10,7 +10,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "render_node/scene/solid_noise.h"
+#include "render_node/scene/strands.h"
 
 namespace aquarama::scene {
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "render_node/scene/scatter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -10,11 +12,108 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "render_node/scene/palette.h"
-#include "render_node/scene/shade.h"
-#include "render_node/scene/solid_noise.h"
+#include "render_node/scene/mesh.h"
+#include "render_node/scene/strands.h"
 
 namespace aquarama::scene {
+
+namespace {
+
+using Colours = std::array<glm::vec3, 5>;
+
+// Living hard coral is brown with its algae, towards ochre, olive, cream, lavender or rose.
+constexpr std::array<Colours, 5> kHard{
+    Colours{glm::vec3{0.66F, 0.38F, 0.10F},
+            {0.72F, 0.44F, 0.10F},
+            {0.80F, 0.60F, 0.28F},
+            {0.42F, 0.22F, 0.08F},
+            {0.54F, 0.40F, 0.09F}},
+    Colours{glm::vec3{0.56F, 0.28F, 0.40F},
+            {0.48F, 0.24F, 0.18F},
+            {0.80F, 0.60F, 0.42F},
+            {0.52F, 0.32F, 0.48F},
+            {0.64F, 0.38F, 0.18F}},
+    Colours{glm::vec3{0.76F, 0.30F, 0.18F},
+            {0.58F, 0.27F, 0.10F},
+            {0.82F, 0.54F, 0.28F},
+            {0.68F, 0.36F, 0.10F},
+            {0.46F, 0.24F, 0.12F}},
+    Colours{glm::vec3{0.50F, 0.40F, 0.07F},
+            {0.64F, 0.44F, 0.10F},
+            {0.38F, 0.28F, 0.07F},
+            {0.78F, 0.56F, 0.20F},
+            {0.56F, 0.28F, 0.09F}},
+    Colours{glm::vec3{0.68F, 0.44F, 0.20F},
+            {0.50F, 0.26F, 0.09F},
+            {0.84F, 0.64F, 0.36F},
+            {0.62F, 0.32F, 0.28F},
+            {0.40F, 0.22F, 0.09F}},
+};
+// Fans, sponges and soft corals: one hue rules a patch.
+constexpr std::array<Colours, 5> kSoft{
+    Colours{glm::vec3{0.62F, 0.34F, 0.10F},
+            {0.66F, 0.44F, 0.12F},
+            {0.56F, 0.26F, 0.10F},
+            {0.64F, 0.50F, 0.24F},
+            {0.60F, 0.36F, 0.14F}},
+    Colours{glm::vec3{0.42F, 0.18F, 0.44F},
+            {0.50F, 0.24F, 0.46F},
+            {0.36F, 0.18F, 0.36F},
+            {0.56F, 0.34F, 0.50F},
+            {0.58F, 0.46F, 0.30F}},
+    Colours{glm::vec3{0.60F, 0.16F, 0.14F},
+            {0.56F, 0.20F, 0.12F},
+            {0.64F, 0.30F, 0.20F},
+            {0.50F, 0.14F, 0.18F},
+            {0.60F, 0.42F, 0.26F}},
+    Colours{glm::vec3{0.62F, 0.48F, 0.16F},
+            {0.54F, 0.42F, 0.18F},
+            {0.66F, 0.54F, 0.24F},
+            {0.48F, 0.36F, 0.14F},
+            {0.56F, 0.30F, 0.12F}},
+    Colours{glm::vec3{0.58F, 0.24F, 0.34F},
+            {0.64F, 0.34F, 0.38F},
+            {0.52F, 0.20F, 0.30F},
+            {0.62F, 0.46F, 0.38F},
+            {0.46F, 0.22F, 0.36F}},
+};
+constexpr Colours kAccents{glm::vec3{0.70F, 0.10F, 0.30F},
+                           {0.80F, 0.30F, 0.05F},
+                           {0.78F, 0.58F, 0.06F},
+                           {0.62F, 0.06F, 0.08F},
+                           {0.46F, 0.20F, 0.62F}};
+constexpr Colours kTurfColours{glm::vec3{0.24F, 0.22F, 0.07F},
+                               {0.30F, 0.24F, 0.10F},
+                               {0.20F, 0.22F, 0.07F},
+                               {0.34F, 0.20F, 0.13F},
+                               {0.28F, 0.26F, 0.09F}};
+
+bool isSoft(Form form) {
+    return form >= Form::Fan && form <= Form::Feathers && form != Form::Leather &&
+           form != Form::Anemone;
+}
+
+glm::vec3 oneOf(const Colours& colours, Dice& dice) {
+    // The first two rule.
+    const float pick = dice.unit();
+    constexpr std::array kUpTo{0.40F, 0.66F, 0.82F, 0.92F, 1.0F};
+    std::size_t at = 0;
+    while (pick > kUpTo.at(at)) ++at;
+    return colours.at(at);
+}
+
+}  // namespace
+
+glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice) {
+    const float bright = dice.between(0.82F, 1.15F);
+    if (form == Form::Kelp) return glm::vec3{0.74F, 0.40F, 0.045F} * bright;
+    if (form == Form::Seagrass) return glm::vec3{0.19F, 0.26F, 0.055F} * bright;
+    if (form == Form::Turf) return oneOf(kTurfColours, dice) * bright;
+    if (form == Form::Anemone) return glm::vec3{0.58F, 0.46F, 0.24F} * bright;
+    const bool soft = isSoft(form);
+    if (soft && dice.unit() < 0.16F) return oneOf(kAccents, dice) * bright;
+    return oneOf((soft ? kSoft : kHard).at(patch % kHard.size()), dice) * bright;
+}
 
 namespace {
 
@@ -46,7 +145,7 @@ constexpr std::array kWays{
     Way{Form::Anemone, 0.30F, 0.10F, 0.0F, 0.20F, 0.40F, 0.4F, 0.16F},
     Way{Form::Feathers, 0.35F, 0.3F, 0.0F, 0.16F, 0.30F, 0.5F, 0.10F},
 };
-constexpr Way kTurf{Form::Turf, 1.0F, 1.0F, 1.0F, 0.06F, 0.17F, 0.3F, 0.16F};
+constexpr Way kTurfPatch{Form::Turf, 1.0F, 1.0F, 1.0F, 0.06F, 0.17F, 0.3F, 0.16F};
 
 struct Spot {
     glm::vec3 place{};
@@ -222,9 +321,9 @@ void coverRock(std::vector<Instance>& all, const Bed& bed) {
     const auto tufts = static_cast<int>(10.0F + 46.0F * radius * radius);
     for (int i = 0; i < tufts; ++i) {
         const Spot spot = spotOn(bed, dice);
-        const float size = dice.between(kTurf.least, kTurf.most);
+        const float size = dice.between(kTurfPatch.least, kTurfPatch.most);
         if (spot.normal.y > -0.3F && !isBuried(bed, spot.place))
-            plant(all, bed, kTurf, spot, size, dice);
+            plant(all, bed, kTurfPatch, spot, size, dice);
     }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands where: the instances of all prototypes, from the place's rocks and a seed alone. Only
-// seen, never felt: the master knows rocks and kelp from place.h.
+// The colours of a reef: a few hues in harmony for each patch of it, and a rare accent.
 #pragma once
 
 #include <array>
@@ -15,8 +14,15 @@
 #include "render_node/scene/growth.h"
 #include "render_node/scene/mesh.h"
 #include "render_node/scene/rock_mesh.h"
+#include "render_node/scene/strands.h"
 
 namespace aquarama::scene {
+
+// Linear albedo for a form that grows in a patch of the reef.
+[[nodiscard]] glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice);
+
+// What stands where: the instances of all prototypes, from the place's rocks and a seed alone. Only
+// seen, never felt: the master knows rocks and kelp from place.h.
 
 // Rocks first, then each form's shapes.
 inline constexpr std::size_t kPrototypes = kRockShapes + kForms * kShapesOfForm;

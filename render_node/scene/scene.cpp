@@ -10,19 +10,18 @@
 #include <glm/matrix.hpp>
 
 #include "common/place/place.h"
-#include "render_node/gl/buffer.h"
 #include "render_node/gl/debug.h"
+#include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/scene/ground.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/scene_picture.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/shade.h"
 #include "render_node/scene/viewpoint.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "render_node/shaders/shader_interface.h"
 #include "render_node/surface/school_surface.h"
-#include "render_node/surface/skin_programs.h"
 
 namespace aquarama::scene {
 

@@ -6,7 +6,7 @@
 
 #include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
-#include "render_node/scene/texture.h"
+#include "render_node/scene/solid_array.h"
 #include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {

@@ -12,10 +12,10 @@
 
 #include "common/place/place.h"
 #include "common/units/hash.h"
-#include "render_node/gl/buffer.h"
 #include "render_node/gl/debug.h"
+#include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
-#include "render_node/scene/texture.h"
+#include "render_node/scene/solid_array.h"
 #include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {

@@ -9,8 +9,8 @@
 
 #include "render_node/gl/debug.h"
 #include "render_node/gl/program.h"
-#include "render_node/scene/shade.h"
-#include "render_node/scene/texture.h"
+#include "render_node/scene/mesh.h"
+#include "render_node/scene/solid_array.h"
 #include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "render_node/scene/growth_forms.h"
+#include "render_node/scene/growth.h"
 #include "render_node/scene/strands.h"
 
 namespace aquarama::scene {

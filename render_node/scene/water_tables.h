@@ -1,16 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sea water does to light, integrated over 31 bands of the spectrum into tables for the
-// shaders: separate coefficients for the way down (Kd) and for the way to the eye (a + 0.51 b).
+// Jerlov's types of sea water: what each does to light, at 31 bands of the spectrum.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-#include "render_node/scene/water_types.h"
+#include "common/config/scene.h"
 
 namespace aquarama::scene {
+
+inline constexpr std::size_t kBands = 31;  // 400 to 700 nm by 10
+using Spectrum = std::array<double, kBands>;
+[[nodiscard]] double wavelengthOf(std::size_t band);  // nanometres
+
+// Coefficients in 1/m.
+struct WaterSpectra {
+    Spectrum absorption{};     // a
+    Spectrum scattering{};     // b
+    Spectrum downwelling{};    // Kd
+    Spectrum weights[3];       // band to linear Rec. 709; daylight D65 gives (1, 1, 1)
+    Spectrum reflectances[3];  // smooth red, green, blue surfaces that sum to white
+};
+[[nodiscard]] WaterSpectra seaWater(config::WaterType type);
+
+// Of the scattered light, so much goes so nearly straight on that it stays in the picture.
+inline constexpr double kStaysInPicture = 0.49;
+// What dims the way to the eye: a + 0.51 b.
+[[nodiscard]] double beamAttenuation(const WaterSpectra& water, std::size_t band);
+
+// What sea water does to light, integrated over 31 bands of the spectrum into tables for the
+// shaders: separate coefficients for the way down (Kd) and for the way to the eye (a + 0.51 b).
 
 inline constexpr double kFarthestMetres = 80.0;
 inline constexpr double kDeepestMetres = 30.0;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/units/error.h"
 #include "common/units/log.h"
 
 namespace aquarama::session {

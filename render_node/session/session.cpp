@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/net/channels.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "render_node/session/link_session.h"
 #include "render_node/session/mailbox.h"
 #include "render_node/session/master_link.h"

@@ -1,9 +1,9 @@
 // Fins that row, flutter, ripple and fold beside the body that bears them: a pure function of time and
-// of what a node knows of a fish. common/body/fin_motion.h is the reference.
+// of what a node knows of a fish. common/body/fins.h is the reference.
 #ifndef FISH_FINS_GLSL
 #define FISH_FINS_GLSL
 
-// FinStyle and FinPoint of common/body/fin_table.h. Tailwards, up, away from the body; the left side
+// FinStyle and FinPoint of common/body/fish_body.h. Tailwards, up, away from the body; the left side
 // is the mirror image of the right.
 struct FinStyle {
     vec3 hinge;

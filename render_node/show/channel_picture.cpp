@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "render_node/show/channel_picture.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <span>
 #include <string_view>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
 #include "common/units/digest.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
+#include "common/wall/png_file.h"
 #include "render_node/gl/debug.h"
 #include "render_node/shaders/post_radii.h"
-#include "render_node/show/presented.h"
+#include "render_node/show/channel_show.h"
 
 namespace aquarama::show {
 
@@ -266,6 +270,70 @@ scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& subm
     return {.clipFromCamera = wall::clipFromCamera(viewing.frustum, kNearMetres),
             .cameraFromWorld = glm::mat4(viewing.frustum.cameraFromWall * wallFromWorld(submarine)),
             .sizePixels = sceneSize_};
+}
+
+namespace {
+
+template <class Sample>
+wall::Picture readBack(ChannelPicture& picture,
+                       GLenum format,
+                       project::Encoding encoding,
+                       Shown shown) {
+    const gl::Target target(format, picture.sizePixels());
+    picture.project(target.framebuffer(), encoding, Overlays{}, shown);
+    const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
+    return {
+        picture.sizePixels(), 8 * static_cast<int>(sizeof(Sample)), {pixels.begin(), pixels.end()}};
+}
+
+}  // namespace
+
+wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
+    return bits == PictureBits::Deep16
+               ? readBack<std::uint16_t>(picture, GL_RGBA16, project::Encoding::Plain, shown)
+               : readBack<std::uint8_t>(picture, GL_RGBA8, project::Encoding::Dithered8, shown);
+}
+
+Shown flat(const ChannelPicture& picture) {
+    const config::StereoMode mode = picture.stereo().mode;
+    const bool whole = mode == config::StereoMode::Mono || mode == config::StereoMode::Anaglyph;
+    return whole ? Shown::Display : Shown::LeftEye;
+}
+
+void writeSnapshot(const std::string& folder,
+                   const std::string& channel,
+                   ChannelPicture& picture,
+                   PictureBits bits) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure)
+        throw Error(folder + ": cannot be made (" + failure.message() +
+                    "); choose another folder for --snapshot");
+    const std::string name = folder + "/channel-" + channel;
+    wall::writePng(name + ".png", takePicture(picture, bits, Shown::Display));
+    if (picture.stereo().mode == config::StereoMode::Mono) return;
+    wall::writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
+    wall::writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
+}
+
+WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels) {
+    const glm::vec2 size(picturePixels);
+    const glm::vec2 room = glm::vec2(windowPixels) / size;
+    const glm::ivec2 fitted(size * std::min(room.x, room.y));
+    return {(windowPixels - fitted) / 2, fitted};
+}
+
+std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
+                                      glm::ivec2 picturePixels,
+                                      glm::vec2 windowPlace) {
+    const WindowFit fit = fitInto(windowPixels, picturePixels);
+    const glm::vec2 topLeft(fit.corner.x, windowPixels.y - fit.corner.y - fit.size.y);
+    const glm::vec2 share = (windowPlace - topLeft) / glm::vec2(fit.size);
+    // Said so that what is not a number is outside.
+    const bool inside = glm::all(glm::greaterThanEqual(share, glm::vec2(0))) &&
+                        glm::all(glm::lessThan(share, glm::vec2(1)));
+    if (!inside) return std::nullopt;
+    return share * glm::vec2(picturePixels);
 }
 
 }  // namespace aquarama::show

@@ -9,16 +9,18 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "common/motion/reconstruct.h"
+#include "common/wall/picture.h"
 #include "common/wire/messages.h"
-#include "render_node/gl/target.h"
+#include "render_node/gl/handle.h"
 #include "render_node/project/pattern_pass.h"
 #include "render_node/project/projection.h"
 #include "render_node/scene/scene.h"
 #include "render_node/session/session.h"
 #include "render_node/show/controls.h"
-#include "render_node/show/mind_labels.h"
-#include "render_node/show/text_overlay.h"
+#include "render_node/show/overlay.h"
 
 namespace aquarama::show {
 
@@ -91,5 +93,37 @@ class ChannelPicture {
     std::vector<scene::FoodParticle> food_;
     Frame frame_;
 };
+
+// Pictures of what a channel projects.
+
+enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
+
+// The frame that was drawn last, without overlays.
+[[nodiscard]] wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
+
+// What somebody without glasses may look at: one eye's picture where a display takes the two apart
+// from one another.
+[[nodiscard]] Shown flat(const ChannelPicture& picture);
+
+// folder/channel-NAME.png: takePicture() of the display, and in stereo channel-NAME.left_eye.png
+// and .right_eye.png beside it. Throws Error where they cannot be written.
+void writeSnapshot(const std::string& folder,
+                   const std::string& channel,
+                   ChannelPicture& picture,
+                   PictureBits bits);
+
+// How a channel's picture lies in a window of another size: the whole of it, in the middle.
+
+struct WindowFit {
+    glm::ivec2 corner{};  // the lower left one, from the window's lower left
+    glm::ivec2 size{};
+};
+[[nodiscard]] WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels);
+
+// What a place of the window shows of the picture, both in pixels from the top left; nothing on the
+// dark beside it.
+[[nodiscard]] std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
+                                                    glm::ivec2 picturePixels,
+                                                    glm::vec2 windowPlace);
 
 }  // namespace aquarama::show

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "render_node/show/channel_show.h"
 
 #include <algorithm>
@@ -6,11 +7,11 @@
 #include <tuple>
 #include <utility>
 
-#include "common/units/error.h"
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
 #include "common/units/log.h"
-#include "render_node/show/measured_quality.h"
-#include "render_node/show/snapshot.h"
-#include "render_node/show/window_fit.h"
+#include "render_node/show/channel_picture.h"
 
 namespace aquarama::show {
 
@@ -231,6 +232,82 @@ bool ChannelShow::isFilmed(Frame frame) const {
 // Without a window the clip alone looks at frames: those between its pictures need not be drawn.
 bool ChannelShow::isSeen(Frame frame) const {
     return context_.hasWindow() || !film_ || isFilmed(frame);
+}
+
+std::optional<motion::PresentedFish> presentedFish(const wire::StateFrame& frame,
+                                                   std::span<const motion::FishTraits> school,
+                                                   std::size_t place) {
+    if (place >= std::min(frame.after.size(), school.size())) return std::nullopt;
+    // Without a tick before, the frame shows the tick itself.
+    const bool between = frame.before.size() == frame.after.size();
+    const motion::FishRecord& before = between ? frame.before[place] : frame.after[place];
+    return motion::present(
+        before, frame.after[place], between ? frame.fraction : 1.0F, school[place]);
+}
+
+std::vector<motion::PresentedFish> presentedFish(const wire::StateFrame& frame,
+                                                 std::span<const motion::FishTraits> school) {
+    std::vector<motion::PresentedFish> fish;
+    const std::size_t count = std::min(frame.after.size(), school.size());
+    fish.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) fish.push_back(*presentedFish(frame, school, i));
+    return fish;
+}
+
+void presentFood(const wire::StateFrame& frame, std::vector<scene::FoodParticle>& food) {
+    const bool between = frame.foodBefore.size() == frame.foodAfter.size();
+    food.clear();
+    food.reserve(frame.foodAfter.size());
+    for (std::size_t i = 0; i < frame.foodAfter.size(); ++i) {
+        const wire::FoodRecord after = frame.foodAfter[i];
+        if (after.kind() == wire::FoodRecord::Kind::None) continue;
+        const wire::FoodRecord before = between ? frame.foodBefore[i] : after;
+        const bool isSame =
+            before.kind() == after.kind() && before.generation() == after.generation();
+        const glm::vec3 to = after.offsetMetres();
+        const glm::vec3 from = isSame ? before.offsetMetres() : to;
+        food.push_back({frame.foodOriginMetres + glm::mix(from, to, frame.fraction),
+                        static_cast<std::uint32_t>(4 * i + after.generation()),
+                        after.kind() == wire::FoodRecord::Kind::Pellet});
+    }
+}
+
+double presentedSeconds(const wire::StateFrame& frame) {
+    const double ticks =
+        static_cast<double>(frame.tick.value) - 1 + static_cast<double>(frame.fraction);
+    return std::max(ticks, 0.0) / kTicksPerSecond;
+}
+
+glm::dmat4 wallFromWorld(const wire::Eye& eye) {
+    const glm::dmat4 wallFromWorldRotation =
+        glm::mat4_cast(glm::conjugate(glm::dquat(eye.worldFromWall)));
+    return glm::translate(wallFromWorldRotation, -glm::dvec3(eye.positionMetres));
+}
+
+Trace::Trace(const std::string& folder, const std::string& name) {
+    if (folder.empty()) return;
+    const std::string path = folder + "/" + name + ".csv";
+    std::ofstream(path, std::ios::trunc);
+    file_.open(path, std::ios::app);  // who empties it while it is written gets no hole
+    if (!(file_ << "frame,state_ns,ready_ns,present_ns\n" << std::flush))
+        throw Error(path + ": cannot be written; choose a folder that exists for --trace");
+}
+
+void Trace::write(Frame frame, const FrameTimes& times) {
+    if (!file_.is_open()) return;
+    file_ << frame.value << ',' << times.state.count() << ',' << times.ready.count() << ','
+          << times.present.count() << '\n'
+          << std::flush;
+}
+
+config::QualityTier finestWithin(double budgetSeconds, const FrameCost& cost) {
+    config::QualityTier finest = config::QualityTier::Low;
+    for (std::uint32_t i = 0; i < config::kTierNames.size(); ++i) {
+        const config::QualityTier tier = *config::tierAt(i);
+        if (cost(tier) > budgetSeconds) break;
+        finest = tier;
+    }
+    return finest;
 }
 
 }  // namespace aquarama::show

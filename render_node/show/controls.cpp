@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "render_node/show/controls.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
+#include "common/wall/wall.h"
 #include "render_node/context/context.h"
+#include "render_node/project/projection.h"
 
 namespace aquarama::show {
 
@@ -82,6 +89,93 @@ std::optional<Pinch> Controls::nextPinch() {
     const Pinch first = pinches_.front();
     pinches_.pop_front();
     return first;
+}
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr auto kBetweenChanges = milliseconds(33);
+constexpr auto kBetweenRepeats = milliseconds(100);
+static_assert(4 * kBetweenRepeats < kTicksOfAHand * milliseconds(1000) / 60);
+
+constexpr float kDeadZone = 0.15F;      // of a stick that is not quite at rest
+constexpr float kDragDeadZone = 0.02F;  // heights of the window
+constexpr float kFullDrag = 0.35F;
+
+// Nothing within the dead zone, then from 0, finer about the middle.
+float shareOf(float deflection, float deadZone, float full) {
+    const float beyond = (std::abs(deflection) - deadZone) / (full - deadZone);
+    const float share = std::clamp(beyond, 0.0F, 1.0F);
+    return std::copysign(share * share, deflection);
+}
+
+glm::vec2 stick(glm::vec2 place) {
+    return {shareOf(place.x, kDeadZone, 1), shareOf(place.y, kDeadZone, 1)};
+}
+
+float between(const context::Hands& hands, context::HeldKey plus, context::HeldKey minus) {
+    return (hands.holds(plus) ? 1.0F : 0.0F) - (hands.holds(minus) ? 1.0F : 0.0F);
+}
+
+std::int8_t axisOf(float share) {
+    return static_cast<std::int8_t>(
+        std::lround(std::clamp(share, -1.0F, 1.0F) * float{kFullSteering}));
+}
+
+}  // namespace
+
+Steering steeringOf(const context::Hands& hands) {
+    const glm::vec2 left = stick(hands.pad.leftStick);
+    const glm::vec2 right = stick(hands.pad.rightStick);
+    const glm::vec2 dragged = hands.drag.value_or(glm::vec2(0));
+    const glm::vec2 drag{shareOf(dragged.x, kDragDeadZone, kFullDrag),
+                         shareOf(dragged.y, kDragDeadZone, kFullDrag)};
+    const float rise = shareOf(hands.pad.rightTrigger, kDeadZone, 1) -
+                       shareOf(hands.pad.leftTrigger, kDeadZone, 1);
+    return {
+        .ahead = axisOf(between(hands, context::HeldKey::W, context::HeldKey::S) +
+                        between(hands, context::HeldKey::Up, context::HeldKey::Down) + left.y),
+        .aside = axisOf(between(hands, context::HeldKey::D, context::HeldKey::A) + left.x),
+        .up = axisOf(between(hands, context::HeldKey::PageUp, context::HeldKey::PageDown) + rise),
+        .turn = axisOf(between(hands, context::HeldKey::Left, context::HeldKey::Right) - drag.x -
+                       right.x),
+        .tilt = axisOf(between(hands, context::HeldKey::Home, context::HeldKey::End) + drag.y +
+                       right.y)};
+}
+
+std::optional<Steering> SteeringPace::due(const Steering& wanted, std::chrono::nanoseconds now) {
+    const bool changed = wanted != said_;
+    const bool held = wanted != Steering{};
+    if (!changed && !held) return std::nullopt;
+    if (saidAt_ && now - *saidAt_ < (changed ? kBetweenChanges : kBetweenRepeats))
+        return std::nullopt;
+    said_ = wanted;
+    saidAt_ = now;
+    return wanted;
+}
+
+namespace {
+
+constexpr float kArmMetres = 2.5F;          // of the submarine's, so that it is well in view
+constexpr float kLeastDepthMetres = 0.25F;  // food is dropped into water, not into the air
+
+}  // namespace
+
+std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const wire::Eye& eye) const {
+    const glm::vec2 own = project::pixelOfEye(mode_, channel_.sizePixels, pixel);
+    const auto point = wall::screenPoint(screen_, channel_, glm::dvec2(own));
+    if (!point) return std::nullopt;
+    return eye.worldFromWall * glm::vec3(glm::normalize(*point - sweetSpot_));
+}
+
+std::optional<glm::vec3> Pointing::pinchAt(glm::vec2 pixel, const wire::Eye& eye) const {
+    const auto direction = directionOf(pixel, eye);
+    if (!direction) return std::nullopt;
+    const glm::vec3 viewer = eye.positionMetres + eye.worldFromWall * glm::vec3(sweetSpot_);
+    glm::vec3 place = viewer + *direction * kArmMetres;
+    place.y = std::min(place.y, -kLeastDepthMetres);
+    return place;
 }
 
 }  // namespace aquarama::show

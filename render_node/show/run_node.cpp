@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/cli/signals.h"
-#include "common/wall/eyes.h"
+#include "common/wall/wall.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/debug.h"
 #include "render_node/session/session.h"

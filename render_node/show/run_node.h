@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// One node, from joining the show to its end.
+// What the command line of a node says.
 #pragma once
 
-#include "render_node/show/node_options.h"
+#include <string>
 
 namespace aquarama::show {
+
+struct NodeOptions {
+    std::string channel;
+    std::string masterAddress;
+    bool headless = false;
+    std::string device;          // for --headless, instead of the rig's; empty: the rig's
+    std::string snapshotFolder;  // of the last frame; empty: none
+    bool deep = false;           // 16 bits instead of 8 dithered ones
+    std::string filmPipe;        // a named pipe that takes frames for a clip; empty: none
+    int filmEvery = 1;           // only every so many frames
+    std::string traceFolder;     // empty: none
+};
+
+// One node, from joining the show to its end.
 
 // Returns when the show is over or a signal ended this process. Throws Error: what the command line
 // asks for cannot be.

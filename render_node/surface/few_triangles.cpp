@@ -12,7 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/body/cage_topology.h"
+#include "common/body/cage.h"
 
 namespace aquarama::surface {
 

@@ -14,11 +14,11 @@
 #include <glm/packing.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/body/fin_motion.h"
+#include "common/body/fins.h"
 #include "common/files/derived_cache.h"
-#include "common/skin/coarser_level.h"
-#include "common/units/error.h"
-#include "render_node/gl/buffer.h"
+#include "common/skin/limit_table.h"
+#include "common/units/log.h"
+#include "render_node/gl/handle.h"
 #include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::surface {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All fish of a node on the GPU: from the wire's records to the surfaces that a view draws.
-// Culling, level of detail, control points and limit surface (eq. 13, paper sections 4.3 and 6) are
-// compute shaders, and the GPU draws what it found: what a frame costs the processor does not
-// depend on the number of fish, but for copying their bytes.
+// The shaders that pose fish, which the species of a cast share, and those that paint and light a
+// species.
 #pragma once
 
 #include <array>
@@ -15,11 +13,41 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "common/body/fish_body.h"
 #include "common/motion/motion_state.h"
+#include "render_node/gl/handle.h"
+#include "render_node/gl/program.h"
 #include "render_node/surface/fish_tables.h"
 #include "render_node/surface/visibility.h"
 
 namespace aquarama::surface {
+
+struct SkinPrograms {
+    gl::ProgramHandle surface;      // fish.comp
+    gl::Replacements replacements;  // of a tier: for the skin shaders
+};
+[[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms(
+    gl::Replacements replacements = {});
+
+// What draws the skin of one species: fish_body.frag near, fish_far.frag far and fish_fin.frag with
+// its skin shader, shaders/skin_SPECIES.glsl, or plainly where there is none.
+struct SkinShader {
+    // eye: s, y and radius, body lengths.
+    SkinShader(const body::FishSkin& skin, glm::vec3 eye, const gl::Replacements& replacements);
+
+    gl::ProgramHandle nearBody, farBody, fins;
+    gl::ProgramHandle fewBody, fewFins, point;  // with the vertex shaders of coarser levels
+
+    // Far bodies have no level finer than 0.
+    [[nodiscard]] unsigned bodyOf(int level) const {
+        return level == 0 ? farBody.name() : nearBody.name();
+    }
+};
+
+// All fish of a node on the GPU: from the wire's records to the surfaces that a view draws.
+// Culling, level of detail, control points and limit surface (eq. 13, paper sections 4.3 and 6) are
+// compute shaders, and the GPU draws what it found: what a frame costs the processor does not
+// depend on the number of fish, but for copying their bytes.
 
 struct SurfaceOptions {
     bool culling = true;         // off only to measure what it saves

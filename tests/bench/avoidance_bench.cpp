@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "common/units/hash.h"
 #include "master/surroundings/obstacles.h"
 #include "tests/support/school_region.h"

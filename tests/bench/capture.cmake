@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES capture_bench.cpp LINK aquarama_compile)
+aquarama_bench(SOURCES capture_bench.cpp LINK aquarama_capture)

@@ -5,8 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "master/capture/compile/capture_repertoire.h"
-#include "master/capture/compile/config_folder.h"
+#include "master/capture/capture_repertoire.h"
 
 namespace aquarama::bench {
 namespace {

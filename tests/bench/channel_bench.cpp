@@ -8,7 +8,7 @@
 
 #include "common/place/place.h"
 #include "render_node/context/context.h"
-#include "render_node/gl/target.h"
+#include "render_node/gl/handle.h"
 #include "render_node/project/projection.h"
 #include "render_node/scene/scene.h"
 #include "tests/common/wall/rigs.h"

@@ -15,7 +15,7 @@
 #include "common/place/place.h"
 #include "render_node/context/context.h"
 #include "render_node/scene/scene.h"
-#include "render_node/surface/skin_programs.h"
+#include "render_node/surface/school_surface.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 

@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES dynamics_bench.cpp LINK aquarama_control Eigen3::Eigen)
+aquarama_bench(SOURCES dynamics_bench.cpp LINK aquarama_capture Eigen3::Eigen)

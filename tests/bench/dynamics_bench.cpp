@@ -11,9 +11,9 @@
 #include <glm/matrix.hpp>
 
 #include "common/config/species.h"
-#include "common/units/ids.h"
-#include "master/capture/control/swimmer.h"
-#include "master/capture/dynamics/envelope_system.h"
+#include "common/units/units.h"
+#include "master/capture/dynamics.h"
+#include "master/capture/swimmer.h"
 
 namespace aquarama::bench {
 namespace {

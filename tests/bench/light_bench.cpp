@@ -11,8 +11,8 @@
 
 #include "common/place/place.h"
 #include "render_node/context/context.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/shade.h"
 #include "render_node/shaders/frame_uniforms.h"
 
 namespace aquarama::bench {

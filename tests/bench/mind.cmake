@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES mind_bench.cpp LINK aquarama_world aquarama_compile)
+aquarama_bench(SOURCES mind_bench.cpp LINK aquarama_world aquarama_capture)

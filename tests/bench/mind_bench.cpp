@@ -13,7 +13,7 @@
 #include <benchmark/benchmark.h>
 
 #include "common/motion/motor.h"
-#include "master/capture/compile/capture_repertoire.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/world/world.h"
 #include "tests/support/cast.h"
 #include "tests/support/scad.h"

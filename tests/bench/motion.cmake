@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES motion_bench.cpp LINK aquarama_compile aquarama_motion aquarama_body)
+aquarama_bench(SOURCES motion_bench.cpp LINK aquarama_capture aquarama_motion aquarama_body)

@@ -6,10 +6,9 @@
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
-#include "master/capture/compile/capture_repertoire.h"
+#include "master/capture/capture_repertoire.h"
 #include "render_node/context/context.h"
 #include "render_node/surface/school_surface.h"
-#include "render_node/surface/skin_programs.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace aquarama::bench {

@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "common/place/noise.h"
+#include "common/place/place.h"
 #include "master/behaviour/perceive/grids.h"
 #include "master/behaviour/perceive/neighbours.h"
 #include "tests/master/behaviour/scattered_school.h"

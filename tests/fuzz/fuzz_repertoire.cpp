@@ -6,7 +6,7 @@
 
 #include "common/motion/repertoire.h"
 #include "common/units/digest.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "common/config/rig.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

@@ -3,7 +3,7 @@
 
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/png_file.h"
 
 namespace aquarama::test {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "common/config/angle.h"
-#include "common/units/angle.h"
+#include "common/units/units.h"
 #include "common/wall/pattern.h"
 #include "common/wall/wall.h"
 

@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat3x4.hpp>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::test {
 

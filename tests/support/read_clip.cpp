@@ -14,7 +14,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::test {
 

@@ -4,7 +4,7 @@
 
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
-#include "master/capture/compile/capture_repertoire.h"
+#include "master/capture/capture_repertoire.h"
 
 namespace aquarama::test {
 

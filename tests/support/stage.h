@@ -20,7 +20,7 @@
 
 #include "common/config/rig.h"
 #include "common/motion/repertoire.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "master/conductor/conductor.h"
 #include "render_node/session/link_session.h"
 #include "tests/support/memory_channels.h"

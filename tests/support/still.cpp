@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "common/body/fish_skin.h"
+#include "common/body/fish_body.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 

@@ -15,8 +15,8 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/units/error.h"
-#include "render_node/scene/shade.h"
+#include "common/units/log.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/water_lobes.h"
 #include "tests/support/water_comparison.h"
 #include "tests/support/water_light.h"

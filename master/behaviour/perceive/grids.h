@@ -1,20 +1,233 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who and what is where: all fish in a fine grid; predators, large bodies, willing mates and food
-// in sparse grids of their own.
+// Who or what is near: points sorted into the cells of a uniform grid, so that a search reads a few
+// short runs of memory.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/place/place.h"
-#include "master/behaviour/perceive/kinds_about.h"
-#include "master/behaviour/perceive/spatial_grid.h"
 #include "master/fish/fish_view.h"
-#include "master/fish/species_parameters.h"
 #include "master/surroundings/food.h"
 
 namespace aquarama::behaviour {
+
+// The most points that a search reads at a time.
+inline constexpr std::size_t kMostLanes = 16;
+
+// Places in metres, in columns or in records of so many floats.
+struct Points {
+    const float *x = nullptr, *y = nullptr, *z = nullptr;
+    std::size_t count = 0;
+    std::size_t stride = 1;
+
+    [[nodiscard]] glm::vec3 operator[](std::size_t i) const {
+        return {x[i * stride], y[i * stride], z[i * stride]};
+    }
+};
+
+class SpatialGrid {
+  public:
+    // Room for `most` points. Those outside `water` are kept in the border cells; they are found
+    // all the same. Where there would be more than `mostCells` cells they are made larger.
+    SpatialGrid(const place::Region& water,
+                float cellMetres,
+                std::size_t most,
+                std::size_t mostCells);
+
+    // Of all points, those at these ascending indices. In each cell they stand in the order of
+    // their index. Allocates nothing.
+    void rebuild(const Points& points, std::span<const std::uint32_t> chosen);
+
+    // The same for many points, in steps whose jobs threads may share: count() for every part,
+    // arrange(), spread() for every part, sort() for every bucket. A part is a run of indices, a
+    // bucket a run of cells; which they are depends on `most` alone, so any number of threads makes
+    // the same grid.
+    void makeRoomForSteps();  // once
+    [[nodiscard]] std::size_t parts() const { return parts_; }
+    [[nodiscard]] std::size_t buckets() const { return buckets_; }
+    [[nodiscard]] static std::size_t firstOfPart(std::size_t part) { return part * kPointsInPart; }
+    template <class IsThere>
+    void count(std::size_t part, const Points& points, const IsThere& isThere) {
+        std::uint32_t* const tally = tallies_.data() + part * buckets_;
+        std::fill_n(tally, buckets_, 0U);
+        const std::size_t last = std::min(points.count, firstOfPart(part + 1));
+        for (std::size_t i = firstOfPart(part); i < last; ++i) {
+            cellOfPoint_[i] = isThere(i) ? cellIndex(points[i]) : kNowhere;
+            if (cellOfPoint_[i] != kNowhere) ++tally[cellOfPoint_[i] / cellsInBucket_];
+        }
+    }
+    void arrange();
+    void spread(std::size_t part, const Points& points);
+    void sort(std::size_t bucket);
+
+    struct Candidates {  // one run of cells, structure of arrays
+        std::span<const float> x, y, z;
+        std::span<const std::uint32_t> index;
+    };
+    // Calls visit(Candidates) for rows of cells, from the point outwards, that together hold every
+    // point within sqrt(reachSquared). The visitor may lower reachSquared as it finds what it
+    // sought.
+    template <class Visit>
+    void visitAround(glm::vec3 point, const float& reachSquared, Visit&& visit) const {
+        const glm::vec3 at = (point - origin_) * cellsPerMetre_;  // in cells
+        const Cell centre = cellOf(point);
+        const auto row = [&](int y, int z) {
+            if (y < 0 || y >= cells_.y || z < 0 || z >= cells_.z) return;
+            const float dy = outside(at.y, centre.y, y);
+            const float dz = outside(at.z, centre.z, z);
+            const float left =
+                reachSquared * kSlack - (dy * dy + dz * dz) * cellMetres_ * cellMetres_;
+            if (left < 0) return;
+            const float halfWidth = std::sqrt(left) * cellsPerMetre_;
+            const int first = clampedCell(at.x - halfWidth, cells_.x);
+            const int last = clampedCell(at.x + halfWidth, cells_.x);
+            const Slots slots = slotsOf(first, last, y, z);
+            if (slots.first < slots.last) visit(candidates(slots));
+        };
+        row(centre.y, centre.z);
+        const int cells = 1 + static_cast<int>(std::sqrt(reachSquared) * cellsPerMetre_);
+        for (int ring = 1; ring <= cells; ++ring) {
+            const float nearest = static_cast<float>(ring - 1) * cellMetres_;
+            if (nearest * nearest > reachSquared * kSlack) return;  // enough was found
+            for (int i = -ring; i < ring;
+                 ++i) {  // the four sides of a square, each without its end
+                row(centre.y + i, centre.z - ring);
+                row(centre.y + ring, centre.z + i);
+                row(centre.y - i, centre.z + ring);
+                row(centre.y - ring, centre.z - i);
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t bytes() const;
+
+    // For searches that go over the cells themselves. The sorted points stand in slots, those of a
+    // row of cells one after the other; behind the last of them a whole vector may be read.
+    struct Cell {
+        int x, y, z;
+    };
+    struct Slots {
+        std::uint32_t first, last;
+    };
+    [[nodiscard]] Cell cellOf(glm::vec3 point) const {
+        const glm::vec3 at = (point - origin_) * cellsPerMetre_;
+        return {
+            clampedCell(at.x, cells_.x), clampedCell(at.y, cells_.y), clampedCell(at.z, cells_.z)};
+    }
+    [[nodiscard]] Cell cells() const { return cells_; }
+    [[nodiscard]] float cellMetres() const { return cellMetres_; }
+    [[nodiscard]] glm::vec3 origin() const { return origin_; }
+    [[nodiscard]] std::size_t rowOf(int y, int z) const {  // its first cell's index
+        return (std::size_t(z) * std::size_t(cells_.y) + std::size_t(y)) * std::size_t(cells_.x);
+    }
+    [[nodiscard]] Slots slotsOf(int firstX, int lastX, int y, int z) const {
+        const std::uint32_t* const starts = starts_.data() + rowOf(y, z);
+        return {starts[firstX], starts[lastX + 1]};
+    }
+    struct CellRun {
+        std::size_t first, last;
+    };
+    [[nodiscard]] CellRun cellsOfBucket(std::size_t bucket) const {
+        return {std::min(bucket * cellsInBucket_, starts_.size() - 1),
+                std::min((bucket + 1) * cellsInBucket_, starts_.size() - 1)};
+    }
+    // Of one of them; asks nothing of other buckets, which may not be sorted yet.
+    [[nodiscard]] Slots slotsOfCell(std::size_t bucket, std::size_t cell) const {
+        const bool isLast = cell + 1 == cellsOfBucket(bucket).last;
+        return {starts_[cell], isLast ? bucketStarts_[bucket + 1] : starts_[cell + 1]};
+    }
+    [[nodiscard]] std::size_t size() const { return starts_.back(); }
+    [[nodiscard]] const float* x() const { return sorted_.x.data(); }
+    [[nodiscard]] const float* y() const { return sorted_.y.data(); }
+    [[nodiscard]] const float* z() const { return sorted_.z.data(); }
+    [[nodiscard]] const std::uint32_t* index() const { return sorted_.index.data(); }
+
+  private:
+    struct Columns {
+        std::vector<float> x, y, z;
+        std::vector<std::uint32_t> index;
+
+        void resize(std::size_t points);
+        void put(std::size_t slot, glm::vec3 point, std::uint32_t i) {
+            x[slot] = point.x;
+            y[slot] = point.y;
+            z[slot] = point.z;
+            index[slot] = i;
+        }
+        [[nodiscard]] std::size_t bytes() const;
+    };
+    static constexpr float kSlack = 1.001F;  // more than rounding can take off a reach
+    static constexpr std::size_t kPointsInPart = 4096;
+    static constexpr std::uint32_t kNowhere = 0xffffffffU;
+
+    // Border cells reach outwards without end.
+    [[nodiscard]] static int clampedCell(float cell, int cells) {
+        return static_cast<int>(std::clamp(cell, 0.0F, static_cast<float>(cells - 1)));
+    }
+    // How far a point in cell `own` is from another, in cells.
+    [[nodiscard]] static float outside(float at, int own, int other) {
+        return other > own   ? static_cast<float>(other) - at
+               : other < own ? at - static_cast<float>(other + 1)
+                             : 0.0F;
+    }
+    [[nodiscard]] std::uint32_t cellIndex(glm::vec3 point) const {
+        const Cell cell = cellOf(point);
+        return static_cast<std::uint32_t>(rowOf(cell.y, cell.z)) +
+               static_cast<std::uint32_t>(cell.x);
+    }
+    [[nodiscard]] Candidates candidates(const Slots& slots) const;
+
+    glm::vec3 origin_{};
+    float cellMetres_;
+    float cellsPerMetre_ = 0;
+    Cell cells_{};
+    std::vector<std::uint32_t> starts_;       // first slot of each cell; one more at the end
+    std::vector<std::uint32_t> cellOfPoint_;  // by index; by place where the points are chosen
+    Columns sorted_;
+    // Of the steps: how many points of each part go to each bucket, then where the next goes; where
+    // the buckets begin; the points by bucket.
+    std::size_t parts_, buckets_ = 1, cellsInBucket_ = 1;
+    std::vector<std::uint32_t> tallies_, bucketStarts_;
+    Columns spread_;
+    std::vector<std::uint32_t> spreadCells_;
+};
+
+// Which species are in each cell of the fishes' grid: a fish among its own alone need not look for
+// others.
+
+class KindsAbout {
+  public:
+    explicit KindsAbout(const SpatialGrid& grid);
+
+    void clear();
+    // Of the fish of a bucket, once it is sorted; from any thread.
+    void note(const SpatialGrid& grid, std::size_t bucket, std::span<const std::uint8_t> kinds);
+
+    // Whether cells [from, to] may hold fish of other kinds than `own`.
+    [[nodiscard]] bool mayHoldOthers(const SpatialGrid::Cell& from,
+                                     const SpatialGrid::Cell& to,
+                                     std::uint8_t own) const;
+    // The same of a row of cells, to the cell; [first, last] are cells of the whole grid.
+    [[nodiscard]] bool rowHoldsOthers(std::size_t first, std::size_t last, std::uint8_t own) const;
+
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    [[nodiscard]] std::size_t blockOf(int x, int y, int z) const;
+
+    SpatialGrid::Cell cells_;
+    SpatialGrid::Cell blocks_;
+    std::vector<std::uint8_t> kindOfCell_;     // kEmpty, kMixed or the kind of all its fish
+    std::vector<std::uint64_t> kindsOfBlock_;  // a bit for each kind
+};
+
+// Who and what is where: all fish in a fine grid; predators, large bodies, willing mates and food
+// in sparse grids of their own.
 
 inline constexpr float kLargeBodyMetres = 0.6F;  // from this length a fish is a large body
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/perceive/neighbours.h"
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 
 namespace aquarama::behaviour {
 

@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "master/behaviour/perceive/spatial_grid.h"
+#include "master/behaviour/perceive/grids.h"
 #include "master/fish/fish_view.h"
-#include "master/fish/species_parameters.h"
 
 namespace aquarama::behaviour {
 

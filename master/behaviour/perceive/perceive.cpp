@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/behaviour/perceive/perceive.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "common/place/angle.h"
-#include "master/behaviour/perceive/climate_sense.h"
-#include "master/behaviour/perceive/collision.h"
-#include "master/behaviour/perceive/mate_choice.h"
+#include "common/place/place.h"
 #include "master/behaviour/perceive/points_within.h"
-#include "master/behaviour/perceive/stimulus.h"
 #include "master/behaviour/perceive/vision.h"
-#include "master/fish/drives.h"
-#include "master/fish/mouth.h"
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
 #include "master/surroundings/obstacles.h"
 
 namespace aquarama::behaviour {
@@ -369,6 +366,100 @@ Senses perceive(const Environment& environment,
     feelClimate(*environment.surroundings, parameters, mind.likes, senses);
     feelCollision(environment, parameters, fish, mind, senses);
     return senses;
+}
+
+namespace {
+
+constexpr float kDegreesOfComfort = 10;  // weigh as much as all the light there is
+constexpr float kNoticeable = 0.02F;     // less difference between here and there moves no fish
+
+struct Ambient {
+    float light, celsius;
+};
+
+Ambient ambientAt(const surroundings::Surroundings& around, float y) {
+    return {surroundings::lightAt(around.climate, around.daylight, y),
+            surroundings::celsiusAt(around.climate, y)};
+}
+
+// How far the ambient is outside what a habit likes; each habit minds one side of one range.
+float lackOf(fish::Like habit, const config::Habits& habits, const Ambient& ambient) {
+    switch (habit) {
+        case fish::kLikesBrightness:
+            return static_cast<float>(habits.light.least) - ambient.light;
+        case fish::kLikesDarkness:
+            return ambient.light - static_cast<float>(habits.light.most);
+        case fish::kLikesWarmth:
+            return (static_cast<float>(habits.waterCelsius.least) - ambient.celsius) /
+                   kDegreesOfComfort;
+        case fish::kLikesCold:
+            return (ambient.celsius - static_cast<float>(habits.waterCelsius.most)) /
+                   kDegreesOfComfort;
+        default:
+            return -1;
+    }
+}
+
+}  // namespace
+
+void feelClimate(const surroundings::Surroundings& around,
+                 const fish::SpeciesParameters& parameters,
+                 std::uint8_t likes,
+                 Senses& senses) {
+    const Ambient here = ambientAt(around, senses.position.y);
+    senses.light = here.light;
+    senses.celsius = here.celsius;
+    fish::Like worst = fish::kIsFemale;
+    for (const fish::Like habit :
+         {fish::kLikesBrightness, fish::kLikesDarkness, fish::kLikesWarmth, fish::kLikesCold}) {
+        if ((likes & habit) == 0) continue;
+        const float lack = lackOf(habit, parameters.habits, here);
+        if (lack <= senses.discomfort) continue;
+        senses.discomfort = lack;
+        worst = habit;
+    }
+    if (senses.discomfort <= -kNoticeable) return;  // at ease
+    // Light and warmth change with depth alone: the best place is the top or the bottom.
+    const place::Region& water = around.obstacles.water;
+    const float atTop =
+        lackOf(worst, parameters.habits, ambientAt(around, water.centre.y + water.halfExtent.y));
+    const float atBottom =
+        lackOf(worst, parameters.habits, ambientAt(around, water.centre.y - water.halfExtent.y));
+    const float best = std::min(atTop, atBottom);
+    if (senses.discomfort - best > kNoticeable) senses.betterUp = atTop < atBottom ? 1.0F : -1.0F;
+}
+
+namespace {
+
+constexpr float kTakenDearness = 1.5F;  // of one that courts another
+constexpr float kDevotion = 3;          // of anybody else to one whose courtship is answered
+
+}  // namespace
+
+bool suitsAsMate(const fish::FishView& view,
+                 std::uint8_t likes,
+                 std::uint32_t fish,
+                 std::uint32_t other) {
+    if (other == fish || view.kind[other] != view.kind[fish]) return false;
+    if (!view.shows(other, fish::kWilling) || view.shows(other, fish::kAway)) return false;
+    if (view.shows(other, fish::kFemale) == ((likes & fish::kIsFemale) != 0)) return false;
+    const auto [shorter, longer] = std::minmax(view.fish[fish].length, view.fish[other].length);
+    return shorter >= kLeastSizeRatio * longer;
+}
+
+float dearnessOfMate(const fish::FishView& view,
+                     std::uint8_t likes,
+                     std::uint32_t fish,
+                     std::uint32_t other) {
+    const std::uint32_t own = view.partner[fish];
+    const bool isCourted = own != fish::kNobody && view.partner[own] == fish;
+    const std::uint32_t theirs = view.partner[other];
+    float dearness = theirs != fish::kNobody && theirs != fish ? kTakenDearness : 1.0F;
+    if (isCourted && own != other) dearness = kDevotion;
+    if ((likes & fish::kIsFemale) == 0) return dearness;
+    // Nothing may cost less than its distance: so the smaller are dearer.
+    const float smaller = view.fish[fish].length / (kLeastSizeRatio * view.fish[other].length);
+    return dearness * std::max(1.0F, smaller * smaller);
 }
 
 }  // namespace aquarama::behaviour

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "master/behaviour/perceive/spatial_grid.h"
+#include "master/behaviour/perceive/grids.h"
 
 namespace aquarama::behaviour {
 

@@ -16,7 +16,7 @@
 
 #include <hwy/highway.h>
 
-#include "master/behaviour/perceive/spatial_grid.h"
+#include "master/behaviour/perceive/grids.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aquarama::behaviour::HWY_NAMESPACE {

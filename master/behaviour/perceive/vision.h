@@ -7,8 +7,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "master/behaviour/perceive/environment.h"
-#include "master/fish/species_parameters.h"
+#include "master/behaviour/perceive/perceive.h"
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
 
 namespace aquarama::behaviour {
 
@@ -38,5 +39,24 @@ struct SightLine {
                             std::uint32_t fish,
                             std::uint32_t object,
                             const SightLine& ray);
+
+// Which fish is about to be in the way (Tu 1996, section 5.4): the one most of whose middle line
+// lies in the box about this fish to which it is sensitive.
+
+// About the origin of a body frame: ahead (x), above and below (y), aside (z); metres.
+struct Box {
+    float ahead = 0, behind = 0, up = 0, aside = 0;
+};
+
+// The share of the straight line from `nose` to `tail`, in the frame of the box, that is inside.
+[[nodiscard]] float shareInside(const Box& box, glm::vec3 nose, glm::vec3 tail);
+
+// Writes Senses::collision and collisionShare, from the neighbours already in `senses` and from
+// large bodies.
+void feelCollision(const Environment& environment,
+                   const fish::SpeciesParameters& parameters,
+                   std::uint32_t fish,
+                   const fish::Mind& mind,
+                   Senses& senses);
 
 }  // namespace aquarama::behaviour

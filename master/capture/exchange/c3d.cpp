@@ -1,15 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/capture/exchange/c3d.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <charconv>
 #include <string>
 
-#include "common/motion/byte_stream.h"
-#include "common/units/ids.h"
-#include "master/capture/exchange/markers.h"
+#include "common/motion/repertoire.h"
+#include "common/units/units.h"
 
 namespace aquarama::exchange {
+
+namespace {
+
+constexpr std::size_t kDorsalTip = 21;  // behind the nose and five rings of four
+
+struct Corner {
+    const char* label;
+    const char* description;
+};
+constexpr std::array kCorners{Corner{"DL", "dorsal left"},
+                              Corner{"DR", "dorsal right"},
+                              Corner{"VR", "ventral right"},
+                              Corner{"VL", "ventral left"}};
+
+std::string ringOf(std::size_t node) {
+    return std::to_string(1 + (node - 1) / kCorners.size());
+}
+
+const Corner& cornerOf(std::size_t node) {
+    return kCorners.at((node - 1) % kCorners.size());
+}
+
+}  // namespace
+
+std::string markerLabel(std::size_t node) {
+    if (node == 0) return "NOSE";
+    if (node >= kDorsalTip) return node == kDorsalTip ? "TAIL_D" : "TAIL_V";
+    return "R" + ringOf(node) + "_" + cornerOf(node).label;
+}
+
+std::string markerDescription(std::size_t node) {
+    const std::string number = "nodal point " + std::to_string(node) + ", ";
+    if (node == 0) return number + "nose";
+    if (node >= kDorsalTip)
+        return number + (node == kDorsalTip ? "dorsal" : "ventral") + " tip of the tail";
+    return number + "ring " + ringOf(node) + " of 5, " + cornerOf(node).description;
+}
+
+namespace {
+
+void append(std::string& text, double value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.begin(), digits.end(), static_cast<float>(value)).ptr;
+    text.append(digits.begin(), end);
+}
+
+}  // namespace
+
+std::string csvOf(const Take& take) {
+    std::string text = "time_s";
+    for (std::size_t node = 0; node < body::kNodalPoints; ++node)
+        for (const char* axis : {"_x_m", "_y_m", "_z_m"})
+            text += ",n" + std::to_string(node) + axis;
+    text += '\n';
+    for (const TakeFrame& frame : take.frames) {
+        append(text, frame.seconds);
+        for (const glm::dvec3& node : frame.nodes)
+            for (const double metres : {node.x, node.y, node.z}) append(text += ',', metres);
+        text += '\n';
+    }
+    return text;
+}
 
 namespace {
 

@@ -1,15 +1,144 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/capture/exchange/gltf.h"
 
+#include <algorithm>
+#include <bit>
+#include <cassert>
 #include <sstream>
 #include <string>
 
-#include "common/units/error.h"
-#include "master/capture/exchange/gltf_buffer.h"
-#include "master/capture/exchange/swimming_skin.h"
+#include <glm/common.hpp>
+
+#include "common/skin/limit_table.h"
+#include "common/units/log.h"
 #include "master/capture/exchange/take.h"
+#include "master/capture/measure.h"
 
 namespace aquarama::exchange {
+
+namespace {
+
+constexpr int kSurfaceLevel = 1;  // 1698 vertices; its normals are the limit surface's
+
+body::NodalPoints nodesAt(const motion::ActionSegment& segment, std::size_t phase) {
+    body::NodalPoints nodes{};
+    std::ranges::transform(capture::poseAt(segment, phase),
+                           nodes.begin(),
+                           [](const glm::dvec3& node) { return glm::vec3(node); });
+    return nodes;
+}
+
+SkinShape shapeOf(const body::FishBody& body,
+                  const skin::LimitTable& table,
+                  const body::NodalPoints& nodes,
+                  float lengthMetres) {
+    std::vector<glm::vec3> cage(body.cage.vertices.size());
+    body::poseCage(body, nodes, cage);
+    SkinShape shape;
+    for (std::size_t i = 0; i < table.vertices.size(); ++i) {
+        const skin::SkinPoint point = skin::skinPoint(table, i, cage);
+        shape.positions.push_back(point.position * lengthMetres);
+        shape.normals.push_back(point.normal);
+    }
+    return shape;
+}
+
+}  // namespace
+
+SwimmingSkin skinOf(const body::FishBody& body,
+                    const motion::ActionSegment& segment,
+                    double lengthMetres,
+                    int shapes) {
+    assert(motion::kPhases % shapes == 0);
+    const skin::LimitTable table = skin::makeLimitTable(body, kSurfaceLevel);
+    SwimmingSkin skin{.triangles = table.indices, .shapes = {}};
+    for (int phase = 0; phase < motion::kPhases; phase += motion::kPhases / shapes)
+        skin.shapes.push_back(shapeOf(body,
+                                      table,
+                                      nodesAt(segment, static_cast<std::size_t>(phase)),
+                                      static_cast<float>(lengthMetres)));
+    return skin;
+}
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF's buffers are little-endian");
+
+constexpr int kNoTarget = 0;
+
+template <class T>
+int addAccessor(
+    tinygltf::Model& model, std::span<const T> values, int target, int type, int component) {
+    if (model.buffers.empty()) model.buffers.emplace_back();
+    std::vector<unsigned char>& data = model.buffers[0].data;
+    const auto bytes = std::as_bytes(values);
+
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = data.size();
+    view.byteLength = bytes.size();
+    view.target = target;
+    for (const std::byte byte : bytes) data.push_back(std::to_integer<unsigned char>(byte));
+    model.bufferViews.push_back(view);
+
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    accessor.componentType = component;
+    accessor.count = values.size();
+    accessor.type = type;
+    model.accessors.push_back(accessor);
+    return static_cast<int>(model.accessors.size()) - 1;
+}
+
+template <class T>
+int addFloats(tinygltf::Model& model, std::span<const T> values, int target, int type) {
+    return addAccessor(model, values, target, type, TINYGLTF_COMPONENT_TYPE_FLOAT);
+}
+
+}  // namespace
+
+int addTriangles(tinygltf::Model& model, std::span<const std::uint32_t> corners) {
+    return addAccessor(model,
+                       corners,
+                       TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
+                       TINYGLTF_TYPE_SCALAR,
+                       TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+}
+
+int addVertices(tinygltf::Model& model, std::span<const glm::vec3> vectors) {
+    const int accessor =
+        addFloats(model, vectors, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_TYPE_VEC3);
+    glm::vec3 least = vectors.front();
+    glm::vec3 most = least;
+    for (const glm::vec3& vector : vectors) {
+        least = glm::min(least, vector);
+        most = glm::max(most, vector);
+    }
+    const auto numbers = [](const glm::dvec3& v) { return std::vector<double>{v.x, v.y, v.z}; };
+    model.accessors.back().minValues = numbers(glm::dvec3(least));
+    model.accessors.back().maxValues = numbers(glm::dvec3(most));
+    return accessor;
+}
+
+int addTimes(tinygltf::Model& model, std::span<const float> seconds) {
+    const int accessor = addKeys(model, seconds);
+    model.accessors.back().minValues = {static_cast<double>(seconds.front())};
+    model.accessors.back().maxValues = {static_cast<double>(seconds.back())};
+    return accessor;
+}
+
+int addKeys(tinygltf::Model& model, std::span<const float> numbers) {
+    return addFloats(model, numbers, kNoTarget, TINYGLTF_TYPE_SCALAR);
+}
+
+int addKeys(tinygltf::Model& model, std::span<const glm::vec3> vectors) {
+    return addFloats(model, vectors, kNoTarget, TINYGLTF_TYPE_VEC3);
+}
+
+int addKeys(tinygltf::Model& model, std::span<const glm::vec4> quaternions) {
+    return addFloats(model, quaternions, kNoTarget, TINYGLTF_TYPE_VEC4);
+}
 
 namespace {
 

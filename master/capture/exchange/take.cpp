@@ -6,9 +6,9 @@
 
 #include <glm/common.hpp>
 
-#include "common/units/error.h"
-#include "common/units/ids.h"
-#include "master/capture/measure/course.h"
+#include "common/units/log.h"
+#include "common/units/units.h"
+#include "master/capture/measure.h"
 
 namespace aquarama::exchange {
 

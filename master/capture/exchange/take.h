@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/motion/repertoire.h"
-#include "master/capture/measure/measure.h"
+#include "master/capture/measure.h"
 
 namespace aquarama::exchange {
 

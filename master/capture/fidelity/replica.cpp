@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/capture/fidelity/replica.h"
 
 #include <cmath>
@@ -6,8 +7,10 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "common/motion/phase_sample.h"
 #include "common/motion/reconstruct.h"
+#include "common/motion/repertoire.h"
+#include "common/units/units.h"
+#include "master/capture/fidelity/script.h"
 
 namespace aquarama::fidelity {
 
@@ -123,6 +126,120 @@ TracePoint Replica::point() const {
                                glm::mat3_cast(glm::normalize(glm::dquat(frame.rotation)))}};
     for (std::size_t i = 0; i < nodes.size(); ++i) point.pose.at(i) = nodes.at(i);
     return point;
+}
+
+namespace {
+
+constexpr double kSecondsToSteady = 24;  // the fish's own
+
+// Who swims also keeps level and upright, as the replica always does (the paper's section 4.2); a
+// fish that is both needs no fins for it.
+capture::Order orderFor(const config::Species& species, Manoeuvre manoeuvre) {
+    const config::Swim& swim = species.swim;
+    switch (manoeuvre) {
+        case Manoeuvre::ForwardSlow:
+            return {.controller = capture::Controller::Balance, .gait = swim.slow};
+        case Manoeuvre::ForwardMedium:
+        case Manoeuvre::Balance:
+            return {.controller = capture::Controller::Balance, .gait = swim.medium};
+        case Manoeuvre::ForwardFast:
+            return {.controller = capture::Controller::Balance, .gait = swim.fast};
+        case Manoeuvre::TurnLeftGradual:
+            return {.controller = capture::Controller::LeftTurn, .bend = species.turn.gradual};
+        case Manoeuvre::TurnLeftSharp:
+            return {.controller = capture::Controller::LeftTurn, .bend = species.turn.sharp};
+        case Manoeuvre::TurnRightGradual:
+            return {.controller = capture::Controller::RightTurn, .bend = species.turn.gradual};
+        case Manoeuvre::TurnRightSharp:
+            return {.controller = capture::Controller::RightTurn, .bend = species.turn.sharp};
+        case Manoeuvre::Glide:
+            return {.controller = capture::Controller::Glide};
+        case Manoeuvre::Ascend:
+            return {.controller = capture::Controller::Ascend,
+                    .gait = swim.medium,
+                    .pitchRadians = kScriptPitchRadians};
+        case Manoeuvre::Descend:
+            return {.controller = capture::Controller::Descend,
+                    .gait = swim.medium,
+                    .pitchRadians = kScriptPitchRadians};
+        case Manoeuvre::Brake:
+            return {.controller = capture::Controller::Brake};
+        case Manoeuvre::Retreat:
+            return {.controller = capture::Controller::Retreat, .gait = swim.slow};
+    }
+    return {};
+}
+
+TracePoint pointOf(const capture::NodeVectors& pose) {
+    return {capture::frameOf(pose), capture::inBodyFrame(pose)};
+}
+
+}  // namespace
+
+Trace traceFish(const config::Species& species, std::span<const TimedOrder> orders) {
+    const double longest = capture::longestStepSeconds(capture::makeBiomechanicalFish(species));
+    const int stepsPerTick = static_cast<int>(std::ceil(1 / (kTicksPerSecond * longest) - 1e-9));
+    capture::Swimmer swimmer(species, 1 / (kTicksPerSecond * stepsPerTick));
+
+    swimmer.give(orderFor(species, Manoeuvre::ForwardMedium));
+    const double beatSeconds = 1 / species.swim.medium.beatHertz;
+    const double beats = std::ceil(kSecondsToSteady / species.tissue.timeScale / beatSeconds);
+    swimmer.advance(static_cast<int>(std::lround(beats * beatSeconds / swimmer.stepSeconds())));
+
+    Trace trace{pointOf(swimmer.state().positions)};
+    for (const auto& [order, ticks] : orders) {
+        swimmer.give(order);
+        for (int tick = 0; tick < ticks; ++tick) {
+            swimmer.advance(stepsPerTick);
+            trace.push_back(pointOf(swimmer.state().positions));
+        }
+    }
+    return trace;
+}
+
+Trace traceFish(const config::Species& species, const Script& script) {
+    std::vector<TimedOrder> orders;
+    for (const ScriptCommand& command : script)
+        orders.push_back({orderFor(species, command.manoeuvre), command.ticks});
+    return traceFish(species, orders);
+}
+
+namespace {
+
+template <class Before>
+Trace traceOf(const motion::Repertoire& repertoire, const Script& script, Before beforeCommand) {
+    Replica replica(repertoire);
+    Trace trace{replica.point()};
+    for (const ScriptCommand& command : script) {
+        beforeCommand(replica, trace.size() - 1);
+        replica.command(command.manoeuvre);
+        for (int tick = 0; tick < command.ticks; ++tick) {
+            replica.tick();
+            trace.push_back(replica.point());
+        }
+    }
+    return trace;
+}
+
+}  // namespace
+
+Trace traceReplica(const motion::Repertoire& repertoire, const Script& script) {
+    return traceOf(repertoire, script, [](Replica&, std::size_t) {});
+}
+
+Trace traceReplicaInPhase(const motion::Repertoire& repertoire,
+                          const Script& script,
+                          const Trace& fish) {
+    return traceOf(repertoire, script, [&](Replica& replica, std::size_t tick) {
+        replica.bringToPhaseOf(fish.at(tick).pose);
+    });
+}
+
+Traces traceBoth(const config::Species& species,
+                 const motion::Repertoire& repertoire,
+                 const Script& script) {
+    const Trace fish = traceFish(species, script);
+    return {fish, traceReplicaInPhase(repertoire, script, fish), traceReplica(repertoire, script)};
 }
 
 }  // namespace aquarama::fidelity

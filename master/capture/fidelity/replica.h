@@ -7,7 +7,6 @@
 
 #include "common/motion/motor.h"
 #include "master/capture/fidelity/script.h"
-#include "master/capture/fidelity/trace.h"
 
 namespace aquarama::fidelity {
 

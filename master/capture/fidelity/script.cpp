@@ -6,7 +6,7 @@
 #include <random>
 #include <span>
 
-#include "common/units/ids.h"
+#include "common/units/units.h"
 
 namespace aquarama::fidelity {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <random>
 
-#include "common/units/ids.h"
-#include "master/capture/compile/compile_segment.h"
-#include "master/capture/compile/turn.h"
+#include "common/units/units.h"
+#include "master/capture/compile_segment.h"
 #include "master/capture/fidelity/compare.h"
 #include "master/capture/fidelity/replica.h"
+#include "master/capture/turn.h"
 
 namespace aquarama::fidelity {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A captured fish seen from above, for drawing: all from its repertoire.
+// The dynamic fish as a shape to fill: its skin, and where its pectoral fins stand.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,32 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/body/fish_body.h"
 #include "common/motion/repertoire.h"
-#include "master/capture/measure/measure.h"
+#include "master/capture/biomechanical_fish.h"
+#include "master/capture/measure.h"
 
 namespace aquarama::report {
+
+enum class ViewSide { Above, Side };
+
+// Body lengths, x to the right; from above the left of the world is up, from the side its height.
+[[nodiscard]] glm::dvec2 seen(ViewSide view, const glm::dvec3& world);
+
+using Polygon = std::vector<glm::dvec2>;
+
+// Body and tail, and from the side the fins on back and belly.
+[[nodiscard]] std::vector<Polygon> silhouetteOf(const body::FishBody& body,
+                                                const capture::NodeVectors& nodes,
+                                                ViewSide view);
+
+// Each pectoral fin as a line: from above from its root out or, flat, along the body; from the side
+// its chord.
+[[nodiscard]] std::vector<Polygon> finLines(const capture::PectoralFins& fins,
+                                            const capture::NodeVectors& nodes,
+                                            ViewSide view);
+
+// A captured fish seen from above, for drawing: all from its repertoire.
 
 // World x to the right of the paper, world z (the right of a fish that heads along x) down.
 [[nodiscard]] glm::dvec2 fromAbove(const glm::dvec3& world);

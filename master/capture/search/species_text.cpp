@@ -9,7 +9,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::search {
 

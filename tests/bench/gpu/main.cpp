@@ -18,11 +18,11 @@
 #include <epoxy/gl.h>
 
 #include "calibration/theatre/compose.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/png_file.h"
 #include "common/wall/wall.h"
 #include "render_node/context/context.h"
-#include "render_node/context/driver.h"
+#include "render_node/context/offscreen_context.h"
 #include "tests/bench/gpu/card_memory.h"
 #include "tests/bench/gpu/sea.h"
 #include "tests/bench/gpu/wall_timing.h"

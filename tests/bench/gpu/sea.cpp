@@ -5,7 +5,6 @@
 
 #include "common/config/scene.h"
 #include "common/units/digest.h"
-#include "master/simulation/assets.h"
 #include "master/simulation/living_world.h"
 
 namespace aquarama::bench {

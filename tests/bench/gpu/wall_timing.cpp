@@ -8,7 +8,7 @@
 
 #include <epoxy/gl.h>
 
-#include "render_node/show/snapshot.h"
+#include "render_node/show/channel_picture.h"
 #include "tests/bench/gpu/stage_clock.h"
 
 namespace aquarama::bench {

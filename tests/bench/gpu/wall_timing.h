@@ -9,7 +9,7 @@
 
 #include "common/config/quality.h"
 #include "common/wall/picture.h"
-#include "render_node/gl/target.h"
+#include "render_node/gl/handle.h"
 #include "render_node/show/channel_picture.h"
 #include "tests/bench/gpu/sea.h"
 

@@ -14,7 +14,7 @@
 
 #include "calibration/theatre/film.h"
 #include "common/config/rig.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/frame_pipe.h"
 #include "tests/support/read_clip.h"
 

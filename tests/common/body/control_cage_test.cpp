@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/body/cage_topology.h"
+#include "common/body/cage.h"
 #include "common/body/fish_body.h"
-#include "common/body/monotone_curve.h"
+#include "common/body/spine.h"
 #include "tests/common/body/bend.h"
 #include "tests/support/cast.h"
 

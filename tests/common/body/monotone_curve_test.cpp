@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/body/monotone_curve.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
+
+#include "common/body/spine.h"
 
 namespace aquarama::body {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/species.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "tests/support/cast.h"
 
 namespace aquarama::config {

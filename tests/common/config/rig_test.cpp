@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/angle.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::config {
 namespace {

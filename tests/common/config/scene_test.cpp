@@ -11,7 +11,7 @@
 
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::config {
 namespace {

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::files {
 namespace {

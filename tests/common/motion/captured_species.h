@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/motion/motor.h"
-#include "master/capture/compile/capture_repertoire.h"
+#include "master/capture/capture_repertoire.h"
 #include "tests/support/all_species.h"
 
 namespace aquarama::motion {

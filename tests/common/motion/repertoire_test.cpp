@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/units/digest.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "tests/support/synthetic_repertoire.h"
 
 namespace aquarama::motion {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 
 namespace aquarama::net {
 namespace {

@@ -14,7 +14,7 @@
 #include <unistd.h>
 #include <zmq.hpp>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "tests/support/memory_channels.h"
 
 namespace aquarama::net {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/place/angle.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "common/place/place.h"
 
 namespace aquarama::place {
 namespace {

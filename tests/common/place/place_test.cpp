@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/place/noise.h"
 #include "common/units/hash.h"
 #include "tests/support/school_region.h"
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "common/config/angle.h"
-#include "common/units/angle.h"
-#include "common/units/error.h"
+#include "common/units/log.h"
+#include "common/units/units.h"
 #include "rigs.h"
 
 namespace aquarama::wall {

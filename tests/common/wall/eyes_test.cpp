@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two eyes before the screen: where each sees a point of the world on it, against closed forms.
-#include "common/wall/eyes.h"
-
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/pinhole.h"
+#include "common/wall/wall.h"
 #include "rigs.h"
 
 namespace aquarama::wall {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/png_file.h"
 
 namespace aquarama::wall {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "tests/common/wire/sample_recording.h"
 #include "tests/support/count_memory.h"
 

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "common/place/angle.h"
-#include "master/behaviour/perceive/environment.h"
+#include "common/place/place.h"
+#include "master/behaviour/perceive/perceive.h"
 #include "master/behaviour/think.h"
-#include "master/fish/courses.h"
 #include "master/fish/minds.h"
+#include "master/fish/secondary_controller.h"
 
 namespace aquarama::behaviour {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/noise.h"
+#include "common/place/place.h"
 #include "common/units/hash.h"
 #include "tests/master/behaviour/fish_in_mind.h"
 

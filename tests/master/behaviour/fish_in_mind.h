@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "master/behaviour/intention_generator.h"
-#include "master/fish/drives.h"
+#include "master/fish/minds.h"
 
 namespace aquarama::behaviour {
 

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "master/behaviour/perceive/stimulus.h"
-#include "master/fish/courses.h"
-#include "master/fish/drives.h"
+#include "master/behaviour/perceive/perceive.h"
+#include "master/fish/minds.h"
+#include "master/fish/secondary_controller.h"
 
 namespace aquarama::behaviour {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/recommendation.h"
-
 #include <gtest/gtest.h>
 
+#include "master/behaviour/intention_generator.h"
 #include "tests/master/behaviour/aquarium.h"
 
 namespace aquarama::behaviour {

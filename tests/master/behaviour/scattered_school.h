@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "common/place/angle.h"
 #include "common/place/place.h"
 #include "common/units/hash.h"
 #include "master/fish/fish_view.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What others see of a fish's mood.
-#include "master/fish/signs.h"
-
 #include <gtest/gtest.h>
 
 #include "master/behaviour/intention_generator.h"
+#include "master/fish/minds.h"
 
 namespace aquarama::behaviour {
 namespace {

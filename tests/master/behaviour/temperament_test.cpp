@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What single fish draw from the ranges of their species.
-#include "master/behaviour/temperament.h"
-
 #include <gtest/gtest.h>
 
 #include "master/behaviour/mental_state.h"
-#include "master/fish/drives.h"
+#include "master/fish/minds.h"
 
 namespace aquarama::behaviour {
 namespace {

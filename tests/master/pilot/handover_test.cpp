@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "master/pilot/pilot.h"
 #include "tests/master/pilot/voyages.h"
 

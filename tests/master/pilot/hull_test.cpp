@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The submarine against what stands in the sea.
-#include "master/pilot/hull.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
+#include "master/pilot/vessel.h"
 #include "tests/master/pilot/voyages.h"
 
 namespace aquarama::pilot {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "tests/master/pilot/voyages.h"
 
 namespace aquarama::pilot {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/pilot/rotation.h"
-
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
+
+#include "master/pilot/vessel.h"
 
 namespace aquarama::pilot {
 namespace {

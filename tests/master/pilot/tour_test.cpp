@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The autopilot in the scenes that are shipped.
-#include "master/pilot/tour.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
+#include "master/pilot/pilot.h"
 #include "tests/master/pilot/voyages.h"
 
 namespace aquarama::pilot {

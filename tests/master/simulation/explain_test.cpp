@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/wire/envelope.h"
-#include "master/simulation/assets.h"
 #include "master/simulation/insight.h"
-#include "master/simulation/lines.h"
 #include "master/simulation/living_world.h"
 #include "tests/master/world/few_fish.h"
 #include "tests/support/synthetic_assets.h"

@@ -9,11 +9,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "common/units/error.h"
-#include "master/simulation/assets.h"
+#include "common/units/log.h"
 #include "master/simulation/living_world.h"
-#include "master/simulation/playback.h"
-#include "master/simulation/recorder.h"
+#include "master/simulation/recorded_world.h"
 #include "tests/support/synthetic_assets.h"
 
 namespace aquarama::simulation {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/study/study_csv.h"
+#include "master/study/study.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 
 namespace aquarama::study {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/study/bodies.h"
-
 #include <array>
 
 #include <gtest/gtest.h>
 
-#include "master/study/overlap_log.h"
+#include "master/study/chronicle.h"
 
 namespace aquarama::study {
 namespace {

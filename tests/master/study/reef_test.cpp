@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "master/study/chronicle.h"
-#include "master/study/scenarios.h"
-#include "master/study/study_csv.h"
+#include "master/study/study.h"
 
 namespace aquarama::study {
 namespace {

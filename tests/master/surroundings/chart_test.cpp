@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the chart says beside what is worked out.
-#include "master/surroundings/chart.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "common/units/hash.h"
+#include "master/surroundings/climate.h"
 #include "master/surroundings/obstacles.h"
 #include "tests/support/school_region.h"
 

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
 #include "common/place/place.h"
 #include "tests/support/school_region.h"
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/surroundings/journey.h"
-
 #include <algorithm>
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
 #include "common/place/place.h"
-#include "common/units/angle.h"
+#include "common/units/units.h"
+#include "master/surroundings/surroundings.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::surroundings {

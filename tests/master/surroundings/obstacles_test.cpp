@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 
 namespace aquarama::surroundings {
 namespace {

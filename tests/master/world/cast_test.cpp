@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 #include "tests/support/school_region.h"
 

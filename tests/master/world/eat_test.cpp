@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
-#include "master/fish/drives.h"
-#include "master/fish/mouth.h"
+#include "common/place/place.h"
+#include "master/fish/fish_view.h"
+#include "master/fish/minds.h"
 #include "tests/master/world/few_fish.h"
 
 namespace aquarama::world {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "tests/master/world/few_fish.h"
 
 namespace aquarama::world {

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "master/behaviour/think.h"
 #include "master/fish/secondary_controller.h"
 #include "tests/master/world/school_of_synthetic_fish.h"

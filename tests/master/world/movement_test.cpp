@@ -8,8 +8,8 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#include "master/behaviour/act/home.h"
-#include "master/behaviour/act/routines.h"
+#include "master/behaviour/home.h"
+#include "master/behaviour/routines.h"
 #include "master/surroundings/obstacles.h"
 #include "tests/master/world/scene_of_synthetic_fish.h"
 #include "tests/master/world/school_shape.h"

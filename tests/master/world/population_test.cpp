@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/place/angle.h"
-#include "master/fish/drives.h"
+#include "common/place/place.h"
+#include "master/fish/minds.h"
 #include "tests/master/world/few_fish.h"
 
 namespace aquarama::world {

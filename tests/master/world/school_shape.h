@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "master/fish/fish_view.h"
 
 namespace aquarama::world {

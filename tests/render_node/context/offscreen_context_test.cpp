@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render_node/context/offscreen_context.h"
+
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -8,9 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "render_node/context/context.h"
-#include "render_node/context/driver.h"
 
 namespace aquarama::context {
 namespace {

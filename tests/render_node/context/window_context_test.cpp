@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "render_node/context/context.h"
 #include "tests/render_node/context/virtual_display.h"
 #include "tests/render_node/context/wayland_display.h"

@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "render_node/context/context.h"
+#include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
-#include "render_node/gl/target.h"
 
 namespace aquarama::gl {
 namespace {

@@ -7,9 +7,9 @@
 #include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 
-#include "common/wall/eyes.h"
+#include "common/wall/wall.h"
 #include "render_node/context/context.h"
-#include "render_node/gl/target.h"
+#include "render_node/gl/handle.h"
 #include "render_node/project/projection.h"
 #include "tests/common/wall/rigs.h"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/wall/pinhole.h"
-#include "render_node/project/projection_map.h"
+#include "render_node/project/projection.h"
 #include "tests/common/wall/rigs.h"
 
 namespace aquarama::project {

@@ -9,7 +9,7 @@
 
 #include "common/wall/pattern.h"
 #include "render_node/context/context.h"
-#include "render_node/gl/target.h"
+#include "render_node/gl/handle.h"
 #include "tests/common/wall/rigs.h"
 
 namespace aquarama::project {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/project/projection_map.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,7 +7,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
+#include "render_node/project/projection.h"
 #include "tests/common/wall/rigs.h"
 
 namespace aquarama::project {

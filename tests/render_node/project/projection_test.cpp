@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "render_node/context/context.h"
-#include "render_node/gl/target.h"
+#include "render_node/gl/handle.h"
 #include "tests/common/wall/rigs.h"
 #include "tests/render_node/project/reference.h"
 

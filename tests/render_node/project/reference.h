@@ -12,7 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "render_node/project/projection_map.h"
+#include "render_node/project/projection.h"
 
 namespace aquarama::project {
 

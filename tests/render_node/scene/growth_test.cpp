@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "render_node/scene/detail_tiles.h"
 #include "render_node/scene/ground.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/reef.h"
 #include "render_node/scene/rock_mesh.h"
 #include "render_node/scene/scatter.h"
-#include "render_node/scene/shade.h"
+#include "render_node/scene/solid_array.h"
 #include "render_node/shaders/plant_bend.h"
 
 namespace aquarama::scene {

@@ -16,9 +16,9 @@
 #include "common/place/place.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/program.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/sea_light.h"
-#include "render_node/scene/shade.h"
-#include "render_node/scene/texture.h"
+#include "render_node/scene/solid_array.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "tests/support/golden_stills.h"
 

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "render_node/scene/shade.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/water_tables.h"
 #include "tests/support/water_comparison.h"
 

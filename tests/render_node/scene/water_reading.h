@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "render_node/scene/shade.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/water_lobes.h"
 #include "render_node/scene/water_tables.h"
 

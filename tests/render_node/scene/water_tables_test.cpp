@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "render_node/scene/shade.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/water_lobes.h"
 #include "tests/render_node/scene/water_reading.h"
 #include "tests/support/colour_difference.h"

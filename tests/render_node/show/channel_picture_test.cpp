@@ -12,8 +12,8 @@
 #include "common/place/place.h"
 #include "common/wall/picture.h"
 #include "common/wall/wall.h"
-#include "render_node/show/font.h"
-#include "render_node/show/pointing.h"
+#include "render_node/show/controls.h"
+#include "render_node/show/overlay.h"
 #include "tests/render_node/show/fake_session.h"
 
 namespace aquarama::show {

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "common/wall/frame_pipe.h"
 #include "common/wall/pattern.h"
 #include "common/wall/picture.h"

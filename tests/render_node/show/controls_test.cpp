@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "render_node/context/context.h"
-#include "render_node/show/font.h"
+#include "render_node/show/overlay.h"
 #include "tests/render_node/show/fake_session.h"
 
 namespace aquarama::show {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/show/measured_quality.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "render_node/show/channel_show.h"
 
 namespace aquarama::show {
 namespace {

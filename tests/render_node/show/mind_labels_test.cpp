@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/show/mind_labels.h"
-
 #include <cctype>
 
 #include <gtest/gtest.h>
+
+#include "render_node/show/overlay.h"
 
 namespace aquarama::show {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/show/pointing.h"
-
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -9,7 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "common/wall/wall.h"
-#include "render_node/show/window_fit.h"
+#include "render_node/show/channel_picture.h"
+#include "render_node/show/controls.h"
 #include "tests/common/wall/rigs.h"
 
 namespace aquarama::show {

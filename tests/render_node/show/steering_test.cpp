@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/show/steering.h"
-
 #include <chrono>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "render_node/show/controls.h"
 
 namespace aquarama::show {
 namespace {

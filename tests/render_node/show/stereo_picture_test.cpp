@@ -10,10 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "common/wall/eyes.h"
 #include "common/wall/pinhole.h"
+#include "common/wall/wall.h"
 #include "render_node/show/channel_picture.h"
-#include "render_node/show/snapshot.h"
 #include "tests/render_node/show/fake_session.h"
 #include "tests/support/golden.h"
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/skin/coarser_level.h"
+#include "common/skin/limit_table.h"
 #include "tests/support/cast.h"
 
 namespace aquarama::surface {

@@ -9,8 +9,8 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "common/body/fin_motion.h"
-#include "common/motion/phase_sample.h"
+#include "common/body/fins.h"
+#include "common/motion/repertoire.h"
 
 namespace aquarama::test {
 

@@ -17,8 +17,8 @@
 
 #include "common/place/place.h"
 #include "render_node/context/context.h"
+#include "render_node/scene/mesh.h"
 #include "render_node/scene/scene.h"
-#include "render_node/scene/shade.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 

@@ -18,7 +18,6 @@
 #include "render_node/gl/handle.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "render_node/surface/school_surface.h"
-#include "render_node/surface/skin_programs.h"
 #include "tests/render_node/surface/test_fish.h"
 
 namespace aquarama::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "master/behaviour/act/routines.h"
+#include "master/behaviour/routines.h"
 #include "tests/master/behaviour/aquarium.h"
 #include "tests/master/behaviour/scattered_school.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "master/behaviour/act/home.h"
+#include "master/behaviour/home.h"
 #include "tests/master/behaviour/aquarium.h"
 
 namespace aquarama::behaviour {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/behaviour/perceive/climate_sense.h"
-
 #include <gtest/gtest.h>
 
+#include "master/behaviour/perceive/perceive.h"
 #include "master/fish/minds.h"
 
 namespace aquarama::behaviour {

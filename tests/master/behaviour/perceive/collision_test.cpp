@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which fish a fish takes for a threat of collision.
-#include "master/behaviour/perceive/collision.h"
-
 #include <gtest/gtest.h>
 
 #include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive/vision.h"
 #include "tests/master/behaviour/aquarium.h"
 
 namespace aquarama::behaviour {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include "common/place/angle.h"
+#include "common/place/place.h"
 #include "master/behaviour/perceive/grids.h"
 #include "tests/master/behaviour/scattered_school.h"
 

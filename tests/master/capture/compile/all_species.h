@@ -7,9 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
-#include "master/capture/compile/capture_repertoire.h"
-#include "master/capture/compile/config_folder.h"
+#include "common/units/log.h"
+#include "master/capture/capture_repertoire.h"
 
 namespace aquarama::capture {
 

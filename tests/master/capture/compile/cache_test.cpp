@@ -7,10 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "common/motion/repertoire.h"
-#include "common/units/error.h"
-#include "master/capture/compile/config_folder.h"
-#include "master/capture/compile/repertoire_cache.h"
-#include "master/capture/report/inspect.h"
+#include "common/units/log.h"
+#include "master/capture/capture_repertoire.h"
+#include "master/capture/report/report_data.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::capture {

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "master/capture/measure/measure.h"
+#include "master/capture/measure.h"
 #include "tests/master/capture/compile/all_species.h"
 
 namespace aquarama::capture {

@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/capture/compile/repertoire_cache.h"
+#include "master/capture/capture_repertoire.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::capture {

@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "master/capture/compile/compile_segment.h"
-#include "master/capture/compile/steady_swimming.h"
-#include "master/capture/measure/measure.h"
+#include "master/capture/compile_segment.h"
+#include "master/capture/measure.h"
+#include "master/capture/speed_response.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::capture {

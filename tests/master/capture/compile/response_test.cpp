@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "master/capture/compile/speed_response.h"
+#include "master/capture/speed_response.h"
 #include "tests/master/capture/compile/all_species.h"
 
 namespace aquarama::capture {

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "master/capture/compile/steady_swimming.h"
-#include "master/capture/dynamics/body_frame.h"
+#include "master/capture/dynamics.h"
+#include "master/capture/speed_response.h"
 #include "tests/master/capture/compile/all_species.h"
 
 namespace aquarama::capture {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns of every species: how far, how sure, and to either side alike.
-#include "master/capture/compile/turn.h"
+#include "master/capture/turn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "master/capture/dynamics/body_frame.h"
-#include "master/capture/measure/measure.h"
+#include "master/capture/dynamics.h"
+#include "master/capture/measure.h"
 #include "tests/master/capture/compile/all_species.h"
 
 namespace aquarama::capture {

@@ -8,9 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "master/capture/control/body_angles.h"
-#include "master/capture/control/swimmer.h"
-#include "master/capture/dynamics/body_frame.h"
+#include "master/capture/dynamics.h"
+#include "master/capture/swimmer.h"
 
 namespace aquarama::capture {
 

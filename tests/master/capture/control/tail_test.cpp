@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "master/capture/control/muscle_programs.h"
-#include "master/capture/control/swimmer.h"
+#include "master/capture/motor_controllers.h"
+#include "master/capture/swimmer.h"
 #include "tests/master/capture/control/course.h"
 #include "tests/support/all_species.h"
 #include "tests/support/scad.h"

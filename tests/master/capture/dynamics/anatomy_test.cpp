@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/dynamics/anatomy.h"
-
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -12,9 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
-#include "master/capture/dynamics/biomechanical_fish.h"
-#include "master/capture/dynamics/rigidity.h"
+#include "common/units/log.h"
+#include "master/capture/biomechanical_fish.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::capture {

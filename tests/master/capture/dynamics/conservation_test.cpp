@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "master/capture/control/muscle_programs.h"
-#include "master/capture/dynamics/biomechanical_fish.h"
+#include "master/capture/biomechanical_fish.h"
+#include "master/capture/motor_controllers.h"
 #include "tests/master/capture/dynamics/disturbed.h"
 #include "tests/support/scad.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "master/capture/dynamics/biomechanical_fish.h"
+#include "master/capture/biomechanical_fish.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::capture {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "master/capture/dynamics.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,10 +8,8 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
-#include "master/capture/control/muscle_programs.h"
-#include "master/capture/dynamics/biomechanical_fish.h"
-#include "master/capture/dynamics/body_frame.h"
-#include "master/capture/dynamics/envelope_system.h"
+#include "master/capture/biomechanical_fish.h"
+#include "master/capture/motor_controllers.h"
 #include "tests/master/capture/dynamics/dense.h"
 #include "tests/master/capture/dynamics/disturbed.h"
 #include "tests/support/all_species.h"

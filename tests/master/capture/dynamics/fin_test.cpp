@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "master/capture/dynamics/biomechanical_fish.h"
-#include "master/capture/dynamics/body_frame.h"
+#include "master/capture/biomechanical_fish.h"
+#include "master/capture/dynamics.h"
 #include "tests/master/capture/dynamics/disturbed.h"
 #include "tests/support/scad.h"
 

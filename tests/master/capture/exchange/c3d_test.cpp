@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "master/capture/exchange/markers.h"
 #include "tests/master/capture/exchange/c3d_reader.h"
 #include "tests/support/scad.h"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/exchange/csv.h"
-
 #include <locale>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "master/capture/exchange/c3d.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::exchange {

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "master/capture/exchange/swimming_skin.h"
 #include "master/capture/exchange/take.h"
 #include "tests/support/scad.h"
 

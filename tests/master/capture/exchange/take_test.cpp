@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/motion/gait_path.h"
-#include "common/units/error.h"
-#include "master/capture/exchange/markers.h"
+#include "common/motion/motor_tables.h"
+#include "common/units/log.h"
+#include "master/capture/exchange/c3d.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::exchange {

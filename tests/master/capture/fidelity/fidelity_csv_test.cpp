@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/fidelity/fidelity_csv.h"
-
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "master/capture/fidelity/fidelity.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::fidelity {

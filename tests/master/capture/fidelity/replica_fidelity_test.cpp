@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/angle.h"
-#include "master/capture/compile/capture_repertoire.h"
-#include "master/capture/compile/config_folder.h"
+#include "common/units/units.h"
+#include "master/capture/capture_repertoire.h"
 #include "master/capture/fidelity/fidelity.h"
 #include "master/capture/fidelity/segment_count.h"
 #include "tests/support/scad.h"

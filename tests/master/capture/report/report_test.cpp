@@ -8,13 +8,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "master/capture/measure/course.h"
-#include "master/capture/report/closure.h"
-#include "master/capture/report/controller_trial.h"
+#include "master/capture/measure.h"
+#include "master/capture/report/controllers.h"
 #include "master/capture/report/fish_view.h"
-#include "master/capture/report/inspect.h"
 #include "master/capture/report/report_data.h"
-#include "master/capture/report/segment_measures.h"
+#include "master/capture/report/segment_figures.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::report {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/measure/body_wave.h"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "master/capture/measure.h"
 
 namespace aquarama::search {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/ids.h"
-#include "master/capture/compile/turn.h"
+#include "common/units/units.h"
 #include "master/capture/search/gait_trial.h"
+#include "master/capture/turn.h"
 
 namespace aquarama::search {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/search/search_journal.h"
-
 #include <fstream>
 #include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
+#include "master/capture/search/search.h"
 
 namespace aquarama::search {
 namespace {

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/units/error.h"
+#include "common/units/log.h"
 #include "master/capture/search/gait_trial.h"
 #include "tests/support/scad.h"
 

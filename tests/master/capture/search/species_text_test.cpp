@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/error.h"
-#include "master/capture/search/search_space.h"
+#include "common/units/log.h"
+#include "master/capture/search/search.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::search {

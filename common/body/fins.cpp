@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "common/body/fins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "common/body/spine.h"
+
+namespace aquarama::body {
+
+namespace {
+
+constexpr int kSamples = 101;
+
+std::vector<float> evenSteps(std::size_t count) {
+    std::vector<float> steps(count);
+    for (std::size_t i = 0; i < count; ++i)
+        steps[i] = static_cast<float>(i) / static_cast<float>(count - 1);
+    return steps;
+}
+
+std::vector<float> sampled(const std::vector<glm::vec2>& points, int component) {
+    std::vector<float> values(points.size());
+    std::ranges::transform(
+        points, values.begin(), [&](glm::vec2 point) { return point[component]; });
+    const MonotoneCurve curve(evenSteps(points.size()), values);
+    std::vector<float> samples = evenSteps(kSamples);
+    for (float& sample : samples) sample = curve.at(sample);
+    return samples;
+}
+
+}  // namespace
+
+FinPatch::FinPatch(const config::Fin& fin)
+    : p_(evenSteps(kSamples)),
+      baseS_(sampled(fin.base, 0)),
+      baseY_(sampled(fin.base, 1)),
+      edgeS_(sampled(fin.edge, 0)),
+      edgeY_(sampled(fin.edge, 1)),
+      angleRadians_(fin.angleRadians),
+      round_(fin.round) {}
+
+glm::vec2 FinPatch::at(float p, float q) const {
+    const glm::vec2 base{interpolate(p_, baseS_, p), interpolate(p_, baseY_, p)};
+    const glm::vec2 edge{interpolate(p_, edgeS_, p), interpolate(p_, edgeY_, p)};
+    return glm::mix(base, edge, q);
+}
+
+glm::vec2 FinPatch::paddleAt(float p, float q) const {
+    const float paddle = 1 + 0.3F * std::sin(std::numbers::pi_v<float> * q) - 0.42F * q * q;
+    const glm::vec2 middle = at(0.5F, q);
+    return middle + glm::mix(1.0F, paddle, round_) * (at(p, q) - middle);
+}
+
+float FinPatch::rayAtStation(float s) const {
+    return interpolate(baseS_, p_, s);
+}
+
+namespace {
+
+constexpr float kTurn = glm::two_pi<float>();
+constexpr float kFlatRadians = 5.0F * kTurn / 360;  // off the flank, of a folded fin
+// The margin of a membrane follows its root late by a sixth of a beat, a rowing tip by an eighth.
+constexpr float kMarginLag = kTurn / 6;
+constexpr float kTipLag = 0.12F;  // cycles
+// Below the first speed a fish stands, above the second it swims. Body lengths a second.
+constexpr float kStands = 0.2F, kSwims = 0.6F;
+constexpr float kFolded = 1.5F;    // above it pelvic fins lie as near to the belly as they go
+constexpr float kFoldBand = 0.2F;  // of the speed at which fins fold, to either side
+constexpr float kTrimGain = 3;     // a slope of a third is steep
+
+glm::vec3 rotated(glm::vec3 axis, float angle, glm::vec3 v) {
+    const float c = std::cos(angle);
+    return c * v + std::sin(angle) * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
+}
+
+// The axes of a paired fin of the right side.
+struct Hinge {
+    glm::vec3 root{};   // its middle
+    glm::vec3 axis{};   // about it the fin leaves the flank
+    glm::vec3 ray{};    // from the root to the middle of the margin
+    glm::vec3 chord{};  // from there to the margin's front
+};
+
+Hinge hingeOf(const config::Fin& fin, float flank) {
+    const FinPatch patch(fin);
+    const glm::vec2 base = glm::normalize(patch.baseRear() - patch.baseFront());
+    const glm::vec2 square{-base.y, base.x};
+    const glm::vec2 ray = patch.at(0.5F, 1) - patch.at(0.5F, 0);
+    const glm::vec2 out = glm::dot(ray, square) < 0 ? -square : square;
+    const auto lifted = [&](glm::vec2 drawn) {
+        const float reach = glm::dot(drawn, out);
+        return glm::vec3(base * glm::dot(drawn, base) + out * reach * std::cos(fin.angleRadians),
+                         reach * std::sin(fin.angleRadians));
+    };
+    return {.root = {patch.at(0.5F, 0), flank},
+            .axis = {out.y, -out.x, 0},
+            .ray = glm::normalize(lifted(ray)),
+            .chord = lifted(patch.at(0, 1) - patch.at(0.5F, 1))};
+}
+
+// In whole tenths of a hertz every fin is where it was ten seconds ago: time may begin anew there,
+// and keeps its precision in a show of days.
+float tenths(float hertz) {
+    return std::round(10 * hertz) / 10;
+}
+
+float flankAt(const config::Species& species, const config::Fin& fin) {
+    return interpolate(
+        species.profile.stations, species.profile.halfWidth, FinPatch(fin).at(0.5F, 0).x);
+}
+
+FinStyle styleOf(const config::Species& species, const Hinge& hinge) {
+    const config::FinMotion& motion = species.finMotion;
+    const config::Rowing& rowing = motion.rowing;
+    const float rest = species.fins.pectoral.angleRadians;
+    FinStyle style;
+    style.hinge = hinge.axis;
+    style.ray = hinge.ray;
+    if (rowing.foldAbove > 0) {
+        style.open = rowing.openRadians - rest;
+        style.fold = std::min(kFlatRadians - rest, 0.0F);
+        const glm::vec3 open = rotated(hinge.axis, style.open, hinge.ray);
+        const glm::vec3 lifts = glm::normalize(glm::cross(open, glm::vec3(0, 1, 0)));
+        style.stroke = glm::normalize(std::cos(rowing.flapRadians) * hinge.axis +
+                                      std::sin(rowing.flapRadians) * lifts);
+        // The front of the fin leads the stroke.
+        const glm::vec3 beaten = glm::cross(style.stroke, open);
+        const glm::vec3 chord = rotated(hinge.axis, style.open, hinge.chord);
+        const bool leads = glm::dot(glm::cross(open, chord), beaten) > 0;
+        style.strokeAngle = rowing.strokeRadians;
+        style.featherAngle = leads ? rowing.featherRadians : -rowing.featherRadians;
+        style.trimAngle = leads ? rowing.trimRadians : -rowing.trimRadians;
+        style.rowHertz = tenths(rowing.beatHertz);
+        style.alternateBelow = rowing.alternateBelow;
+        style.foldAbove = rowing.foldAbove;
+    }
+    style.pelvicFold = motion.pelvicFoldRadians;
+    style.swimRipple = motion.swimming.amplitude;
+    style.swimWaves = motion.swimming.waves;
+    style.hoverRipple = motion.hovering.amplitude;
+    style.hoverWaves = motion.hovering.waves;
+    style.hoverHertz = tenths(motion.hovering.beatHertz);
+    style.opposed = motion.hovering.isOpposed ? kTurn / 2 : 0;
+    style.cupping = motion.cuppingRadians;
+    return style;
+}
+
+const config::Fin& finOf(const config::Fins& fins, CagePart part) {
+    switch (part) {
+        case CagePart::Caudal:
+            return fins.caudal;
+        case CagePart::SecondDorsal:
+            return fins.secondDorsal ? *fins.secondDorsal : fins.firstDorsal;
+        case CagePart::Anal:
+            return fins.anal;
+        default:
+            return fins.firstDorsal;
+    }
+}
+
+float swayOf(const config::Fin& fin, glm::vec2 at) {
+    const FinPatch patch(fin);
+    const float span = glm::distance(patch.at(at.x, 0), patch.at(at.x, 1));
+    return fin.flex * span * std::pow(at.y, 1.5F);
+}
+
+// 0 well below a speed, 1 well above it.
+float beyond(float speed, float limit) {
+    const float band = kFoldBand * limit + 1e-4F;
+    return glm::smoothstep(limit - band, limit + band, std::abs(speed) + 1e-3F);
+}
+
+// By which a fish differs from others.
+float ownCycles(std::uint32_t id) {
+    return glm::fract(0.37F * static_cast<float>(id));
+}
+
+glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
+    const bool isRight = point.side > 0;
+    const float apart = isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
+    const float beat = style.rowHertz * drive.seconds + ownCycles(drive.id) + apart;
+    // On the outer side of a turn the fin is laid to the flank.
+    const float outer = drive.turning[isRight ? 0 : 1];
+    const float rows = (1 - beyond(drive.speed, style.foldAbove)) * (1 - outer);
+    const float twist = rows * style.featherAngle * std::cos(kTurn * beat) +
+                        style.trimAngle * std::clamp(kTrimGain * drive.climb, -1.0F, 1.0F);
+    const float angle = rows * style.strokeAngle * std::sin(kTurn * (beat - kTipLag * point.q));
+    glm::vec3 arm = rotated(style.ray, twist * point.q, point.arm);
+    arm = rotated(style.hinge, glm::mix(style.fold, style.open, rows), arm);
+    return rotated(style.stroke, angle, arm) - point.arm;
+}
+
+float rippled(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
+    const auto wave = [&](float cycles, float waves) {
+        return std::sin(kTurn * (waves * point.p - cycles) - kMarginLag * point.q);
+    };
+    const float swimming = glm::mix(
+        wave(drive.fromPhase, style.swimWaves), wave(drive.phase, style.swimWaves), drive.weight);
+    const bool isAnal = point.part == static_cast<std::uint32_t>(CagePart::Anal);
+    const float hovering = wave(style.hoverHertz * drive.seconds + ownCycles(drive.id) +
+                                    (isAnal ? style.opposed / kTurn : 0),
+                                style.hoverWaves);
+    return point.sway * glm::mix(style.hoverRipple * hovering,
+                                 style.swimRipple * swimming,
+                                 glm::smoothstep(kStands, kSwims, std::abs(drive.speed)));
+}
+
+}  // namespace
+
+FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
+    const config::Fins& fins = species.fins;
+    const Hinge pectoral = hingeOf(fins.pectoral, 0.97F * flankAt(species, fins.pectoral));
+    const Hinge pelvic = hingeOf(fins.pelvic, 0.35F * flankAt(species, fins.pelvic));
+    FinTable table{.style = styleOf(species, pectoral), .points = {}};
+    for (const CageVertex& vertex : cage.vertices) {
+        FinPoint point{
+            .p = vertex.fin.x, .q = vertex.fin.y, .part = static_cast<std::uint32_t>(vertex.part)};
+        if (vertex.part == CagePart::Pectoral || vertex.part == CagePart::Pelvic) {
+            const glm::vec3 root = vertex.part == CagePart::Pectoral ? pectoral.root : pelvic.root;
+            point.side = vertex.rest.z > 0 ? 1.0F : -1.0F;
+            point.arm = glm::vec3(glm::vec2(vertex.rest), std::abs(vertex.rest.z)) - root;
+        } else if (vertex.part != CagePart::Body) {
+            point.sway = swayOf(finOf(fins, vertex.part), vertex.fin);
+        }
+        table.points.push_back(point);
+    }
+    return table;
+}
+
+glm::vec3 finOffset(const FinTable& fins, std::size_t i, const FinDrive& drive, float drift) {
+    const FinPoint& point = fins.points[i];
+    const FinStyle& style = fins.style;
+    switch (static_cast<CagePart>(point.part)) {
+        case CagePart::Body:
+            return {};
+        case CagePart::Pectoral:
+            return rowed(style, point, drive) * glm::vec3(1, 1, point.side);
+        case CagePart::Pelvic: {
+            const float angle =
+                style.pelvicFold * glm::smoothstep(kStands, kFolded, std::abs(drive.speed));
+            const glm::vec3 offset = rotated({0, 0, 1}, angle, point.arm) - point.arm;
+            return offset * glm::vec3(1, 1, point.side);
+        }
+        case CagePart::Caudal: {
+            const float lobe = 2 * point.p - 1;
+            return {0, 0, drift * style.cupping * (lobe * lobe - 0.5F) * std::pow(point.q, 1.5F)};
+        }
+        default:
+            return {0, 0, rippled(style, point, drive)};
+    }
+}
+
+void headingsOf(const FishBody& body, const NodalPoints& nodes, std::span<float> headings) {
+    const Spine spine = spineOf(knotStations(body), nodes);
+    for (std::size_t i = 0; i < headings.size(); ++i) {
+        const glm::vec3 right = sampleAt(spine, body.cage.vertices[i].rest.x).right;
+        headings[i] = std::atan2(right.x, right.z);
+    }
+}
+
+glm::vec3 turned(glm::vec3 offset, float heading) {
+    const float c = std::cos(heading), s = std::sin(heading);
+    return {s * offset.z - c * offset.x, offset.y, c * offset.z + s * offset.x};
+}
+
+}  // namespace aquarama::body

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/place/place.h"
+#include "master/behaviour/company.h"
+#include "master/behaviour/feeding.h"
+#include "master/behaviour/home.h"
+#include "master/behaviour/routines.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+constexpr float kLookAheadSeconds = 2.0F;
+constexpr float kAhead = 0.7F;     // cosine of 45 degrees: the threat is before the fish
+constexpr float kSameWay = 0.5F;   // cosine of 60 degrees between two courses
+constexpr float kTurnAway = 1.6F;  // against the unit vector of the own course
+constexpr float kLean = 0.25F;
+constexpr float kBrake = 0.25F;            // of slow, behind a tail
+constexpr float kSureMissLengths = 0.05F;  // a smaller miss says nothing of a side
+
+glm::vec3 rightOf(glm::vec3 heading) {
+    return place::directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
+}
+
+// From the fish to where the other will be when they are nearest.
+glm::vec3 missOf(glm::vec3 offset, glm::vec3 approach) {
+    const float squared = place::dot(approach, approach);
+    if (squared < 1.0e-6F) return offset;
+    const float soonest = -place::dot(offset, approach) / squared;
+    return offset + approach * std::clamp(soonest, 0.0F, kLookAheadSeconds);
+}
+
+// Away from where the other passes. Of two that would meet nose to nose each turns to its right.
+glm::vec3 asideFrom(glm::vec3 miss, glm::vec3 heading, float length) {
+    const glm::vec3 across = miss - heading * place::dot(miss, heading);
+    if (place::lengthOf(across) < kSureMissLengths * length) return rightOf(heading);
+    return -place::directionOf(across, rightOf(heading));
+}
+
+// In its school a fish is as near to others as to none else: it only leans away, and keeps its
+// place.
+fish::Course leanAway(const Situation& situation, glm::vec3 aside) {
+    fish::Course course = school(situation);
+    course.direction =
+        place::levelled(place::directionOf(course.direction + aside * kLean, course.direction));
+    return course;
+}
+
+// Behind a tail it slows; one that comes from behind or beside it does not let slow it.
+float speedPast(const Situation& situation) {
+    const fish::FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const Sighting& threat = senses.collision;
+    const float slow = situation.parameters.slow;
+    const bool ahead =
+        place::dot(place::directionOf(threat.offset, senses.heading), senses.heading) > kAhead;
+    const bool sameWay = place::dot(view.heading(threat.object), senses.heading) > kSameWay;
+    if (!ahead) return std::max(slow, senses.speed / senses.length);
+    const float theirs = view.fish[threat.object].speed / senses.length;
+    return sameWay ? std::min(slow, theirs * (1 - kBrake)) : slow;
+}
+
+}  // namespace
+
+fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const Sighting& threat = senses.collision;
+    if (!threat.seen()) return heading(situation, senses.heading, situation.parameters.slow);
+    const glm::vec3 theirs = view.heading(threat.object) * view.fish[threat.object].speed;
+    const glm::vec3 miss = missOf(threat.offset, theirs - senses.heading * senses.speed);
+    const glm::vec3 aside = asideFrom(miss, senses.heading, senses.length);
+    const bool schooling = situation.parameters.habits.role == config::Role::Prey &&
+                           (mind.likes & fish::kLikesSchooling) != 0;
+    if (schooling && view.kind[threat.object] == situation.parameters.kind)
+        return leanAway(situation, aside);
+    const glm::vec3 desired = senses.heading + aside * kTurnAway + roomFrom(situation);
+    return heading(situation, desired, speedPast(situation));
+}
+
+namespace {
+
+// A push within 12 degrees of straight back says nothing of a side.
+constexpr float kHeadOn = 0.2F;
+
+// Of a push straight back, from which a fish wants to stop.
+constexpr float kStopsAt = 3.0F;
+
+// Of a side that the push leaves open: towards the middle of the water.
+float openSide(const Situation& situation, glm::vec3 right) {
+    const glm::vec3 middle = situation.environment.surroundings->obstacles.water.centre;
+    return place::dot(middle - situation.senses.position, right) < 0 ? -1.0F : 1.0F;
+}
+
+}  // namespace
+
+glm::vec3 wayRound(const Situation& situation) {
+    const Senses& senses = situation.senses;
+    const float back = -place::dot(senses.push, senses.heading);
+    if (back <= 0) return senses.push;
+    const glm::vec3 right = place::directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
+    const float aside = place::dot(senses.push, right);
+    const float up = senses.push.y + back * senses.heading.y;
+    if (aside * aside + up * up > kHeadOn * kHeadOn * back * back) return senses.push;
+    const bool even = std::abs(aside) < 0.05F * back;
+    const float side = even ? openSide(situation, right) : (aside < 0 ? -1.0F : 1.0F);
+    return senses.push + right * (side * back);
+}
+
+fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
+    if ((mind.likes & fish::kLikesSchooling) != 0 &&
+        situation.parameters.habits.role == config::Role::Prey)
+        return school(situation);
+    const Senses& senses = situation.senses;
+    const float back = std::max(0.0F, -place::dot(senses.push, senses.heading));
+    const fish::SpeciesParameters& parameters = situation.parameters;
+    // Who is run into must not stop.
+    const float pace = senses.hurry > 0
+                           ? parameters.slow + (parameters.fast - parameters.slow) * senses.hurry
+                           : parameters.slow * std::max(0.0F, 1 - back / kStopsAt);
+    return heading(situation, senses.heading + roomFrom(situation), pace);
+}
+
+namespace {
+
+constexpr int kHeights = 16;             // at which the water is tried
+constexpr float kInside = 0.85F;         // of the water's half height
+constexpr float kPerCelsius = 0.1F;      // a degree too warm or cold is as bad as a tenth of light
+constexpr float kSlantMetres = 2.0F;     // the way up or down is not sought more steeply
+constexpr float kTiePerMetre = 1.0e-3F;  // of two heights that suit as well the nearer
+
+float beyond(const config::Span& span, float value) {
+    return std::max(
+        {0.0F, static_cast<float>(span.least) - value, value - static_cast<float>(span.most)});
+}
+
+// How ill the water at a height suits; 0: well.
+float illAt(const Situation& situation, float y) {
+    const surroundings::Surroundings& around = *situation.environment.surroundings;
+    const config::Habits& habits = situation.parameters.habits;
+    return beyond(habits.light, surroundings::lightAt(around.climate, around.daylight, y)) +
+           kPerCelsius * beyond(habits.waterCelsius, surroundings::celsiusAt(around.climate, y));
+}
+
+}  // namespace
+
+float suitableHeight(const Situation& situation) {
+    const place::Region& water = situation.environment.surroundings->obstacles.water;
+    const float own = situation.senses.position.y;
+    float best = own;
+    float least = illAt(situation, own);
+    for (int i = 0; i <= kHeights; ++i) {
+        const float share = 2 * static_cast<float>(i) / kHeights - 1;
+        const float y = water.centre.y + share * kInside * water.halfExtent.y;
+        const float ill = illAt(situation, y) + kTiePerMetre * std::abs(y - own);
+        if (ill >= least) continue;
+        least = ill;
+        best = y;
+    }
+    return best;
+}
+
+fish::Course leave(const Situation& situation) {
+    const Senses& senses = situation.senses;
+    const float climb = suitableHeight(situation) - senses.position.y;
+    const glm::vec3 about =
+        boundFor(situation.environment, situation.parameters, situation.fish, senses.position)
+            .towards;
+    const glm::vec3 level = place::directionOf({about.x, 0, about.z}, senses.heading);
+    const glm::vec3 desired = senses.heading * 0.5F + level * 0.5F +
+                              glm::vec3{0, std::clamp(climb / kSlantMetres, -1.0F, 1.0F), 0};
+    return heading(situation, desired, situation.parameters.slow);
+}
+
+namespace {
+
+constexpr float kFlee = 2.5F;        // against the unit vector of one's own course
+constexpr float kSharpStart = 1.0F;  // urgency from which the motor turns sharply
+
+// 0 where it only just leaves its school, 1 where the predator is so near that nothing else counts.
+float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
+    const float more = feelings.greatestFear - parameters.habits.fearAlone;
+    return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);
+}
+
+}  // namespace
+
+fish::Course escape(const Situation& situation, const fish::Mind& mind) {
+    const Senses& senses = situation.senses;
+    const glm::vec3 desired = senses.heading + flightFrom(situation) * kFlee + roomFrom(situation);
+    fish::Course course = heading(situation, desired, situation.parameters.fast);
+    if ((mind.likes & fish::kLikesSchooling) != 0) {
+        const float alone = dread(situation.parameters, situation.feelings);
+        const glm::vec3 together = school(situation).direction;
+        course.direction = place::levelled(
+            place::directionOf(together + (course.direction - together) * alone, course.direction));
+    }
+    course.urgency = std::max(course.urgency, kSharpStart);
+    return course;
+}
+
+}  // namespace aquarama::behaviour

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/behaviour/courtship.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/place/place.h"
+#include "common/units/hash.h"
+#include "master/behaviour/feeding.h"
+#include "master/behaviour/routines.h"
+#include "master/fish/fish_view.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+constexpr auto kSecond = static_cast<std::uint32_t>(kTicksPerSecond);
+constexpr glm::vec3 kUp{0, 1, 0};
+
+// By CourtshipStage.
+constexpr std::array<std::uint32_t, 6> kLongestSeconds{20, 12, 25, 30, 15, 20};
+constexpr std::uint32_t kLoopSeconds = 6;  // about one loop; at least
+constexpr std::uint32_t kCircleSeconds = 8;
+constexpr std::uint32_t kAscentSeconds = 4;
+constexpr std::uint32_t kNuzzleSeconds = 3;
+
+// Distances in body lengths.
+constexpr float kTogether = 5.0F;  // no farther than this they court
+constexpr float kLoopAhead = 2.6F;
+constexpr float kLoopRadius = 1.5F;
+constexpr float kCircleRadius = 1.4F;
+constexpr float kCloser = 0.8F;  // weight of the way back to the circle, for a radius off it
+constexpr float kBehind = 1.0F;  // a follower keeps so far
+constexpr float kBelow = 0.7F;   // he rises so far below her
+constexpr float kBelly = 0.3F;   // he comes so near below her: their bodies touch
+constexpr float kTouches = 0.6F;
+constexpr float kStationFrom = 1.5F;  // he keeps station within so far of his place
+constexpr float kCatchUp = 0.8F;      // body lengths a second for one that he is behind
+constexpr float kClose = 0.7F;        // weight of a body length astray against her course
+constexpr float kYielding = 0.9F;     // of slow: so she swims as he nuzzles her
+
+constexpr float kRise = 0.42F;  // sine of the steepest way up
+constexpr float kBob = 0.2F;    // sine of the pitch of a loop or a bob
+constexpr std::uint32_t kBobTicks = 2 * kSecond;
+
+// Up and down by turns.
+float bob(std::uint32_t ticks) {
+    return ticks % kBobTicks < kBobTicks / 2 ? kBob : -kBob;
+}
+
+glm::vec3 level(glm::vec3 direction) {
+    return place::directionOf({direction.x, 0, direction.z}, {1, 0, 0});
+}
+
+// Along a level circle round a point.
+glm::vec3 aroundOn(glm::vec3 toCentre, float radius, bool left) {
+    const glm::vec3 inwards = level(toCentre);
+    const glm::vec3 along =
+        left ? glm::vec3{inwards.z, 0, -inwards.x} : glm::vec3{-inwards.z, 0, inwards.x};
+    const float far = std::sqrt(toCentre.x * toCentre.x + toCentre.z * toCentre.z);
+    const glm::vec3 closer = inwards * (kCloser * (far - radius) / radius);
+    return along + closer + kUp * (0.5F * toCentre.y / radius);
+}
+
+// What is done in the stage by him where he and she differ, and by her.
+fish::Course follow(const Situation& situation, const Couple& couple) {
+    const glm::vec3 behind = couple.offset - couple.matesHeading * (kBehind * couple.length);
+    return pursue(
+        situation, behind, situation.parameters.medium, couple.matesHeading * couple.matesSpeed);
+}
+
+fish::Course loopBefore(const Situation& situation, const fish::Mind& mind, const Couple& couple) {
+    const glm::vec3 centre =
+        couple.offset + level(couple.matesHeading) * (kLoopAhead * couple.length);
+    const glm::vec3 way = aroundOn(centre, kLoopRadius * couple.length, couple.turnsLeft);
+    return heading(situation, way + kUp * bob(mind.sinceStage), situation.parameters.slow);
+}
+
+fish::Course hoverAndBob(const Situation& situation, const fish::Mind& mind) {
+    return heading(situation, level(situation.senses.heading) + kUp * bob(mind.sinceStage), 0);
+}
+
+fish::Course circle(const Situation& situation, const Couple& couple) {
+    const glm::vec3 way =
+        aroundOn(couple.offset * 0.5F, kCircleRadius * couple.length, couple.turnsLeft);
+    return heading(situation, way, situation.parameters.slow);
+}
+
+fish::Course rise(const Situation& situation) {
+    return heading(
+        situation, level(situation.senses.heading) + kUp * kRise, situation.parameters.slow);
+}
+
+// Under her and along with her: from afar he goes for the place, at it he swims as she does.
+fish::Course keepBelow(const Situation& situation, const Couple& couple, float below) {
+    const fish::SpeciesParameters& parameters = situation.parameters;
+    const glm::vec3 place = couple.offset - kUp * (below * couple.length);
+    if (place::lengthOf(place) > kStationFrom * couple.length)
+        return pursue(situation, place, parameters.medium, couple.matesHeading * couple.matesSpeed);
+    const glm::vec3 astray = place / couple.length;
+    const float behind = place::dot(astray, couple.matesHeading);
+    const float pace = couple.matesSpeed / situation.senses.length + kCatchUp * behind;
+    return heading(situation,
+                   couple.matesHeading + astray * kClose,
+                   std::clamp(pace, 0.5F * parameters.slow, parameters.medium));
+}
+
+}  // namespace
+
+bool isComplete(CourtshipStage stage,
+                const Couple& couple,
+                glm::vec3 heading,
+                std::uint32_t ticks) {
+    const float distance = place::lengthOf(couple.offset);
+    const bool together = distance < kTogether * couple.length;
+    const glm::vec3 fromHerToHim = couple.isFemale ? couple.offset : -couple.offset;
+    const glm::vec3 herHeading = couple.isFemale ? heading : couple.matesHeading;
+    switch (stage) {
+        case CourtshipStage::Follow:
+        case CourtshipStage::Impress:
+            return false;
+        case CourtshipStage::Loop:
+            return together && ticks > kLoopSeconds * kSecond &&
+                   place::dot(fromHerToHim, herHeading) > 0;
+        case CourtshipStage::Circle:
+            return together && ticks > kCircleSeconds * kSecond;
+        case CourtshipStage::Ascend:
+            return together && ticks > kAscentSeconds * kSecond && fromHerToHim.y < 0;
+        case CourtshipStage::Nuzzle:
+            break;
+    }
+    return distance < kTouches * couple.length && ticks > kNuzzleSeconds * kSecond &&
+           fromHerToHim.y < 0;
+}
+
+std::uint32_t longestTicks(CourtshipStage stage) {
+    return kLongestSeconds[static_cast<std::size_t>(stage)] * kSecond;
+}
+
+fish::Course court(const Situation& situation,
+                   const fish::Mind& mind,
+                   const Couple& couple,
+                   CourtshipStage stage) {
+    switch (stage) {
+        case CourtshipStage::Follow:
+            break;
+        case CourtshipStage::Impress:
+            return couple.isFemale ? hoverAndBob(situation, mind)
+                                   : loopBefore(situation, mind, couple);
+        case CourtshipStage::Loop:
+            return couple.isFemale ? hoverAndBob(situation, mind)
+                                   : loopBefore(situation, mind, couple);
+        case CourtshipStage::Circle:
+            return circle(situation, couple);
+        case CourtshipStage::Ascend:
+            return couple.isFemale ? rise(situation) : keepBelow(situation, couple, kBelow);
+        case CourtshipStage::Nuzzle:
+            return couple.isFemale ? heading(situation,
+                                             level(situation.senses.heading),
+                                             kYielding * situation.parameters.slow)
+                                   : keepBelow(situation, couple, kBelly);
+    }
+    return follow(situation, couple);
+}
+
+namespace {
+
+Couple coupleOf(const Situation& situation, const fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
+    const std::uint32_t mate = mind.target;
+    const std::uint32_t first = std::min(situation.fish, mate);
+    return {.offset = view.position(mate) - situation.senses.position,
+            .matesHeading = view.heading(mate),
+            .matesSpeed = view.fish[mate].speed,
+            .length = 0.5F * (situation.senses.length + view.fish[mate].length),
+            .isFemale = (mind.likes & fish::kIsFemale) != 0,
+            .turnsLeft = (hashOf(situation.environment.seed, first) & 1U) != 0};
+}
+
+CourtshipStage stageOf(std::uint8_t stage) {
+    return static_cast<CourtshipStage>(stage);
+}
+
+void enter(fish::Mind& mind, CourtshipStage stage) {
+    if (stageOf(mind.stage) == stage) return;
+    mind.stage = static_cast<std::uint8_t>(stage);
+    mind.sinceStage = 0;
+}
+
+// Where the other stands now puts a fish into its stage: of two that court each other the one that
+// is behind catches up.
+void fallIn(const Situation& situation, fish::Mind& mind) {
+    const fish::FishView& view = *situation.environment.view;
+    const std::uint32_t courted = view.partner[mind.target];
+    if (courted != situation.fish)
+        return enter(mind,
+                     courted == fish::kNobody ? CourtshipStage::Follow : CourtshipStage::Impress);
+    const CourtshipStage theirs = stageOf(view.stage[mind.target]);
+    enter(mind, std::max({stageOf(mind.stage), theirs, CourtshipStage::Loop}));
+}
+
+void goOn(fish::Mind& mind,
+          const Couple& couple,
+          const Situation& situation,
+          DeferredEvents& events) {
+    const CourtshipStage stage = stageOf(mind.stage);
+    if (!isComplete(stage, couple, situation.senses.heading, mind.sinceStage)) return;
+    if (stage != CourtshipStage::Nuzzle) {
+        enter(mind, static_cast<CourtshipStage>(mind.stage + 1));
+    } else if (!couple.isFemale) {
+        events.push_back({fish::DeferredEventKind::Spawn, situation.fish, mind.target});
+    }
+}
+
+}  // namespace
+
+fish::Course mate(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    fallIn(situation, mind);
+    const Couple couple = coupleOf(situation, mind);
+    goOn(mind, couple, situation, events);
+    const CourtshipStage stage = stageOf(mind.stage);
+    if (mind.sinceStage > longestTicks(stage)) {
+        mind.sinceSpawning = 0;  // its mood is gone, as after spawning
+        return wander(situation);
+    }
+    return court(situation, mind, couple, stage);
+}
+
+}  // namespace aquarama::behaviour

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/behaviour/feeding.h"
+
+#include <algorithm>
+
+#include "common/place/place.h"
+#include "master/behaviour/routines.h"
+#include "master/fish/fish_view.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+// Distances in body lengths. A biomechanical fish can still correct its way within the first; this
+// motor, which plays turns to their end, begins from the second (paper, section 5.2).
+constexpr float kCarefulWithin = 2.5F;
+constexpr float kEarlierWithin = 5.0F;
+constexpr float kGeneralCosine = 0.94F;  // 20 degrees: near enough a direction from far off
+constexpr float kTurnsWithin = 1.5F;     // a nearer target abeam would only be circled
+constexpr float kAbeamCosine = 0.5F;
+constexpr float kTurningPace = 0.6F;  // of slow, while turning towards it
+constexpr float kCarefulPace = 0.8F;  // of slow, at the target
+constexpr float kMostLeadSeconds = 1.5F;
+
+// Where the target will be when the fish can be there.
+glm::vec3 lead(const Situation& situation, glm::vec3 towards, float speed, glm::vec3 velocity) {
+    const float metresPerSecond = std::max(0.05F, speed * situation.senses.length);
+    return towards +
+           velocity * std::min(kMostLeadSeconds, place::lengthOf(towards) / metresPerSecond);
+}
+
+}  // namespace
+
+fish::Course pursue(const Situation& situation,
+                    glm::vec3 towards,
+                    float speed,
+                    glm::vec3 velocity) {
+    const Senses& senses = situation.senses;
+    const float slow = situation.parameters.slow;
+    const glm::vec3 to = lead(situation, towards, speed, velocity);
+    const glm::vec3 direction = place::directionOf(to, senses.heading);
+    const float lengths = place::lengthOf(to) / senses.length;
+    const float along = place::dot(direction, senses.heading);
+    const float careful =
+        situation.environment.adaptation.earlierPursuit ? kEarlierWithin : kCarefulWithin;
+    if (lengths >= careful)
+        return heading(situation, along > kGeneralCosine ? senses.heading : direction, speed);
+    if (lengths < kTurnsWithin && along < kAbeamCosine)
+        return heading(situation, direction, kTurningPace * slow);
+    const float least = std::min(speed, kCarefulPace * slow);
+    // A target that swims off must be swum after.
+    const float chase = std::max(0.0F, place::dot(velocity, direction)) / senses.length;
+    const float pace = least + (speed - least) * lengths / careful;
+    return heading(situation, direction, std::min(speed, pace + chase));
+}
+
+fish::Course heading(const Situation& situation, glm::vec3 desired, float speed) {
+    const Senses& senses = situation.senses;
+    const glm::vec3 direction =
+        place::levelled(place::directionOf(desired + wayRound(situation), senses.heading));
+    return {direction, speed, senses.urgency};
+}
+
+namespace {
+
+constexpr float kAsideOfItsWay = 1.2F;          // against straight away, for one right before it
+constexpr float kNearestSquaredMetres = 0.01F;  // nearer than this does not count more
+
+glm::vec3 awayFrom(glm::vec3 offset, glm::vec3 course, glm::vec3 otherwise) {
+    const glm::vec3 away = place::directionOf(-offset, otherwise);
+    const float before = place::dot(away, course);
+    if (before <= 0) return place::directionOf(away, otherwise);
+    const glm::vec3 aside = place::directionOf(away - course * before, otherwise);
+    return place::directionOf(away + aside * (kAsideOfItsWay * before), otherwise);
+}
+
+}  // namespace
+
+glm::vec3 flightFrom(const Situation& situation) {
+    const fish::FishView& view = *situation.environment.view;
+    const Senses& senses = situation.senses;
+    const glm::vec3 side = place::directionOf({-senses.heading.z, 0, senses.heading.x}, {0, 0, 1});
+    glm::vec3 flight{};
+    for (std::size_t i = 0; i < senses.predatorCount; ++i) {
+        const Sighting& predator = senses.predators[i];
+        const float squared =
+            std::max(predator.distance * predator.distance, kNearestSquaredMetres);
+        flight += awayFrom(predator.offset, view.heading(predator.object), side) / squared;
+    }
+    return place::directionOf(flight, {});
+}
+
+namespace {
+
+// The cone of suction from the mouth, in body lengths. It is as long as a fish comes forward
+// between two thoughts, so that it misses nothing that it swims through.
+constexpr float kSuction = 0.3F;
+constexpr float kSuctionCosine = 0.6F;  // half an angle of 53 degrees
+constexpr float kAtTheLips = 0.08F;     // in every direction
+
+// A particle that it has come too near to, without having it before the mouth, would be circled:
+// the fish swims on and turns back for it from farther off.
+enum Stage : std::uint8_t { kApproach, kRunUp };
+constexpr float kTooNear = 2.0F;  // body lengths
+constexpr float kRunUpLengths = 3.0F;
+constexpr float kAsideCosine = 0.35F;
+constexpr std::uint32_t kRunUpTicks = 240;  // at most
+constexpr float kSteepest = 0.42F;          // sine of the steepest way up or down
+
+void enter(fish::Mind& mind, Stage stage) {
+    mind.stage = stage;
+    mind.sinceStage = 0;
+}
+
+bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
+    const float distance = place::lengthOf(fromMouth);
+    if (distance > kTooNear * senses.length) return false;
+    return place::dot(fromMouth, senses.heading) < kAsideCosine * distance ||
+           std::abs(fromMouth.y) > 2 * kSteepest * distance;
+}
+
+}  // namespace
+
+bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
+    const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    const float distance = place::lengthOf(fromMouth) / senses.length;
+    return distance <= kAtTheLips ||
+           (distance <= kSuction &&
+            place::dot(fromMouth, senses.heading) >= kSuctionCosine * place::lengthOf(fromMouth));
+}
+
+fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    const Senses& senses = situation.senses;
+    const Sighting& food = senses.food;
+    const float slow = situation.parameters.slow;
+    if (isBeforeTheMouth(senses, food.offset))
+        events.push_back({fish::DeferredEventKind::EatParticle, situation.fish, food.object});
+    const glm::vec3 fromMouth =
+        food.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
+    const bool farEnough = food.distance > kRunUpLengths * senses.length;
+    if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
+        enter(mind, kApproach);
+    if (mind.stage == kRunUp)
+        return heading(situation, {senses.heading.x, 0, senses.heading.z}, slow);
+    return pursue(situation, fromMouth, situation.parameters.medium);
+}
+
+namespace {
+
+constexpr float kRushFrom = 2.0F;               // body lengths
+constexpr float kAheadCosine = 0.5F;            // and only at what is before it
+constexpr std::uint32_t kStalkTicks = 20 * 60;  // then the time of its chase runs
+// A bite reaches so far from the mouth, in body lengths: a gape and the water that rushes in.
+constexpr float kBite = 0.05F;
+constexpr float kBiteCosine = 0.85F;  // or, before it, further by as much again
+constexpr float kMostHuntLeadSeconds = 0.3F;
+
+bool isInTheMouth(const Senses& senses, glm::vec3 fromMouth) {
+    const float distance = place::lengthOf(fromMouth) / senses.length;
+    return distance <= kBite ||
+           (distance <= 2 * kBite &&
+            place::dot(fromMouth, senses.heading) >= kBiteCosine * place::lengthOf(fromMouth));
+}
+
+glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
+    return view.heading(fish) * view.fish[fish].speed;
+}
+
+fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting& prey) {
+    const Senses& senses = situation.senses;
+    const bool isBefore = place::dot(prey.offset, senses.heading) > kAheadCosine * prey.distance;
+    if (isBefore && prey.distance < kRushFrom * senses.length) {
+        mind.stage = static_cast<std::uint8_t>(HuntStage::Rush);
+        mind.sinceStage = 0;
+    }
+    if (mind.sinceStage < kStalkTicks) mind.sinceChase = 0;
+    return pursue(situation, prey.offset, situation.parameters.medium);
+}
+
+}  // namespace
+
+fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    const Senses& senses = situation.senses;
+    const fish::FishView& view = *situation.environment.view;
+    const Sighting& prey = senses.prey;
+    const glm::vec3 fromMouth =
+        prey.offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
+    if (isInTheMouth(senses, fromMouth))
+        events.push_back({fish::DeferredEventKind::EatFish, situation.fish, prey.object});
+    if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))
+        return stalk(situation, mind, prey);
+    const float speed = situation.parameters.fast;
+    const float seconds =
+        std::min(kMostHuntLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
+    return heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);
+}
+
+}  // namespace aquarama::behaviour

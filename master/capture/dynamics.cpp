@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/capture/dynamics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "master/capture/biomechanical_fish.h"
+
+namespace aquarama::capture {
+
+// The paper takes origin and lateral axis from one diagonal and one edge of ring 2, which show the
+// ring's own shear as a bob and a roll of some degrees; the means of both diagonals and both edges
+// do not. And y is made a unit vector, since x is not quite square to that axis.
+PoseFrame frameOf(const NodeVectors& pose) {
+    const glm::dvec3 origin = (pose[5] + pose[6] + pose[7] + pose[8]) / 4.0;
+    const glm::dvec3 right = (pose[6] - pose[5]) + (pose[7] - pose[8]);
+    const glm::dvec3 x = glm::normalize(pose[0] - origin);
+    const glm::dvec3 y = glm::normalize(glm::cross(right, x));
+    return {origin, {x, y, glm::cross(x, y)}};
+}
+
+NodeVectors inBodyFrame(const NodeVectors& pose) {
+    const PoseFrame frame = frameOf(pose);
+    const glm::dmat3 bodyFromWorld = glm::transpose(frame.worldFromBody);
+    NodeVectors body{};
+    for (std::size_t i = 0; i < pose.size(); ++i)
+        body.at(i) = bodyFromWorld * (pose.at(i) - frame.origin);
+    return body;
+}
+
+namespace {
+
+constexpr auto kUnknowns = static_cast<std::size_t>(EnvelopeSystem::kUnknowns);
+
+// The last node that a node shares an equation with once those before it are eliminated: the end of
+// the next ring.
+constexpr std::size_t lastNeighbour(std::size_t node) {
+    const std::size_t nextRingsEnd = node == 0 ? 4 : 4 * ((node - 1) / 4 + 2);
+    return nextRingsEnd < body::kNodalPoints ? nextRingsEnd : body::kNodalPoints - 1;
+}
+
+// Number of elements of each row right of the diagonal.
+constexpr auto kWidths = [] {
+    std::array<std::size_t, kUnknowns> widths{};
+    for (std::size_t row = 0; row < kUnknowns; ++row)
+        widths[row] = 3 * lastNeighbour(row / 3) + 2 - row;
+    return widths;
+}();
+
+}  // namespace
+
+void EnvelopeSystem::clear() {
+    rows_ = {};
+    right_ = {};
+}
+
+void EnvelopeSystem::addToDiagonal(int node, double value) {
+    for (std::size_t p = 0; p < 3; ++p) rows_[3 * static_cast<std::size_t>(node) + p][0] += value;
+}
+
+void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
+    const std::size_t row = 3 * static_cast<std::size_t>(node);
+    for (std::size_t p = 0; p < 3; ++p)
+        for (std::size_t q = p; q < 3; ++q)
+            rows_[row + p][q - p] += block[static_cast<int>(p)][static_cast<int>(q)];
+}
+
+void EnvelopeSystem::addOffDiagonalBlock(int first, int second, const glm::dmat3& block) {
+    const std::size_t row = 3 * static_cast<std::size_t>(first);
+    const std::size_t offset = 3 * static_cast<std::size_t>(second - first);
+    for (std::size_t p = 0; p < 3; ++p)
+        for (std::size_t q = 0; q < 3; ++q)
+            rows_[row + p][offset + q - p] += block[static_cast<int>(p)][static_cast<int>(q)];
+}
+
+void EnvelopeSystem::addToRightSide(int node, const glm::dvec3& value) {
+    for (std::size_t p = 0; p < 3; ++p)
+        right_[3 * static_cast<std::size_t>(node) + p] += value[static_cast<int>(p)];
+}
+
+void EnvelopeSystem::solve() {
+    eliminate();
+    substituteBack();
+}
+
+// Node by node: its three rows end at the same column, so that one pass takes them out of each row
+// behind. Afterwards each row holds the inverse of its pivot and, right of it, its row of D L^T.
+void EnvelopeSystem::eliminate() {
+    for (std::size_t row = 0; row < kUnknowns; row += 3) {
+        const std::size_t end = row + kWidths[row] + 1;
+        invertPivot(row);
+        subtract<1>(row, row + 1, end);
+        invertPivot(row + 1);
+        subtract<2>(row, row + 2, end);
+        invertPivot(row + 2);
+        for (std::size_t target = row + 3; target < end; ++target) subtract<3>(row, target, end);
+    }
+}
+
+void EnvelopeSystem::invertPivot(std::size_t row) {
+    rows_[row][0] = 1 / rows_[row][0];
+}
+
+// Takes the first `count` unknowns from `row` on, whose pivots are inverted, out of a row behind.
+template <std::size_t count>
+void EnvelopeSystem::subtract(std::size_t row, std::size_t target, std::size_t end) {
+    std::array<double, count> factors;
+    std::array<const double*, count> sources;
+    for (std::size_t i = 0; i < count; ++i) {
+        sources[i] = rows_[row + i].data() + (target - row - i);
+        factors[i] = sources[i][0] * rows_[row + i][0];
+        right_[target] -= factors[i] * right_[row + i];
+    }
+    double* const elements = rows_[target].data();
+    for (std::size_t k = 0; k < end - target; ++k)
+        for (std::size_t i = 0; i < count; ++i) elements[k] -= factors[i] * sources[i][k];
+}
+
+void EnvelopeSystem::substituteBack() {
+    for (std::size_t row = kUnknowns; row > 0;) {
+        row -= 3;
+        const std::size_t end = row + kWidths[row] + 1;
+        for (std::size_t column = row + 3; column < end; ++column)
+            for (std::size_t p = 0; p < 3; ++p)
+                right_[row + p] -= rows_[row + p][column - row - p] * right_[column];
+        for (std::size_t p = 3; p-- > 0;) {
+            for (std::size_t q = p + 1; q < 3; ++q)
+                right_[row + p] -= rows_[row + p][q - p] * right_[row + q];
+            right_[row + p] *= rows_[row + p][0];
+        }
+    }
+}
+
+glm::dvec3 EnvelopeSystem::solution(int node) const {
+    const std::size_t row = 3 * static_cast<std::size_t>(node);
+    return {right_[row], right_[row + 1], right_[row + 2]};
+}
+
+namespace {
+
+constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
+constexpr std::array<int, 4> kRightFinRoot{2, 3, 6, 7};
+
+// Shares of rest length left, by UnitKind and Side.
+using RestShares = std::array<std::array<double, 3>, 5>;
+
+RestShares restShares(const MuscleActivation& muscles, double contraction) {
+    const auto left = [&](double activation) {
+        return 1 - contraction * std::clamp(activation, 0.0, 1.0);
+    };
+    return {{{1, 1, 1},
+             {1, 1, 1},
+             {1, left(muscles.frontLeft), left(muscles.frontRight)},
+             {1, left(muscles.middleLeft), left(muscles.middleRight)},
+             {1, left(muscles.backLeft), left(muscles.backRight)}}};
+}
+
+// A Voigt unit: spring and damper side by side, pulling along r / |r|. Its force is linearised in
+// the velocities at the end of the step; in compression the geometric stiffness would be negative
+// and is left out, which keeps the system positive definite at any step.
+void addSpring(const Spring& spring,
+               double length,
+               double damping,
+               double stepSeconds,
+               const FishState& state,
+               EnvelopeSystem& system) {
+    const glm::dvec3 r = state.positions[spring.second] - state.positions[spring.first];
+    const double distance = glm::length(r);
+    const glm::dvec3 u = r / distance;
+    const double force = spring.stiffness * (distance - length);
+    const double geometric = std::max(0.0, force / distance);
+    const double along = stepSeconds * (spring.stiffness - geometric) + damping;
+    const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(stepSeconds * geometric);
+    system.addDiagonalBlock(spring.first, block);
+    system.addDiagonalBlock(spring.second, block);
+    system.addOffDiagonalBlock(spring.first, spring.second, -block);
+    system.addToRightSide(spring.first, force * u);
+    system.addToRightSide(spring.second, -force * u);
+}
+
+// Only a face that advances into the water is pushed back (Tu & Terzopoulos 1994), here by the
+// square of its normal speed: -drag A (n.v)^2 n, a third on each node, one factor (n.v) taken at
+// the end of the step.
+void addDrag(const WettedFace& face, const FishState& state, EnvelopeSystem& system) {
+    const auto [a, b, c] = face.nodes;
+    const glm::dvec3 areaVector = glm::cross(state.positions[b] - state.positions[a],
+                                             state.positions[c] - state.positions[a]) /
+                                  2.0;
+    const glm::dvec3 velocity =
+        (state.velocities[a] + state.velocities[b] + state.velocities[c]) / 3.0;
+    const double flow = glm::dot(areaVector, velocity);  // area * normal speed
+    if (flow <= 0) return;
+    const double areaSquared = glm::dot(areaVector, areaVector);
+    const glm::dvec3 scaled = face.drag / 9 * flow / areaSquared * areaVector;
+    const glm::dmat3 block = glm::outerProduct(scaled, areaVector);
+    for (std::size_t i = 0; i < 3; ++i) {
+        system.addDiagonalBlock(face.nodes[i], block);
+        const auto next = face.nodes[(i + 1) % 3];
+        system.addOffDiagonalBlock(
+            std::min(face.nodes[i], next), std::max(face.nodes[i], next), block);
+    }
+}
+
+// -A (n.v) n, linear as Tu's, spread over the nodes at its root, of which v is the mean at the end
+// of the step. Tu spreads it over rings 1 to 3; over the first two it pitches the fish twice as
+// much.
+void addFin(const PectoralFin& fin,
+            const std::array<int, 4>& root,
+            double drag,
+            const glm::dmat3& worldFromBody,
+            EnvelopeSystem& system) {
+    const double across = std::cos(fin.angleRadians);
+    const glm::dvec3 normal = worldFromBody * glm::dvec3(across, std::sin(fin.angleRadians), 0);
+    const glm::dmat3 block = glm::outerProduct(drag / 16 * normal, normal);
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        system.addDiagonalBlock(root[i], block);
+        for (std::size_t j = i + 1; j < root.size(); ++j)
+            system.addOffDiagonalBlock(root[i], root[j], block);
+        system.addToRightSide(root[i], -drag / 4 * fin.sweepSpeed * across * normal);
+    }
+}
+
+}  // namespace
+
+void step(const BiomechanicalFish& fish,
+          const MotorControl& control,
+          double stepSeconds,
+          FishState& state) {
+    EnvelopeSystem system;
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        const double inertia = fish.masses[node] / stepSeconds;
+        system.addToDiagonal(i, inertia);
+        system.addToRightSide(
+            i, inertia * state.velocities[node] + glm::dvec3(0, fish.lifts[node], 0));
+    }
+    const RestShares shares = restShares(control.muscles, fish.muscleContraction);
+    const auto& units = anatomy().units;
+    for (std::size_t i = 0; i < kUnits; ++i) {
+        const Spring& spring = fish.springs[i];
+        const double share = shares.at(static_cast<std::size_t>(units[i].kind))
+                                 .at(static_cast<std::size_t>(units[i].side));
+        const double length = spring.restLength * share;
+        addSpring(spring, length, fish.damping, stepSeconds, state, system);
+    }
+    for (const WettedFace& face : fish.faces) addDrag(face, state, system);
+    const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
+    addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, system);
+    addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, system);
+    system.solve();
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        state.velocities[node] = system.solution(i);
+        state.positions[node] += stepSeconds * state.velocities[node];
+    }
+}
+
+}  // namespace aquarama::capture

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/capture/report/controllers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "common/units/units.h"
+#include "master/capture/dynamics.h"
+#include "master/capture/report/fish_view.h"
+#include "master/capture/report/report_data.h"
+#include "master/capture/swimmer.h"
+
+namespace aquarama::report {
+
+namespace {
+
+// Along the body's axis: backward is negative.
+double speedOver(capture::Swimmer& swimmer, double seconds) {
+    const glm::dvec3 from = middleOf(swimmer.state().positions);
+    const double start = swimmer.seconds();
+    swimmer.advance(static_cast<int>(std::lround(seconds / swimmer.stepSeconds())));
+    const capture::PoseFrame frame = capture::frameOf(swimmer.state().positions);
+    return glm::dot(frame.origin - from, frame.worldFromBody[0]) / (swimmer.seconds() - start);
+}
+
+ControllerTrial record(capture::Swimmer swimmer,
+                       const capture::Order& order,
+                       double seconds,
+                       double speedBefore) {
+    ControllerTrial trial{.moments = {}, .speedBefore = speedBefore};
+    const glm::dvec3 start = middleOf(swimmer.state().positions);
+    const double begin = swimmer.seconds();
+    swimmer.give(order);
+    for (int i = 0; i <= kMoments; ++i) {
+        const double until = begin + seconds * i / kMoments;
+        swimmer.advance(
+            static_cast<int>(std::lround((until - swimmer.seconds()) / swimmer.stepSeconds())));
+        Moment moment{.seconds = swimmer.seconds() - begin,
+                      .nodes = swimmer.state().positions,
+                      .fins = swimmer.control().fins};
+        for (glm::dvec3& node : moment.nodes) node -= start;
+        trial.moments.push_back(moment);
+    }
+    trial.speedAfter = speedOver(swimmer, 1 / std::max(order.gait.beatHertz, 3.0));
+    return trial;
+}
+
+}  // namespace
+
+glm::dvec3 middleOf(const capture::NodeVectors& nodes) {
+    return capture::frameOf(nodes).origin;
+}
+
+ControllerTrial swimmingThen(const config::Species& species,
+                             const capture::Order& order,
+                             double seconds,
+                             double runUpBeats) {
+    const config::Gait& medium = species.swim.medium;
+    capture::Swimmer swimmer(species);
+    swimmer.give({.controller = capture::Controller::ForwardSwim, .gait = medium});
+    speedOver(swimmer, runUpBeats / medium.beatHertz);
+    const double speed = speedOver(swimmer, 1 / medium.beatHertz);
+    return record(std::move(swimmer), order, seconds, speed);
+}
+
+ControllerTrial rolledThen(const config::Species& species,
+                           double rollRadians,
+                           const capture::Order& order,
+                           double seconds) {
+    const double cosine = std::cos(rollRadians);
+    const double sine = std::sin(rollRadians);
+    capture::BiomechanicalFish fish = capture::makeBiomechanicalFish(species);
+    for (glm::dvec3& x : fish.restPositions)
+        x = {x.x, cosine * x.y + sine * x.z, -sine * x.y + cosine * x.z};
+    return record({fish, species.swim, capture::longestStepSeconds(fish)}, order, seconds, 0);
+}
+
+ControllerTrial restingThen(const config::Species& species,
+                            const capture::Order& order,
+                            double seconds) {
+    return record(capture::Swimmer(species), order, seconds, 0);
+}
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double kRunUpBeats = 20;
+constexpr double kRoll = 40 * kRadiansPerDegree<double>;  // from which balance rights the fish
+constexpr double kPitch = 20 * kRadiansPerDegree<double>;
+
+json listOfPolygons(const std::vector<Polygon>& polygons) {
+    json list = json::array();
+    for (const Polygon& polygon : polygons) list.push_back(listOf(polygon));
+    return list;
+}
+
+// Where the fish is at each moment and how it lies; its silhouettes at `fish` of them, evenly.
+json trialData(const std::string& controller,
+               const ControllerTrial& trial,
+               const body::FishBody& body,
+               ViewSide view,
+               int fish) {
+    json data{{"controller", controller},
+              {"view", view == ViewSide::Above ? "above" : "side"},
+              {"speed_before", trial.speedBefore},
+              {"speed_after", trial.speedAfter}};
+    for (const Moment& moment : trial.moments) {
+        const capture::BodyAngles angles =
+            capture::bodyAnglesOf({.positions = moment.nodes, .velocities = {}});
+        data["seconds"].push_back(pointOf(moment.seconds));
+        data["way"].push_back(pointOf(seen(view, middleOf(moment.nodes))));
+        data["heading_degrees"].push_back(
+            pointOf(angles.headingRadians / kRadiansPerDegree<double>));
+        data["pitch_degrees"].push_back(pointOf(angles.pitchRadians / kRadiansPerDegree<double>));
+        data["roll_degrees"].push_back(pointOf(angles.rollRadians / kRadiansPerDegree<double>));
+    }
+    for (int i = 0; i < fish; ++i) {
+        const auto index = static_cast<std::size_t>(i * kMoments / (fish - 1));
+        const Moment& moment = trial.moments.at(index);
+        data["fish"].push_back(
+            {{"moment", index},
+             {"body", listOfPolygons(silhouetteOf(body, moment.nodes, view))},
+             {"fins", listOfPolygons(finLines(moment.fins, moment.nodes, view))}});
+    }
+    return data;
+}
+
+}  // namespace
+
+std::string controllersData(const config::Species& species) {
+    const body::FishBody body = body::makeBody(species);
+    json trials = json::array();
+    const auto order = [&](capture::Controller controller) {
+        return capture::Order{.controller = controller,
+                              .gait = species.swim.medium,
+                              .bend = species.turn.sharp,
+                              .pitchRadians = kPitch};
+    };
+    const auto add = [&](const char* name, const ControllerTrial& trial, ViewSide view, int fish) {
+        trials.push_back(trialData(name, trial, body, view, fish));
+    };
+    const auto addSwimming = [&](const char* name,
+                                 capture::Controller controller,
+                                 double seconds,
+                                 ViewSide view,
+                                 int fish,
+                                 double beats = kRunUpBeats) {
+        add(name, swimmingThen(species, order(controller), seconds, beats), view, fish);
+    };
+    using enum capture::Controller;
+    using enum ViewSide;
+    addSwimming("forward swim", ForwardSwim, 1.5, Above, 4);
+    addSwimming("left turn", LeftTurn, 1, Above, 5);
+    // From the other half of the beat, so that it is the left one's mirror image.
+    addSwimming("right turn", RightTurn, 1, Above, 5, kRunUpBeats + 0.5);
+    addSwimming("glide", Glide, 1.5, Above, 4);
+    addSwimming("ascend", Ascend, 1.5, ViewSide::Side, 4);
+    addSwimming("descend", Descend, 1.5, ViewSide::Side, 4);
+    add("balance", rolledThen(species, kRoll, order(Balance), 2.5), Above, 6);
+    addSwimming("brake", Brake, 1.5, Above, 4);
+    add("retreat", restingThen(species, order(Retreat), 3.25), Above, 4);
+    return json{{"species", species.name}, {"trials", trials}}.dump() + "\n";
+}
+
+}  // namespace aquarama::report

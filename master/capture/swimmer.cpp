@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/capture/swimmer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "master/capture/dynamics.h"
+#include "master/capture/motor_controllers.h"
+
+namespace aquarama::capture {
+
+namespace {
+
+double mixAngles(double from, double to, double share) {
+    return from + share * std::remainder(to - from, 2 * std::numbers::pi);
+}
+
+}  // namespace
+
+BodyAngles bodyAnglesOf(const FishState& state) {
+    const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
+    const glm::dvec3& x = worldFromBody[0];
+    return {.headingRadians = std::atan2(-x.z, x.x),
+            .pitchRadians = std::asin(std::clamp(x.y, -1.0, 1.0)),
+            .rollRadians = std::atan2(worldFromBody[2].y, worldFromBody[1].y)};
+}
+
+BodyAngles sense(const BodyAngles& before, const FishState& state, double share) {
+    const BodyAngles now = bodyAnglesOf(state);
+    return {.headingRadians = mixAngles(before.headingRadians, now.headingRadians, share),
+            .pitchRadians = std::lerp(before.pitchRadians, now.pitchRadians, share),
+            .rollRadians = now.rollRadians};
+}
+
+namespace {
+
+// A tail that stopped at once would leave the fish with what that beat had turned it.
+constexpr double kLastBeats = 0.5;
+
+// Of the fish's own seconds.
+constexpr double kHandover = 0.04;  // from one order's muscles to the next one's
+
+}  // namespace
+
+Swimmer::Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds)
+    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
+
+Swimmer::Swimmer(const config::Species& species, double stepSeconds)
+    : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
+
+Swimmer::Swimmer(const config::Species& species)
+    : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
+
+void Swimmer::give(const Order& order) {
+    if (!swims()) beating_.gain = 0;
+    order_ = order;
+    if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
+    ownSecondsOfOrder_ = 0;
+    headingOfOrder_ = attitude_.headingRadians;
+    musclesBefore_ = control_.muscles;
+}
+
+void Swimmer::advance(int steps) {
+    for (int i = 0; i < steps; ++i) advanceOne();
+}
+
+void Swimmer::advanceOne() {
+    const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
+    control_ = {.muscles = mix(musclesBefore_, muscleProgram(), handedOver), .fins = finProgram()};
+    step(fish_, control_, stepSeconds_, state_);
+    ++steps_;
+    attitude_ =
+        sense(attitude_, state_, stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
+    const double ownSeconds = stepSeconds_ * fish_.timeScale;
+    ownSecondsOfOrder_ += ownSeconds;
+    if (swims()) ownSecondsSwum_ += ownSeconds;
+    beat_ += stepSeconds_ * beating_.beatHertz;
+    beat_ -= std::floor(beat_);
+}
+
+bool Swimmer::swims() const {
+    return order_.controller == Controller::ForwardSwim ||
+           order_.controller == Controller::Ascend || order_.controller == Controller::Descend ||
+           order_.controller == Controller::Balance;
+}
+
+MuscleActivation Swimmer::muscleProgram() const {
+    const double beatsOfOrder = ownSecondsOfOrder_ / fish_.timeScale * beating_.beatHertz;
+    switch (order_.controller) {
+        case Controller::ForwardSwim:
+        case Controller::Ascend:
+        case Controller::Descend:
+        case Controller::Balance:
+            return tailBeat(1);
+        case Controller::LeftTurn:
+            return bendLeft(order_.bend, ownSecondsOfOrder_);
+        case Controller::RightTurn:
+            return mirrored(bendLeft(order_.bend, ownSecondsOfOrder_));
+        case Controller::Glide:
+        case Controller::Brake:
+            return tailBeat(std::max(0.0, 1 - beatsOfOrder / kLastBeats));
+        case Controller::Retreat:
+            break;
+    }
+    return {};
+}
+
+MuscleActivation Swimmer::tailBeat(double share) const {
+    const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
+    return beatAt(swim_, share * beating_.gain * grown, beat_);
+}
+
+PectoralFins Swimmer::finProgram() const {
+    switch (order_.controller) {
+        case Controller::Ascend:
+            return hold(attitude_, order_.pitchRadians);
+        case Controller::Descend:
+            return hold(attitude_, -order_.pitchRadians);
+        case Controller::Balance:
+            return hold(attitude_, 0);
+        case Controller::Brake:
+            return brake();
+        case Controller::Retreat:
+            return row(beating_, beat_, attitude_, headingOfOrder_);
+        case Controller::ForwardSwim:
+        case Controller::LeftTurn:
+        case Controller::RightTurn:
+        case Controller::Glide:
+            break;
+    }
+    return {};
+}
+
+}  // namespace aquarama::capture

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/capture/turn.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+#include "common/units/log.h"
+#include "master/capture/dynamics.h"
+#include "master/capture/motor_controllers.h"
+
+namespace aquarama::capture {
+
+namespace {
+
+constexpr double kLongestTurn = 4;  // the fish's own seconds
+
+double bendOf(const NodeVectors& pose, const NodeVectors& straight) {
+    const NodeVectors bent = inBodyFrame(pose);
+    double most = 0;
+    for (std::size_t i = 0; i < bent.size(); ++i)
+        most = std::max(most, glm::distance(bent.at(i), straight.at(i)));
+    return most;
+}
+
+std::array<RecordedCycle, kOnsets> recordLeftTurns(const config::Species& species,
+                                                   const SteadySwimming& entry,
+                                                   const config::Bend& bend) {
+    std::array<RecordedCycle, kOnsets> turns;
+    for (int i = 0; i < kOnsets; ++i)
+        turns.at(static_cast<std::size_t>(i)) =
+            recordTurn(species, entry, Controller::LeftTurn, bend, i * motion::kPhases / kOnsets);
+    return turns;
+}
+
+TurnSpread spreadOf(const std::array<RecordedCycle, kOnsets>& turns,
+                    motion::Action turn,
+                    motion::Action entry) {
+    TurnSpread spread{.turn = turn, .entry = entry};
+    std::ranges::transform(turns, spread.radians.begin(), turnRadians);
+    return spread;
+}
+
+}  // namespace
+
+double TurnSpread::least() const {
+    return std::ranges::min(radians);
+}
+double TurnSpread::mean() const {
+    return std::accumulate(radians.begin(), radians.end(), 0.0) / kOnsets;
+}
+double TurnSpread::most() const {
+    return std::ranges::max(radians);
+}
+
+RecordedCycle recordTurn(const config::Species& species,
+                         const SteadySwimming& entry,
+                         Controller leftOrRight,
+                         const config::Bend& bend,
+                         int onsetPhase) {
+    Swimmer swimmer = entry.swimmer;
+    swimmer.advance(onsetPhase * entry.stepsPerPhase);
+    swimmer.give({.controller = leftOrRight, .bend = bend});
+
+    const BiomechanicalFish fish = makeBiomechanicalFish(species);
+    const NodeVectors straight = inBodyFrame(fish.restPositions);
+    const double muscleSteps = secondsOf(bend, species) / swimmer.stepSeconds();
+    const double mostSteps = kLongestTurn / fish.timeScale / swimmer.stepSeconds();
+    std::vector<NodeVectors> poses{swimmer.state().positions};
+    while (static_cast<double>(poses.size()) < muscleSteps ||
+           (poses.size() - 1) % motion::kPhases != 0 ||
+           bendOf(poses.back(), straight) > kStraightBodyLengths) {
+        if (static_cast<double>(poses.size()) > mostSteps)
+            throw Error(species.name +
+                        ": after a turn the fish does not become straight; "
+                        "change `turn` or `tissue` in its species file");
+        swimmer.advance(1);
+        poses.push_back(swimmer.state().positions);
+    }
+
+    const std::size_t stride = (poses.size() - 1) / motion::kPhases;
+    RecordedCycle turn{
+        .periodSeconds = swimmer.stepSeconds() * static_cast<double>(poses.size() - 1),
+        .playsToEnd = true,
+        .course = entry.beat.course,
+        .poses = {}};
+    for (std::size_t i = 0; i < poses.size(); i += stride) turn.poses.push_back(poses[i]);
+    return turn;
+}
+
+double turnRadians(const RecordedCycle& turn) {
+    return yawRadians(turn.course, frameOf(turn.poses.back()).worldFromBody[0]);
+}
+
+std::vector<TurnSpread> surveyTurns(const config::Species& species) {
+    const config::Swim& swim = species.swim;
+    std::vector<TurnSpread> table;
+    for (const auto& [action, gait] : {std::pair{motion::Action::ForwardSlow, swim.slow},
+                                       std::pair{motion::Action::ForwardMedium, swim.medium},
+                                       std::pair{motion::Action::ForwardFast, swim.fast}}) {
+        const SteadySwimming entry = swimUntilSteady(species, gait);
+        for (const auto& [turn, bend] :
+             {std::pair{motion::Action::TurnLeftGradual, species.turn.gradual},
+              std::pair{motion::Action::TurnLeftSharp, species.turn.sharp}})
+            table.push_back(spreadOf(recordLeftTurns(species, entry, bend), turn, action));
+    }
+    return table;
+}
+
+RecordedCycle recordTypicalLeftTurn(const config::Species& species,
+                                    const SteadySwimming& medium,
+                                    const config::Bend& bend) {
+    const auto turns = recordLeftTurns(species, medium, bend);
+    const double mean = spreadOf(turns, {}, motion::Action::ForwardMedium).mean();
+    return *std::ranges::min_element(
+        turns, {}, [&](const RecordedCycle& turn) { return std::abs(turnRadians(turn) - mean); });
+}
+
+}  // namespace aquarama::capture

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/simulation/recorded_world.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "common/units/log.h"
+
+namespace aquarama::simulation {
+
+namespace {
+
+bool wrote(std::ofstream& file, const wire::Packet& bytes) {
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    return static_cast<bool>(file.flush());
+}
+
+std::string reason() {
+    return std::system_category().message(errno);
+}
+
+}  // namespace
+
+void requireNewRecording(const std::string& path) {
+    if (std::filesystem::exists(path))
+        throw Error(path + ": is there already; a recording never overwrites a file: name another");
+}
+
+RecordingFile::RecordingFile(std::string path, const wire::AssetBundle& assets)
+    : path_(std::move(path)) {
+    requireNewRecording(path_);
+    file_.open(path_, std::ios::binary);
+    if (!file_ || !wrote(file_, wire::beginningOf(assets)))
+        throw Error(path_ + ": cannot be written: " + reason());
+}
+
+void RecordingFile::add(const wire::Packet& entry) {
+    if (!file_.is_open() || wrote(file_, entry)) return;
+    logError("{}: the show is recorded no further: {}", path_, reason());
+    file_.close();
+}
+
+RecordedWorld::RecordedWorld(conductor::Simulation& world, RecordingFile& file)
+    : SimulationDecorator(world), file_(file) {
+    file_.add(wire::entryOf(now()));
+}
+
+RecordedWorld::~RecordedWorld() {
+    file_.add(wire::endOf(now()));
+}
+
+void RecordedWorld::advance() {
+    for (const world::WorldInput& input : std::exchange(pending_, {})) {
+        file_.add(wire::entryOf(recorded(world_.tick(), input)));
+        world_.apply(input);
+    }
+    world_.advance();
+    if (world_.tick().value % kTicksBetweenCheckpoints == 0) file_.add(wire::entryOf(now()));
+}
+
+Playback::Playback(const wire::Recording& recording, conductor::Simulation& world)
+    : recording_(recording), world_(world) {
+    compare();
+}
+
+void Playback::advance() {
+    const auto& inputs = recording_.inputs;
+    while (nextInput_ < inputs.size() && inputs[nextInput_].tick <= world_.tick())
+        world_.apply(inputOf(inputs[nextInput_++]));
+    world_.advance();
+    compare();
+}
+
+void Playback::compare() {
+    const auto& checkpoints = recording_.checkpoints;
+    while (nextCheckpoint_ < checkpoints.size() &&
+           checkpoints[nextCheckpoint_].tick <= world_.tick())
+        compareWith(checkpoints[nextCheckpoint_++]);
+    if (recording_.end && recording_.end->tick == world_.tick()) compareWith(*recording_.end);
+}
+
+void Playback::compareWith(const wire::RecordedHash& expected) {
+    ++compared_;
+    const std::uint64_t hash = world_.hash();
+    if (hash != expected.hash && !difference_)
+        difference_ = {expected.tick, expected.hash, hash, lastSame_};
+    if (hash == expected.hash) lastSame_ = expected.tick;
+}
+
+ReplayedWorld::ReplayedWorld(const wire::Recording& recording,
+                             conductor::Simulation& world,
+                             std::function<void()> onEnd)
+    : SimulationDecorator(world), playback_(recording, world), onEnd_(std::move(onEnd)) {}
+
+void ReplayedWorld::advance() {
+    playback_.advance();
+    if (playback_.difference() && !std::exchange(toldOfDifference_, true))
+        logWarning("from tick {} on the replay is another world than the recorded one",
+                   playback_.difference()->tick.value);
+    if (playback_.over() && !std::exchange(ended_, true)) onEnd_();
+}
+
+void ReplayedWorld::apply(const world::WorldInput& /*input*/) {
+    if (!std::exchange(toldOfInput_, true))
+        logWarning("this is a replay: what visitors do does not reach its world");
+}
+
+namespace {
+
+wire::RecordedFood recordedOne(const world::DropFood& food) {
+    return {food.position, food.pellets};
+}
+wire::RecordedSubmarine recordedOne(const world::MoveSubmarine& moved) {
+    return {moved.position, moved.velocityMetresPerSecond};
+}
+Steering recordedOne(const Steering& steering) {
+    return steering;
+}
+world::DropFood inputOfOne(const wire::RecordedFood& food) {
+    return {food.position, food.pellets};
+}
+world::MoveSubmarine inputOfOne(const wire::RecordedSubmarine& moved) {
+    return {moved.position, moved.velocityMetresPerSecond};
+}
+Steering inputOfOne(const Steering& steering) {
+    return steering;
+}
+
+}  // namespace
+
+wire::RecordedInput recorded(Tick tick, const world::WorldInput& input) {
+    wire::RecordedInput recorded{tick, {}};
+    std::visit([&](const auto& what) { recorded.input = recordedOne(what); }, input);
+    return recorded;
+}
+
+world::WorldInput inputOf(const wire::RecordedInput& recorded) {
+    return std::visit([](const auto& what) { return world::WorldInput{inputOfOne(what)}; },
+                      recorded.input);
+}
+
+}  // namespace aquarama::simulation
