@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fine a wall is drawn. All nodes of a wall draw at the same tier, or their pictures would part
-// where they overlap; render_node/scene/quality.h says what each buys.
+// where they overlap; render_node/reef/quality.h says what each buys.
 #pragma once
 
 #include <algorithm>

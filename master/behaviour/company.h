@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
 

@@ -10,7 +10,7 @@
 #include "common/config/habits.h"
 #include "common/place/place.h"
 #include "common/units/units.h"
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
 #include "master/surroundings/obstacles.h"
 

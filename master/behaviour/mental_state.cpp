@@ -6,7 +6,7 @@
 
 #include "common/units/random_streams.h"
 #include "common/units/units.h"
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/fish/minds.h"
 
 namespace aquarama::behaviour {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 

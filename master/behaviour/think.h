@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"

@@ -13,8 +13,8 @@
 #include "common/units/log.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/exchange/c3d.h"
-#include "master/capture/exchange/gltf.h"
+#include "master/capture/report/c3d.h"
+#include "master/capture/report/gltf.h"
 
 namespace aquarama {
 
@@ -43,9 +43,9 @@ motion::Action actionNamed(const std::string& segment) {
     return static_cast<motion::Action>(std::ranges::find(names, segment) - names.begin());
 }
 
-exchange::GltfContainer containerOf(const fs::path& path) {
-    if (path.extension() == ".glb") return exchange::GltfContainer::Binary;
-    if (path.extension() == ".gltf") return exchange::GltfContainer::Text;
+report::GltfContainer containerOf(const fs::path& path) {
+    if (path.extension() == ".glb") return report::GltfContainer::Binary;
+    if (path.extension() == ".gltf") return report::GltfContainer::Text;
     throw Error(path.string() + ": name it .glb (binary) or .gltf (text)");
 }
 
@@ -65,17 +65,17 @@ void exportSegment(const ExportOptions& options) {
     const motion::Repertoire repertoire =
         motion::decodeRepertoire(capture::readRepertoireFile(options.file), options.file);
     if (!options.gltf.empty()) {
-        const exchange::GltfContainer container = containerOf(options.gltf);
+        const report::GltfContainer container = containerOf(options.gltf);
         const body::FishBody body = bodyOf(repertoire, options);
         files::writeWhole(options.gltf,
-                          exchange::gltfOf(repertoire, body, action, options.cycles, container));
+                          report::gltfOf(repertoire, body, action, options.cycles, container));
         return;
     }
-    const exchange::Take take = exchange::takeAtTicks(repertoire, action, options.cycles);
+    const report::Take take = report::takeAtTicks(repertoire, action, options.cycles);
     if (options.csv.empty()) {
-        files::writeWhole(options.c3d, exchange::c3dOf(take));
+        files::writeWhole(options.c3d, report::c3dOf(take));
     } else {
-        const std::string rows = exchange::csvOf(take);
+        const std::string rows = report::csvOf(take);
         files::writeWhole(options.csv, std::as_bytes(std::span(rows)));
     }
 }
@@ -91,7 +91,7 @@ void addExportCommand(CLI::App& app, cli::Job& job) {
         ->required()
         ->check(CLI::IsMember(segmentNames()));
     command.add_option("--cycles", options->cycles, "how often it is repeated")
-        ->check(cli::wholeNumber(1, exchange::kMostCycles))
+        ->check(cli::wholeNumber(1, report::kMostCycles))
         ->capture_default_str();
     CLI::Option_group& out = *command.add_option_group("format", "one of");
     out.add_option("--c3d", options->c3d, "nodal points as markers, 60 frames a second");

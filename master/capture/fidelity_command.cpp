@@ -12,7 +12,7 @@
 #include "common/files/files.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/fidelity/fidelity.h"
+#include "master/capture/report/fidelity.h"
 
 namespace aquarama {
 
@@ -38,28 +38,28 @@ void compareAll(const FidelityOptions& options) {
     cli::requirePython({"matplotlib"});
     const fs::path config =
         options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
-    std::vector<fidelity::Fidelity> fidelities;
-    std::vector<fidelity::SpeciesVocabularies> vocabularies;
+    std::vector<report::Fidelity> fidelities;
+    std::vector<report::SpeciesVocabularies> vocabularies;
     for (const fs::path& file : capture::speciesFiles(options.species, config)) {
         const config::Species species = config::readSpecies(file.string());
         capture::ProgressBar bar("comparing " + species.name);
         const motion::Repertoire repertoire =
             capture::captureRepertoire(species, [&](double share) { bar.show(0.5 * share); });
         fidelities.push_back(
-            fidelity::measureFidelity(species, repertoire, options.seed, options.seconds));
+            report::measureFidelity(species, repertoire, options.seed, options.seconds));
         bar.show(0.6);
         vocabularies.push_back(
             {species.name,
-             fidelity::compareVocabularies(species, repertoire, options.seed, options.seconds)});
+             report::compareVocabularies(species, repertoire, options.seed, options.seconds)});
         bar.show(1);
     }
     const fs::path out = options.out;
-    writeText(out / "fidelity.csv", fidelity::commandsCsv(fidelities));
-    writeText(out / "fidelity_summaries.csv", fidelity::summariesCsv(fidelities));
-    writeText(out / "fidelity_ticks.csv", fidelity::ticksCsv(fidelities));
-    writeText(out / "fidelity_vocabularies.csv", fidelity::vocabulariesCsv(vocabularies));
+    writeText(out / "fidelity.csv", report::commandsCsv(fidelities));
+    writeText(out / "fidelity_summaries.csv", report::summariesCsv(fidelities));
+    writeText(out / "fidelity_ticks.csv", report::ticksCsv(fidelities));
+    writeText(out / "fidelity_vocabularies.csv", report::vocabulariesCsv(vocabularies));
     cli::runPython({"matplotlib"},
-                   "master/capture/fidelity/draw_fidelity.py",
+                   "master/capture/report/draw_fidelity.py",
                    {options.out, std::to_string(options.seed)});
 }
 

@@ -8,7 +8,7 @@
 
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/search/gait_trial.h"
+#include "master/capture/gait_trial.h"
 
 namespace aquarama {
 
@@ -24,12 +24,12 @@ void printGaits(const GaitsOptions& options) {
                                              ? capture::findConfigFolder()
                                              : std::filesystem::path(options.config);
     const auto files = capture::speciesFiles(options.species, config);
-    std::cout << search::gaitTableHead();
+    std::cout << capture::gaitTableHead();
     for (const auto& file : files)
-        std::cout << search::gaitTableRows(config::readSpecies(file.string())) << std::flush;
-    std::cout << '\n' << search::turnTableHead();
+        std::cout << capture::gaitTableRows(config::readSpecies(file.string())) << std::flush;
+    std::cout << '\n' << capture::turnTableHead();
     for (const auto& file : files)
-        std::cout << search::turnTableRow(config::readSpecies(file.string())) << std::flush;
+        std::cout << capture::turnTableRow(config::readSpecies(file.string())) << std::flush;
 }
 
 }  // namespace

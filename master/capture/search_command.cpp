@@ -16,9 +16,9 @@
 #include "common/files/files.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/commands.h"
-#include "master/capture/search/gait_trial.h"
-#include "master/capture/search/search.h"
-#include "master/capture/search/species_text.h"
+#include "master/capture/gait_trial.h"
+#include "master/capture/search.h"
+#include "master/capture/species_text.h"
 
 namespace aquarama {
 
@@ -42,7 +42,7 @@ std::string textOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string told(std::size_t trials, const search::SearchTrial& best) {
+std::string told(std::size_t trials, const capture::SearchTrial& best) {
     std::ostringstream note;
     note << std::fixed << std::setprecision(2) << "trial " << trials << ", Strouhal "
          << best.leastStrouhal << "-" << best.mostStrouhal << ", stride " << best.leastStride << "-"
@@ -56,25 +56,25 @@ void searchGaitsOf(const SearchOptions& options) {
         capture::speciesFiles({options.species}, configFolder(options.config)).front();
     const std::string text = textOf(file);
     const config::Species species = config::parseSpecies(text, file.string());
-    search::SearchJournal journal(options.out + ".journal", search::searchName(text));
+    capture::SearchJournal journal(options.out + ".journal", capture::searchName(text));
     capture::ProgressBar bar("searching " + species.name);
-    const search::SearchTrial best = search::searchGaits(
+    const capture::SearchTrial best = capture::searchGaits(
         species,
         options.trials,
         journal,
-        [&](std::size_t trials, const search::SearchTrial& soFar) {
+        [&](std::size_t trials, const capture::SearchTrial& soFar) {
             bar.show(static_cast<double>(trials) / static_cast<double>(options.trials),
                      told(trials, soFar));
         });
     bar.show(1, told(journal.trials().size(), best));
 
-    config::Species swimmer = search::speciesAt(best.point, species);
-    swimmer.turn = search::withFittingStrengths(swimmer);
-    const std::string found = search::withGaitsOf(swimmer, text);
+    config::Species swimmer = capture::speciesAt(best.point, species);
+    swimmer.turn = capture::withFittingStrengths(swimmer);
+    const std::string found = capture::withGaitsOf(swimmer, text);
     files::writeWhole(options.out, std::as_bytes(std::span(found)));
     std::cout << options.out << "\n\n"
-              << search::gaitTableHead()
-              << search::gaitTableRows(config::parseSpecies(found, options.out));
+              << capture::gaitTableHead()
+              << capture::gaitTableRows(config::parseSpecies(found, options.out));
 }
 
 }  // namespace

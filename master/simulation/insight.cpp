@@ -12,7 +12,7 @@
 
 #include "common/place/place.h"
 #include "common/units/units.h"
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 
 namespace aquarama::simulation {
 

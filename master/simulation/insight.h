@@ -15,7 +15,7 @@
 #include "common/units/units.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/mental_state.h"
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"

@@ -53,8 +53,8 @@ void LivingWorld::food(wire::FoodCloud& cloud) const {
 }
 
 wire::Eye LivingWorld::eye() const {
-    const pilot::Vessel& vessel = world_.pilot().vessel;
-    const motion::Quaternion q = pilot::worldFromBody(vessel.attitude);
+    const surroundings::Vessel& vessel = world_.pilot().vessel;
+    const motion::Quaternion q = surroundings::worldFromBody(vessel.attitude);
     return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
 }
 

@@ -126,8 +126,8 @@ World::World(const WorldOptions& options)
       traits_(traitsOf(options)),
       surroundings_(surroundings::makeSurroundings(
           options.scene, options.seed, traits_.size(), meanLengthMetres(options))),
-      voyage_(pilot::voyageOf(options.scene, options.seed, surroundings_.obstacles.water)),
-      pilot_(pilot::pilotOf(voyage_, options.scene.eye)),
+      voyage_(surroundings::voyageOf(options.scene, options.seed, surroundings_.obstacles.water)),
+      pilot_(surroundings::pilotOf(voyage_, options.scene.eye)),
       grids_(surroundings_.obstacles.water, traits_.size(), surroundings_.food.size()),
       pool_(options.threads) {
     if (options.cast.size() > kMostSpecies)
@@ -205,11 +205,11 @@ void World::apply(const WorldInput& input) {
         showSubmarine();
     }
     if (const auto* steered = std::get_if<Steering>(&input))
-        pilot::steer(pilot_, voyage_, *steered, tick_);
+        surroundings::steer(pilot_, voyage_, *steered, tick_);
 }
 
 void World::moveSubmarine() {
-    pilot::advancePilot(pilot_, voyage_, goal_.position, tick_);
+    surroundings::advancePilot(pilot_, voyage_, goal_.position, tick_);
     showSubmarine();
 }
 
@@ -359,7 +359,7 @@ std::uint64_t World::hash() const {
     for (const Meals::Swallow& swallow : meals_.swallows)
         hash = foldedOne(foldedOne(foldedOne(hash, swallow.fish), swallow.particle),
                          swallow.ticksLeft);
-    return pilot::foldedPilot(surroundings::foldedSurroundings(hash, surroundings_), pilot_);
+    return surroundings::foldedPilot(surroundings::foldedSurroundings(hash, surroundings_), pilot_);
 }
 
 std::size_t World::bytes() const {

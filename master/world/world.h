@@ -20,12 +20,12 @@
 #include "common/motion/motor.h"
 #include "common/units/units.h"
 #include "common/units/worker_pool.h"
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
-#include "master/pilot/pilot.h"
+#include "master/surroundings/pilot.h"
 #include "master/surroundings/surroundings.h"
 #include "master/world/events.h"
 
@@ -92,7 +92,7 @@ class World {
     [[nodiscard]] const fish::Minds& minds() const { return minds_; }
     [[nodiscard]] const fish::Courses& courses() const { return courses_; }
     [[nodiscard]] const surroundings::Surroundings& surroundings() const { return surroundings_; }
-    [[nodiscard]] const pilot::Pilot& pilot() const { return pilot_; }
+    [[nodiscard]] const surroundings::Pilot& pilot() const { return pilot_; }
     [[nodiscard]] std::span<const fish::SpeciesParameters> speciesParameters() const {
         return speciesParameters_;
     }
@@ -149,8 +149,8 @@ class World {
     behaviour::DeferredEvents events_;  // of all slices
     std::vector<motion::FishTraits> traits_;
     surroundings::Surroundings surroundings_;
-    pilot::Voyage voyage_;
-    pilot::Pilot pilot_;
+    surroundings::Voyage voyage_;
+    surroundings::Pilot pilot_;
     motion::MotionStates states_;
     motion::MotorCommands commands_;
     fish::Minds minds_;

@@ -9,10 +9,44 @@
 #include <regex>
 #include <span>
 
+#include <epoxy/gl.h>
+
 #include "common/files/derived_cache.h"
 #include "common/units/log.h"
 
 namespace aquarama::gl {
+
+namespace {
+
+void APIENTRY onMessage(GLenum /*source*/,
+                        GLenum type,
+                        GLuint /*id*/,
+                        GLenum severity,
+                        GLsizei length,
+                        const GLchar* message,
+                        const void* /*user*/) {
+    const std::string_view text{message, static_cast<std::size_t>(length)};
+    if (type == GL_DEBUG_TYPE_ERROR)
+        logError("OpenGL: {}", text);
+    else if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
+        logWarning("OpenGL: {}", text);
+}
+
+}  // namespace
+
+void logMessages() {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(onMessage, nullptr);
+}
+
+Stage::Stage(const char* name) {
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
+}
+
+Stage::~Stage() {
+    glPopDebugGroup();
+}
 
 namespace {
 
@@ -118,15 +152,15 @@ ShaderHandle compiled(const std::string& file, const ShaderText& source) {
     return shader;
 }
 
-struct Stage {
+struct ShaderStage {
     std::string file;
     ShaderText source;
 };
 
-ProgramHandle linked(std::span<const Stage> stages) {
+ProgramHandle linked(std::span<const ShaderStage> stages) {
     ProgramHandle program;
     glProgramParameteri(program.name(), GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
-    for (const Stage& stage : stages) {
+    for (const ShaderStage& stage : stages) {
         const auto shader = compiled(stage.file, stage.source);
         glAttachShader(program.name(), shader.name());
     }
@@ -146,11 +180,11 @@ bool driverHasBinaries() {
 }
 
 // A driver reads only what it wrote itself.
-files::DerivedKey binaryKey(std::span<const Stage> stages) {
+files::DerivedKey binaryKey(std::span<const ShaderStage> stages) {
     files::DerivedKey key("program");
     for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION})
         key.add(reinterpret_cast<const char*>(glGetString(name)));
-    for (const Stage& stage : stages) key.add(stage.source.text);
+    for (const ShaderStage& stage : stages) key.add(stage.source.text);
     return key;
 }
 
@@ -178,7 +212,7 @@ std::optional<ProgramHandle> loaded(std::span<const std::byte> bytes) {
 }
 
 // Compiled once on a machine where the driver gives its binaries: derived data.
-ProgramHandle linkedOrLoaded(std::span<const Stage> stages) {
+ProgramHandle linkedOrLoaded(std::span<const ShaderStage> stages) {
     if (!driverHasBinaries()) return linked(stages);
     std::optional<ProgramHandle> program;
     const auto bytes = files::derivedCache().find(binaryKey(stages), [&] {
@@ -209,7 +243,7 @@ std::vector<std::string_view> shaderNames() {
 
 ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                           const Replacements& replacements) {
-    std::vector<Stage> stages;
+    std::vector<ShaderStage> stages;
     for (const std::string& file : shaderFiles)
         stages.push_back({file, expand(file, shaderSource, replacements)});
     ProgramHandle program = linkedOrLoaded(stages);

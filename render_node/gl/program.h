@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader's text with the files that it includes, and its errors as places in those files.
+// What the driver has to say about our mistakes, and what we tell those who look into a frame.
 #pragma once
 
 #include <functional>
@@ -11,6 +11,21 @@
 #include "render_node/gl/handle.h"
 
 namespace aquarama::gl {
+
+// Writes the driver's errors and warnings to the log from now on, for the current context.
+void logMessages();
+
+// A stage of the frame, to the end of the scope: debuggers and profilers of graphics show it by its
+// name, and tests/bench/gpu takes its time.
+class Stage {
+  public:
+    explicit Stage(const char* name);
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+};
+
+// A shader's text with the files that it includes, and its errors as places in those files.
 
 struct ShaderText {
     struct Place {

@@ -19,7 +19,7 @@
 #include "common/units/digest.h"
 #include "common/units/log.h"
 #include "common/wall/png_file.h"
-#include "render_node/gl/debug.h"
+#include "render_node/gl/program.h"
 #include "render_node/shaders/post_radii.h"
 #include "render_node/show/channel_show.h"
 
@@ -91,9 +91,7 @@ ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
                                  const wall::WarpMap& warp,
                                  const config::Screen& screen,
                                  std::uint32_t channelId)
-    : frustum{from},
-      pattern{from, screen},
-      projection{project::projectionMap(warp, from), channelId} {}
+    : frustum{from}, pattern{from, screen}, projection{projectionMap(warp, from), channelId} {}
 
 ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::size_t channel,
@@ -104,8 +102,8 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
     const wall::WarpMap warp = wall::warpMap(rig, channel);
-    map_ = project::projectionMap(warp, wall::channelFrustum(rig, channel, kMarginRadians));
-    sceneSize_ = project::scenePictureSize(map_);
+    map_ = projectionMap(warp, wall::channelFrustum(rig, channel, kMarginRadians));
+    sceneSize_ = scenePictureSize(map_);
     if (pattern_ == wire::Pattern::World)
         sceneSize_ = glm::ceil(glm::vec2(sceneSize_) * scene::qualityOf(quality).pictureShare);
     const bool two = stereo_.mode != config::StereoMode::Mono;
@@ -220,7 +218,7 @@ void ChannelPicture::drawMind(const Viewing& eye,
 
 std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame& frame,
                                                          glm::vec2 pixel) const {
-    const glm::vec2 own = project::pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
+    const glm::vec2 own = pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
     const glm::ivec2 texel = glm::clamp(glm::ivec2(own), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
         map_.placeAndWeight[static_cast<std::size_t>(texel.y * map_.sizePixels.x + texel.x)];
@@ -241,16 +239,16 @@ std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame&
 }
 
 void ChannelPicture::project(unsigned framebuffer,
-                             project::Encoding encoding,
+                             Encoding encoding,
                              const Overlays& overlays,
                              Shown shown) {
     const gl::Stage stage{"warp"};
-    project::Projection::Draw draw{.framebuffer = framebuffer,
-                                   .frame = frame_,
-                                   .encoding = encoding,
-                                   .blendMask = overlays.blendMask};
+    Projection::Draw draw{.framebuffer = framebuffer,
+                          .frame = frame_,
+                          .encoding = encoding,
+                          .blendMask = overlays.blendMask};
     const auto sceneAndMap = [](const Viewing& eye) {
-        return project::PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
+        return PairProjection::Eye{eye.sceneTexture, eye.projection.mapTexture()};
     };
     if (shown == Shown::Display && together_) {
         const Viewing& first = stereo_.swapEyes ? eyes_.back() : eyes_.front();
@@ -275,10 +273,7 @@ scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& subm
 namespace {
 
 template <class Sample>
-wall::Picture readBack(ChannelPicture& picture,
-                       GLenum format,
-                       project::Encoding encoding,
-                       Shown shown) {
+wall::Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
     const gl::Target target(format, picture.sizePixels());
     picture.project(target.framebuffer(), encoding, Overlays{}, shown);
     const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
@@ -290,8 +285,8 @@ wall::Picture readBack(ChannelPicture& picture,
 
 wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
     return bits == PictureBits::Deep16
-               ? readBack<std::uint16_t>(picture, GL_RGBA16, project::Encoding::Plain, shown)
-               : readBack<std::uint8_t>(picture, GL_RGBA8, project::Encoding::Dithered8, shown);
+               ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain, shown)
+               : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8, shown);
 }
 
 Shown flat(const ChannelPicture& picture) {

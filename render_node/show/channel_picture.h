@@ -15,12 +15,11 @@
 #include "common/wall/picture.h"
 #include "common/wire/messages.h"
 #include "render_node/gl/handle.h"
-#include "render_node/project/pattern_pass.h"
-#include "render_node/project/projection.h"
-#include "render_node/scene/scene.h"
+#include "render_node/light/scene.h"
 #include "render_node/session/session.h"
 #include "render_node/show/controls.h"
 #include "render_node/show/overlay.h"
+#include "render_node/show/projection.h"
 
 namespace aquarama::show {
 
@@ -49,7 +48,7 @@ class ChannelPicture {
     // The projector's pixels of the scene that was drawn last, into the framebuffer's lower left
     // corner. A display of quad buffers takes one eye at a time: in one picture it shows the left.
     void project(unsigned framebuffer,
-                 project::Encoding encoding,
+                 Encoding encoding,
                  const Overlays& overlays,
                  Shown shown = Shown::Display);
     [[nodiscard]] glm::ivec2 sizePixels() const { return map_.sizePixels; }
@@ -64,8 +63,8 @@ class ChannelPicture {
                 std::uint32_t channelId);
 
         wall::ChannelFrustum frustum;
-        project::PatternPass pattern;
-        project::Projection projection;
+        PatternPass pattern;
+        Projection projection;
         gl::Framebuffer onScene;         // to draw over the scene's texture
         std::optional<gl::Target> kept;  // of its own, where the scene's is needed for another eye
         glm::mat4 clipFromWorld{1.0F};
@@ -84,11 +83,11 @@ class ChannelPicture {
     wire::Pattern pattern_;
     config::Stereo stereo_;
     std::vector<motion::FishTraits> school_;
-    project::ProjectionMap map_;  // from between the eyes
+    ProjectionMap map_;  // from between the eyes
     glm::ivec2 sceneSize_{};
-    std::deque<Viewing> eyes_;                         // one, or left and right
-    std::optional<project::PairProjection> together_;  // where one picture holds both
-    std::optional<scene::SceneRenderer> scene_;        // of the world
+    std::deque<Viewing> eyes_;                   // one, or left and right
+    std::optional<PairProjection> together_;     // where one picture holds both
+    std::optional<scene::SceneRenderer> scene_;  // of the world
     TextOverlay text_;
     std::vector<scene::FoodParticle> food_;
     Frame frame_;

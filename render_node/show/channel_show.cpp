@@ -63,7 +63,7 @@ void show(const gl::Target& picture, glm::ivec2 window) {
 }  // namespace
 
 ChannelShow::ChannelShow(session::Session& session,
-                         context::Context& context,
+                         gl::Context& context,
                          Controls& controls,
                          const NodeOptions& options)
     : session_{session},
@@ -190,8 +190,7 @@ void ChannelShow::draw(const wire::StateFrame& frame) {
 void ChannelShow::project(const Overlays& overlays, Shown shown) {
     const glm::ivec2 window = context_.framebufferPixels();
     const bool fits = context_.hasWindow() && window == picture_->sizePixels();
-    picture_->project(
-        fits ? 0 : offscreen_->framebuffer(), project::Encoding::Dithered8, overlays, shown);
+    picture_->project(fits ? 0 : offscreen_->framebuffer(), Encoding::Dithered8, overlays, shown);
     if (context_.hasWindow() && !fits) show(*offscreen_, window);
 }
 

@@ -17,9 +17,9 @@
 #include "common/units/units.h"
 #include "common/wall/frame_pipe.h"
 #include "common/wire/messages.h"
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
-#include "render_node/scene/scene.h"
+#include "render_node/light/scene.h"
 #include "render_node/session/session.h"
 #include "render_node/show/channel_picture.h"
 #include "render_node/show/controls.h"
@@ -51,7 +51,7 @@ class Trace {
 class ChannelShow {
   public:
     ChannelShow(session::Session& session,
-                context::Context& context,
+                gl::Context& context,
                 Controls& controls,
                 const NodeOptions& options);
 
@@ -77,7 +77,7 @@ class ChannelShow {
     [[nodiscard]] bool isSeen(Frame frame) const;
 
     session::Session& session_;
-    context::Context& context_;
+    gl::Context& context_;
     Controls& controls_;
     NodeOptions options_;
     Trace trace_;

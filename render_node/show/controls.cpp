@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "common/wall/wall.h"
-#include "render_node/context/context.h"
-#include "render_node/project/projection.h"
+#include "render_node/gl/context.h"
+#include "render_node/show/projection.h"
 
 namespace aquarama::show {
 
@@ -39,7 +39,7 @@ bool* overlayOf(char key, Overlays& overlays) {
 
 void Controls::press(char key) {
     switch (key) {
-        case context::kEscapeKey:
+        case gl::kEscapeKey:
         case 'q':
             if (std::exchange(quitAsked_, true)) session_.stop();
             return session_.send(session::NodeInput::Quit);
@@ -64,7 +64,7 @@ void Controls::point(WindowPlace place) {
     pointer_ = place;
 }
 
-void Controls::hold(const context::Hands& hands, std::chrono::nanoseconds now) {
+void Controls::hold(const gl::Hands& hands, std::chrono::nanoseconds now) {
     if (const auto steering = pace_.due(steeringOf(hands), now)) session_.steer(*steering);
 }
 
@@ -114,7 +114,7 @@ glm::vec2 stick(glm::vec2 place) {
     return {shareOf(place.x, kDeadZone, 1), shareOf(place.y, kDeadZone, 1)};
 }
 
-float between(const context::Hands& hands, context::HeldKey plus, context::HeldKey minus) {
+float between(const gl::Hands& hands, gl::HeldKey plus, gl::HeldKey minus) {
     return (hands.holds(plus) ? 1.0F : 0.0F) - (hands.holds(minus) ? 1.0F : 0.0F);
 }
 
@@ -125,7 +125,7 @@ std::int8_t axisOf(float share) {
 
 }  // namespace
 
-Steering steeringOf(const context::Hands& hands) {
+Steering steeringOf(const gl::Hands& hands) {
     const glm::vec2 left = stick(hands.pad.leftStick);
     const glm::vec2 right = stick(hands.pad.rightStick);
     const glm::vec2 dragged = hands.drag.value_or(glm::vec2(0));
@@ -134,14 +134,12 @@ Steering steeringOf(const context::Hands& hands) {
     const float rise = shareOf(hands.pad.rightTrigger, kDeadZone, 1) -
                        shareOf(hands.pad.leftTrigger, kDeadZone, 1);
     return {
-        .ahead = axisOf(between(hands, context::HeldKey::W, context::HeldKey::S) +
-                        between(hands, context::HeldKey::Up, context::HeldKey::Down) + left.y),
-        .aside = axisOf(between(hands, context::HeldKey::D, context::HeldKey::A) + left.x),
-        .up = axisOf(between(hands, context::HeldKey::PageUp, context::HeldKey::PageDown) + rise),
-        .turn = axisOf(between(hands, context::HeldKey::Left, context::HeldKey::Right) - drag.x -
-                       right.x),
-        .tilt = axisOf(between(hands, context::HeldKey::Home, context::HeldKey::End) + drag.y +
-                       right.y)};
+        .ahead = axisOf(between(hands, gl::HeldKey::W, gl::HeldKey::S) +
+                        between(hands, gl::HeldKey::Up, gl::HeldKey::Down) + left.y),
+        .aside = axisOf(between(hands, gl::HeldKey::D, gl::HeldKey::A) + left.x),
+        .up = axisOf(between(hands, gl::HeldKey::PageUp, gl::HeldKey::PageDown) + rise),
+        .turn = axisOf(between(hands, gl::HeldKey::Left, gl::HeldKey::Right) - drag.x - right.x),
+        .tilt = axisOf(between(hands, gl::HeldKey::Home, gl::HeldKey::End) + drag.y + right.y)};
 }
 
 std::optional<Steering> SteeringPace::due(const Steering& wanted, std::chrono::nanoseconds now) {
@@ -163,7 +161,7 @@ constexpr float kLeastDepthMetres = 0.25F;  // food is dropped into water, not i
 }  // namespace
 
 std::optional<glm::vec3> Pointing::directionOf(glm::vec2 pixel, const wire::Eye& eye) const {
-    const glm::vec2 own = project::pixelOfEye(mode_, channel_.sizePixels, pixel);
+    const glm::vec2 own = pixelOfEye(mode_, channel_.sizePixels, pixel);
     const auto point = wall::screenPoint(screen_, channel_, glm::dvec2(own));
     if (!point) return std::nullopt;
     return eye.worldFromWall * glm::vec3(glm::normalize(*point - sweetSpot_));

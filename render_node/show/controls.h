@@ -16,7 +16,7 @@
 #include "common/units/units.h"
 #include "common/wall/wall.h"
 #include "common/wire/messages.h"
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/session/session.h"
 
 namespace aquarama::show {
@@ -25,7 +25,7 @@ namespace aquarama::show {
 // down: rise and sink. Home, End: nose up, down. The mouse with its right button turns and tilts by
 // how far it is dragged. Gamepad: left stick ahead and aside, right stick turns and tilts, triggers
 // sink and rise. What several say adds up.
-[[nodiscard]] Steering steeringOf(const context::Hands& hands);
+[[nodiscard]] Steering steeringOf(const gl::Hands& hands);
 
 // When a steering goes out: at once when it changes, thirty times a second at most, and now and
 // then while something is held, so that what is lost is made good before the submarine takes the
@@ -83,7 +83,7 @@ class Controls {
     void press(char key);
     void click(glm::vec2 place);
     void point(WindowPlace place);
-    void hold(const context::Hands& hands, std::chrono::nanoseconds now);
+    void hold(const gl::Hands& hands, std::chrono::nanoseconds now);
 
     // From any thread.
     [[nodiscard]] Overlays overlays() const;

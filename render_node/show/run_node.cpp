@@ -9,8 +9,8 @@
 
 #include "common/cli/signals.h"
 #include "common/wall/wall.h"
-#include "render_node/context/context.h"
-#include "render_node/gl/debug.h"
+#include "render_node/gl/context.h"
+#include "render_node/gl/program.h"
 #include "render_node/session/session.h"
 #include "render_node/show/channel_show.h"
 #include "render_node/show/controls.h"
@@ -23,38 +23,36 @@ using namespace std::chrono_literals;
 
 constexpr auto kPatience = 20ms;  // how late the end of the drawing thread may be noticed
 
-std::unique_ptr<context::Context> openContext(const NodeOptions& options,
-                                              const config::Rig& rig,
-                                              std::size_t index) {
+std::unique_ptr<gl::Context> openContext(const NodeOptions& options,
+                                         const config::Rig& rig,
+                                         std::size_t index) {
     const config::Channel& channel = rig.channels[index];
     if (!options.headless)
-        return context::makeWindowContext(
+        return gl::makeWindowContext(
             channel.display,
             "Aquarama " + channel.name,
             channel.sizePixels,
             wall::stereoOf(rig, index).mode == config::StereoMode::QuadBuffer);
     const std::string& device = options.device.empty() ? channel.display.device : options.device;
-    auto context = context::makeOffscreenContext(device, channel.sizePixels);
+    auto context = gl::makeOffscreenContext(device, channel.sizePixels);
     context->release();
     return context;
 }
 
 class CurrentContext {
   public:
-    explicit CurrentContext(context::Context& context) : context_{context} {
-        context_.makeCurrent();
-    }
+    explicit CurrentContext(gl::Context& context) : context_{context} { context_.makeCurrent(); }
     ~CurrentContext() { context_.release(); }
     CurrentContext(const CurrentContext&) = delete;
     CurrentContext& operator=(const CurrentContext&) = delete;
 
   private:
-    context::Context& context_;
+    gl::Context& context_;
 };
 
 // The drawing thread.
 void show(session::Session& session,
-          context::Context& context,
+          gl::Context& context,
           Controls& controls,
           const NodeOptions& options,
           session::Admission admission) {
@@ -75,7 +73,7 @@ void runNode(const NodeOptions& options) {
     std::optional<session::Admission> admission = session->join();
     if (!admission) return;
     const std::size_t channel = channelIndex(admission->rig, options.channel);
-    const std::unique_ptr<context::Context> context = openContext(options, admission->rig, channel);
+    const std::unique_ptr<gl::Context> context = openContext(options, admission->rig, channel);
     Controls controls(*session);
     std::future<void> drawing = std::async(std::launch::async, [&] {
         show(*session, *context, controls, options, std::move(*admission));

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "render_node/gl/debug.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/shader_interface.h"

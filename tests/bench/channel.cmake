@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES channel_bench.cpp LINK aquarama_context aquarama_project aquarama_scene)
+aquarama_bench(SOURCES channel_bench.cpp LINK aquarama_gl aquarama_show aquarama_light)

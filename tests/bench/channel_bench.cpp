@@ -7,10 +7,10 @@
 #include <benchmark/benchmark.h>
 
 #include "common/place/place.h"
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
-#include "render_node/project/projection.h"
-#include "render_node/scene/scene.h"
+#include "render_node/light/scene.h"
+#include "render_node/show/projection.h"
 #include "tests/common/wall/rigs.h"
 #include "tests/render_node/surface/test_fish.h"
 
@@ -45,11 +45,11 @@ std::vector<motion::PresentedFish> schoolAround() {
 
 void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
     const config::Rig rig = wall::shippedRig("desk");
-    const auto context = context::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
+    const auto context = gl::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
     const wall::ChannelFrustum frustum = wall::channelFrustum(rig, kMiddle, kMarginRadians);
-    const project::ProjectionMap map = project::projectionMap(wall::warpMap(rig, kMiddle), frustum);
+    const show::ProjectionMap map = show::projectionMap(wall::warpMap(rig, kMiddle), frustum);
     const body::FishBody body = test::scadBody();
-    const project::Projection projection(map, 0);
+    const show::Projection projection(map, 0);
     const gl::Target target(GL_RGBA8, map.sizePixels);
     const test::RecordedSchool fish{schoolAround()};
     const std::vector<surface::SchoolSpecies> cast{
@@ -59,7 +59,7 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
         glm::translate(glm::dmat4(1), -glm::dvec3(place::kEyePosition));
     const scene::View view{.clipFromCamera = wall::clipFromCamera(frustum, 0.05F),
                            .cameraFromWorld = glm::mat4(frustum.cameraFromWall * wallFromWorld),
-                           .sizePixels = project::scenePictureSize(map)};
+                           .sizePixels = show::scenePictureSize(map)};
     double seconds = 0;
     const auto drawFrame = [&] {
         const scene::SceneFrame frame{.timeSeconds = seconds += 1.0 / 60,
@@ -78,11 +78,11 @@ void channelFrame(benchmark::State& state, bool culling, bool levelsOfDetail) {
 
 void projectPass(benchmark::State& state, const char* rigName) {
     const config::Rig rig = wall::shippedRig(rigName);
-    const auto context = context::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
-    const project::ProjectionMap map = project::projectionMap(
+    const auto context = gl::makeOffscreenContext("auto", rig.channels[kMiddle].sizePixels);
+    const show::ProjectionMap map = show::projectionMap(
         wall::warpMap(rig, kMiddle), wall::channelFrustum(rig, kMiddle, kMarginRadians));
-    const project::Projection projection(map, 0);
-    const gl::Target scene(GL_RGBA16F, project::scenePictureSize(map));
+    const show::Projection projection(map, 0);
+    const gl::Target scene(GL_RGBA16F, show::scenePictureSize(map));
     const gl::Target target(GL_RGBA8, map.sizePixels);
     glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer());
     glClearColor(0.1F, 0.2F, 0.3F, 1);

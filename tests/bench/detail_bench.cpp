@@ -13,8 +13,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "common/place/place.h"
-#include "render_node/context/context.h"
-#include "render_node/scene/scene.h"
+#include "render_node/gl/context.h"
+#include "render_node/light/scene.h"
 #include "render_node/surface/school_surface.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
@@ -121,8 +121,8 @@ class FishStages {
     gl::Framebuffer target_;
 };
 
-std::unique_ptr<context::Context> contextFor() {
-    return context::makeOffscreenContext("auto", {16, 16});
+std::unique_ptr<gl::Context> contextFor() {
+    return gl::makeOffscreenContext("auto", {16, 16});
 }
 
 // The driver draws on threads of its own: what all of them used is what counts.

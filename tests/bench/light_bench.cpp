@@ -10,9 +10,9 @@
 #include <glm/trigonometric.hpp>
 
 #include "common/place/place.h"
-#include "render_node/context/context.h"
-#include "render_node/scene/mesh.h"
-#include "render_node/scene/sea_light.h"
+#include "render_node/gl/context.h"
+#include "render_node/light/sea_light.h"
+#include "render_node/reef/mesh.h"
 #include "render_node/shaders/frame_uniforms.h"
 
 namespace aquarama::bench {
@@ -29,7 +29,7 @@ glm::mat4 clipFromWorld() {
 }
 
 void light(benchmark::State& state) {
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = gl::makeOffscreenContext("auto", {16, 16});
     shaders::FrameUniforms uniforms{};
     uniforms.clipFromWorld = clipFromWorld();
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);

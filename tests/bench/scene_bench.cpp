@@ -7,8 +7,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "common/place/place.h"
-#include "render_node/context/context.h"
-#include "render_node/scene/scene.h"
+#include "render_node/gl/context.h"
+#include "render_node/light/scene.h"
 
 namespace aquarama::bench {
 namespace {
@@ -31,7 +31,7 @@ scene::View channelTowards(float azimuthDegrees) {
 }
 
 void sceneFrame(benchmark::State& state) {
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = gl::makeOffscreenContext("auto", {16, 16});
     scene::SceneRenderer scene{
         {.culling = state.range(1) != 0, .levelsOfDetail = state.range(2) != 0}, {}};
     const scene::View view = channelTowards(static_cast<float>(state.range(0)));
@@ -56,7 +56,7 @@ BENCHMARK(sceneFrame)
     ->Unit(benchmark::kMillisecond);
 
 void sceneGrow(benchmark::State& state) {
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = gl::makeOffscreenContext("auto", {16, 16});
     for (auto iteration : state) {
         const scene::SceneRenderer scene{{}, {}};
         glFinish();

@@ -1,2 +1,2 @@
 aquarama_bench(SOURCES surface_bench.cpp
-  LINK aquarama_capture aquarama_surface aquarama_context aquarama_gl aquarama_body aquarama_motion aquarama_config)
+  LINK aquarama_capture aquarama_surface aquarama_gl aquarama_gl aquarama_body aquarama_motion aquarama_config)

@@ -7,7 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "master/capture/capture_repertoire.h"
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/surface/school_surface.h"
 #include "tests/render_node/surface/test_fish.h"
 
@@ -71,7 +71,7 @@ class DrawnSchool {
 
 template <class Work>
 void measure(benchmark::State& state, DetailLevel level, const Work& work) {
-    const auto context = context::makeOffscreenContext("auto", {64, 64});
+    const auto context = gl::makeOffscreenContext("auto", {64, 64});
     DrawnSchool school(level);
     for (auto _ : state) {
         work(school);

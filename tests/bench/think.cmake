@@ -1,1 +1,1 @@
-aquarama_bench(SOURCES think_bench.cpp LINK aquarama_perceive)
+aquarama_bench(SOURCES think_bench.cpp LINK aquarama_behaviour)

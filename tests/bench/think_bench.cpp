@@ -8,8 +8,8 @@
 #include <benchmark/benchmark.h>
 
 #include "common/place/place.h"
-#include "master/behaviour/perceive/grids.h"
-#include "master/behaviour/perceive/neighbours.h"
+#include "master/behaviour/grids.h"
+#include "master/behaviour/neighbours.h"
 #include "tests/master/behaviour/scattered_school.h"
 
 namespace aquarama::bench {

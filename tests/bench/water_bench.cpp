@@ -6,10 +6,10 @@
 #include <epoxy/gl.h>
 #include <glm/matrix.hpp>
 
-#include "render_node/context/context.h"
-#include "render_node/scene/scene_picture.h"
-#include "render_node/scene/water_tables.h"
+#include "render_node/gl/context.h"
+#include "render_node/light/scene_picture.h"
 #include "render_node/shaders/frame_uniforms.h"
+#include "render_node/water/water_tables.h"
 
 namespace aquarama::bench {
 namespace {
@@ -31,7 +31,7 @@ shaders::FrameUniforms farAway() {
 }
 
 void post(benchmark::State& state) {
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = gl::makeOffscreenContext("auto", {16, 16});
     const shaders::FrameUniforms uniforms = farAway();
     const gl::Buffer block;
     glNamedBufferStorage(block.name(), sizeof(uniforms), &uniforms, 0);

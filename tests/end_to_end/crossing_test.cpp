@@ -47,7 +47,7 @@ class Projected {
     Projected(const config::Rig& rig, std::size_t channel, show::ChannelPicture& picture)
         : rig_{rig}, channel_{channel} {
         const gl::Target target(GL_RGBA16, picture.sizePixels());
-        picture.project(target.framebuffer(), project::Encoding::Plain, show::Overlays{});
+        picture.project(target.framebuffer(), show::Encoding::Plain, show::Overlays{});
         const auto pixels = gl::readRgb<std::uint16_t>(target);
         for (const config::Channel& other : rig.channels)
             lights_.push_back(wall::darkness(other.sizePixels));
@@ -121,7 +121,7 @@ class Crossing : public testing::Test {
         return {rig, channel, picture};
     }
 
-    std::unique_ptr<context::Context> context_ = context::makeOffscreenContext("auto", {480, 360});
+    std::unique_ptr<gl::Context> context_ = gl::makeOffscreenContext("auto", {480, 360});
     session::Admission admission_ = admissionToTheSea();
     show::ChannelPicture left_{admission_, kLeft, kQuality};
     show::ChannelPicture middle_{admission_, kMiddle, kQuality};
@@ -167,7 +167,7 @@ TEST_F(Crossing, aNodeThatHasJustStartedDrawsWhatAVeteranDraws) {
     const auto pixelsOf = [&](show::ChannelPicture& picture) {
         picture.drawScene(frame, show::Overlays{});
         const gl::Target target(GL_RGBA16, picture.sizePixels());
-        picture.project(target.framebuffer(), project::Encoding::Plain, show::Overlays{});
+        picture.project(target.framebuffer(), show::Encoding::Plain, show::Overlays{});
         return gl::readRgb<std::uint16_t>(target);
     };
     show::ChannelPicture started{admission_, kMiddle, kQuality};

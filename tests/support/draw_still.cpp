@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/wall/png_file.h"
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "tests/support/still.h"
 
 namespace {
@@ -121,7 +121,7 @@ int main(int argc, char** argv) try {
     app.add_flag("--open-sea", options.openSea, "no floor");
     app.add_option("--out", options.out, "PNG file");
     CLI11_PARSE(app, argc, argv);
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = gl::makeOffscreenContext("auto", {16, 16});
     wall::writePng(options.out, test::pictureOf(stillOf(options, still)));
     return 0;
 } catch (const std::exception& error) {

@@ -14,7 +14,7 @@
 
 #include "common/place/place.h"
 #include "common/wall/picture.h"
-#include "render_node/scene/scene.h"
+#include "render_node/light/scene.h"
 
 namespace aquarama::test {
 

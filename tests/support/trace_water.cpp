@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traces the table of render_node/scene/water_lobes.h and writes its C++. The same seed and number
+// Traces the table of render_node/water/water_lobes.h and writes its C++. The same seed and number
 // of paths give the same table.
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@
 #include <glm/geometric.hpp>
 
 #include "common/units/log.h"
-#include "render_node/scene/mesh.h"
-#include "render_node/scene/water_lobes.h"
+#include "render_node/reef/mesh.h"
+#include "render_node/water/water_lobes.h"
 #include "tests/support/water_comparison.h"
 #include "tests/support/water_light.h"
 
@@ -121,7 +121,7 @@ void write(const Options& options) {
             "// Written by aquarama_trace_water --seed "
          << options.seed << " --paths " << options.paths
          << ": trace it anew, do not edit it.\n"
-            "#include \"render_node/scene/water_lobes.h\"\n\nnamespace aquarama::scene {\n\n"
+            "#include \"render_node/water/water_lobes.h\"\n\nnamespace aquarama::scene {\n\n"
             "// clang-format off\n"
             "const std::array<LobeEntry, kLobeEntries> kLobeTable{{\n";
     for (const double albedo : scene::kLobeAlbedos)

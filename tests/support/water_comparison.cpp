@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/render_node/scene/water_reading.h"
+#include "tests/render_node/water/water_reading.h"
 #include "tests/support/colour_difference.h"
 
 namespace aquarama::test {

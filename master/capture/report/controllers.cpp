@@ -12,8 +12,8 @@
 
 #include "common/units/units.h"
 #include "master/capture/dynamics.h"
-#include "master/capture/report/fish_view.h"
 #include "master/capture/report/report_data.h"
+#include "master/capture/report/silhouette.h"
 #include "master/capture/swimmer.h"
 
 namespace aquarama::report {

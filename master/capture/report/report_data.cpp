@@ -17,8 +17,8 @@
 #include "common/units/units.h"
 #include "master/capture/biomechanical_fish.h"
 #include "master/capture/measure.h"
-#include "master/capture/report/fish_view.h"
 #include "master/capture/report/segment_figures.h"
+#include "master/capture/report/silhouette.h"
 
 namespace aquarama::report {
 

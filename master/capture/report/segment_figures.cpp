@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "master/capture/measure.h"
-#include "master/capture/report/fish_view.h"
+#include "master/capture/report/silhouette.h"
 
 namespace aquarama::report {
 

@@ -21,8 +21,7 @@
 #include "common/units/log.h"
 #include "common/wall/png_file.h"
 #include "common/wall/wall.h"
-#include "render_node/context/context.h"
-#include "render_node/context/offscreen_context.h"
+#include "render_node/gl/context.h"
 #include "tests/bench/gpu/card_memory.h"
 #include "tests/bench/gpu/sea.h"
 #include "tests/bench/gpu/wall_timing.h"
@@ -117,12 +116,12 @@ std::string renderer() {
 
 // A context on a graphics card; or nothing, and why.
 struct Card {
-    std::unique_ptr<context::Context> context;
+    std::unique_ptr<gl::Context> context;
     std::string lack;
 };
 
 Card openCard(const Options& options) try {
-    Card card{context::makeOffscreenContext(options.device, {16, 16}), {}};
+    Card card{gl::makeOffscreenContext(options.device, {16, 16}), {}};
     if (isSoftware(renderer()) && !options.software)
         return {nullptr, "OpenGL is drawn by " + renderer()};
     return card;
@@ -153,11 +152,10 @@ class Measurement {
           extent_{isSoftware(renderer()) ? kTrial : Extent{}},
           csvPath_{options.out / (bench::fileNameOf(renderer()) + ".csv")},
           csv_{openCsv()},
-          rows_{csv_, context::rendererAndVersion() + ", " + bench::processorName()} {}
+          rows_{csv_, gl::rendererAndVersion() + ", " + bench::processorName()} {}
 
     void measure() {
-        std::printf(
-            "%s, %s\n", context::rendererAndVersion().c_str(), bench::processorName().c_str());
+        std::printf("%s, %s\n", gl::rendererAndVersion().c_str(), bench::processorName().c_str());
         const std::vector<NamedWall> walls{
             wallOf("theatre", "config/theatre.txtpb", extent_),
             wallOf("eight_4k", "tests/bench/gpu/eight_4k.txtpb", extent_)};

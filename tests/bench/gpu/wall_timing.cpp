@@ -51,7 +51,7 @@ DrawnWall::DrawnWall(const Sea& sea, const config::Rig& rig, config::QualityTier
 void DrawnWall::draw(const wire::StateFrame& frame) {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
         channels_[i].drawScene(frame, {});
-        channels_[i].project(targets_[i].framebuffer(), project::Encoding::Dithered8, {});
+        channels_[i].project(targets_[i].framebuffer(), show::Encoding::Dithered8, {});
     }
 }
 

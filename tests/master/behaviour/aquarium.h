@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/place/place.h"
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/behaviour/think.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"

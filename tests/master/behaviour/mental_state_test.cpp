@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/behaviour/perceive/perceive.h"
+#include "master/behaviour/perceive.h"
 #include "master/fish/minds.h"
 #include "master/fish/secondary_controller.h"
 

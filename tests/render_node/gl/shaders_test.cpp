@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/units/log.h"
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 
@@ -29,7 +29,7 @@ std::string logOfCompiling(const std::string& name, const ReadShader& read = sha
 }
 
 TEST(Shaders, everyFileCompiles) {
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = makeOffscreenContext("auto", {16, 16});
     int stages = 0;
     for (const std::string_view name : shaderNames()) {
         if (!isStage(name)) continue;
@@ -63,7 +63,7 @@ std::string_view brokenShader(std::string_view name) {
 }
 
 TEST(Shaders, aMistakeIsPlacedInItsFileAndLine) {
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = makeOffscreenContext("auto", {16, 16});
     EXPECT_THAT(
         logOfCompiling("broken.frag", brokenShader),
         testing::AllOf(testing::HasSubstr("render_node/shaders/broken.frag does not compile"),
@@ -85,7 +85,7 @@ TEST(Shaders, theLogOfEveryDriverNamesFiles) {
 }
 
 TEST(Target, isReadTopRowFirst) {
-    const auto context = context::makeOffscreenContext("auto", {16, 16});
+    const auto context = makeOffscreenContext("auto", {16, 16});
     const Target target(GL_RGBA8, {2, 2});
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
     glEnable(GL_SCISSOR_TEST);

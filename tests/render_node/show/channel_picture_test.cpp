@@ -77,8 +77,7 @@ class ChannelPictureTest : public testing::Test {
     static constexpr std::size_t kLeft = 0;
     static constexpr std::size_t kMiddle = 1;
     struct Stage {
-        std::unique_ptr<context::Context> context =
-            context::makeOffscreenContext("auto", {480, 360});
+        std::unique_ptr<gl::Context> context = gl::makeOffscreenContext("auto", {480, 360});
         session::Admission admission = admissionToTheWorld();
         ChannelPicture picture{admission, kMiddle, config::QualityTier::Low};
         ChannelPicture left{admission, kLeft, config::QualityTier::Low};
@@ -90,18 +89,18 @@ class ChannelPictureTest : public testing::Test {
 
     static std::vector<std::uint8_t> shownOf(const wire::StateFrame& frame) {
         stage->picture.drawScene(frame, {});
-        stage->picture.project(stage->target.framebuffer(), project::Encoding::Dithered8, {});
+        stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, {});
         return gl::readRgb<std::uint8_t>(stage->target);
     }
     static std::vector<std::uint8_t> shown(const Overlays& overlays,
                                            const std::optional<WatchedMind>& mind = {}) {
         stage->picture.drawScene(frameWithAFish(), overlays, mind);
-        stage->picture.project(stage->target.framebuffer(), project::Encoding::Dithered8, overlays);
+        stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, overlays);
         return gl::readRgb<std::uint8_t>(stage->target);
     }
     static wall::Light lightOfFrame(ChannelPicture& picture, const wire::StateFrame& frame) {
         picture.drawScene(frame, {});
-        picture.project(stage->deep.framebuffer(), project::Encoding::Plain, {});
+        picture.project(stage->deep.framebuffer(), Encoding::Plain, {});
         const auto pixels = gl::readRgb<std::uint16_t>(stage->deep);
         return wall::lightOf(wall::Picture{picture.sizePixels(), 16, pixels});
     }
@@ -269,12 +268,12 @@ TEST_F(ChannelPictureTest, theGradientOfOpenWaterShowsNoBands) {
     wire::StateFrame frame = emptySea();
     frame.eye.positionMetres.y = -20.0F;
     picture.drawScene(frame, {});
-    picture.project(stage->target.framebuffer(), project::Encoding::Dithered8, {});
+    picture.project(stage->target.framebuffer(), Encoding::Dithered8, {});
     const auto codes = gl::readRgb<std::uint8_t>(stage->target);
     const std::vector<int> runs = flatRuns(codes, picture.sizePixels());
     ASSERT_GT(runs.size(), 1000U);
     EXPECT_LE(runs[runs.size() * 95 / 100], 6);
-    picture.project(stage->deep.framebuffer(), project::Encoding::Plain, {});
+    picture.project(stage->deep.framebuffer(), Encoding::Plain, {});
     const auto exact = gl::readRgb<std::uint16_t>(stage->deep);
     const glm::ivec2 size = picture.sizePixels();
     int off = 0;
@@ -295,7 +294,7 @@ TEST_F(ChannelPictureTest, theGradientOfOpenWaterShowsNoBands) {
 }
 
 TEST(TextOverlay, drawsTheFontsDots) {
-    const auto context = context::makeOffscreenContext("auto", {64, 32});
+    const auto context = gl::makeOffscreenContext("auto", {64, 32});
     const gl::Target target(GL_RGBA8, {64, 32});
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
     glClearColor(0.5F, 0.5F, 0.5F, 1);

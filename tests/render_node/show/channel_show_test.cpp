@@ -20,7 +20,7 @@
 #include "common/wall/pattern.h"
 #include "common/wall/picture.h"
 #include "common/wall/png_file.h"
-#include "tests/render_node/project/reference.h"
+#include "tests/render_node/show/reference.h"
 #include "tests/render_node/show/fake_session.h"
 
 namespace aquarama::show {
@@ -128,8 +128,7 @@ TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
     for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
         const double weight = static_cast<double>(warp.pointAndWeight[i].w);
         // Half floats hold 0.18 to one part in 4000.
-        ASSERT_NEAR(picture.rgb[3 * i], 65535 * project::srgbOf(kGrey * weight), 10)
-            << "weight " << weight;
+        ASSERT_NEAR(picture.rgb[3 * i], 65535 * srgbOf(kGrey * weight), 10) << "weight " << weight;
     }
 }
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/show/overlay.h"
 #include "tests/render_node/show/fake_session.h"
 
@@ -28,7 +28,7 @@ TEST_F(ControlsTest, quitGoesToTheWholeShow) {
 
 TEST_F(ControlsTest, quitTwiceEndsThisNodeAlone) {
     controls_.press('q');
-    controls_.press(context::kEscapeKey);
+    controls_.press(gl::kEscapeKey);
     EXPECT_EQ(events_[1], "stop");
 }
 
@@ -92,10 +92,10 @@ TEST_F(ControlsTest, keysThatSteerSwitchNothing) {
 
 TEST_F(ControlsTest, whatHandsHoldGoesToTheSubmarine) {
     using std::chrono::milliseconds;
-    context::Hands hands;
+    gl::Hands hands;
     controls_.hold(hands, milliseconds(0));
     EXPECT_TRUE(session_.steerings_.empty());
-    hands.hold(context::HeldKey::W);
+    hands.hold(gl::HeldKey::W);
     controls_.hold(hands, milliseconds(20));
     controls_.hold(hands, milliseconds(40));
     controls_.hold({}, milliseconds(60));

@@ -14,7 +14,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/session/session.h"
 #include "tests/common/wall/rigs.h"
 #include "tests/render_node/surface/test_fish.h"
@@ -69,10 +69,10 @@ class FakeSession : public session::Session {
 };
 
 // EGL underneath; says when it swaps.
-class CountingContext : public context::Context {
+class CountingContext : public gl::Context {
   public:
     CountingContext(Events& events, glm::ivec2 size)
-        : events_{events}, context_{context::makeOffscreenContext("auto", size)} {}
+        : events_{events}, context_{gl::makeOffscreenContext("auto", size)} {}
     void makeCurrent() override { context_->makeCurrent(); }
     void release() override { context_->release(); }
     void swap() override { events_.emplace_back("swap"); }
@@ -90,13 +90,13 @@ class CountingContext : public context::Context {
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> nextClick() override { return std::nullopt; }
     [[nodiscard]] std::optional<glm::vec2> pointer() const override { return std::nullopt; }
-    [[nodiscard]] context::Hands hands() const override { return {}; }
+    [[nodiscard]] gl::Hands hands() const override { return {}; }
 
     std::optional<long> lostAfterSwaps_;
 
   private:
     Events& events_;
-    std::unique_ptr<context::Context> context_;
+    std::unique_ptr<gl::Context> context_;
 };
 
 inline std::string fileText(const std::string& path) {

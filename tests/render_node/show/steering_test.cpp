@@ -12,38 +12,38 @@ namespace {
 
 using std::chrono::milliseconds;
 
-Steering holding(std::initializer_list<context::HeldKey> keys) {
-    context::Hands hands;
-    for (const context::HeldKey key : keys) hands.hold(key);
+Steering holding(std::initializer_list<gl::HeldKey> keys) {
+    gl::Hands hands;
+    for (const gl::HeldKey key : keys) hands.hold(key);
     return steeringOf(hands);
 }
 
 TEST(Steering, eachKeyDoesItsOwnAndNothingElse) {
-    const std::vector<std::pair<context::HeldKey, Steering>> expected{
-        {context::HeldKey::W, {.ahead = 127}},
-        {context::HeldKey::S, {.ahead = -127}},
-        {context::HeldKey::Up, {.ahead = 127}},
-        {context::HeldKey::Down, {.ahead = -127}},
-        {context::HeldKey::A, {.aside = -127}},
-        {context::HeldKey::D, {.aside = 127}},
-        {context::HeldKey::Left, {.turn = 127}},
-        {context::HeldKey::Right, {.turn = -127}},
-        {context::HeldKey::PageUp, {.up = 127}},
-        {context::HeldKey::PageDown, {.up = -127}},
-        {context::HeldKey::Home, {.tilt = 127}},
-        {context::HeldKey::End, {.tilt = -127}},
+    const std::vector<std::pair<gl::HeldKey, Steering>> expected{
+        {gl::HeldKey::W, {.ahead = 127}},
+        {gl::HeldKey::S, {.ahead = -127}},
+        {gl::HeldKey::Up, {.ahead = 127}},
+        {gl::HeldKey::Down, {.ahead = -127}},
+        {gl::HeldKey::A, {.aside = -127}},
+        {gl::HeldKey::D, {.aside = 127}},
+        {gl::HeldKey::Left, {.turn = 127}},
+        {gl::HeldKey::Right, {.turn = -127}},
+        {gl::HeldKey::PageUp, {.up = 127}},
+        {gl::HeldKey::PageDown, {.up = -127}},
+        {gl::HeldKey::Home, {.tilt = 127}},
+        {gl::HeldKey::End, {.tilt = -127}},
     };
-    ASSERT_EQ(expected.size(), static_cast<std::size_t>(context::HeldKey::kCount));
+    ASSERT_EQ(expected.size(), static_cast<std::size_t>(gl::HeldKey::kCount));
     for (const auto& [key, steering] : expected) EXPECT_EQ(holding({key}), steering) << int(key);
     EXPECT_EQ(holding({}), Steering{});
-    EXPECT_EQ(holding({context::HeldKey::W, context::HeldKey::Up}).ahead, 127) << "full is full";
-    EXPECT_EQ(holding({context::HeldKey::Left, context::HeldKey::Right}), Steering{});
+    EXPECT_EQ(holding({gl::HeldKey::W, gl::HeldKey::Up}).ahead, 127) << "full is full";
+    EXPECT_EQ(holding({gl::HeldKey::Left, gl::HeldKey::Right}), Steering{});
 }
 
 // Dragged to the right it turns right, dragged up the nose goes up: as far as it is dragged.
 TEST(Steering, theMouseTurnsByHowFarItIsDragged) {
     const auto dragged = [](glm::vec2 drag) {
-        context::Hands hands;
+        gl::Hands hands;
         hands.drag = drag;
         return steeringOf(hands);
     };
@@ -57,14 +57,14 @@ TEST(Steering, theMouseTurnsByHowFarItIsDragged) {
 }
 
 TEST(Steering, sticksRestWithinTheirDeadZone) {
-    context::Hands hands;
+    gl::Hands hands;
     hands.pad = {{0.1F, -0.14F}, {-0.1F, 0.05F}, 0.1F, 0};
     EXPECT_EQ(steeringOf(hands), Steering{});
 }
 
 TEST(Steering, eachStickAndTriggerDoesItsOwn) {
-    const auto with = [](const context::Pad& pad) {
-        context::Hands hands;
+    const auto with = [](const gl::Pad& pad) {
+        gl::Hands hands;
         hands.pad = pad;
         return steeringOf(hands);
     };

@@ -62,7 +62,7 @@ wire::StateFrame emptySea() {
 
 class StereoPictureTest : public testing::Test {
   protected:
-    std::unique_ptr<context::Context> context_ = context::makeOffscreenContext("mesa", {16, 16});
+    std::unique_ptr<gl::Context> context_ = gl::makeOffscreenContext("mesa", {16, 16});
 };
 
 TEST_F(StereoPictureTest, eyesWithoutSeparationSeeThePictureOfOneToTheBit) {

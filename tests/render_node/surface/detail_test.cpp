@@ -11,8 +11,8 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "render_node/context/context.h"
-#include "render_node/scene/scene.h"
+#include "render_node/gl/context.h"
+#include "render_node/light/scene.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 #include "tests/support/flip.h"
@@ -101,10 +101,10 @@ test::Camera cameraFor(float pixels) {
 
 class DetailTest : public testing::Test {
   protected:
-    static void SetUpTestSuite() { context() = context::makeOffscreenContext("mesa", {64, 64}); }
+    static void SetUpTestSuite() { context() = gl::makeOffscreenContext("mesa", {64, 64}); }
     static void TearDownTestSuite() { context().reset(); }
-    static std::unique_ptr<context::Context>& context() {
-        static std::unique_ptr<context::Context> one;
+    static std::unique_ptr<gl::Context>& context() {
+        static std::unique_ptr<gl::Context> one;
         return one;
     }
 };

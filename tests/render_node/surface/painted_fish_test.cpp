@@ -16,9 +16,9 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "render_node/context/context.h"
-#include "render_node/scene/mesh.h"
-#include "render_node/scene/scene.h"
+#include "render_node/gl/context.h"
+#include "render_node/light/scene.h"
+#include "render_node/reef/mesh.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 
@@ -125,7 +125,7 @@ Picture portrait(const config::Species& species, std::uint32_t id = 0) {
 }
 
 TEST(PaintedFish, goldDarkAndBrightAreWhereTheyBelong) {
-    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
     const Picture picture = portrait(test::castMember("bigeye_scad"));
     const glm::vec3 water = picture.onFish(0.5F, 0.3F);
     const glm::vec3 back = picture.onFish(0.40F, 0.095F), flank = picture.onFish(0.45F, -0.02F),
@@ -149,7 +149,7 @@ float warmth(glm::vec3 c) {
 
 // What tells the others from afar, each on the left side of the body.
 TEST(PaintedFish, everyFishOfTheReefWearsItsColours) {
-    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
     const Picture clownfish = portrait(test::castMember("clownfish"));
     EXPECT_GT(warmth(clownfish.onFish(0.34F, 0)), 3 * warmth(clownfish.onFish(0.462F, 0))) << "bar";
     EXPECT_GT(luminance(clownfish.onFish(0.462F, 0)), 1.5F * luminance(clownfish.onFish(0.34F, 0)));
@@ -176,7 +176,7 @@ TEST(PaintedFish, everyFishOfTheReefWearsItsColours) {
 
 // A species of which no painter knows is plain: its file's back, flank and belly.
 TEST(PaintedFish, aNewSpeciesWearsTheColoursOfItsFile) {
-    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
     config::Species species = test::castMember("blue_tang");
     species.name = "new_fish";
     species.palette = {{"back", {0.5F, 0.02F, 0.02F}},
@@ -197,7 +197,7 @@ glm::vec3 meanOf(const Picture& picture) {
 
 // What an id changes is the fish alone, and always in the same way.
 TEST(PaintedFish, individualsDifferAndStayThemselves) {
-    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
     for (const char* name : kSpecies) {
         const config::Species species = test::castMember(name);
         const Picture one = portrait(species, 3), other = portrait(species, 8);
@@ -210,7 +210,7 @@ TEST(PaintedFish, individualsDifferAndStayThemselves) {
 // A painted fish sends back no more light than a white one in the same place: matte ones, as a
 // mirror may show the sun.
 TEST(PaintedFish, noMatteFishIsBrighterThanAWhiteOne) {
-    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
     for (const char* name : {"clownfish", "moorish_idol", "blue_tang", "parrotfish"}) {
         const Picture painted = portrait(test::castMember(name));
         config::Species white = test::castMember(name);
@@ -254,7 +254,7 @@ FlankAndWater acrossTheView(glm::vec3 direction, float rollRadians) {
 // of the sun; rolled towards the sun they mirror the surface. A quarter of the
 // radiance is 0.4 of the display's light, whose curve has a toe; shafts and the lamp are in it.
 TEST(PaintedFish, silverVanishesUprightAndFlashesWhenItRolls) {
-    const auto context = context::makeOffscreenContext("mesa", kSize);
+    const auto context = gl::makeOffscreenContext("mesa", kSize);
     const glm::vec3 sun = scene::sunInWater();
     for (const float side : {-1.0F, 1.0F}) {
         const glm::vec3 across = side * glm::normalize(glm::vec3{-sun.z, 0, sun.x});

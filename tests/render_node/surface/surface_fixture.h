@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "common/skin/limit_table.h"
-#include "render_node/context/context.h"
+#include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
 #include "render_node/shaders/frame_uniforms.h"
 #include "render_node/surface/school_surface.h"
@@ -51,15 +51,15 @@ class SurfaceTest : public testing::Test {
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());
     }
     static void SetUpTestSuite() {
-        context() = context::makeOffscreenContext("mesa", {64, 64});
+        context() = gl::makeOffscreenContext("mesa", {64, 64});
         programs() = surface::makeSkinPrograms();
     }
     static void TearDownTestSuite() {
         programs().reset();
         context().reset();
     }
-    static std::unique_ptr<context::Context>& context() {
-        static std::unique_ptr<context::Context> one;
+    static std::unique_ptr<gl::Context>& context() {
+        static std::unique_ptr<gl::Context> one;
         return one;
     }
     static std::shared_ptr<const surface::SkinPrograms>& programs() {

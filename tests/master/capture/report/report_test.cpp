@@ -10,9 +10,9 @@
 
 #include "master/capture/measure.h"
 #include "master/capture/report/controllers.h"
-#include "master/capture/report/fish_view.h"
 #include "master/capture/report/report_data.h"
 #include "master/capture/report/segment_figures.h"
+#include "master/capture/report/silhouette.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::report {

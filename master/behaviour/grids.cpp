@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/behaviour/grids.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+#include "master/behaviour/neighbours.h"
+
+namespace aquarama::behaviour {
+
+namespace {
+
+constexpr std::size_t kPointsInBucket = 1024;  // about so many, were they evenly spread
+constexpr std::size_t kMostBuckets = 1024;
+
+int cellsAcross(float halfExtent, float cellMetres) {
+    return std::max(1, static_cast<int>(2 * halfExtent / cellMetres) + 1);
+}
+
+std::size_t cellsIn(const SpatialGrid::Cell& cells) {
+    return std::size_t(cells.x) * std::size_t(cells.y) * std::size_t(cells.z);
+}
+
+}  // namespace
+
+void SpatialGrid::Columns::resize(std::size_t points) {
+    for (auto* values : {&x, &y, &z}) values->resize(points + kMostLanes);
+    index.resize(points + kMostLanes);
+}
+
+std::size_t SpatialGrid::Columns::bytes() const {
+    return sizeof(float) * (x.size() + y.size() + z.size()) + sizeof(std::uint32_t) * index.size();
+}
+
+SpatialGrid::SpatialGrid(const place::Region& water,
+                         float cellMetres,
+                         std::size_t most,
+                         std::size_t mostCells)
+    : origin_(water.centre - water.halfExtent),
+      cellMetres_(cellMetres),
+      cellOfPoint_(most),
+      parts_(std::max<std::size_t>(1, (most + kPointsInPart - 1) / kPointsInPart)) {
+    const auto cover = [&] {
+        cells_ = {cellsAcross(water.halfExtent.x, cellMetres_),
+                  cellsAcross(water.halfExtent.y, cellMetres_),
+                  cellsAcross(water.halfExtent.z, cellMetres_)};
+        return cellsIn(cells_);
+    };
+    while (cover() > std::max<std::size_t>(mostCells, 1)) cellMetres_ *= 1.25F;
+    cellsPerMetre_ = 1 / cellMetres_;
+    starts_.resize(cellsIn(cells_) + 1);
+    sorted_.resize(most);
+    buckets_ = std::clamp<std::size_t>(most / kPointsInBucket, 1, kMostBuckets);
+    cellsInBucket_ = (cellsIn(cells_) + buckets_ - 1) / buckets_;
+    bucketStarts_.resize(buckets_ + 1);
+}
+
+void SpatialGrid::makeRoomForSteps() {
+    tallies_.resize(parts_ * buckets_);
+    spread_.resize(cellOfPoint_.size());
+    spreadCells_.resize(cellOfPoint_.size());
+}
+
+void SpatialGrid::rebuild(const Points& points, std::span<const std::uint32_t> chosen) {
+    std::fill(starts_.begin(), starts_.end(), 0U);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        cellOfPoint_[i] = cellIndex(points[chosen[i]]);
+        ++starts_[cellOfPoint_[i]];
+    }
+    std::uint32_t end = 0;
+    for (std::uint32_t& start : starts_) start = end += start;
+    // Filled from the back, each start moves down to where its cell begins.
+    for (std::size_t i = chosen.size(); i-- > 0;) {
+        const std::uint32_t point = chosen[i];
+        sorted_.put(--starts_[cellOfPoint_[i]], points[point], point);
+    }
+}
+
+void SpatialGrid::arrange() {
+    std::uint32_t next = 0;
+    for (std::size_t bucket = 0; bucket < buckets_; ++bucket) {
+        bucketStarts_[bucket] = next;
+        for (std::size_t part = 0; part < parts_; ++part) {
+            std::uint32_t& tally = tallies_[part * buckets_ + bucket];
+            const std::uint32_t points = tally;
+            tally = next;
+            next += points;
+        }
+    }
+    bucketStarts_[buckets_] = next;
+    starts_.back() = next;
+}
+
+void SpatialGrid::spread(std::size_t part, const Points& points) {
+    std::uint32_t* const next = tallies_.data() + part * buckets_;
+    const std::size_t last = std::min(points.count, firstOfPart(part + 1));
+    for (std::size_t i = firstOfPart(part); i < last; ++i) {
+        const std::uint32_t cell = cellOfPoint_[i];
+        if (cell == kNowhere) continue;
+        const std::uint32_t slot = next[cell / cellsInBucket_]++;
+        spread_.put(slot, points[i], static_cast<std::uint32_t>(i));
+        spreadCells_[slot] = cell;
+    }
+}
+
+void SpatialGrid::sort(std::size_t bucket) {
+    const CellRun cells = cellsOfBucket(bucket);
+    const std::uint32_t first = bucketStarts_[bucket];
+    const std::uint32_t last = bucketStarts_[bucket + 1];
+    std::fill(&starts_[cells.first], &starts_[cells.last], 0U);
+    for (std::uint32_t i = first; i < last; ++i) ++starts_[spreadCells_[i]];
+    std::uint32_t end = first;
+    for (std::size_t cell = cells.first; cell < cells.last; ++cell) {
+        end += starts_[cell];
+        starts_[cell] = end;
+    }
+    // Filled from the back, each start moves down to where its cell begins.
+    for (std::uint32_t i = last; i-- > first;)
+        sorted_.put(--starts_[spreadCells_[i]],
+                    {spread_.x[i], spread_.y[i], spread_.z[i]},
+                    spread_.index[i]);
+}
+
+SpatialGrid::Candidates SpatialGrid::candidates(const Slots& slots) const {
+    const std::size_t count = slots.last - slots.first;
+    return {{x() + slots.first, count},
+            {y() + slots.first, count},
+            {z() + slots.first, count},
+            {index() + slots.first, count}};
+}
+
+std::size_t SpatialGrid::bytes() const {
+    return sizeof(std::uint32_t) * (starts_.size() + cellOfPoint_.size() + tallies_.size() +
+                                    bucketStarts_.size() + spreadCells_.size()) +
+           sorted_.bytes() + spread_.bytes();
+}
+
+namespace {
+
+constexpr float kSparseCellMetres = 2.0F;
+constexpr float kFoodCellMetres = 0.8F;
+
+// In a wide sea cells grow, so that those without anybody neither cost time nor memory.
+std::size_t mostCellsFor(std::size_t points) {
+    constexpr std::size_t kFew = 4096;
+    constexpr std::size_t kToPoint = 4;
+    return std::max(kFew, points * kToPoint);
+}
+
+// Predators and large bodies are seen from so far that a search would pass many empty cells.
+SpatialGrid farSeen(const place::Region& water, std::size_t points) {
+    return {water, kSparseCellMetres, points, points / 2};
+}
+
+bool isPredator(const fish::FishView& view,
+                std::span<const fish::SpeciesParameters> speciesParameters,
+                std::size_t fish) {
+    return speciesParameters[view.kind[fish]].habits.role == config::Role::Predator;
+}
+
+}  // namespace
+
+Grids::Grids(const place::Region& water, std::size_t fishCount, std::size_t foodCount)
+    : fish(water, kCellMetres, fishCount, mostCellsFor(fishCount)),
+      kinds(fish),
+      predators(farSeen(water, 0)),
+      large(farSeen(water, 0)),
+      mates(water, kSparseCellMetres, fishCount, mostCellsFor(fishCount)),
+      food(water, kFoodCellMetres, foodCount, mostCellsFor(foodCount)),
+      water_(water),
+      marks_(fishCount) {
+    fish.makeRoomForSteps();
+    chosen_[kMates].reserve(fishCount);
+    chosen_[kFood].reserve(foodCount);
+}
+
+void Grids::expect(SpatialGrid& grid, Sparse which, std::size_t count) {
+    if (count <= chosen_[which].capacity()) return;
+    chosen_[which].reserve(count);
+    grid = farSeen(water_, chosen_[which].capacity());
+}
+
+void Grids::expect(const fish::FishView& view,
+                   std::span<const fish::SpeciesParameters> speciesParameters) {
+    std::size_t hunting = 0;
+    std::size_t big = 0;
+    for (std::size_t i = 0; i < view.size(); ++i) {
+        hunting += isPredator(view, speciesParameters, i) ? 1 : 0;
+        big += view.fish[i].length >= kLargeBodyMetres ? 1 : 0;
+    }
+    expect(predators, kPredators, hunting);
+    expect(large, kLarges, big);
+}
+
+void Grids::mark(const fish::FishView& view,
+                 std::span<const fish::SpeciesParameters> speciesParameters,
+                 std::size_t first,
+                 std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        const std::uint8_t signs = view.signs[i];
+        int marks = kPresent;
+        if (isPredator(view, speciesParameters, i)) marks |= kPredator;
+        if (view.fish[i].length >= kLargeBodyMetres) marks |= kLarge;
+        if ((signs & fish::kWilling) != 0) marks |= kMate;
+        marks_[i] = static_cast<std::uint8_t>((signs & fish::kAway) != 0 ? 0 : marks);
+    }
+}
+
+// Few fish bear these marks, so eight are asked at a time.
+std::span<const std::uint32_t> Grids::marked(Sparse which, Mark mark) {
+    std::vector<std::uint32_t>& chosen = chosen_[which];
+    chosen.clear();
+    std::uint64_t eightMarks = 0;
+    std::memset(&eightMarks, mark, sizeof(eightMarks));
+    for (std::size_t first = 0; first < marks_.size(); first += sizeof(eightMarks)) {
+        const std::size_t last = std::min(marks_.size(), first + sizeof(eightMarks));
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, &marks_[first], last - first);
+        if ((eight & eightMarks) == 0) continue;
+        for (std::size_t i = first; i < last; ++i)
+            if ((marks_[i] & mark) != 0) chosen.push_back(static_cast<std::uint32_t>(i));
+    }
+    return chosen;
+}
+
+void Grids::rebuildSparse(std::size_t which,
+                          const Points& fishPoints,
+                          const surroundings::Food& particles) {
+    const auto of = [&](SpatialGrid& grid, Sparse sparse, Mark mark) {
+        const std::size_t room = chosen_[sparse].capacity();
+        const std::span<const std::uint32_t> chosen = marked(sparse, mark);
+        if (chosen.size() > room) grid = farSeen(water_, chosen_[sparse].capacity());
+        grid.rebuild(fishPoints, chosen);
+    };
+    if (which == kPredators) of(predators, kPredators, kPredator);
+    if (which == kLarges) of(large, kLarges, kLarge);
+    if (which == kMates) of(mates, kMates, kMate);
+    if (which != kFood) return;
+    std::vector<std::uint32_t>& there = chosen_[kFood];
+    there.clear();
+    for (std::uint32_t i = 0; i < particles.size(); ++i)
+        if (particles.isFree(i)) there.push_back(i);
+    food.rebuild({particles.x.data(), particles.y.data(), particles.z.data(), particles.size()},
+                 there);
+}
+
+std::size_t Grids::bytes() const {
+    std::size_t lists = marks_.size();
+    for (const auto& chosen : chosen_) lists += chosen.capacity() * sizeof(std::uint32_t);
+    return lists + fish.bytes() + kinds.bytes() + predators.bytes() + large.bytes() +
+           mates.bytes() + food.bytes();
+}
+
+namespace {
+
+constexpr int kBlockBits = 2;  // a block is 4 cells wide
+constexpr std::uint8_t kEmpty = 0xff;
+constexpr std::uint8_t kMixed = 0xfe;
+
+int blocksAcross(int cells) {
+    return ((cells - 1) >> kBlockBits) + 1;
+}
+
+}  // namespace
+
+KindsAbout::KindsAbout(const SpatialGrid& grid)
+    : cells_(grid.cells()),
+      blocks_{blocksAcross(cells_.x), blocksAcross(cells_.y), blocksAcross(cells_.z)},
+      kindOfCell_(std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z)),
+      kindsOfBlock_(std::size_t(blocks_.x) * std::size_t(blocks_.y) * std::size_t(blocks_.z)) {}
+
+void KindsAbout::clear() {
+    std::fill(kindsOfBlock_.begin(), kindsOfBlock_.end(), 0U);
+}
+
+std::size_t KindsAbout::blockOf(int x, int y, int z) const {
+    return static_cast<std::size_t>(
+        ((z >> kBlockBits) * blocks_.y + (y >> kBlockBits)) * blocks_.x + (x >> kBlockBits));
+}
+
+void KindsAbout::note(const SpatialGrid& grid,
+                      std::size_t bucket,
+                      std::span<const std::uint8_t> kinds) {
+    const auto width = static_cast<std::size_t>(cells_.x);
+    const auto height = static_cast<std::size_t>(cells_.y);
+    const SpatialGrid::CellRun cells = grid.cellsOfBucket(bucket);
+    for (std::size_t cell = cells.first; cell < cells.last; ++cell) {
+        const SpatialGrid::Slots slots = grid.slotsOfCell(bucket, cell);
+        kindOfCell_[cell] = kEmpty;
+        if (slots.first == slots.last) continue;
+        // The fish of a cell stand in the order of their index, those of a kind together.
+        const std::uint8_t first = kinds[grid.index()[slots.first]];
+        const std::uint8_t last = kinds[grid.index()[slots.last - 1]];
+        kindOfCell_[cell] = first == last ? first : kMixed;
+        std::uint64_t present = std::uint64_t{1} << first | std::uint64_t{1} << last;
+        if (first != last)
+            for (std::uint32_t i = slots.first; i < slots.last; ++i)
+                present |= std::uint64_t{1} << kinds[grid.index()[i]];
+        const auto x = static_cast<int>(cell % width);
+        const auto y = static_cast<int>(cell / width % height);
+        const auto z = static_cast<int>(cell / width / height);
+        // Threads may note cells of one block; a union is the same in any order.
+        const std::atomic_ref<std::uint64_t> block(kindsOfBlock_[blockOf(x, y, z)]);
+        if ((~block.load(std::memory_order_relaxed) & present) != 0)
+            block.fetch_or(present, std::memory_order_relaxed);
+    }
+}
+
+bool KindsAbout::mayHoldOthers(const SpatialGrid::Cell& from,
+                               const SpatialGrid::Cell& to,
+                               std::uint8_t own) const {
+    std::uint64_t kinds = 0;
+    for (int z = from.z >> kBlockBits; z <= to.z >> kBlockBits; ++z)
+        for (int y = from.y >> kBlockBits; y <= to.y >> kBlockBits; ++y)
+            for (int x = from.x >> kBlockBits; x <= to.x >> kBlockBits; ++x)
+                kinds |=
+                    kindsOfBlock_[static_cast<std::size_t>((z * blocks_.y + y) * blocks_.x + x)];
+    return (kinds & ~(std::uint64_t{1} << own)) != 0;
+}
+
+bool KindsAbout::rowHoldsOthers(std::size_t first, std::size_t last, std::uint8_t own) const {
+    for (std::size_t cell = first; cell <= last; ++cell)
+        if (kindOfCell_[cell] != kEmpty && kindOfCell_[cell] != own) return true;
+    return false;
+}
+
+std::size_t KindsAbout::bytes() const {
+    return kindOfCell_.size() + sizeof(std::uint64_t) * kindsOfBlock_.size();
+}
+
+}  // namespace aquarama::behaviour

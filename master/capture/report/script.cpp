@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/capture/report/script.h"
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <span>
+
+#include "common/units/units.h"
+
+namespace aquarama::report {
+
+namespace {
+
+constexpr int kRunInBeats = 6;
+
+struct Choice {
+    Manoeuvre manoeuvre;
+    std::uint64_t weight;
+};
+// After medium swimming more than half of what comes are turns.
+constexpr std::array kAfterMedium{Choice{Manoeuvre::ForwardSlow, 12},
+                                  Choice{Manoeuvre::ForwardFast, 12},
+                                  Choice{Manoeuvre::TurnLeftGradual, 15},
+                                  Choice{Manoeuvre::TurnRightGradual, 15},
+                                  Choice{Manoeuvre::TurnLeftSharp, 12},
+                                  Choice{Manoeuvre::TurnRightSharp, 12},
+                                  Choice{Manoeuvre::Glide, 10},
+                                  Choice{Manoeuvre::Ascend, 4},
+                                  Choice{Manoeuvre::Descend, 4},
+                                  Choice{Manoeuvre::Brake, 4},
+                                  Choice{Manoeuvre::Retreat, 4}};
+constexpr std::array kAfterSlow{Choice{Manoeuvre::ForwardMedium, 7},
+                                Choice{Manoeuvre::ForwardFast, 2},
+                                Choice{Manoeuvre::Glide, 1}};
+constexpr std::array kAfterFast{Choice{Manoeuvre::ForwardMedium, 7},
+                                Choice{Manoeuvre::ForwardSlow, 2},
+                                Choice{Manoeuvre::Glide, 1}};
+constexpr std::array kAfterSlope{Choice{Manoeuvre::Balance, 1}};
+constexpr std::array kAfterOthers{Choice{Manoeuvre::ForwardMedium, 8},
+                                  Choice{Manoeuvre::ForwardSlow, 1},
+                                  Choice{Manoeuvre::ForwardFast, 1}};
+
+std::span<const Choice> choicesAfter(Manoeuvre manoeuvre) {
+    switch (manoeuvre) {
+        case Manoeuvre::ForwardMedium:
+            return kAfterMedium;
+        case Manoeuvre::ForwardSlow:
+            return kAfterSlow;
+        case Manoeuvre::ForwardFast:
+            return kAfterFast;
+        case Manoeuvre::Ascend:
+        case Manoeuvre::Descend:
+            return kAfterSlope;
+        default:
+            return kAfterOthers;
+    }
+}
+
+using Random = std::mt19937_64;
+
+Manoeuvre choose(std::span<const Choice> choices, Random& random) {
+    std::uint64_t sum = 0;
+    for (const Choice& choice : choices) sum += choice.weight;
+    std::uint64_t left = random() % sum;
+    for (const Choice& choice : choices) {
+        if (left < choice.weight) return choice.manoeuvre;
+        left -= choice.weight;
+    }
+    return choices.back().manoeuvre;
+}
+
+const motion::ActionSegment& segmentOf(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
+    return repertoire.segments.at(static_cast<std::size_t>(manoeuvre));
+}
+
+double ticksOf(const motion::ActionSegment& segment) {
+    return static_cast<double>(segment.periodSeconds) * kTicksPerSecond;
+}
+
+struct Beats {
+    double least, most;
+};
+Beats beatsOf(Manoeuvre manoeuvre) {
+    switch (manoeuvre) {
+        case Manoeuvre::Brake:
+            return {1, 2};
+        case Manoeuvre::Glide:
+        case Manoeuvre::Retreat:
+            return {2, 4};
+        case Manoeuvre::Balance:
+            return {6, 9};
+        default:
+            return {3, 7};
+    }
+}
+
+double beatTicks(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
+    const bool hasItsOwn = manoeuvre <= Manoeuvre::ForwardFast;
+    return ticksOf(segmentOf(repertoire, hasItsOwn ? manoeuvre : Manoeuvre::ForwardMedium));
+}
+
+ScriptCommand commandFor(const motion::Repertoire& repertoire,
+                         Manoeuvre manoeuvre,
+                         Random& random) {
+    ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
+    if (isTurn(manoeuvre)) {
+        command.ticks = static_cast<int>(std::lround(ticksOf(segmentOf(repertoire, manoeuvre))));
+        return command;
+    }
+    constexpr double kUnit = 1.0 / 4294967296.0;
+    const double share = static_cast<double>(random() >> 32U) * kUnit;
+    const auto [least, most] = beatsOf(manoeuvre);
+    command.ticks =
+        static_cast<int>(std::ceil((least + share * (most - least)) * command.beatTicks));
+    return command;
+}
+
+}  // namespace
+
+const char* nameOf(Manoeuvre manoeuvre) {
+    switch (manoeuvre) {
+        case Manoeuvre::Ascend:
+            return "ascend";
+        case Manoeuvre::Descend:
+            return "descend";
+        case Manoeuvre::Balance:
+            return "balance";
+        case Manoeuvre::Brake:
+            return "brake";
+        case Manoeuvre::Retreat:
+            return "retreat";
+        default:
+            return motion::nameOf(static_cast<motion::Action>(manoeuvre));
+    }
+}
+
+Script makeScript(const motion::Repertoire& repertoire, std::uint64_t seed, double seconds) {
+    Random random(seed);
+    const double beat = beatTicks(repertoire, Manoeuvre::ForwardMedium);
+    Script script{
+        {Manoeuvre::ForwardMedium, static_cast<int>(std::ceil(kRunInBeats * beat)), beat}};
+    while (ticksOf(script) < seconds * kTicksPerSecond)
+        script.push_back(
+            commandFor(repertoire, choose(choicesAfter(script.back().manoeuvre), random), random));
+    return script;
+}
+
+int ticksOf(const Script& script) {
+    int ticks = 0;
+    for (std::size_t i = 1; i < script.size(); ++i) ticks += script[i].ticks;
+    return ticks;
+}
+
+}  // namespace aquarama::report

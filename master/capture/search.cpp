@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "master/capture/search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include <nlopt.hpp>
+
+#include "common/units/digest.h"
+#include "common/units/log.h"
+#include "master/capture/gait_trial.h"
+
+namespace aquarama::capture {
+
+namespace {
+
+// Contraction is none of them: swimming knows only its product with the drives, and turns need it.
+// Stiffness counts all three kinds together, whose ratios a species keeps; its frequencies and time
+// scale are its own, and gains are relative to medium swimming.
+struct Parameter {
+    double least, most;
+    double (*get)(const config::Species&);
+    void (*set)(config::Species&, double);
+};
+
+void setStiffness(config::Species& s, double stiffness) {
+    const double factor = stiffness / s.tissue.stiffness;
+    s.tissue.stiffness *= factor;
+    s.tissue.crossStiffness *= factor;
+    s.tissue.muscleStiffness *= factor;
+}
+
+constexpr double kHalfBeat = std::numbers::pi;
+constexpr std::array kParameters{
+    Parameter{150, 1500, [](const config::Species& s) { return s.tissue.stiffness; }, setStiffness},
+    Parameter{0.8,
+              4,
+              [](const config::Species& s) { return s.tissue.tailStiffening; },
+              [](config::Species& s, double v) { s.tissue.tailStiffening = v; }},
+    Parameter{0.2,
+              8,
+              [](const config::Species& s) { return s.tissue.damping; },
+              [](config::Species& s, double v) { s.tissue.damping = v; }},
+    Parameter{150,
+              900,
+              [](const config::Species& s) { return s.water.drag; },
+              [](config::Species& s, double v) { s.water.drag = v; }},
+    Parameter{0.1,
+              0.7,
+              [](const config::Species& s) { return s.water.frontFactor; },
+              [](config::Species& s, double v) { s.water.frontFactor = v; }},
+    Parameter{0.1,
+              1,
+              [](const config::Species& s) { return s.swim.middleDrive; },
+              [](config::Species& s, double v) { s.swim.middleDrive = v; }},
+    Parameter{0.2,
+              1,
+              [](const config::Species& s) { return s.swim.backDrive; },
+              [](config::Species& s, double v) { s.swim.backDrive = v; }},
+    Parameter{0.35 * kHalfBeat,
+              kHalfBeat,
+              [](const config::Species& s) { return s.swim.backLagRadians; },
+              [](config::Species& s, double v) { s.swim.backLagRadians = v; }},
+    Parameter{0.3,
+              1.6,
+              [](const config::Species& s) { return s.swim.slow.gain; },
+              [](config::Species& s, double v) { s.swim.slow.gain = v; }},
+    Parameter{0.3,
+              1.6,
+              [](const config::Species& s) { return s.swim.fast.gain; },
+              [](config::Species& s, double v) { s.swim.fast.gain = v; }},
+};
+
+}  // namespace
+
+SearchPoint pointOf(const config::Species& species) {
+    SearchPoint point;
+    for (const Parameter& p : kParameters)
+        point.push_back(
+            std::clamp(std::log(p.get(species) / p.least) / std::log(p.most / p.least), 0.0, 1.0));
+    return point;
+}
+
+config::Species speciesAt(const SearchPoint& point, const config::Species& species) {
+    config::Species changed = species;
+    for (std::size_t i = 0; i < kParameters.size(); ++i) {
+        const Parameter& p = kParameters.at(i);
+        p.set(changed, p.least * std::pow(p.most / p.least, std::clamp(point.at(i), 0.0, 1.0)));
+    }
+    return changed;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFigures = 5;  // of a trial, before its point
+
+std::string lineOf(const SearchTrial& trial) {
+    std::ostringstream line;
+    line.precision(17);  // each double comes back as it was
+    line << trial.miss << ' ' << trial.leastStrouhal << ' ' << trial.mostStrouhal << ' '
+         << trial.leastStride << ' ' << trial.mostStride;
+    for (const double coordinate : trial.point) line << ' ' << coordinate;
+    return line.str();
+}
+
+std::optional<SearchTrial> parseTrial(const std::string& line) {
+    std::istringstream numbers(line);
+    const std::vector<double> values{std::istream_iterator<double>(numbers), {}};
+    if (!numbers.eof() || values.size() <= kFigures) return std::nullopt;
+    SearchTrial trial{.point = {values.begin() + kFigures, values.end()},
+                      .miss = values[0],
+                      .leastStrouhal = values[1],
+                      .mostStrouhal = values[2],
+                      .leastStride = values[3],
+                      .mostStride = values[4]};
+    return lineOf(trial) == line ? std::optional(std::move(trial)) : std::nullopt;
+}
+
+// What is there up to the last line that was finished.
+std::string wholeLinesOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    return text.substr(0, text.rfind('\n') + 1);
+}
+
+std::vector<SearchTrial> parseTrials(const std::string& text,
+                                     const std::string& search,
+                                     const fs::path& path) {
+    std::istringstream lines(text);
+    std::string line;
+    if (!std::getline(lines, line) || line != search)
+        throw Error(path.string() +
+                    ":1: the journal of another search; remove it, or write elsewhere with --out");
+    std::vector<SearchTrial> trials;
+    while (std::getline(lines, line)) {
+        std::optional<SearchTrial> trial = parseTrial(line);
+        if (!trial)
+            throw Error(path.string() + ':' + std::to_string(trials.size() + 2) +
+                        ": not a trial, the journal is damaged; remove this line and those after "
+                        "it, or the file");
+        trials.push_back(*std::move(trial));
+    }
+    return trials;
+}
+
+}  // namespace
+
+SearchJournal::SearchJournal(fs::path path, const std::string& search) : path_(std::move(path)) {
+    const std::string before = wholeLinesOf(path_);
+    if (!before.empty()) {
+        trials_ = parseTrials(before, search, path_);
+        fs::resize_file(path_, before.size());
+    }
+    file_.open(path_, before.empty() ? std::ios::trunc : std::ios::app);
+    if (before.empty()) file_ << search << '\n' << std::flush;
+    if (!file_)
+        throw Error(path_.string() + ": cannot be written; choose another folder with --out");
+}
+
+void SearchJournal::add(const SearchTrial& trial) {
+    file_ << lineOf(trial) << '\n' << std::flush;
+    if (!file_)
+        throw Error(path_.string() + ": cannot be written; make space and search again to go on");
+    trials_.push_back(trial);
+}
+
+namespace {
+
+// Raise it when simulation, objective or parameters change what comes out.
+constexpr const char* kSearchVersion = "aquarama search 1";
+constexpr double kSwims = 0.01;       // a miss by a tenth of one tolerance
+constexpr double kFirstStep = 0.1;    // of the range of each parameter
+constexpr double kDoesNotSwim = 1e6;  // the miss of a fish that finds no steady beat
+
+SearchTrial tryAt(const SearchPoint& point, const config::Species& species) {
+    SearchTrial trial{.point = point, .miss = kDoesNotSwim};
+    try {
+        const ForwardFigures gaits = quickFigures(speciesAt(point, species));
+        const auto strouhal = [](const GaitFigures& gait) { return gait.swum.strouhal; };
+        const auto stride = [](const GaitFigures& gait) { return gait.swum.strideBodyLengths; };
+        trial.miss = missOf(gaits);
+        trial.leastStrouhal = strouhal(std::ranges::min(gaits, {}, strouhal));
+        trial.mostStrouhal = strouhal(std::ranges::max(gaits, {}, strouhal));
+        trial.leastStride = stride(std::ranges::min(gaits, {}, stride));
+        trial.mostStride = stride(std::ranges::max(gaits, {}, stride));
+    } catch (const Error&) {
+    }
+    return trial;
+}
+
+// Makes trials in the optimiser's order; those that the journal holds it only recalls.
+class TrialRun {
+  public:
+    TrialRun(const config::Species& species, SearchJournal& journal, const SearchProgress& progress)
+        : species_(species), journal_(journal), progress_(progress) {}
+
+    double missAt(const SearchPoint& point) {
+        if (made_ == journal_.trials().size()) journal_.add(tryAt(point, species_));
+        const SearchTrial& trial = journal_.trials()[made_++];
+        if (trial.point != point)
+            throw Error("trial " + std::to_string(made_) +
+                        " of the journal is not what this program tries; remove the journal to "
+                        "begin anew");
+        if (made_ == 1 || trial.miss < best_.miss) best_ = trial;
+        progress_(made_, best_);
+        return trial.miss;
+    }
+    [[nodiscard]] const SearchTrial& best() const { return best_; }
+
+  private:
+    const config::Species& species_;
+    SearchJournal& journal_;
+    const SearchProgress& progress_;
+    std::size_t made_ = 0;
+    SearchTrial best_;
+};
+
+}  // namespace
+
+std::string searchName(const std::string& speciesText) {
+    return std::string(kSearchVersion) + ' ' + toHex(digestOf(speciesText));
+}
+
+SearchTrial searchGaits(const config::Species& species,
+                        std::size_t mostTrials,
+                        SearchJournal& journal,
+                        const SearchProgress& progress) {
+    TrialRun run(species, journal, progress);
+    SearchPoint point = pointOf(species);
+    nlopt::opt optimiser(nlopt::LN_SBPLX, static_cast<unsigned>(point.size()));
+    optimiser.set_lower_bounds(0.0);
+    optimiser.set_upper_bounds(1.0);
+    optimiser.set_initial_step(kFirstStep);
+    optimiser.set_maxeval(static_cast<int>(mostTrials));
+    optimiser.set_stopval(kSwims);
+
+    // NLopt hands on none but its own exceptions.
+    struct Evaluation {
+        TrialRun& run;
+        std::exception_ptr failure;
+    } evaluation{run, {}};
+    const auto evaluate = [](const SearchPoint& at, SearchPoint& /*gradient*/, void* data) {
+        auto& e = *static_cast<Evaluation*>(data);
+        try {
+            return e.run.missAt(at);
+        } catch (...) {
+            e.failure = std::current_exception();
+            throw nlopt::forced_stop();
+        }
+    };
+    optimiser.set_min_objective(evaluate, &evaluation);
+    try {
+        double miss = 0;
+        optimiser.optimize(point, miss);
+    } catch (const nlopt::forced_stop&) {
+        std::rethrow_exception(evaluation.failure);
+    } catch (const nlopt::roundoff_limited&) {
+        // it can come no closer
+    }
+    return run.best();
+}
+
+}  // namespace aquarama::capture

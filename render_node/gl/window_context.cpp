@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <deque>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <algorithm>
+
+#include <GLFW/glfw3.h>
+#include <glm/common.hpp>
+
+#include "common/units/log.h"
+#include "render_node/gl/context.h"
+
+namespace aquarama::gl {
+
+namespace {
+
+// GLFW knows whole hertz only: 59.94 is told as 59 or 60.
+constexpr double kRefreshToleranceHertz = 1.0;
+
+std::string text(glm::ivec2 size) {
+    return std::to_string(size.x) + " x " + std::to_string(size.y);
+}
+
+std::string lastGlfwError() {
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description != nullptr ? description : "no reason given";
+}
+
+// Before 3.4 GLFW is built for X11 alone, and knows no other platform.
+#ifdef GLFW_PLATFORM
+// X11 where there is a choice: the windows of a wall have their places, and Wayland gives none.
+void choosePlatform() {
+    const bool hasX = std::getenv("DISPLAY") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+    glfwInitHint(GLFW_PLATFORM, hasX ? GLFW_PLATFORM_X11 : GLFW_ANY_PLATFORM);
+}
+
+bool placesWindows() {
+    return glfwGetPlatform() != GLFW_PLATFORM_WAYLAND;
+}
+#else
+void choosePlatform() {}
+
+bool placesWindows() {
+    return true;
+}
+#endif
+
+// GLFW is one for the process; it ends with the last who uses it.
+class GlfwLibrary {
+  public:
+    GlfwLibrary() {
+        choosePlatform();
+        if (glfwInit() == GLFW_FALSE) {
+            throw Error("no window can be opened (" + lastGlfwError() +
+                        "); set DISPLAY to an X display, or use --headless");
+        }
+    }
+    ~GlfwLibrary() { glfwTerminate(); }
+    GlfwLibrary(const GlfwLibrary&) = delete;
+    GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+};
+
+GLFWmonitor* monitorAt(int index) {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    if (index < 0 || index >= count) {
+        throw Error("display: there is no monitor " + std::to_string(index) +
+                    "; this machine has " + std::to_string(count) + ", numbered from 0");
+    }
+    return monitors[index];
+}
+
+bool refreshDiffers(const config::Display& display, const GLFWvidmode& mode) {
+    return display.refreshHertz &&
+           std::abs(*display.refreshHertz - mode.refreshRate) >= kRefreshToleranceHertz;
+}
+
+std::string described(const GLFWvidmode& mode) {
+    return text({mode.width, mode.height}) + " at " + std::to_string(mode.refreshRate) + " Hz";
+}
+
+// The monitor's mode that is the channel's, to the pixel.
+GLFWvidmode modeFor(const config::Display& display, glm::ivec2 size, GLFWmonitor* monitor) {
+    int count = 0;
+    const GLFWvidmode* modes = glfwGetVideoModes(monitor, &count);
+    for (const GLFWvidmode& mode : std::span{modes, static_cast<std::size_t>(count)})
+        if (glm::ivec2(mode.width, mode.height) == size && !refreshDiffers(display, mode))
+            return mode;
+    const std::string wanted =
+        text(size) + (display.refreshHertz
+                          ? " at " + std::to_string(std::lround(*display.refreshHertz)) + " Hz"
+                          : "");
+    throw Error("display: monitor " + std::to_string(display.monitor) + " (" +
+                glfwGetMonitorName(monitor) + ") cannot show the channel's " + wanted +
+                ", it is at " + described(*glfwGetVideoMode(monitor)) +
+                "; correct the channel's size or refresh rate, or the cable's monitor");
+}
+
+// The monitor on which a window at this place begins; the first where it is on none.
+int monitorUnder(glm::ivec2 place) {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        glm::ivec2 corner{};
+        glfwGetMonitorPos(monitors[i], &corner.x, &corner.y);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        const glm::ivec2 inside = place - corner;
+        if (inside.x >= 0 && inside.y >= 0 && inside.x < mode->width && inside.y < mode->height)
+            return i;
+    }
+    return 0;
+}
+
+struct DestroyWindow {
+    void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+
+class WindowContext : public Context {
+  public:
+    WindowContext(const config::Display& display,
+                  const std::string& title,
+                  glm::ivec2 sizePixels,
+                  bool quadBuffered)
+        : display_{display}, size_{sizePixels}, quadBuffered_{quadBuffered} {
+        open(title);
+        GLFWwindow* window = window_.get();
+        glfwSetWindowUserPointer(window, this);
+        glfwSetKeyCallback(window, [](GLFWwindow* source, int key, int, int action, int) {
+            if (action == GLFW_PRESS) of(source).onKey(key);
+        });
+        glfwSetWindowCloseCallback(window,
+                                   [](GLFWwindow* source) { of(source).onKey(GLFW_KEY_ESCAPE); });
+        glfwSetMouseButtonCallback(window, [](GLFWwindow* source, int button, int action, int) {
+            if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) of(source).onClick();
+            if (button == GLFW_MOUSE_BUTTON_RIGHT) of(source).onDrag(action == GLFW_PRESS);
+        });
+        glfwSetFramebufferSizeCallback(window, [](GLFWwindow* source, int width, int height) {
+            of(source).framebuffer_ = glm::ivec2(width, height);
+        });
+        check();
+    }
+    void makeCurrent() override {
+        glfwMakeContextCurrent(window_.get());
+        glfwSwapInterval(1);
+        requireDriver("window");
+    }
+    void release() override { glfwMakeContextCurrent(nullptr); }
+    void swap() override { glfwSwapBuffers(window_.get()); }
+    [[nodiscard]] glm::ivec2 framebufferPixels() const override { return framebuffer_; }
+    [[nodiscard]] bool hasWindow() const override { return true; }
+    [[nodiscard]] bool quadBuffered() const override { return quadBuffered_; }
+    [[nodiscard]] std::string description() const override {
+        return rendererAndVersion() +
+               (placesWindows() ? ", in a window" : ", in a window that Wayland places");
+    }
+    [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
+    void pumpEvents(std::chrono::milliseconds atMost) override {
+        glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
+    }
+    [[nodiscard]] std::optional<char> nextKey() override {
+        if (keys_.empty()) return std::nullopt;
+        const char key = keys_.front();
+        keys_.pop_front();
+        return key;
+    }
+
+    [[nodiscard]] std::optional<glm::vec2> nextClick() override {
+        if (clicks_.empty()) return std::nullopt;
+        const glm::vec2 place = clicks_.front();
+        clicks_.pop_front();
+        return place;
+    }
+    [[nodiscard]] std::optional<glm::vec2> pointer() const override {
+        if (glfwGetWindowAttrib(window_.get(), GLFW_HOVERED) == GLFW_FALSE) return std::nullopt;
+        return cursor();
+    }
+    [[nodiscard]] Hands hands() const override;
+
+  private:
+    static WindowContext& of(GLFWwindow* source) {
+        return *static_cast<WindowContext*>(glfwGetWindowUserPointer(source));
+    }
+    void open(const std::string& title);
+    void check();
+    void onKey(int key);
+    void onClick();
+    void onDrag(bool begins);
+    [[nodiscard]] glm::vec2 cursor() const;
+    void toggleFullscreen();
+
+    GlfwLibrary library_;
+    config::Display display_;
+    glm::ivec2 size_;
+    bool quadBuffered_;
+    std::unique_ptr<GLFWwindow, DestroyWindow> window_;
+    std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
+    std::deque<char> keys_;
+    std::deque<glm::vec2> clicks_;
+    std::optional<glm::vec2> dragFrom_;
+};
+
+void WindowContext::open(const std::string& title) {
+    constexpr std::array<std::array<int, 2>, 10> kHints{{
+        {GLFW_CONTEXT_VERSION_MAJOR, 4},
+        {GLFW_CONTEXT_VERSION_MINOR, 5},
+        {GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE},
+        {GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET},  // where the driver can tell
+        {GLFW_DECORATED, GLFW_FALSE},                           // windows side by side are one wall
+        {GLFW_RESIZABLE, GLFW_FALSE},
+        {GLFW_AUTO_ICONIFY, GLFW_FALSE},  // one projector keeps showing when another is clicked
+        {GLFW_VISIBLE, GLFW_FALSE},       // until it is in its place
+        {GLFW_DEPTH_BITS, 0},             // the scene has a depth buffer of its own
+        {GLFW_STENCIL_BITS, 0},
+    }};
+    for (const auto& [hint, value] : kHints) glfwWindowHint(hint, value);
+    glfwWindowHint(GLFW_STEREO, quadBuffered_ ? GLFW_TRUE : GLFW_FALSE);
+    GLFWmonitor* monitor = nullptr;
+    if (display_.mode == config::DisplayMode::Fullscreen) {
+        monitor = monitorAt(display_.monitor);
+        glfwWindowHint(GLFW_REFRESH_RATE, modeFor(display_, size_, monitor).refreshRate);
+    }
+    window_.reset(glfwCreateWindow(size_.x, size_.y, title.c_str(), monitor, nullptr));
+    if (!window_ && quadBuffered_) {
+        throw Error("no window with left and right buffers (" + lastGlfwError() +
+                    "); switch quad-buffered stereo on in the graphics driver, or choose another "
+                    "stereo mode in the rig");
+    }
+    if (!window_) {
+        throw Error("no window with OpenGL 4.5 core (" + lastGlfwError() +
+                    "); update the graphics driver, or use --headless");
+    }
+    if (monitor == nullptr && placesWindows())
+        glfwSetWindowPos(window_.get(), display_.windowPosition.x, display_.windowPosition.y);
+    glfwShowWindow(window_.get());
+    glfwPollEvents();
+}
+
+// A wall whose pixels are not the projector's own has a wrong warp: better no picture than that
+// one.
+void WindowContext::check() {
+    glm::ivec2 actual{};
+    glfwGetFramebufferSize(window_.get(), &actual.x, &actual.y);
+    framebuffer_ = actual;
+    if (actual != size_) {
+        throw Error("display: the window has " + text(actual) + " pixels, the channel " +
+                    text(size_) + "; choose a monitor, scale or place where it fits");
+    }
+    const int index = display_.mode == config::DisplayMode::Fullscreen
+                          ? display_.monitor
+                          : monitorUnder(display_.windowPosition);
+    const GLFWvidmode mode = *glfwGetVideoMode(monitorAt(index));
+    if (refreshDiffers(display_, mode)) {
+        throw Error("display: monitor " + std::to_string(index) + " runs " + described(mode) +
+                    ", the channel wants " + std::to_string(*display_.refreshHertz) +
+                    " Hz; set the monitor or the channel's refresh rate");
+    }
+}
+
+void WindowContext::onKey(int key) {
+    if (key == GLFW_KEY_F)
+        toggleFullscreen();
+    else if (key == GLFW_KEY_ESCAPE)
+        keys_.push_back(kEscapeKey);
+    else if (key == GLFW_KEY_SPACE)
+        keys_.push_back(' ');
+    else if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
+        keys_.push_back(static_cast<char>('a' + (key - GLFW_KEY_A)));
+}
+
+// A click that nobody asks for is forgotten: a window that draws nothing yet has no place for it.
+void WindowContext::onClick() {
+    constexpr std::size_t kMostClicks = 16;
+    if (clicks_.size() < kMostClicks) clicks_.push_back(cursor());
+}
+
+void WindowContext::onDrag(bool begins) {
+    dragFrom_ = begins ? std::optional(cursor()) : std::nullopt;
+}
+
+// A window that is left by the keyboard holds no key any more: GLFW lets go of all.
+Hands WindowContext::hands() const {
+    constexpr std::array<std::pair<int, HeldKey>, static_cast<std::size_t>(HeldKey::kCount)> kKeys{{
+        {GLFW_KEY_W, HeldKey::W},
+        {GLFW_KEY_A, HeldKey::A},
+        {GLFW_KEY_S, HeldKey::S},
+        {GLFW_KEY_D, HeldKey::D},
+        {GLFW_KEY_UP, HeldKey::Up},
+        {GLFW_KEY_DOWN, HeldKey::Down},
+        {GLFW_KEY_LEFT, HeldKey::Left},
+        {GLFW_KEY_RIGHT, HeldKey::Right},
+        {GLFW_KEY_PAGE_UP, HeldKey::PageUp},
+        {GLFW_KEY_PAGE_DOWN, HeldKey::PageDown},
+        {GLFW_KEY_HOME, HeldKey::Home},
+        {GLFW_KEY_END, HeldKey::End},
+    }};
+    Hands hands;
+    hands.pad = movedPad();
+    for (const auto& [key, held] : kKeys)
+        if (glfwGetKey(window_.get(), key) == GLFW_PRESS) hands.hold(held);
+    if (dragFrom_) {
+        const glm::vec2 drag = cursor() - *dragFrom_;
+        const auto height = static_cast<float>(glm::max(framebuffer_.load().y, 1));
+        hands.drag = glm::vec2(drag.x, -drag.y) / height;
+    }
+    return hands;
+}
+
+// GLFW tells it in the units of the desktop, of which a scaled one has fewer than pixels.
+glm::vec2 WindowContext::cursor() const {
+    glm::dvec2 place{};
+    glm::ivec2 size{};
+    glfwGetCursorPos(window_.get(), &place.x, &place.y);
+    glfwGetWindowSize(window_.get(), &size.x, &size.y);
+    return {place * glm::dvec2(framebuffer_.load()) / glm::dvec2(glm::max(size, 1))};
+}
+
+void WindowContext::toggleFullscreen() {
+    if (glfwGetWindowMonitor(window_.get()) != nullptr) {
+        const glm::ivec2 place = display_.windowPosition;
+        glfwSetWindowMonitor(
+            window_.get(), nullptr, place.x, place.y, size_.x, size_.y, GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* monitor = monitorAt(display_.mode == config::DisplayMode::Fullscreen
+                                         ? display_.monitor
+                                         : monitorUnder(display_.windowPosition));
+    const GLFWvidmode mode = *glfwGetVideoMode(monitor);
+    glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode.width, mode.height, mode.refreshRate);
+}
+
+}  // namespace
+
+std::unique_ptr<Context> makeWindowContext(const config::Display& display,
+                                           const std::string& title,
+                                           glm::ivec2 sizePixels,
+                                           bool quadBuffered) {
+    return std::make_unique<WindowContext>(display, title, sizePixels, quadBuffered);
+}
+
+namespace {
+
+// GLFW's axes: down is positive; triggers are -1 at rest.
+Pad padOf(const GLFWgamepadstate& state) {
+    const auto& axes = state.axes;
+    const auto trigger = [&](int axis) { return (axes[axis] + 1) / 2; };
+    return {{axes[GLFW_GAMEPAD_AXIS_LEFT_X], -axes[GLFW_GAMEPAD_AXIS_LEFT_Y]},
+            {axes[GLFW_GAMEPAD_AXIS_RIGHT_X], -axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]},
+            trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER),
+            trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER)};
+}
+
+float deflectionOf(const Pad& pad) {
+    return std::max({std::abs(pad.leftStick.x),
+                     std::abs(pad.leftStick.y),
+                     std::abs(pad.rightStick.x),
+                     std::abs(pad.rightStick.y),
+                     pad.leftTrigger,
+                     pad.rightTrigger});
+}
+
+}  // namespace
+
+Pad movedPad() {
+    Pad moved;
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+        GLFWgamepadstate state{};
+        if (glfwGetGamepadState(joystick, &state) == GLFW_FALSE) continue;
+        const Pad pad = padOf(state);
+        if (deflectionOf(pad) > deflectionOf(moved)) moved = pad;
+    }
+    return moved;
+}
+
+}  // namespace aquarama::gl

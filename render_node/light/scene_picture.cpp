@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/light/scene_picture.h"
+
+#include <algorithm>
+#include <array>
+
+#include "render_node/gl/program.h"
+#include "render_node/reef/solid_array.h"
+#include "render_node/shaders/shader_interface.h"
+
+namespace aquarama::scene {
+
+namespace {
+
+// Of the smaller copies, the last that the widest ring of the bloom reads (bloom.glsl) on a wall of
+// 4 000 pixels a radian.
+constexpr int kBloomLevels = 6;
+
+int supported(int samples) {
+    int most = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    return std::clamp(samples, 1, std::max(most, 1));
+}
+
+gl::Texture makeLayer(GLenum format, glm::ivec2 size, int samples, int levels = 1) {
+    if (samples == 1) return makeTexture(format, size, levels, Edge::Clamp);
+    gl::Texture texture{static_cast<GLenum>(GL_TEXTURE_2D_MULTISAMPLE)};
+    glTextureStorage2DMultisample(texture.name(), samples, format, size.x, size.y, GL_TRUE);
+    return texture;
+}
+
+int bloomLevels(glm::ivec2 size) {
+    int levels = 1;
+    while (levels < kBloomLevels && std::min(size.x, size.y) >> levels > 0) ++levels;
+    return levels;
+}
+
+gl::ProgramHandle makeTone(bool bloom) {
+    if (!bloom) return gl::makeProgram({"quad.vert", "tone.frag"});
+    return gl::makeProgram({"quad.vert", "tone.frag"}, {{"scene_light.glsl", "bloom.glsl"}});
+}
+
+}  // namespace
+
+ScenePicture::ScenePicture(const Quality& quality)
+    : quality_{quality},
+      tone_{makeTone(quality.bloom)},
+      softenedColour_{static_cast<GLenum>(GL_TEXTURE_2D)},
+      display_{static_cast<GLenum>(GL_TEXTURE_2D)} {
+    quality_.samples = supported(quality.samples);
+    if (quality.softening) soften_.emplace(gl::makeProgram({"quad.vert", "soften.frag"}));
+}
+
+void ScenePicture::allocate(glm::ivec2 sizePixels) {
+    size_ = sizePixels;
+    const int levels = quality_.bloom ? bloomLevels(size_) : 1;
+    const auto fill = [&](Layer& layer, int samples, int of) {
+        layer.colour = makeLayer(GL_RGBA16F, size_, samples, of);
+        layer.depth = makeLayer(GL_DEPTH_COMPONENT32F, size_, samples);
+        layer.target = makeTarget(layer.colour);
+        glNamedFramebufferTexture(layer.target.name(), GL_DEPTH_ATTACHMENT, layer.depth.name(), 0);
+    };
+    const int unsoftened = soften_ ? 1 : levels;  // what the tone reads has the smaller copies
+    fill(drawn_, quality_.samples, unsoftened);
+    if (quality_.samples > 1) fill(resolved_, 1, unsoftened);
+    if (soften_) {
+        softenedColour_ = makeTexture(GL_RGBA16F, size_, levels, Edge::Clamp);
+        softened_ = makeTarget(softenedColour_);
+    }
+    display_ = makeTexture(GL_RGBA16F, size_, 1, Edge::Clamp);
+    toned_ = makeTarget(display_);
+}
+
+void ScenePicture::begin(glm::ivec2 sizePixels) {
+    if (sizePixels != size_) allocate(sizePixels);
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.target.name());
+    glViewport(0, 0, size_.x, size_.y);
+    // Every pixel will be covered: only the depth needs a value. Far is 0.
+    glDepthMask(GL_TRUE);
+    glClearDepth(0.0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);
+}
+
+// Light is a mean over the samples; of the depths one is taken.
+void ScenePicture::resolve() const {
+    const gl::Stage stage{"resolve"};
+    const GLbitfield layers =
+        GL_COLOR_BUFFER_BIT | (soften_ ? static_cast<GLbitfield>(GL_DEPTH_BUFFER_BIT) : 0U);
+    glBlitNamedFramebuffer(drawn_.target.name(),
+                           resolved_.target.name(),
+                           0,
+                           0,
+                           size_.x,
+                           size_.y,
+                           0,
+                           0,
+                           size_.x,
+                           size_.y,
+                           layers,
+                           GL_NEAREST);
+}
+
+void ScenePicture::pass(unsigned framebuffer, unsigned program) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glUseProgram(program);
+    glBindVertexArray(empty_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+unsigned ScenePicture::finish() {
+    glDisable(GL_DEPTH_TEST);
+    if (quality_.samples > 1) resolve();
+    const Layer& light = quality_.samples > 1 ? resolved_ : drawn_;
+    unsigned seen = light.colour.name();
+    if (soften_) {
+        const gl::Stage stage{"soften"};
+        glBindTextureUnit(shaders::kSceneUnit, seen);
+        glBindTextureUnit(shaders::kDepthUnit, light.depth.name());
+        pass(softened_.name(), soften_->name());
+        seen = softenedColour_.name();
+    }
+    if (quality_.bloom) {
+        const gl::Stage stage{"bloom"};
+        glGenerateTextureMipmap(seen);
+    }
+    const gl::Stage stage{"tone"};
+    glBindTextureUnit(shaders::kSceneUnit, seen);
+    pass(toned_.name(), tone_.name());
+    return display_.name();
+}
+
+}  // namespace aquarama::scene

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/reef/ground.h"
+
+#include <algorithm>
+#include <span>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "common/files/derived_cache.h"
+#include "common/place/place.h"
+#include "render_node/gl/program.h"
+#include "render_node/reef/mesh.h"
+#include "render_node/reef/solid_array.h"
+#include "render_node/shaders/shader_interface.h"
+
+namespace aquarama::scene {
+
+namespace {
+
+constexpr float kPatchMetres = 10.0F;
+constexpr int kPatchesASide = 14;
+constexpr std::array<int, 3> kCells{24, 10, 4};
+constexpr std::array<float, 2> kLevelMetres{13.0F, 26.0F};
+constexpr float kRimMetres = 0.35F;
+constexpr int kShadeTexels = 360;
+
+glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
+    constexpr float kStep = 0.05F;
+    const float here = place::floorHeight({seed}, xz);
+    const float slopeX = (place::floorHeight({seed}, {xz.x + kStep, xz.y}) - here) / kStep;
+    const float slopeZ = (place::floorHeight({seed}, {xz.x, xz.y + kStep}) - here) / kStep;
+    return glm::normalize(glm::vec3{-slopeX, 1.0F, -slopeZ});
+}
+
+using ShadeTexel = glm::u8vec4;  // openness to the sun and from above, rubble
+
+glm::vec2 middleOfTexel(int column, int row) {
+    return (glm::vec2{column, row} + 0.5F) * (shaders::kFloorShadeMetres / kShadeTexels) -
+           shaders::kFloorShadeMetres / 2.0F;
+}
+
+int texelAt(float metres) {
+    const float texel =
+        (metres + shaders::kFloorShadeMetres / 2.0F) * (kShadeTexels / shaders::kFloorShadeMetres);
+    return std::clamp(static_cast<int>(texel), 0, kShadeTexels - 1);
+}
+
+void darken(glm::u8& value, float share) {
+    value = static_cast<glm::u8>(static_cast<float>(value) * share);
+}
+
+// One rock's part in the shade and the rubble round it; a shadow reaches as far as the rock is
+// high.
+void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float sand) {
+    const float reach = 4.0F * rock.radiusMetres + std::max(rock.centre.y - sand, 0.0F);
+    const std::span<const place::Rock> own{&rock, 1};
+    const float above = std::max(rock.centre.y - rock.radiusMetres - sand, 0.0F);
+    for (int row = texelAt(rock.centre.z - reach); row <= texelAt(rock.centre.z + reach); ++row)
+        for (int column = texelAt(rock.centre.x - reach); column <= texelAt(rock.centre.x + reach);
+             ++column) {
+            const glm::vec2 xz = middleOfTexel(column, row);
+            const glm::vec3 place{xz.x, sand, xz.y};
+            ShadeTexel& texel = texels[static_cast<std::size_t>(row) * kShadeTexels +
+                                       static_cast<std::size_t>(column)];
+            darken(texel.r, sunOpenness(own, place));
+            darken(texel.g, skyOpenness(own, place, {0.0F, 1.0F, 0.0F}));
+            const float away = glm::distance(xz, glm::vec2{rock.centre.x, rock.centre.z});
+            const float heap = glm::smoothstep(1.9F, 0.75F, away / rock.radiusMetres) *
+                               glm::smoothstep(0.5F, 0.0F, above);
+            texel.b = std::max(texel.b, static_cast<glm::u8>(255.0F * heap));
+        }
+}
+
+std::vector<ShadeTexel> bakeShade(std::uint32_t seed) {
+    std::vector<ShadeTexel> texels(static_cast<std::size_t>(kShadeTexels) * kShadeTexels,
+                                   {255, 255, 0, 255});
+    for (const place::Rock& rock : place::rocksOf({seed}))
+        shadeSand(texels, rock, place::floorHeight({seed}, {rock.centre.x, rock.centre.z}));
+    return texels;
+}
+
+gl::Texture makeShade(const std::vector<ShadeTexel>& texels) {
+    gl::Texture texture = makeTexture(GL_RGBA8, glm::ivec2{kShadeTexels}, 1, Edge::Clamp);
+    glTextureSubImage2D(texture.name(),
+                        0,
+                        0,
+                        0,
+                        kShadeTexels,
+                        kShadeTexels,
+                        GL_RGBA,
+                        GL_UNSIGNED_BYTE,
+                        texels.data());
+    return texture;
+}
+
+}  // namespace
+
+Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells) {
+    Mesh mesh;
+    const int width = cells + 3;  // corners, and the rim on both sides
+    for (int row = 0; row < width; ++row)
+        for (int column = 0; column < width; ++column) {
+            const glm::ivec2 inside = glm::clamp(glm::ivec2{column, row} - 1, 0, cells);
+            const bool rim = inside != glm::ivec2{column, row} - 1;
+            const glm::vec2 xz =
+                corner + glm::vec2(inside) * (sideMetres / static_cast<float>(cells));
+            const float height = place::floorHeight({seed}, xz) - (rim ? kRimMetres : 0.0F);
+            addVertex(mesh, {xz.x, height, xz.y}, sandNormal(seed, xz), {}, 1.0F);
+        }
+    joinRows(mesh, 0, width, width);
+    return mesh;
+}
+
+namespace {
+
+GroundTables makeGroundTables(std::uint32_t seed) {
+    GroundTables tables;
+    constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
+    for (const int cells : kCells) {
+        // All patches share a level's triangles.
+        const Mesh mesh = layPatch(seed, {}, kPatchMetres, cells);
+        tables.levels.push_back({static_cast<std::uint32_t>(tables.indices.size()),
+                                 static_cast<std::int32_t>(mesh.indices.size())});
+        tables.indices.insert(tables.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    for (int i = 0; i < kPatchesASide * kPatchesASide; ++i) {
+        const glm::vec2 corner =
+            glm::vec2{i % kPatchesASide, i / kPatchesASide} * kPatchMetres - kHalf;
+        const glm::vec2 middle = corner + kPatchMetres / 2.0F;
+        GroundTables::Patch& patch = tables.patches.emplace_back();
+        patch.centre = {middle.x, place::floorHeight({seed}, middle), middle.y};
+        for (std::size_t level = 0; level < kCells.size(); ++level) {
+            const Mesh mesh = layPatch(seed, corner, kPatchMetres, kCells.at(level));
+            patch.firstVertices.at(level) = static_cast<int>(tables.vertices.size());
+            tables.vertices.insert(
+                tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        }
+    }
+    tables.shade = bakeShade(seed);
+    return tables;
+}
+
+}  // namespace
+
+GroundTables groundTables(std::uint32_t seed) {
+    return files::derivedTables<GroundTables>(files::DerivedKey("ground").add(seed),
+                                              [&] { return makeGroundTables(seed); });
+}
+
+Ground::Ground(const GroundTables& tables, const gl::Replacements& replacements)
+    : patches_{tables.patches},
+      levels_{tables.levels},
+      program_{gl::makeProgram({"floor.vert", "floor.frag"}, replacements)},
+      detail_{makeTexture(sandTile())},
+      rubble_{makeTexture(rockTile())},
+      shade_{makeShade(tables.shade)} {
+    setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
+}
+
+void Ground::draw(const Viewpoint& viewpoint) const {
+    glUseProgram(program_.name());
+    glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
+    glBindTextureUnit(shaders::kFloorShadeUnit, shade_.name());
+    glBindTextureUnit(shaders::kFloorRockUnit, rubble_.name());
+    drawPatches(viewpoint);
+}
+
+gl::ProgramHandle Ground::depthProgram() {
+    return gl::makeProgram({"floor.vert"});
+}
+
+void Ground::drawDepths(const gl::ProgramHandle& program, const Viewpoint& viewpoint) const {
+    glUseProgram(program.name());
+    drawPatches(viewpoint);
+}
+
+void Ground::drawPatches(const Viewpoint& viewpoint) const {
+    glBindVertexArray(array_.name());
+    constexpr float kPatchRadius = kPatchMetres * 0.75F;
+    for (const GroundTables::Patch& patch : patches_) {
+        if (!viewpoint.sees(patch.centre, kPatchRadius)) continue;
+        const std::size_t level = viewpoint.levelOf(patch.centre, kLevelMetres);
+        glDrawElementsBaseVertex(GL_TRIANGLES,
+                                 levels_[level].count,
+                                 GL_UNSIGNED_INT,
+                                 byteOffset(levels_[level].firstIndex * sizeof(std::uint32_t)),
+                                 patch.firstVertices[level]);
+    }
+}
+
+}  // namespace aquarama::scene

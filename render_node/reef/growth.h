@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The forms of what grows on a reef, each in a few shapes: hard and soft corals, sponges, plants.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "render_node/reef/mesh.h"
+#include "render_node/reef/strands.h"
+
+namespace aquarama::scene {
+
+enum class Form : std::uint8_t {
+    // Hard corals.
+    Staghorn,
+    Bush,
+    Fingers,
+    Table,
+    Brain,
+    Lobes,
+    Leaves,
+    Crust,
+    // Soft ones, sponges and their company.
+    Fan,
+    Whips,
+    Tubes,
+    Barrel,
+    Leather,
+    SoftTree,
+    Anemone,
+    Feathers,
+    // Plants.
+    Turf,
+    Kelp,
+    Seagrass,
+};
+inline constexpr std::size_t kForms = 19;
+inline constexpr int kShapesOfForm = 3;
+
+// In a frame of its own: y up, the foot at the origin, about 1 in size. Albedos are shares of half
+// the tint.
+[[nodiscard]] Levels grow(Form form, int shape);
+
+// Each form at a level of detail, 0 the finest of four; coarser levels have fewer and broader
+// parts, so that a thing stays as dense. See growth.h for the frame.
+
+void growStaghorn(Mesh& mesh, std::size_t level, Dice dice);
+void growBush(Mesh& mesh, std::size_t level, Dice dice);
+void growFingers(Mesh& mesh, std::size_t level, Dice dice);
+void growTable(Mesh& mesh, std::size_t level, Dice dice);
+void growBrain(Mesh& mesh, std::size_t level, Dice dice);
+void growLobes(Mesh& mesh, std::size_t level, Dice dice);
+void growLeaves(Mesh& mesh, std::size_t level, Dice dice);
+void growCrust(Mesh& mesh, std::size_t level, Dice dice);
+void growFan(Mesh& mesh, std::size_t level, Dice dice);
+void growWhips(Mesh& mesh, std::size_t level, Dice dice);
+void growTubes(Mesh& mesh, std::size_t level, Dice dice);
+void growBarrel(Mesh& mesh, std::size_t level, Dice dice);
+void growLeather(Mesh& mesh, std::size_t level, Dice dice);
+void growSoftTree(Mesh& mesh, std::size_t level, Dice dice);
+void growAnemone(Mesh& mesh, std::size_t level, Dice dice);
+void growFeathers(Mesh& mesh, std::size_t level, Dice dice);
+void growTurf(Mesh& mesh, std::size_t level, Dice dice);
+void growKelp(Mesh& mesh, std::size_t level, Dice dice);
+void growSeagrass(Mesh& mesh, std::size_t level, Dice dice);
+
+}  // namespace aquarama::scene

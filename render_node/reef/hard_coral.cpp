@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "render_node/reef/growth.h"
+#include "render_node/reef/strands.h"
+
+namespace aquarama::scene {
+
+namespace {
+
+constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
+constexpr float kGoldenAngle = 2.39996F;
+
+// Living tissue: dark where it is old, pale where it grows.
+Surface tissue(float lightness, float relief = 0.0F) {
+    return {.albedo = glm::vec3{0.5F * lightness},
+            .roughness = 0.45F,
+            .translucency = 0.15F,
+            .fluorescence = 0.5F,
+            .relief = relief};
+}
+
+struct Branching {
+    Dice dice;
+    int generations;
+    int sides;
+    float thin;  // of a child, of its parent's radius
+    float wide;  // least angle between children, radians
+    float upward;
+    float broader;  // a coarse level makes up for what it leaves out
+};
+
+void branch(
+    Mesh& mesh, Branching& habit, const Joint& from, glm::vec3 way, float length, int left) {
+    const float age = 1.0F - static_cast<float>(left - 1) / static_cast<float>(habit.generations);
+    const glm::vec3 bent = glm::normalize(way + glm::vec3{0, 0.5F * habit.upward, 0});
+    const float light = 0.62F + 0.75F * age * age;
+    const Joint middle{from.centre + way * (0.5F * length),
+                       from.radius * (0.5F + 0.5F * habit.thin),
+                       tissue(0.5F * (light + 2.0F * from.surface.albedo.x)),
+                       glm::mix(0.45F, 1.0F, age)};
+    Joint to{middle.centre + bent * (0.5F * length),
+             from.radius * habit.thin,
+             tissue(light),
+             middle.openness};
+    if (left == 1) {
+        const Joint tip{
+            to.centre + bent * (0.7F * to.radius), 0.25F * to.radius, tissue(1.75F), 1.0F};
+        to.radius *= 0.85F;
+        addStrand(mesh,
+                  std::array{from, to, tip},
+                  habit.sides,
+                  frameAbout(bent, from.centre.x * 9.0F)[0]);
+        return;
+    }
+    if (habit.sides > 3)
+        addStrand(mesh, std::array{from, middle, to}, habit.sides);
+    else
+        addStrand(
+            mesh, std::array{from, to}, habit.sides, frameAbout(bent, from.centre.x * 9.0F)[0]);
+    const int children = 2 + (habit.dice.unit() < 0.45F ? 1 : 0);
+    const float turn = habit.dice.between(0.0F, kTwoPi);
+    for (int child = 0; child < children; ++child) {
+        const glm::mat3 frame = frameAbout(
+            bent, turn + kTwoPi * static_cast<float>(child) / static_cast<float>(children));
+        const float angle = habit.dice.between(habit.wide, 2.0F * habit.wide);
+        const glm::vec3 next = glm::normalize(bent * std::cos(angle) + frame[0] * std::sin(angle) +
+                                              glm::vec3{0, 0.4F * habit.upward, 0});
+        branch(mesh, habit, to, next, length * habit.dice.between(0.68F, 0.95F), left - 1);
+    }
+}
+
+}  // namespace
+
+void growStaghorn(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kGenerations{4, 3, 3, 2};
+    constexpr std::array kSides{6, 4, 0, 0};
+    const int stems = 5 + static_cast<int>(dice.unit() * 3.0F);
+    const float slender = dice.between(0.036F, 0.052F);
+    Branching habit{Dice{dice.seed()},
+                    kGenerations.at(level),
+                    kSides.at(level),
+                    dice.between(0.74F, 0.84F),
+                    dice.between(0.30F, 0.46F),
+                    dice.between(0.4F, 0.9F),
+                    1.0F + 0.22F * static_cast<float>(level)};
+    const float length = 0.34F * (level == 0 ? 1.0F : level < 3 ? 1.22F : 1.6F);
+    for (int stem = 0; stem < stems; ++stem) {
+        const float lean = stem == 0 ? 0.1F : dice.between(0.5F, 1.25F);
+        const glm::mat3 frame =
+            frameAbout({0, 1, 0},
+                       kTwoPi * static_cast<float>(stem) / static_cast<float>(stems) +
+                           dice.between(-0.3F, 0.3F));
+        const glm::vec3 way = glm::normalize(frame[1] * std::cos(lean) + frame[0] * std::sin(lean));
+        branch(mesh,
+               habit,
+               {way * 0.02F - glm::vec3{0, 0.06F, 0}, slender * habit.broader, tissue(0.5F), 0.4F},
+               way,
+               length,
+               habit.generations);
+    }
+}
+
+// A cushion of short upright fingers, as corymbose Acropora and Pocillopora make.
+void growBush(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kFingers{110, 64, 34, 14};
+    constexpr std::array kSides{5, 3, 3, 0};
+    const float spread = dice.between(0.85F, 1.2F);
+    const float tall = dice.between(0.30F, 0.48F);
+    const int fingers = kFingers.at(level);
+    const float broader = std::sqrt(110.0F / static_cast<float>(fingers));
+    addBall(mesh,
+            {.centre = {0, -0.05F, 0},
+             .radii = {0.62F, 0.34F, 0.62F},
+             .capRadians = 1.9F,
+             .rings = level < 2 ? 4 : 2,
+             .around = level < 2 ? 12 : 6},
+            tissue(0.42F));
+    for (int i = 0; i < fingers; ++i) {
+        const float out = std::sqrt((static_cast<float>(i) + 0.5F) / static_cast<float>(fingers));
+        const float turn = kGoldenAngle * static_cast<float>(i) + 0.5F * dice.unit();
+        const float lean = spread * out;
+        const glm::vec3 way{
+            std::sin(lean) * std::cos(turn), std::cos(lean), std::sin(lean) * std::sin(turn)};
+        const float length = tall * dice.between(0.75F, 1.15F) * (1.1F - 0.25F * out);
+        const glm::vec3 foot = way * glm::vec3{0.55F, 0.26F, 0.55F};
+        const float radius = 0.042F * broader * dice.between(0.8F, 1.2F);
+        const Joint low{foot, radius, tissue(0.55F), 0.35F};
+        const Joint high{foot + way * length, radius * 0.8F, tissue(1.15F), 0.9F};
+        const Joint tip{foot + way * (length + 0.03F), radius * 0.25F, tissue(1.7F), 1.0F};
+        if (level < 2)
+            addStrand(mesh, std::array{low, high, tip}, kSides.at(level));
+        else
+            addStrand(mesh, std::array{low, tip}, kSides.at(level), way + glm::vec3{0.3F, 0, 0.9F});
+    }
+}
+
+// Thick blunt fingers that stand close.
+void growFingers(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kFingers{22, 18, 12, 7};
+    constexpr std::array kSides{8, 5, 4, 3};
+    const int fingers = kFingers.at(level);
+    const float broader = std::sqrt(22.0F / static_cast<float>(fingers));
+    for (int i = 0; i < fingers; ++i) {
+        const float out = std::sqrt((static_cast<float>(i) + 0.3F) / static_cast<float>(fingers));
+        const float turn = kGoldenAngle * static_cast<float>(i);
+        const glm::vec3 side{std::cos(turn), 0, std::sin(turn)};
+        const float tall = dice.between(0.55F, 1.0F) * (1.0F - 0.45F * out * out);
+        const float radius = 0.085F * broader * dice.between(0.75F, 1.15F);
+        const glm::vec3 foot = side * (0.42F * out);
+        const glm::vec3 top = foot + side * (0.30F * out * dice.unit()) + glm::vec3{0, tall, 0};
+        const glm::vec3 middle = glm::mix(foot, top, 0.5F) + side * (0.05F * out);
+        addStrand(
+            mesh,
+            std::array{
+                Joint{foot - glm::vec3{0, 0.08F, 0}, radius, tissue(0.45F), 0.3F},
+                Joint{middle, radius * 1.12F, tissue(0.8F), 0.7F},
+                Joint{top, radius, tissue(1.1F), 0.95F},
+                Joint{top + glm::vec3{0, 0.6F * radius, 0}, radius * 0.62F, tissue(1.35F), 1.0F},
+                Joint{top + glm::vec3{0, 0.8F * radius, 0}, 0.0F, tissue(1.4F), 1.0F}},
+            kSides.at(level));
+    }
+}
+
+// A plate on a foot, fingers like a carpet upon it, its rim pale where it grows.
+void growTable(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kAround{64, 30, 15, 8};
+    constexpr std::array kCarpet{560, 200, 40, 0};
+    const std::uint32_t seed = dice.seed();
+    const float foot = dice.between(0.22F, 0.40F);
+    const float bowl = dice.between(0.05F, 0.14F);
+    const std::array rings{Ring{0.20F, -0.12F, 0.3F, 0.4F, 0.3F},
+                           Ring{0.13F, 0.5F * foot, 0.3F, 0.45F, 0.3F},
+                           Ring{0.34F, foot - 0.07F, 0.3F, 0.5F, 0.5F},
+                           Ring{0.75F, foot - 0.02F + 0.5F * bowl, 0.4F, 0.55F},
+                           Ring{0.98F, foot + 0.01F + bowl, 0.6F, 0.9F},
+                           Ring{1.0F, foot + 0.03F + bowl, 1.0F, 1.55F},
+                           Ring{0.90F, foot + 0.03F + 0.8F * bowl, 1.0F, 1.0F},
+                           Ring{0.55F, foot + 0.03F + 0.3F * bowl, 0.9F, 0.8F, 0.6F},
+                           Ring{0.0F, foot + 0.03F, 0.9F, 0.75F, 0.0F}};
+    const Turning turning{
+        .around = kAround.at(level), .seed = seed, .wide = 0.26F, .high = 0.07F, .lobes = 1.8F};
+    const std::array few{rings[1], rings[3], rings[5], rings[8]};
+    if (level == 3)
+        addTurned(mesh, few, turning, tissue(1.0F));
+    else
+        addTurned(mesh, rings, turning, tissue(1.0F));
+    const int carpet = kCarpet.at(level);
+    const float broader = carpet > 0 ? std::sqrt(560.0F / static_cast<float>(carpet)) : 0.0F;
+    for (int i = 0; i < carpet; ++i) {
+        const float out =
+            0.95F * std::sqrt((static_cast<float>(i) + 0.5F) / static_cast<float>(carpet));
+        const float turn = kGoldenAngle * static_cast<float>(i);
+        const glm::vec3 side{std::cos(turn), 0, std::sin(turn)};
+        const glm::vec3 at = side * turning.lobes;
+        const float waver = waverAt(seed, at);
+        const float reach = out * (1.0F + 0.26F * waver * glm::mix(0.3F, 1.0F, out));
+        const float lift = 0.07F * solidNoise(seed ^ 1U, at * 1.4F) * out;
+        const glm::vec3 base =
+            side * reach + glm::vec3{0, foot + 0.02F + bowl * out * out + lift, 0};
+        const glm::vec3 way = glm::normalize(glm::vec3{0, 1, 0} + side * (0.9F * out * out));
+        const float tall = 0.085F * dice.between(0.6F, 1.2F);
+        const float radius = 0.020F * broader;
+        addStrand(
+            mesh,
+            std::array{Joint{base, radius, tissue(0.6F), 0.6F},
+                       Joint{base + way * tall, 0.3F * radius, tissue(1.25F + 0.4F * out), 1.0F}},
+            3);
+    }
+}
+
+void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kRings{14, 8, 5, 3};
+    constexpr std::array kAround{26, 15, 9, 6};
+    addBall(mesh,
+            {.centre = {0, 0.02F, 0},
+             .radii = {0.85F, dice.between(0.5F, 0.75F), dice.between(0.7F, 0.9F)},
+             .capRadians = 2.0F,
+             .rings = kRings.at(level),
+             .around = kAround.at(level),
+             .seed = dice.seed(),
+             .lumps = 0.24F,
+             .cells = 2.0F},
+            tissue(1.0F, 1.0F));
+}
+
+// Massive heads that grew together, as Porites does.
+void growLobes(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kBalls{13, 11, 8, 4};
+    constexpr std::array kRings{6, 4, 3, 2};
+    constexpr std::array kAround{12, 8, 6, 5};
+    for (int i = 0; i < kBalls.at(level); ++i) {
+        const float out =
+            0.62F * std::sqrt(static_cast<float>(i) / static_cast<float>(kBalls.at(level)));
+        const float turn = kGoldenAngle * static_cast<float>(i);
+        const float radius = dice.between(0.24F, 0.40F) * (level == 3 ? 1.3F : 1.0F);
+        addBall(mesh,
+                {.centre = {out * std::cos(turn),
+                            0.42F - 0.55F * out + 0.1F * dice.unit(),
+                            out * std::sin(turn)},
+                 .radii = glm::vec3{radius, radius * dice.between(0.8F, 1.1F), radius},
+                 .capRadians = 2.2F,
+                 .rings = kRings.at(level),
+                 .around = kAround.at(level),
+                 .seed = dice.seed(),
+                 .lumps = 0.16F,
+                 .cells = 2.2F},
+                tissue(1.0F));
+    }
+}
+
+// Whorls of thin plates, as Montipora and Turbinaria grow.
+void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kPlates{13, 11, 8, 6};
+    constexpr std::array kAcross{11, 7, 4, 3};
+    constexpr std::array kOut{6, 4, 3, 2};
+    const int across = kAcross.at(level);
+    const int outward = kOut.at(level);
+    for (int plate = 0; plate < kPlates.at(level); ++plate) {
+        const float storey = static_cast<float>(plate) / static_cast<float>(kPlates.at(level));
+        const float turn = kGoldenAngle * static_cast<float>(plate);
+        const float half = dice.between(0.7F, 1.25F);
+        const float size = dice.between(0.6F, 0.95F) * (1.0F - 0.45F * storey);
+        const float rise = 0.35F + 0.75F * storey;
+        const std::uint32_t seed = dice.seed();
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const std::size_t firstIndex = mesh.indices.size();
+        for (int row = 0; row <= outward; ++row)
+            for (int column = 0; column <= across; ++column) {
+                const float t = static_cast<float>(row) / static_cast<float>(outward);
+                const float u =
+                    2.0F * static_cast<float>(column) / static_cast<float>(across) - 1.0F;
+                const float angle = turn + half * u;
+                const float rim =
+                    1.0F + 0.22F * solidNoise(seed, glm::vec3{u * 2.3F, 0, t}) - 0.25F * u * u;
+                const float reach = 0.06F + size * t * rim;
+                const float curl =
+                    size *
+                    (rise * t * t + 0.10F * t * solidNoise(seed ^ 1U, glm::vec3{u * 3.0F, 1, 0}));
+                const float light = 0.5F + 0.45F * t + (row == outward ? 0.55F : 0.0F);
+                addVertex(mesh,
+                          {reach * std::cos(angle),
+                           0.02F + 0.22F * storey + curl,
+                           reach * std::sin(angle)},
+                          {0, 1, 0},
+                          {.albedo = glm::vec3{0.5F * light},
+                           .roughness = 0.4F,
+                           .translucency = 0.6F,
+                           .fluorescence = 0.4F},
+                          0.35F + 0.65F * t);
+            }
+        joinRows(mesh, first, outward + 1, across + 1);
+        turnOver(mesh, firstIndex);
+        setSmoothNormals(mesh, first, firstIndex);
+    }
+}
+
+// Low mounds that run over the rock.
+void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kMounds{7, 6, 5, 3};
+    constexpr std::array kRings{5, 3, 2, 2};
+    constexpr std::array kAround{12, 8, 6, 5};
+    const float meanders = dice.unit() < 0.4F ? 1.0F : 0.0F;
+    for (int i = 0; i < kMounds.at(level); ++i) {
+        const float out =
+            0.6F * std::sqrt(static_cast<float>(i) / static_cast<float>(kMounds.at(level)));
+        const float turn = kGoldenAngle * static_cast<float>(i);
+        const float radius = dice.between(0.34F, 0.55F) * (level == 3 ? 1.35F : 1.0F);
+        addBall(mesh,
+                {.centre = {out * std::cos(turn), -0.10F, out * std::sin(turn)},
+                 .radii = {radius, dice.between(0.24F, 0.38F), radius},
+                 .capRadians = 1.9F,
+                 .rings = kRings.at(level),
+                 .around = kAround.at(level),
+                 .seed = dice.seed(),
+                 .lumps = 0.22F,
+                 .cells = 2.4F},
+                tissue(1.0F, meanders));
+    }
+}
+
+}  // namespace aquarama::scene

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_node/reef/reef.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <thread>
+#include <tuple>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "common/files/derived_cache.h"
+#include "common/units/worker_pool.h"
+#include "render_node/gl/handle.h"
+#include "render_node/gl/program.h"
+#include "render_node/reef/solid_array.h"
+#include "render_node/shaders/shader_interface.h"
+
+namespace aquarama::scene {
+
+namespace {
+
+constexpr std::size_t kWakeBytes = sizeof(std::int32_t) * 3 * shaders::kWakeCellsAcross *
+                                   shaders::kWakeCellsUp * shaders::kWakeCellsAcross;
+constexpr unsigned kGrowths = kPrototypes - kRockShapes;
+
+// In one run for rock and one for what grows; fine levels, which are near, before coarse ones.
+std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
+    if (prototype < kRockShapes) return static_cast<std::uint32_t>(level * kRockShapes + prototype);
+    return static_cast<std::uint32_t>(kLevels * kRockShapes + level * kGrowths + prototype -
+                                      kRockShapes);
+}
+
+// A facet fills some 7 pixels, one of rock, which is large and smooth, some 12.
+std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
+    if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 4.0F};
+    if (prototype >= prototypeOf(Form::Seagrass, 0)) return {150.0F, 60.0F, 24.0F, 3.0F};
+    if (prototype >= prototypeOf(Form::Kelp, 0)) return {900.0F, 420.0F, 190.0F, 6.0F};
+    if (prototype >= prototypeOf(Form::Turf, 0)) return {60.0F, 26.0F, 11.0F, 3.0F};
+    return {95.0F, 36.0F, 13.0F, 2.2F};
+}
+
+Prototype boundsOf(const Mesh& mesh) {
+    float low = 1.0e9F;
+    float high = -1.0e9F;
+    for (const SolidVertex& vertex : mesh.vertices) {
+        low = std::min(low, vertex.position.y);
+        high = std::max(high, vertex.position.y);
+    }
+    Prototype prototype{.middle = 0.5F * (low + high)};
+    for (const SolidVertex& vertex : mesh.vertices)
+        prototype.reach = std::max(
+            prototype.reach, glm::length(vertex.position - glm::vec3{0, prototype.middle, 0}));
+    return prototype;
+}
+
+// Neighbours follow each other, so that a workgroup of the culling looks at one corner of the
+// place.
+std::vector<Instance> byCells(std::vector<Instance> instances) {
+    constexpr float kCellMetres = 3.0F;
+    const auto cellOf = [](const Instance& one) {
+        const glm::ivec3 cell(glm::floor(glm::vec3(one.placeAndScale) / kCellMetres));
+        return std::tuple{cell.x, cell.z, cell.y};
+    };
+    std::ranges::stable_sort(instances, {}, cellOf);
+    return instances;
+}
+
+// A ball about the instances of each workgroup.
+std::vector<glm::vec4> groupBalls(std::span<const Instance> instances,
+                                  std::span<const Prototype> prototypes) {
+    std::vector<glm::vec4> balls;
+    for (std::size_t first = 0; first < instances.size(); first += shaders::kGroupSize) {
+        const auto group = instances.subspan(
+            first, std::min<std::size_t>(shaders::kGroupSize, instances.size() - first));
+        glm::vec3 middle{0.0F};
+        for (const Instance& one : group) middle += glm::vec3(one.placeAndScale);
+        middle /= static_cast<float>(group.size());
+        float reach = 0.0F;
+        for (const Instance& one : group) {
+            const Prototype& prototype = prototypes[one.prototype];
+            // As in place_cull.comp: what bends reaches further.
+            const float own = one.placeAndScale.w * (std::abs(prototype.middle) + prototype.reach +
+                                                     1.5F * one.tintAndSway.w);
+            reach = std::max(reach, glm::distance(middle, glm::vec3(one.placeAndScale)) + own);
+        }
+        balls.emplace_back(middle, reach);
+    }
+    return balls;
+}
+
+GLsizei commandCount(unsigned prototypes, unsigned levels) {
+    return static_cast<GLsizei>(prototypes * levels);
+}
+
+void drawFrom(std::size_t command, GLsizei count) {
+    glMultiDrawElementsIndirect(
+        GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(DrawCommand)), count, 0);
+}
+
+}  // namespace
+
+Library growLibrary() {
+    Library library;
+    WorkerPool(std::thread::hardware_concurrency()).run(kPrototypes, [&](std::size_t i) {
+        const std::size_t growth = i - kRockShapes;
+        library[i] = i < kRockShapes ? growRock(static_cast<int>(i))
+                                     : grow(static_cast<Form>(growth / kShapesOfForm),
+                                            static_cast<int>(growth % kShapesOfForm));
+    });
+    return library;
+}
+
+namespace {
+
+ReefTables makeReefTables(const place::PlaceKey& place) {
+    const Library library = growLibrary();
+    std::array<Levels, kRockShapes> rocks;
+    std::copy_n(library.begin(), rocks.size(), rocks.begin());
+    ReefTables tables;
+    tables.instances = byCells(scatter(place, rocks));
+    tables.commands.resize(kPrototypes * kLevels);
+    std::uint32_t slots = 0;
+    for (std::size_t i = 0; i < kPrototypes; ++i) {
+        const auto own = static_cast<std::uint32_t>(std::ranges::count_if(
+            tables.instances, [&](const Instance& one) { return one.prototype == i; }));
+        Prototype prototype = boundsOf(library.at(i)[0]);
+        prototype.firstCommand = commandOf(i, 0);
+        prototype.commandStride = commandOf(i, 1) - commandOf(i, 0);
+        prototype.leastPixels = leastPixelsOf(i);
+        tables.prototypes.push_back(prototype);
+        for (std::size_t level = 0; level < kLevels; ++level) {
+            const Mesh& mesh = library.at(i).at(level);
+            tables.commands[commandOf(i, level)] = {
+                static_cast<std::uint32_t>(mesh.indices.size()),
+                0,
+                static_cast<std::uint32_t>(tables.indices.size()),
+                static_cast<std::int32_t>(tables.vertices.size()),
+                slots};
+            slots += own;
+            tables.vertices.insert(
+                tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+            tables.indices.insert(tables.indices.end(), mesh.indices.begin(), mesh.indices.end());
+        }
+    }
+    tables.groups = groupBalls(tables.instances, tables.prototypes);
+    return tables;
+}
+
+}  // namespace
+
+ReefTables reefTables(const place::PlaceKey& place) {
+    return files::derivedTables<ReefTables>(
+        files::DerivedKey("reef").add(place.seed).add(place.kind),
+        [&] { return makeReefTables(place); });
+}
+
+Reef::Reef(const ReefTables& tables, const Quality& quality)
+    : quality_{quality},
+      group_{gl::makeProgram({"place_groups.comp"})},
+      cull_{gl::makeProgram({"place_cull.comp"})},
+      stone_{quality.rockScales > 1
+                 ? gl::makeProgram({"rock.vert", "rock.frag"}, replacementsOf(quality.light))
+                 : gl::makeProgram({"rock_plain.vert", "rock_plain.frag"},
+                                   replacementsOf(quality.light))},
+      growth_{gl::makeProgram({"coral.vert", "coral.frag"}, replacementsOf(quality.light))},
+      farGrowth_{gl::makeProgram({"coral_far.vert", "lit.frag"}, replacementsOf(quality.light))},
+      stir_{gl::makeProgram({"wake.comp"})},
+      detail_{makeTexture(rockTile())} {
+    wake_ = gl::makeBuffer(kWakeBytes, "wake");
+    constexpr GLint kStill = 0;  // also for who draws before any fish has passed: the shadows' maps
+    glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
+    fillBuffers(tables);
+}
+
+void Reef::fillBuffers(const ReefTables& tables) {
+    instanceCount_ = static_cast<unsigned>(tables.instances.size());
+    groupCount_ = static_cast<unsigned>(tables.groups.size());
+    setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
+    instances_ = gl::makeBuffer(tables.instances, "reef instances");
+    prototypes_ = gl::makeBuffer(tables.prototypes, "reef prototypes");
+    groups_ = gl::makeBuffer(tables.groups, "reef groups");
+    const std::vector<std::uint32_t> seen(3 + groupCount_);  // a dispatch, and the groups of it
+    seenGroups_ = gl::makeBuffer(seen, "reef groups seen");
+    none_ = gl::makeBuffer(tables.commands, "reef commands, none drawn");
+    commands_ = gl::makeBuffer(tables.commands, "reef commands");
+    const std::size_t slots = kLevels * tables.instances.size();  // each at every level
+    chosen_ = gl::makeBuffer(slots * sizeof(std::uint32_t), "reef chosen");
+    constexpr unsigned kChosen = shaders::kChosenAttribute;
+    glVertexArrayVertexBuffer(array_.name(), kChosen, chosen_.name(), 0, sizeof(std::uint32_t));
+    glVertexArrayBindingDivisor(array_.name(), kChosen, 1);
+    glEnableVertexArrayAttrib(array_.name(), kChosen);
+    glVertexArrayAttribIFormat(array_.name(), kChosen, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(array_.name(), kChosen, kChosen);
+}
+
+void Reef::stir(std::size_t fish, float fraction) const {
+    const gl::Stage stage{"place stir"};
+    if (!quality_.plantsGiveWay) return;
+    constexpr std::int32_t kStill = 0;
+    glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kWakeStorage, wake_.name());
+    const auto count = static_cast<unsigned>(fish);
+    if (count == 0) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(stir_.name());
+    glUniform1f(shaders::kFractionLocation, fraction);
+    glUniform1ui(shaders::kWakeFishCountLocation, count);
+    glDispatchCompute((count + shaders::kGroupSize - 1) / shaders::kGroupSize, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void Reef::cullGroups(const ReefRule& rule) const {
+    constexpr std::array<std::uint32_t, 3> kNone{0, 1, 1};
+    glClearNamedBufferSubData(seenGroups_.name(),
+                              GL_RGB32UI,
+                              0,
+                              sizeof(kNone),
+                              GL_RGB_INTEGER,
+                              GL_UNSIGNED_INT,
+                              kNone.data());
+    glUseProgram(group_.name());
+    glUniform1ui(shaders::kGroupCountLocation, groupCount_);
+    glUniform1i(shaders::kCullingLocation, rule.culling ? 1 : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kGroupsStorage, groups_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kSeenGroupsStorage, seenGroups_.name());
+    glDispatchCompute((groupCount_ + shaders::kGroupSize - 1) / shaders::kGroupSize, 1, 1);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void Reef::cull(const ReefRule& rule) const {
+    const gl::Stage stage{"place cull"};
+    glCopyNamedBufferSubData(none_.name(),
+                             commands_.name(),
+                             0,
+                             0,
+                             static_cast<GLsizeiptr>(kPrototypes * kLevels * sizeof(DrawCommand)));
+    cullGroups(rule);
+    glUseProgram(cull_.name());
+    glUniform1ui(shaders::kInstanceCountLocation, instanceCount_);
+    glUniform1i(shaders::kCullingLocation, rule.culling ? 1 : 0);
+    glUniform1f(shaders::kCullDetailLocation, rule.levelsOfDetail ? quality_.placeDetail : 1.0e6F);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kInstancesStorage, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kPrototypesStorage, prototypes_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kCommandsStorage, commands_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kChosenStorage, chosen_.name());
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, seenGroups_.name());
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+void Reef::bind() const {
+    glBindVertexArray(array_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kInstancesStorage, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shaders::kWakeStorage, wake_.name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+}
+
+void Reef::draw() const {
+    bind();
+    glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
+    constexpr unsigned kFine = 3;  // levels that are lit at each pixel
+    if (quality_.growthAtPixels) {
+        glUseProgram(growth_.name());
+        glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+        glUniform1i(shaders::kStirredLocation, quality_.plantsGiveWay ? 1 : 0);
+        drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
+    }
+    const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
+    glUseProgram(farGrowth_.name());
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    glUniform1i(shaders::kStirredLocation, 0);  // too far off to be seen to give way
+    drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
+    // What grows hides much of the rock, and is cheaper.
+    glEnable(GL_CULL_FACE);
+    glUseProgram(stone_.name());
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    if (quality_.rockScales > 1) glUniform1i(shaders::kRockScalesLocation, quality_.rockScales);
+    drawFrom(0, commandCount(kRockShapes, kLevels));
+    glDisable(GL_CULL_FACE);
+}
+
+Reef::DepthPrograms Reef::depthPrograms() const {
+    return {gl::makeProgram({"coral.vert"}, replacementsOf(quality_.light)),
+            gl::makeProgram({"rock.vert"})};
+}
+
+void Reef::drawDepths(const DepthPrograms& programs) const {
+    bind();
+    glUseProgram(programs.growth.name());
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    glUniform1i(shaders::kStirredLocation, 0);  // nothing gives way
+    drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kLevels));
+    glEnable(GL_CULL_FACE);
+    glUseProgram(programs.stone.name());
+    glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
+    drawFrom(0, commandCount(kRockShapes, kLevels));
+    glDisable(GL_CULL_FACE);
+}
+
+}  // namespace aquarama::scene

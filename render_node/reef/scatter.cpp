@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "render_node/reef/scatter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "render_node/reef/mesh.h"
+#include "render_node/reef/strands.h"
+
+namespace aquarama::scene {
+
+namespace {
+
+using Colours = std::array<glm::vec3, 5>;
+
+// Living hard coral is brown with its algae, towards ochre, olive, cream, lavender or rose.
+constexpr std::array<Colours, 5> kHard{
+    Colours{glm::vec3{0.66F, 0.38F, 0.10F},
+            {0.72F, 0.44F, 0.10F},
+            {0.80F, 0.60F, 0.28F},
+            {0.42F, 0.22F, 0.08F},
+            {0.54F, 0.40F, 0.09F}},
+    Colours{glm::vec3{0.56F, 0.28F, 0.40F},
+            {0.48F, 0.24F, 0.18F},
+            {0.80F, 0.60F, 0.42F},
+            {0.52F, 0.32F, 0.48F},
+            {0.64F, 0.38F, 0.18F}},
+    Colours{glm::vec3{0.76F, 0.30F, 0.18F},
+            {0.58F, 0.27F, 0.10F},
+            {0.82F, 0.54F, 0.28F},
+            {0.68F, 0.36F, 0.10F},
+            {0.46F, 0.24F, 0.12F}},
+    Colours{glm::vec3{0.50F, 0.40F, 0.07F},
+            {0.64F, 0.44F, 0.10F},
+            {0.38F, 0.28F, 0.07F},
+            {0.78F, 0.56F, 0.20F},
+            {0.56F, 0.28F, 0.09F}},
+    Colours{glm::vec3{0.68F, 0.44F, 0.20F},
+            {0.50F, 0.26F, 0.09F},
+            {0.84F, 0.64F, 0.36F},
+            {0.62F, 0.32F, 0.28F},
+            {0.40F, 0.22F, 0.09F}},
+};
+// Fans, sponges and soft corals: one hue rules a patch.
+constexpr std::array<Colours, 5> kSoft{
+    Colours{glm::vec3{0.62F, 0.34F, 0.10F},
+            {0.66F, 0.44F, 0.12F},
+            {0.56F, 0.26F, 0.10F},
+            {0.64F, 0.50F, 0.24F},
+            {0.60F, 0.36F, 0.14F}},
+    Colours{glm::vec3{0.42F, 0.18F, 0.44F},
+            {0.50F, 0.24F, 0.46F},
+            {0.36F, 0.18F, 0.36F},
+            {0.56F, 0.34F, 0.50F},
+            {0.58F, 0.46F, 0.30F}},
+    Colours{glm::vec3{0.60F, 0.16F, 0.14F},
+            {0.56F, 0.20F, 0.12F},
+            {0.64F, 0.30F, 0.20F},
+            {0.50F, 0.14F, 0.18F},
+            {0.60F, 0.42F, 0.26F}},
+    Colours{glm::vec3{0.62F, 0.48F, 0.16F},
+            {0.54F, 0.42F, 0.18F},
+            {0.66F, 0.54F, 0.24F},
+            {0.48F, 0.36F, 0.14F},
+            {0.56F, 0.30F, 0.12F}},
+    Colours{glm::vec3{0.58F, 0.24F, 0.34F},
+            {0.64F, 0.34F, 0.38F},
+            {0.52F, 0.20F, 0.30F},
+            {0.62F, 0.46F, 0.38F},
+            {0.46F, 0.22F, 0.36F}},
+};
+constexpr Colours kAccents{glm::vec3{0.70F, 0.10F, 0.30F},
+                           {0.80F, 0.30F, 0.05F},
+                           {0.78F, 0.58F, 0.06F},
+                           {0.62F, 0.06F, 0.08F},
+                           {0.46F, 0.20F, 0.62F}};
+constexpr Colours kTurfColours{glm::vec3{0.24F, 0.22F, 0.07F},
+                               {0.30F, 0.24F, 0.10F},
+                               {0.20F, 0.22F, 0.07F},
+                               {0.34F, 0.20F, 0.13F},
+                               {0.28F, 0.26F, 0.09F}};
+
+bool isSoft(Form form) {
+    return form >= Form::Fan && form <= Form::Feathers && form != Form::Leather &&
+           form != Form::Anemone;
+}
+
+glm::vec3 oneOf(const Colours& colours, Dice& dice) {
+    // The first two rule.
+    const float pick = dice.unit();
+    constexpr std::array kUpTo{0.40F, 0.66F, 0.82F, 0.92F, 1.0F};
+    std::size_t at = 0;
+    while (pick > kUpTo.at(at)) ++at;
+    return colours.at(at);
+}
+
+}  // namespace
+
+glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice) {
+    const float bright = dice.between(0.82F, 1.15F);
+    if (form == Form::Kelp) return glm::vec3{0.74F, 0.40F, 0.045F} * bright;
+    if (form == Form::Seagrass) return glm::vec3{0.19F, 0.26F, 0.055F} * bright;
+    if (form == Form::Turf) return oneOf(kTurfColours, dice) * bright;
+    if (form == Form::Anemone) return glm::vec3{0.58F, 0.46F, 0.24F} * bright;
+    const bool soft = isSoft(form);
+    if (soft && dice.unit() < 0.16F) return oneOf(kAccents, dice) * bright;
+    return oneOf((soft ? kSoft : kHard).at(patch % kHard.size()), dice) * bright;
+}
+
+namespace {
+
+constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
+
+// Where a form likes to grow, how large it gets, and how it stands.
+struct Way {
+    Form form;
+    float above, aside, below;  // weights on what looks up, sideways and down
+    float least, most;          // metres
+    float upright;              // 0 along the rock's normal, 1 towards the light
+    float sway;
+};
+constexpr std::array kWays{
+    Way{Form::Staghorn, 3.0F, 0.6F, 0.0F, 0.22F, 0.75F, 0.7F, 0.0F},
+    Way{Form::Bush, 4.0F, 2.0F, 0.0F, 0.12F, 0.40F, 0.4F, 0.0F},
+    Way{Form::Fingers, 2.2F, 1.2F, 0.0F, 0.12F, 0.42F, 0.6F, 0.0F},
+    Way{Form::Table, 2.4F, 1.0F, 0.0F, 0.24F, 0.85F, 0.9F, 0.0F},
+    Way{Form::Brain, 1.4F, 0.15F, 0.0F, 0.10F, 0.40F, 0.7F, 0.0F},
+    Way{Form::Lobes, 2.0F, 0.7F, 0.0F, 0.16F, 0.58F, 0.6F, 0.0F},
+    Way{Form::Leaves, 2.0F, 2.4F, 0.0F, 0.20F, 0.60F, 0.5F, 0.0F},
+    Way{Form::Crust, 0.8F, 1.2F, 2.0F, 0.08F, 0.24F, 0.0F, 0.0F},
+    Way{Form::Fan, 1.0F, 3.0F, 0.3F, 0.28F, 0.95F, 0.5F, 0.05F},
+    Way{Form::Whips, 0.5F, 0.5F, 0.0F, 0.45F, 1.20F, 0.8F, 0.10F},
+    Way{Form::Tubes, 0.6F, 1.0F, 0.6F, 0.22F, 0.60F, 0.6F, 0.0F},
+    Way{Form::Barrel, 0.4F, 0.2F, 0.0F, 0.35F, 0.85F, 0.8F, 0.0F},
+    Way{Form::Leather, 1.6F, 0.8F, 0.0F, 0.18F, 0.50F, 0.5F, 0.03F},
+    Way{Form::SoftTree, 0.3F, 0.9F, 2.0F, 0.18F, 0.50F, 0.2F, 0.05F},
+    Way{Form::Anemone, 0.30F, 0.10F, 0.0F, 0.20F, 0.40F, 0.4F, 0.16F},
+    Way{Form::Feathers, 0.35F, 0.3F, 0.0F, 0.16F, 0.30F, 0.5F, 0.10F},
+};
+constexpr Way kTurfPatch{Form::Turf, 1.0F, 1.0F, 1.0F, 0.06F, 0.17F, 0.3F, 0.16F};
+
+struct Spot {
+    glm::vec3 place{};
+    glm::vec3 normal{};
+};
+
+struct Planted {
+    glm::vec3 place{};
+    float size = 0.0F;
+};
+
+// All that the instances of one rock are chosen by.
+struct Bed {
+    const place::PlaceKey* place;
+    const place::Rock* rock;
+    const Mesh* stone;  // of its prototype
+    glm::quat turn;
+    std::vector<place::Rock> others;  // near enough to touch or shade it
+};
+
+std::size_t shapeOf(const place::Rock& rock) {
+    return hashOf(rock.seed, 31) % kRockShapes;
+}
+
+glm::quat turnOf(const place::Rock& rock) {
+    return glm::angleAxis(kTwoPi * unitOf(hashOf(rock.seed, 32)), glm::vec3{0, 1, 0});
+}
+
+glm::vec4 packed(const glm::quat& turn) {
+    return {turn.x, turn.y, turn.z, turn.w};
+}
+
+Spot spotOn(const Bed& bed, Dice& dice) {
+    const auto count = static_cast<float>(bed.stone->vertices.size());
+    const SolidVertex& vertex = bed.stone->vertices[static_cast<std::size_t>(dice.unit() * count)];
+    return {bed.rock->centre + bed.turn * (vertex.position * bed.rock->radiusMetres),
+            glm::normalize(bed.turn * glm::vec3(vertex.normal))};
+}
+
+// Buried in the sand or in another rock.
+bool isBuried(const Bed& bed, glm::vec3 place) {
+    if (place.y < place::floorHeight(*bed.place, {place.x, place.z}) + 0.04F) return true;
+    return std::ranges::any_of(bed.others, [&](const place::Rock& other) {
+        return glm::distance(other.centre, place) < 0.72F * other.radiusMetres;
+    });
+}
+
+bool isCrowded(std::span<const Planted> planted, glm::vec3 place, float size) {
+    return std::ranges::any_of(planted, [&](const Planted& other) {
+        return glm::distance(other.place, place) < 0.55F * (other.size + size);
+    });
+}
+
+// Patches of a few metres, their borders bent, in which two forms and one harmony rule.
+std::uint32_t patchAt(const place::PlaceKey& place, glm::vec3 at, float metres) {
+    const glm::vec3 bent =
+        at / metres + 0.45F * glm::vec3{solidNoise(place.seed, at / metres * 1.9F),
+                                        0,
+                                        solidNoise(place.seed ^ 9U, at / metres * 1.9F)};
+    const glm::ivec3 cell{glm::floor(bent)};
+    const std::uint32_t column = hashOf(place.seed, static_cast<std::uint32_t>(cell.x));
+    return hashOf(column, static_cast<std::uint32_t>(cell.z));
+}
+
+// The chance that a spot is settled: what looks at the light is, and bare patches stay bare.
+float coverAt(const place::PlaceKey& place, const Spot& spot) {
+    const float light = glm::smoothstep(-0.5F, 0.7F, spot.normal.y);
+    const float luck = solidNoise(place.seed ^ 0x77U, spot.place * 0.9F);
+    return glm::mix(0.12F, 1.0F, light) *
+           glm::mix(0.25F, 1.0F, glm::smoothstep(-0.35F, 0.25F, luck));
+}
+
+const Way& wayFor(float up, std::uint32_t patch, Dice& dice) {
+    const std::size_t first = patch % kWays.size();
+    const std::size_t second = hashOf(patch) % 8;  // a hard coral
+    const auto weightOf = [&](std::size_t i) {
+        const Way& way = kWays.at(i);
+        const float weight = up > 0.45F ? way.above : up > -0.25F ? way.aside : way.below;
+        return weight * (i == first ? 6.0F : i == second ? 10.0F : 1.0F);
+    };
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < kWays.size(); ++i) sum += weightOf(i);
+    float pick = dice.unit() * sum;
+    for (std::size_t i = 0; i < kWays.size(); ++i) {
+        pick -= weightOf(i);
+        if (pick <= 0.0F) return kWays.at(i);
+    }
+    return kWays.front();
+}
+
+// A fan stands across the swell, all others anyhow.
+glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
+    const glm::vec3 up =
+        glm::normalize(glm::mix(normal, glm::vec3{0, 1, 0}, way.upright) +
+                       0.12F * glm::vec3{dice.between(-1, 1), 0, dice.between(-1, 1)});
+    if (way.form != Form::Fan) return glm::quat_cast(frameAbout(up, kTwoPi * dice.unit()));
+    const glm::vec3 swell = glm::normalize(glm::vec3{0.50F + dice.between(-0.5F, 0.5F), 0, 0.86F});
+    const glm::vec3 x = glm::normalize(glm::cross(up, swell));
+    return glm::quat_cast(glm::mat3{x, up, glm::cross(x, up)});
+}
+
+Instance instanceOf(const place::PlaceKey& place,
+                    std::span<const place::Rock> rocks,
+                    Form form,
+                    const Spot& spot,
+                    float size,
+                    const glm::quat& turn,
+                    const glm::vec4& tintAndSway,
+                    Dice& dice) {
+    const int shape = static_cast<int>(dice.unit() * kShapesOfForm);
+    const glm::vec3 above = spot.place + spot.normal * 0.15F;
+    return {glm::vec4(spot.place, size),
+            packed(turn),
+            tintAndSway,
+            {sunOpenness(rocks, above), skyOpenness(rocks, above, glm::vec3{0, 1, 0})},
+            place::floorHeight(place, {spot.place.x, spot.place.z}),
+            static_cast<std::uint32_t>(prototypeOf(form, shape))};
+}
+
+void plant(std::vector<Instance>& all,
+           const Bed& bed,
+           const Way& way,
+           const Spot& spot,
+           float size,
+           Dice& dice) {
+    const std::uint32_t patch = patchAt(*bed.place, spot.place, 4.5F);
+    const glm::vec4 tint{tintOf(way.form, patch, dice), way.sway};
+    const Spot sunk{spot.place - spot.normal * (0.05F * size), spot.normal};
+    all.push_back(instanceOf(
+        *bed.place, bed.others, way.form, sunk, size, stance(way, spot.normal, dice), tint, dice));
+}
+
+// What crowns a boulder makes it a head of its own: a table, a thicket or a fan against the light.
+void crownRock(std::vector<Instance>& all,
+               const Bed& bed,
+               std::vector<Planted>& planted,
+               Dice& dice) {
+    constexpr std::array kCrowns{Form::Table, Form::Staghorn, Form::Table, Form::Fan, Form::Lobes};
+    const float radius = bed.rock->radiusMetres;
+    Spot best = spotOn(bed, dice);
+    for (int attempt = 0; attempt < 24; ++attempt) {
+        const Spot spot = spotOn(bed, dice);
+        if (spot.place.y + 0.5F * spot.normal.y > best.place.y + 0.5F * best.normal.y) best = spot;
+    }
+    if (isBuried(bed, best.place)) return;
+    const Form form = kCrowns.at(dice.seed() % kCrowns.size());
+    const Way& way = *std::ranges::find(kWays, form, &Way::form);
+    const float size = glm::clamp(0.52F * radius, 0.3F, 1.15F) * dice.between(0.8F, 1.15F);
+    planted.push_back({best.place, size});
+    plant(all, bed, way, best, size, dice);
+}
+
+// Large ones first, so that small ones fill what is left; cover is what makes rock look alive.
+void coverRock(std::vector<Instance>& all, const Bed& bed) {
+    const float radius = bed.rock->radiusMetres;
+    const auto corals = static_cast<int>(30.0F + 130.0F * std::pow(radius, 1.6F));
+    Dice dice{hashOf(bed.rock->seed, 77)};
+    std::vector<Planted> planted;
+    for (int crown = 0; crown < (radius > 1.2F ? 2 : 1); ++crown)
+        crownRock(all, bed, planted, dice);
+    for (int i = 0; i < corals; ++i) {
+        const float rank =
+            1.0F - (static_cast<float>(i) + dice.unit()) / static_cast<float>(corals);
+        const Spot spot = spotOn(bed, dice);
+        if (dice.unit() > coverAt(*bed.place, spot) || isBuried(bed, spot.place)) continue;
+        const Way& way = wayFor(spot.normal.y, patchAt(*bed.place, spot.place, 2.6F), dice);
+        const float host = glm::clamp(0.42F + 0.38F * radius, 0.45F, 1.25F);
+        const float size = host * glm::mix(way.least, way.most, rank * rank * rank);
+        if (isCrowded(planted, spot.place, size)) continue;
+        planted.push_back({spot.place, size});
+        plant(all, bed, way, spot, size, dice);
+    }
+    const auto tufts = static_cast<int>(10.0F + 46.0F * radius * radius);
+    for (int i = 0; i < tufts; ++i) {
+        const Spot spot = spotOn(bed, dice);
+        const float size = dice.between(kTurfPatch.least, kTurfPatch.most);
+        if (spot.normal.y > -0.3F && !isBuried(bed, spot.place))
+            plant(all, bed, kTurfPatch, spot, size, dice);
+    }
+}
+
+Spot onSand(const place::PlaceKey& place, glm::vec2 xz) {
+    return {{xz.x, place::floorHeight(place, xz), xz.y}, {0, 1, 0}};
+}
+
+void addPebble(
+    std::vector<Instance>& all, const Bed& bed, const Spot& spot, float size, Dice& dice) {
+    const glm::quat turn = glm::quat_cast(
+        frameAbout(glm::normalize(glm::vec3{dice.between(-1, 1), 0.8F, dice.between(-1, 1)}),
+                   kTwoPi * dice.unit()));
+    const float light = dice.between(1.3F, 2.1F);  // bleached
+    const glm::vec3 above = spot.place + glm::vec3{0, 0.1F, 0};
+    all.push_back({glm::vec4(spot.place + glm::vec3{0, 0.15F * size, 0}, size),
+                   packed(turn),
+                   glm::vec4(glm::vec3{light}, 0.0F),
+                   {sunOpenness(bed.others, above), skyOpenness(bed.others, above, {0, 1, 0})},
+                   spot.place.y,
+                   static_cast<std::uint32_t>(dice.seed() % kRockShapes)});
+}
+
+// What has broken off lies at the foot, and young corals have settled on it.
+void litterFoot(std::vector<Instance>& all, const Bed& bed) {
+    const place::Rock& rock = *bed.rock;
+    Dice dice{hashOf(rock.seed, 78)};
+    const auto pieces = static_cast<int>(6.0F + 16.0F * rock.radiusMetres);
+    for (int i = 0; i < pieces; ++i) {
+        const float turn = kTwoPi * dice.unit();
+        const float away =
+            rock.radiusMetres * dice.between(0.75F, 1.15F) + 1.1F * dice.unit() * dice.unit();
+        const Spot spot =
+            onSand(*bed.place,
+                   {rock.centre.x + away * std::cos(turn), rock.centre.z + away * std::sin(turn)});
+        const float share = dice.unit();
+        if (spot.place.y < rock.centre.y - 1.2F * rock.radiusMetres) continue;  // a stone of a pile
+        if (share < 0.72F) {
+            addPebble(
+                all, bed, spot, dice.between(0.04F, 0.10F) + 0.16F * share * share * share, dice);
+            continue;
+        }
+        const Way& way = wayFor(1.0F, patchAt(*bed.place, spot.place, 2.0F), dice);
+        plant(all, bed, way, spot, dice.between(0.12F, 0.26F), dice);
+    }
+}
+
+void addRock(std::vector<Instance>& all, const Bed& bed) {
+    const place::Rock& rock = *bed.rock;
+    const float light = 0.9F + 0.2F * unitOf(hashOf(rock.seed, 33));
+    const float warm = 0.05F * signedUnitOf(hashOf(rock.seed, 34));
+    all.push_back({glm::vec4(rock.centre, rock.radiusMetres),
+                   packed(bed.turn),
+                   {light * (1.0F + warm), light, light * (1.0F - warm), 0.0F},
+                   {1.0F, 1.0F},
+                   place::floorHeight(*bed.place, {rock.centre.x, rock.centre.z}),
+                   static_cast<std::uint32_t>(shapeOf(rock))});
+}
+
+// Lone heads, whips and stones on the open sand, in loose groups.
+void strew(std::vector<Instance>& all,
+           const place::PlaceKey& place,
+           std::span<const place::Rock> rocks) {
+    constexpr int kGroups = 90;
+    constexpr float kReachMetres = 30.0F;
+    Dice dice{hashOf(place.seed, 79)};
+    const Bed bed{&place, nullptr, nullptr, {}, {rocks.begin(), rocks.end()}};
+    for (int group = 0; group < kGroups; ++group) {
+        const glm::vec2 middle{dice.between(-kReachMetres, kReachMetres),
+                               dice.between(-kReachMetres, kReachMetres)};
+        const int members = 3 + static_cast<int>(dice.unit() * 8.0F);
+        const bool stony = dice.unit() < 0.6F;
+        for (int i = 0; i < members; ++i) {
+            const Spot spot =
+                onSand(place, middle + 0.9F * glm::vec2{dice.between(-1, 1), dice.between(-1, 1)});
+            if (isBuried(bed, spot.place + glm::vec3{0, 0.2F, 0})) continue;
+            if (stony || i % 3 == 0) {
+                addPebble(all, bed, spot, dice.between(0.03F, 0.13F), dice);
+                continue;
+            }
+            const Way& way = wayFor(1.0F, patchAt(place, spot.place, 2.0F), dice);
+            plant(all, bed, way, spot, dice.between(0.10F, 0.24F), dice);
+        }
+    }
+}
+
+void sow(std::vector<Instance>& all,
+         const place::PlaceKey& place,
+         std::span<const place::Rock> rocks) {
+    for (const place::Plant& one : place::plantsOf(place)) {
+        Dice dice{hashOf(one.seed, 80)};
+        const bool kelp = one.kind == place::PlantKind::Kelp;
+        const Form form = kelp ? Form::Kelp : Form::Seagrass;
+        const float lean = kelp ? 0.07F : 0.15F;
+        const glm::vec3 up =
+            glm::normalize(glm::vec3{dice.between(-lean, lean), 1.0F, dice.between(-lean, lean)});
+        // Kelp leans with the drift, grass anyhow.
+        const float about = kelp ? dice.between(-0.7F, 0.7F) : kTwoPi * dice.unit();
+        const glm::quat turn = glm::quat_cast(frameAbout(up, about));
+        const glm::vec4 tint{tintOf(form, 0, dice), kelp ? 0.12F : 0.45F};
+        all.push_back(instanceOf(
+            place, rocks, form, {one.root, {0, 1, 0}}, one.heightMetres, turn, tint, dice));
+    }
+}
+
+std::vector<place::Rock> near(std::span<const place::Rock> rocks, const place::Rock& rock) {
+    std::vector<place::Rock> others;
+    for (const place::Rock& other : rocks)
+        if (other.seed != rock.seed && glm::distance(other.centre, rock.centre) <
+                                           7.0F * other.radiusMetres + rock.radiusMetres)
+            others.push_back(other);
+    return others;
+}
+
+}  // namespace
+
+std::vector<Instance> scatter(const place::PlaceKey& place,
+                              const std::array<Levels, kRockShapes>& shapes) {
+    const std::vector<place::Rock> rocks = place::rocksOf(place);
+    std::vector<Instance> all;
+    for (const place::Rock& rock : rocks) {
+        const Bed bed{&place, &rock, &shapes.at(shapeOf(rock))[1], turnOf(rock), near(rocks, rock)};
+        addRock(all, bed);
+        coverRock(all, bed);
+        litterFoot(all, bed);
+    }
+    strew(all, place, rocks);
+    sow(all, place, rocks);
+    std::ranges::stable_sort(all, {}, &Instance::prototype);
+    return all;
+}
+
+}  // namespace aquarama::scene

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "render_node/reef/growth.h"
+#include "render_node/reef/strands.h"
+
+namespace aquarama::scene {
+
+namespace {
+
+constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
+constexpr float kGoldenAngle = 2.39996F;
+
+Surface flesh(float lightness, float translucency, float sway) {
+    return {.albedo = glm::vec3{0.5F * lightness},
+            .roughness = 0.25F,
+            .translucency = translucency,
+            .fluorescence = 0.4F,
+            .sway = sway};
+}
+
+struct FanHabit {
+    Dice dice;
+    int generations;
+    int sides;
+    float broader;
+    float bow;
+};
+
+// In the plane z = 0, bowed a little.
+void fanBranch(
+    Mesh& mesh, FanHabit& habit, const Joint& from, float angle, float length, int left) {
+    const glm::vec3 way{std::sin(angle), std::cos(angle), 0};
+    glm::vec3 end = from.centre + way * length;
+    end.z = habit.bow * (end.x * end.x + 0.4F * end.y * end.y);
+    const float age = 1.0F - static_cast<float>(left) / static_cast<float>(habit.generations);
+    const Joint to{end,
+                   left == 1 ? 0.4F * from.radius : 0.80F * from.radius,
+                   flesh(0.7F + 0.6F * age, 0.35F, glm::clamp(end.y, 0.0F, 1.0F)),
+                   glm::mix(0.6F, 1.0F, age)};
+    addStrand(mesh, std::array{from, to}, left > 3 ? habit.sides : 0);
+    if (left == 1) return;
+    const int children = 2 + (habit.dice.unit() < (left > 4 ? 0.5F : 0.15F) ? 1 : 0);
+    for (int child = 0; child < children; ++child) {
+        const float aside = (static_cast<float>(child) - 0.5F * static_cast<float>(children - 1)) *
+                            habit.dice.between(0.45F, 0.75F);
+        const float next = glm::clamp(angle * 0.93F + aside, -1.7F, 1.7F);
+        fanBranch(mesh, habit, to, next, length * habit.dice.between(0.74F, 0.98F), left - 1);
+    }
+}
+
+struct TreeHabit {
+    Dice dice;
+    int generations;
+    int sides;
+    float broader;
+};
+
+// A cluster of polyps: a ball with few faces.
+void addPolyps(Mesh& mesh, TreeHabit& habit, const Joint& at) {
+    const bool fine = habit.sides > 4;
+    addBall(mesh,
+            {.centre = at.centre,
+             .radii = glm::vec3{at.radius * 2.1F * habit.broader},
+             .capRadians = 3.0F,
+             .rings = fine ? 4 : 2,
+             .around = fine ? 7 : 4,
+             .seed = habit.dice.seed(),
+             .lumps = 0.35F,
+             .cells = 3.0F},
+            flesh(1.25F, 0.5F, at.surface.sway));
+}
+
+void treeBranch(
+    Mesh& mesh, TreeHabit& habit, const Joint& from, glm::vec3 way, float length, int left) {
+    const glm::vec3 end = from.centre + way * length;
+    const Joint to{
+        end, from.radius * 0.7F, flesh(0.95F, 0.6F, glm::clamp(end.y, 0.0F, 1.0F)), 0.85F};
+    addStrand(mesh, std::array{from, to}, habit.sides, {0.2F, 0.1F, 0.97F});
+    if (left == 1) return addPolyps(mesh, habit, to);
+    const float turn = habit.dice.between(0.0F, kTwoPi);
+    for (int child = 0; child < 3; ++child) {
+        const glm::mat3 frame = frameAbout(way, turn + kTwoPi * static_cast<float>(child) / 3.0F);
+        const float angle = habit.dice.between(0.35F, 0.95F);
+        treeBranch(mesh,
+                   habit,
+                   to,
+                   glm::normalize(way * std::cos(angle) + frame[0] * std::sin(angle) +
+                                  glm::vec3{0, 0.15F, 0}),
+                   length * habit.dice.between(0.65F, 0.9F),
+                   left - 1);
+    }
+}
+
+}  // namespace
+
+void growFan(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kGenerations{8, 7, 6, 4};
+    constexpr std::array kSides{4, 3, 0, 0};
+    FanHabit habit{Dice{dice.seed()},
+                   kGenerations.at(level),
+                   kSides.at(level),
+                   1.0F + 0.45F * static_cast<float>(level),
+                   dice.between(-0.25F, 0.25F)};
+    const float shorter = level < 2 ? 1.0F : level == 2 ? 1.2F : 2.2F;
+    fanBranch(mesh,
+              habit,
+              {{0, -0.05F, 0}, 0.028F * habit.broader, flesh(0.6F, 0.2F, 0.0F), 0.5F},
+              0.0F,
+              0.19F * shorter,
+              habit.generations);
+    if (level == 3) return;
+    for (const float lean : {-0.75F, 0.7F})
+        fanBranch(mesh,
+                  habit,
+                  {{0, 0.02F, 0}, 0.022F * habit.broader, flesh(0.6F, 0.2F, 0.0F), 0.5F},
+                  lean,
+                  0.19F * shorter,
+                  habit.generations - 1);
+}
+
+// Gorgonian whips: long rods that stand in the current.
+void growWhips(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kWhips{15, 13, 10, 7};
+    constexpr std::array kSides{5, 3, 0, 0};
+    constexpr std::array kJoints{9, 6, 4, 3};
+    for (int whip = 0; whip < kWhips.at(level); ++whip) {
+        const float turn = kGoldenAngle * static_cast<float>(whip);
+        const glm::vec3 side{std::cos(turn), 0, std::sin(turn)};
+        const float tall = dice.between(0.55F, 1.0F);
+        const float lean = dice.between(0.05F, 0.42F);
+        std::vector<Joint> joints;
+        for (int i = 0; i < kJoints.at(level); ++i) {
+            const float t = static_cast<float>(i) / static_cast<float>(kJoints.at(level) - 1);
+            const glm::vec3 at =
+                side * (0.04F + lean * std::sqrt(t) * 0.8F) + glm::vec3{0, tall * t - 0.04F, 0};
+            joints.push_back({at,
+                              (0.016F - 0.006F * t) * (1.0F + 0.3F * static_cast<float>(level)),
+                              flesh(0.7F + 0.5F * t, 0.3F, tall * t),
+                              0.5F + 0.5F * t});
+        }
+        addStrand(mesh, joints, kSides.at(level));
+    }
+}
+
+void growTubes(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kAround{14, 9, 5, 3};
+    const int tubes = 4 + static_cast<int>(3.0F * dice.unit());
+    for (int tube = 0; tube < tubes; ++tube) {
+        const float turn = kGoldenAngle * static_cast<float>(tube);
+        const glm::vec3 side{std::cos(turn), 0, std::sin(turn)};
+        const float tall = dice.between(0.45F, 1.0F);
+        const float wide = dice.between(0.075F, 0.11F);
+        const std::array rings{Ring{0.75F * wide, -0.08F, 0.35F, 0.6F},
+                               Ring{0.95F * wide, 0.35F * tall, 0.7F, 0.8F},
+                               Ring{1.25F * wide, 0.85F * tall, 0.9F, 0.95F},
+                               Ring{1.22F * wide, tall, 1.0F, 1.3F},
+                               Ring{0.9F * wide, tall, 0.6F, 0.9F},
+                               Ring{0.7F * wide, 0.7F * tall, 0.08F, 0.3F}};
+        addTurned(mesh,
+                  rings,
+                  {.centre = side * dice.between(0.05F, 0.22F),
+                   .up = glm::normalize(glm::vec3{0, 1, 0} + side * dice.between(0.0F, 0.5F)),
+                   .around = kAround.at(level),
+                   .seed = dice.seed(),
+                   .wide = 0.14F,
+                   .lobes = 1.5F},
+                  {.albedo = glm::vec3{0.5F},
+                   .roughness = 0.6F,
+                   .translucency = 0.2F,
+                   .fluorescence = 0.2F});
+    }
+}
+
+void growBarrel(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kAround{36, 20, 11, 6};
+    const std::array rings{Ring{0.34F, -0.08F, 0.35F, 0.6F},
+                           Ring{0.46F, 0.25F, 0.7F, 0.85F},
+                           Ring{0.52F, 0.6F, 0.9F, 1.0F},
+                           Ring{0.44F, 0.92F, 1.0F, 1.15F},
+                           Ring{0.40F, 0.95F, 1.0F, 1.25F},
+                           Ring{0.34F, 0.90F, 0.5F, 0.8F},
+                           Ring{0.26F, 0.5F, 0.08F, 0.3F}};
+    addTurned(mesh,
+              rings,
+              {.around = kAround.at(level),
+               .seed = dice.seed(),
+               .wide = 0.22F,
+               .high = 0.03F,
+               .lobes = 5.0F},
+              {.albedo = glm::vec3{0.5F}, .roughness = 0.9F, .translucency = 0.1F});
+}
+
+// A stalk and a folded cap, downy with polyps.
+void growLeather(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kAround{34, 20, 10, 5};
+    const float folds = dice.between(0.10F, 0.20F);
+    const std::array rings{Ring{0.30F, -0.10F, 0.3F, 0.6F, 0.2F},
+                           Ring{0.20F, 0.15F, 0.4F, 0.7F, 0.2F},
+                           Ring{0.32F, 0.32F, 0.4F, 0.7F, 0.4F},
+                           Ring{0.80F, 0.42F, 0.5F, 0.8F},
+                           Ring{0.90F, 0.48F, 0.9F, 1.2F},
+                           Ring{0.76F, 0.52F, 1.0F, 1.1F},
+                           Ring{0.4F, 0.46F, 0.9F, 1.0F, 0.5F},
+                           Ring{0.0F, 0.44F, 0.9F, 1.0F, 0.0F}};
+    addTurned(mesh,
+              rings,
+              {.around = kAround.at(level),
+               .seed = dice.seed(),
+               .wide = 0.22F,
+               .high = folds,
+               .lobes = 2.6F},
+              {.albedo = glm::vec3{0.5F},
+               .roughness = 0.35F,
+               .translucency = 0.35F,
+               .fluorescence = 0.5F,
+               .sway = 0.15F});
+}
+
+void growSoftTree(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kGenerations{4, 4, 3, 2};
+    constexpr std::array kSides{6, 3, 3, 0};
+    constexpr std::array kBroader{1.0F, 1.05F, 1.5F, 2.2F};
+    TreeHabit habit{
+        Dice{dice.seed()}, kGenerations.at(level), kSides.at(level), kBroader.at(level)};
+    const Joint foot{{0, -0.06F, 0}, 0.085F, flesh(0.8F, 0.5F, 0.0F), 0.5F};
+    const float length = level < 2 ? 0.30F : level == 2 ? 0.36F : 0.48F;
+    treeBranch(mesh, habit, foot, {0, 1, 0}, length, habit.generations);
+}
+
+void growAnemone(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kTentacles{190, 110, 56, 14};
+    constexpr std::array kSides{4, 3, 0, 0};
+    const int tentacles = kTentacles.at(level);
+    const float broader = std::sqrt(190.0F / static_cast<float>(tentacles));
+    addBall(mesh,
+            {.centre = {0, 0.0F, 0},
+             .radii = {0.62F, 0.26F, 0.62F},
+             .capRadians = 2.0F,
+             .rings = level < 2 ? 4 : 2,
+             .around = level < 2 ? 14 : 7,
+             .lumps = 0.05F},
+            flesh(0.55F, 0.3F, 0.0F));
+    for (int i = 0; i < tentacles; ++i) {
+        const float out = std::sqrt((static_cast<float>(i) + 0.5F) / static_cast<float>(tentacles));
+        const float turn = kGoldenAngle * static_cast<float>(i) + 0.6F * dice.unit();
+        const float lean = 1.35F * out + 0.3F * (dice.unit() - 0.5F);
+        const glm::vec3 way{
+            std::sin(lean) * std::cos(turn), std::cos(lean), std::sin(lean) * std::sin(turn)};
+        const glm::vec3 foot = way * glm::vec3{0.58F, 0.24F, 0.58F};
+        const float length = dice.between(0.30F, 0.46F);
+        const float radius = 0.020F * broader;
+        const glm::vec3 middle = foot + way * (0.5F * length) + glm::vec3{0, 0.03F, 0};
+        const glm::vec3 end = foot + way * length + glm::vec3{0, 0.12F, 0};
+        addStrand(
+            mesh,
+            std::array{
+                Joint{foot, radius, flesh(0.7F, 0.5F, 0.05F), 0.5F},
+                Joint{middle, 0.9F * radius, flesh(0.95F, 0.6F, 0.35F), 0.85F},
+                Joint{end, 1.25F * radius, flesh(1.35F, 0.6F, 0.8F), 1.0F},
+                Joint{end + 1.2F * radius * way, 0.2F * radius, flesh(1.6F, 0.6F, 0.85F), 1.0F}},
+            kSides.at(level),
+            {0.3F, 0.2F, 0.9F});
+    }
+}
+
+// A feather star: arms that curl upwards, fringed on both sides.
+void growFeathers(Mesh& mesh, std::size_t level, Dice dice) {
+    constexpr std::array kArms{24, 20, 14, 9};
+    constexpr std::array kJoints{8, 6, 4, 3};
+    for (int arm = 0; arm < kArms.at(level); ++arm) {
+        const float turn = kGoldenAngle * static_cast<float>(arm);
+        const glm::vec3 out{std::cos(turn), 0, std::sin(turn)};
+        const float long_ = dice.between(0.7F, 1.0F);
+        const float lean = dice.between(0.25F, 1.0F);
+        std::vector<Joint> joints;
+        for (int i = 0; i < kJoints.at(level); ++i) {
+            const float t = static_cast<float>(i) / static_cast<float>(kJoints.at(level) - 1);
+            const glm::vec3 at = long_ * (out * (lean * std::sin(2.2F * t)) +
+                                          glm::vec3{0, t * (1.15F - 0.3F * lean), 0});
+            const bool dark = (i + arm) % 2 == 0;
+            joints.push_back({at,
+                              0.055F * std::sin(0.35F + 2.5F * t),
+                              flesh(dark ? 0.55F : 1.25F, 0.6F, 0.7F * t),
+                              0.5F + 0.5F * t});
+        }
+        addLeaf(mesh, joints, {.side = glm::vec3{-out.z, 0, out.x}});
+    }
+}
+
+}  // namespace aquarama::scene

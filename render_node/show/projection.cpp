@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "render_node/show/projection.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "common/units/log.h"
+#include "common/wall/pattern.h"
+#include "render_node/gl/program.h"
+#include "render_node/shaders/shader_interface.h"
+
+namespace aquarama::show {
+
+namespace {
+
+// Places in project.frag and project_pair.frag.
+// Places in project.glsl, and one in project_pair.frag.
+
+void beginPass(const Projection::Draw& what,
+               const gl::ProgramHandle& program,
+               glm::ivec2 size,
+               std::uint32_t channelId) {
+    glBindFramebuffer(GL_FRAMEBUFFER, what.framebuffer);
+    glViewport(0, 0, size.x, size.y);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDisable(GL_DITHER);
+    glUseProgram(program.name());
+    glUniform2i(shaders::kSizeLocation, size.x, size.y);
+    glUniform1ui(shaders::kSeedLocation,
+                 channelId * 2U + static_cast<GLuint>(what.frame.value % 2));
+    glUniform1i(shaders::kDitheredLocation, what.encoding == Encoding::Dithered8 ? 1 : 0);
+    glUniform1i(shaders::kBlendMaskLocation, what.blendMask ? 1 : 0);
+}
+
+void makeBilinear(const gl::Sampler& sampler) {
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+}  // namespace
+
+Projection::Projection(const ProjectionMap& map, std::uint32_t channelId)
+    : size_{map.sizePixels},
+      channelId_{channelId},
+      program_{gl::makeProgram({"quad.vert", "project.frag"})},
+      map_{GL_TEXTURE_2D} {
+    glTextureStorage2D(map_.name(), 1, GL_RGBA32F, size_.x, size_.y);
+    glTextureSubImage2D(
+        map_.name(), 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, map.placeAndWeight.data());
+    glObjectLabel(GL_TEXTURE, map_.name(), -1, "projection map");
+    makeBilinear(bilinear_);
+}
+
+void Projection::draw(const Draw& what) const {
+    beginPass(what, program_, size_, channelId_);
+    glBindTextureUnit(shaders::kSceneUnit, what.sceneTexture);
+    glBindSampler(shaders::kSceneUnit, bilinear_.name());
+    glBindTextureUnit(shaders::kPlacesUnit, map_.name());
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindSampler(shaders::kSceneUnit, 0);
+}
+
+PairProjection::PairProjection(glm::ivec2 sizePixels,
+                               std::uint32_t channelId,
+                               config::StereoMode mode)
+    : size_{sizePixels},
+      channelId_{channelId},
+      mode_{mode},
+      program_{gl::makeProgram({"quad.vert", "project_pair.frag"})} {
+    makeBilinear(bilinear_);
+}
+
+void PairProjection::draw(const Eye& left, const Eye& right, const Projection::Draw& both) const {
+    beginPass(both, program_, size_, channelId_);
+    glUniform1i(shaders::kModeLocation, static_cast<GLint>(mode_));
+    glBindTextureUnit(shaders::kSceneUnit, left.sceneTexture);
+    glBindTextureUnit(shaders::kPlacesUnit, left.mapTexture);
+    glBindTextureUnit(shaders::kRightSceneUnit, right.sceneTexture);
+    glBindTextureUnit(shaders::kRightPlacesUnit, right.mapTexture);
+    glBindSampler(shaders::kSceneUnit, bilinear_.name());
+    glBindSampler(shaders::kRightSceneUnit, bilinear_.name());
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindSampler(shaders::kSceneUnit, 0);
+    glBindSampler(shaders::kRightSceneUnit, 0);
+}
+
+glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel) {
+    const glm::vec2 half = glm::vec2(sizePixels) / 2.0F;
+    if (mode == config::StereoMode::SideBySide)
+        pixel.x = 2 * (pixel.x < half.x ? pixel.x : pixel.x - half.x);
+    if (mode == config::StereoMode::TopBottom)
+        pixel.y = 2 * (pixel.y < half.y ? pixel.y : pixel.y - half.y);
+    return pixel;
+}
+
+namespace {
+
+glm::vec4 place(const glm::vec4& pointAndWeight, const wall::ChannelFrustum& frustum) {
+    if (pointAndWeight.w <= 0) return glm::vec4(0);
+    const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(glm::dvec3(pointAndWeight), 1);
+    const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
+    const double u = (tangent.x - frustum.left) / (frustum.right - frustum.left);
+    const double v = (tangent.y - frustum.bottom) / (frustum.top - frustum.bottom);
+    return {u, v, pointAndWeight.w, 0};
+}
+
+}  // namespace
+
+ProjectionMap projectionMap(const wall::WarpMap& warp, const wall::ChannelFrustum& frustum) {
+    ProjectionMap map{.sizePixels = warp.sizePixels, .placeAndWeight = {}};
+    map.placeAndWeight.reserve(warp.pointAndWeight.size());
+    for (const glm::vec4& point : warp.pointAndWeight)
+        map.placeAndWeight.push_back(place(point, frustum));
+    return map;
+}
+
+glm::ivec2 scenePictureSize(const ProjectionMap& map) {
+    if (map.sizePixels.x < 2 || map.sizePixels.y < 2)
+        throw Error("channel: a picture of less than 2 x 2 pixels; give it the projector's size");
+    const auto width = static_cast<std::size_t>(map.sizePixels.x);
+    const std::size_t middle = static_cast<std::size_t>(map.sizePixels.y) / 2 * width + width / 2;
+    const glm::vec4& at = map.placeAndWeight[middle];
+    const glm::vec4& right = map.placeAndWeight[middle + 1];
+    const glm::vec4& below = map.placeAndWeight[middle + width];
+    if (at.z <= 0 || right.z <= 0 || below.z <= 0)
+        throw Error(
+            "channel: the middle of its picture misses the screen; aim its projector at it");
+    // Along either axis of the frustum's picture, how far one step across the projector's goes.
+    const glm::dvec2 acrossColumns = glm::dvec2(right) - glm::dvec2(at);
+    const glm::dvec2 acrossRows = glm::dvec2(below) - glm::dvec2(at);
+    return {std::ceil(1 / std::hypot(acrossColumns.x, acrossRows.x)),
+            std::ceil(1 / std::hypot(acrossColumns.y, acrossRows.y))};
+}
+
+namespace {
+
+// Places in pattern.frag.
+
+constexpr float kNoGrey = -1;  // the grid instead
+
+}  // namespace
+
+PatternPass::PatternPass(const wall::ChannelFrustum& frustum, const config::Screen& screen)
+    : frustum_{frustum},
+      eyeAndRadius_{glm::dvec3(glm::inverse(frustum.cameraFromWall)[3]), screen.radiusMetres},
+      program_{gl::makeProgram({"quad.vert", "pattern.frag"})} {}
+
+void PatternPass::drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
+    draw(framebuffer, sizePixels, kNoGrey);
+}
+
+void PatternPass::drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const {
+    draw(framebuffer, sizePixels, static_cast<float>(wall::kGreyLight));
+}
+
+void PatternPass::addGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    draw(framebuffer, sizePixels, kNoGrey);
+    glDisable(GL_BLEND);
+}
+
+void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const {
+    const glm::mat3 wallFromCamera(glm::transpose(glm::dmat3(frustum_.cameraFromWall)));
+    const glm::vec4 extents(frustum_.left, frustum_.bottom, frustum_.right, frustum_.top);
+    const glm::vec4 gridLines(wall::kGridDegrees,
+                              wall::kGridMajorDegrees,
+                              wall::kGridMinorLight,
+                              wall::kGridSigmaDegrees);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, sizePixels.x, sizePixels.y);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glUseProgram(program_.name());
+    glUniformMatrix3fv(
+        shaders::kWallFromCameraLocation, 1, GL_FALSE, glm::value_ptr(wallFromCamera));
+    glUniform4fv(shaders::kExtentsLocation, 1, glm::value_ptr(extents));
+    glUniform1f(shaders::kGreyLightLocation, greyLight);
+    glUniform4fv(shaders::kGridLinesLocation, 1, glm::value_ptr(gridLines));
+    glUniform4fv(shaders::kEyeAndRadiusLocation, 1, glm::value_ptr(eyeAndRadius_));
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace aquarama::show
