@@ -16,7 +16,6 @@
 #include <glm/geometric.hpp>
 
 #include "common/units/log.h"
-#include "render_node/reef/mesh.h"
 #include "render_node/water/water_lobes.h"
 #include "tests/support/water_comparison.h"
 #include "tests/support/water_light.h"

@@ -19,6 +19,7 @@
 #include "render_node/gl/context.h"
 #include "render_node/light/scene.h"
 #include "render_node/reef/mesh.h"
+#include "render_node/water/water_tables.h"
 #include "tests/render_node/surface/test_fish.h"
 #include "tests/support/cast.h"
 

@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "render_node/reef/mesh.h"
 #include "render_node/water/water_tables.h"
 #include "tests/support/water_comparison.h"
 

@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "render_node/reef/mesh.h"
 #include "render_node/water/water_lobes.h"
 #include "render_node/water/water_tables.h"
 

@@ -12,7 +12,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "render_node/reef/mesh.h"
 #include "render_node/water/water_lobes.h"
 #include "tests/render_node/water/water_reading.h"
 #include "tests/support/colour_difference.h"
