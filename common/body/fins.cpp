@@ -112,8 +112,8 @@ Hinge hingeOf(const config::Fin& fin, float flank) {
             .chord = lifted(patch.at(0, 1) - patch.at(0.5F, 1))};
 }
 
-// In whole tenths of a hertz every fin is where it was ten seconds ago: time may begin anew there,
-// and keeps its precision in a show of days.
+// Rounds to whole tenths of a hertz: then every fin is where it was ten seconds ago, so time can
+// restart after kFinSeconds and keeps its precision in a show of days.
 float tenths(float hertz) {
     return std::round(10 * hertz) / 10;
 }
