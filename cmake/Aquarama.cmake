@@ -1,4 +1,4 @@
-# One static library a folder, one test program a folder: the functions that every CMakeLists.txt here uses.
+# The functions that every CMakeLists.txt here uses. Each folder is one static library and has one test program.
 
 # Headers that most sources include, parsed once. A source still includes what it uses: the dev preset builds the programs
 # without this.
@@ -19,7 +19,7 @@ function(aquarama_precompiled name)
   target_link_libraries(${name} PRIVATE aquarama_options glm::glm ${ARG_LINK})
   target_compile_options(${name} PRIVATE -ffp-contract=off ${ARG_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
-  # A cache of the compiler gives precompiled headers back that crash GCC 12 in another folder.
+  # No compiler cache: a precompiled header that it returns in another folder crashes GCC 12.
   set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER "")
 endfunction()
 
@@ -36,7 +36,7 @@ function(aquarama_library name)
     target_compile_options(aquarama_${name} PRIVATE -O3)
   endif()
   if(AQUARAMA_PCH)
-    # Of a precompiled string GCC 12 says false things; where nothing is precompiled it is heard.
+    # With a precompiled <string>, GCC 12 gives these two warnings falsely; builds without precompiled headers keep them.
     target_compile_options(aquarama_${name} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
     if(ARG_OPTIMISED)
       target_precompile_headers(aquarama_${name} REUSE_FROM aquarama_headers_optimised)
@@ -58,8 +58,9 @@ function(aquarama_program name)
   aquarama_version(aquarama-${name})
 endfunction()
 
-# aquarama_version(aquarama-master): writes what its --version says. When everything is configured: then it is known what
-# the program links. The commit is compiled apart, so that a commit costs one small file and the linking of programs.
+# aquarama_version(aquarama-master): writes the text of its --version. It runs when everything is configured, since only
+# then it is known what the program links. The commit is in a source of its own, so that after a commit only one small
+# file is compiled and the programs are linked.
 function(aquarama_version program)
   cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL aquarama_write_version ${program})")
 endfunction()
@@ -80,7 +81,7 @@ function(aquarama_write_version program)
     separate_arguments(library)
     list(GET library 0 name)
     list(GET library 1 target)
-    list(GET library 2 folder)  # where it is found
+    list(GET library 2 folder)  # where find_package() is called for it
     list(GET library 3 variable)
     if(target IN_LIST links)
       get_directory_property(version DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DEFINITION ${variable})
@@ -102,7 +103,7 @@ function(aquarama_write_version program)
   target_link_libraries(${program} PRIVATE aquarama_commit)
 endfunction()
 
-# Everything that a target links, itself or through others.
+# aquarama_collect_links(TARGET RESULT): everything that a target links, directly or through others.
 function(aquarama_collect_links target result)
   set(open ${target})
   set(seen "")
@@ -137,9 +138,9 @@ function(aquarama_test name)
   aquarama_suite(${name} $<TARGET_FILE:aquarama_${name}_test>)
 endfunction()
 
-# aquarama_suite(motion COMMAND...): a ctest row whose processor time is held to its line in tests/budgets.csv. Only a hang
-# meets its timeout. Software OpenGL draws with one thread: ctest runs as many suites at once as there are processors. What
-# programs keep in the user's cache they keep in the build folder.
+# aquarama_suite(motion COMMAND...): a ctest row whose processor time is compared with its line in tests/budgets.csv. The
+# timeout is only for programs that hang. Software OpenGL draws with one thread, since ctest runs as many suites at once as
+# there are processors. The user's cache of the programs is in the build folder.
 function(aquarama_suite name)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/processor_time)
   add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${ARGN})

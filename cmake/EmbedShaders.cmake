@@ -1,5 +1,6 @@
 # cmake -DFOLDER=render_node/shaders -DSHARED=common/units/hash.h -DOUTPUT=embedded_shaders.cpp -P EmbedShaders.cmake
-# Writes every file of the folder, and those of others that are included there, into one C++ source, in pieces below the compiler's limit for a literal.
+# Writes every file of the folder, and the shared ones that shaders include, into one C++ source, each as a
+# string literal of its own, since compilers limit the length of a literal.
 file(GLOB files LIST_DIRECTORIES false ${FOLDER}/*)
 list(APPEND files ${SHARED})
 list(SORT files)

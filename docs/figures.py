@@ -24,9 +24,13 @@ import sys
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parent
+# Units of the time column, from its nanoseconds.
 UNITS = {"ns": 1.0, "us": 1e-3, "ms": 1e-6, "s": 1e-9}
+# A template line that is repeated for each of some numbers.
 LOOP = re.compile(r"^for ([\d ]+): (.*)$", re.MULTILINE)
+# Groups: the comment with its template; machine; template; the text made of it; the end mark.
 BLOCK = re.compile(r"(<!-- figures: (\S+)\n(.*?)-->\n)(.*?)(<!-- end -->)", re.DOTALL)
+# What Google Benchmark adds to a name for its settings.
 SUFFIX = re.compile(r"/(iterations:\d+|manual_time|process_time|real_time)\b")
 
 
@@ -40,6 +44,7 @@ def rows_of(machine):
     return rows
 
 
+# "ROW WHAT" as a number. KeyError where the measurements have no such row or counter.
 def quantity(text, rows):
     row, what = text.split()
     counter, _, factor = what.partition("*")
@@ -48,10 +53,13 @@ def quantity(text, rows):
     return rows[row, counter] * float(factor or 1)
 
 
+# Rounded to so many decimals (negative: to tens, hundreds, ...), with a space for each thousand.
 def spaced(value, decimals):
     return f"{round(value, decimals):,.{max(decimals, 0)}f}".replace(",", " ")
 
 
+# The text for one {field}: a number as it is, a quantity, or a quantity divided by others, with so many significant
+# digits.
 def number(field, rows):
     if field.isdecimal():
         return spaced(float(field), 0)
@@ -61,10 +69,12 @@ def number(field, rows):
     return spaced(value, int(digits) - 1 - math.floor(math.log10(abs(value))) if value else 0)
 
 
+# Repeats each "for" line with @ replaced.
 def unrolled(template):
     return LOOP.sub(lambda loop: "\n".join(loop[2].replace("@", each) for each in loop[1].split()), template)
 
 
+# The text of a document with the figures of all its blocks made anew. Exits where a figure is not in the measurements.
 def filled(path, text):
     def fill(block):
         head, machine, template, _, end = block.groups()
@@ -78,6 +88,7 @@ def filled(path, text):
     return BLOCK.sub(fill, text)
 
 
+# Without --check writes the documents that differ; with it writes nothing and fails if any differs.
 def main():
     stale = []
     for path in sorted([*DOCS.rglob("*.md"), DOCS.parent / "README.md"]):

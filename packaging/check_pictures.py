@@ -1,15 +1,18 @@
-"""check_pictures.py FOLDER: are the pictures of a snapshot of config/desk.txtpb there, of their size, and not flat?"""
+"""check_pictures.py FOLDER: checks that the pictures of a snapshot of config/desk.txtpb exist, have their size and are not flat"""
 
 import struct
 import sys
 import zlib
 from pathlib import Path
 
+# Width and height of each picture, as config/desk.txtpb gives them.
 SIZES = {"panorama": (1350, 600), "hall": (1600, 900), "channel-left": (480, 360), "channel-middle": (480, 360),
          "channel-right": (480, 360)}
-LEAST_COLOURS = 1000  # a flat or a torn picture has few, the reef tens of thousands
+# A flat or a torn picture has few colours, the reef tens of thousands.
+LEAST_COLOURS = 1000
 
 
+# The chunks of a PNG file: kind and content. The signature takes 8 bytes, the length, kind and checksum 12.
 def chunks(data):
     at = 8
     while at < len(data):
@@ -18,6 +21,7 @@ def chunks(data):
         at += length + 12
 
 
+# The prediction of a byte by a filter method of PNG, from the bytes to the left, above, and above to the left.
 def predicted(method, left, up, corner):
     if method == 4:  # Paeth
         guess = left + up - corner
@@ -33,6 +37,7 @@ def read_png(path):
         raise ValueError(f"{bits} bits of kind {kind}, not 8 of red, green and blue")
     packed = zlib.decompress(b"".join(body for name, body in parts if name == b"IDAT"))
     above, rows = bytearray(3 * width), []
+    # Each row is the number of its filter method and its bytes, as differences from their predictions.
     for y in range(height):
         method, *row = packed[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
         for x, value in enumerate(row if method else ()):
@@ -43,6 +48,7 @@ def read_png(path):
     return (width, height), b"".join(rows)
 
 
+# What is wrong with a picture, or None.
 def fault_of(path, expected):
     if not path.is_file():
         return "is missing"
@@ -53,6 +59,7 @@ def fault_of(path, expected):
     return f"is flat: {colours} colours" if colours < LEAST_COLOURS else None
 
 
+# Reports all faults at once; the exit status is 0 without any.
 faults = []
 for name, expected in SIZES.items():
     picture = Path(sys.argv[1]) / f"{name}.png"

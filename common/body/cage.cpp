@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/body/cage.h"
 
 #include <algorithm>
@@ -35,9 +34,12 @@ Vertex tubeVertex(int ring, int column) {
     return static_cast<Vertex>(ring * kTubeColumns + column % kTubeColumns);
 }
 
-// Builds the cage with faces clockwise as seen from outside; makeCageTopology turns them over.
+// Builds the cage with faces clockwise as seen from outside; finish() turns them over. The order of
+// calls decides the numbers of vertices and faces: change it, and every table that refers to them
+// is stale.
 class Builder {
   public:
+    // The open tube. Its vertices come first, so that tubeVertex() gives their numbers.
     Builder() {
         for (int r = 0; r < kTubeRings; ++r)
             for (int c = 0; c < kTubeColumns; ++c)
@@ -52,6 +54,8 @@ class Builder {
                                  tubeVertex(r + 1, c)};
     }
 
+    // Fills ring 0 with a grid of 3 x 3 quads: its 12 border vertices are those of the ring, its 4
+    // inner ones are new.
     void closeNose() {
         const Vertex n = add({.kind = CageSiteKind::Nose, .ring = 0, .column = 0});
         const Vertex n1 = add({.kind = CageSiteKind::Nose, .ring = 0, .column = 1});
@@ -64,6 +68,8 @@ class Builder {
                 faces_.push_back({grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1]});
     }
 
+    // Closes the last ring with 5 quads from the left to the right columns, and creases all margins
+    // of the tail fin.
     void closeTail() {
         constexpr int kEnd = kTubeRings - 1;
         const std::array<int, 6> right{1, 2, 3, 4, 5, 6};
@@ -80,7 +86,10 @@ class Builder {
                 crease(tubeVertex(r, c), tubeVertex(r + 1, c), kMarginSharpness);
     }
 
-    // Raises a strip of tube faces by some levels; walls follow its outline.
+    // Extrudes a strip of tube faces by some levels into a flap: on each level a copy of the
+    // strip's vertices, joined to the level below by a wall of quads along the outline. Creases the
+    // root, the front and rear margin and the edge. The strip's faces move to the top of the flap
+    // and leave tube_.
     void raise(CagePart part, const std::vector<Cell>& cells, int levels) {
         const std::vector<Edge> outline = outlineOf(cells);
         std::map<Vertex, Vertex> below;
@@ -112,6 +121,8 @@ class Builder {
         }
     }
 
+    // Adds the tube's remaining faces and turns all faces outwards. The builder is empty
+    // afterwards.
     [[nodiscard]] CageTopology finish() && {
         for (const auto& [cell, face] : tube_) faces_.push_back(face);
         for (Face& face : faces_) std::ranges::reverse(face);
@@ -158,6 +169,7 @@ class Builder {
     std::vector<CageCrease> creases_;
 };
 
+// The tube faces of one column between two rings.
 std::vector<Cell> strip(int firstRing, int lastRing, int column) {
     std::vector<Cell> cells;
     for (int r = firstRing; r < lastRing; ++r) cells.emplace_back(r, column);
@@ -177,11 +189,14 @@ CageTopology makeCageTopology() {
     cage.raise(CagePart::Pelvic, {{7, 7}}, 2);
     cage.raise(CagePart::Pectoral, {{5, 3}, {5, 4}}, 2);
     cage.raise(CagePart::Pectoral, {{5, 8}, {5, 9}}, 2);
-    return std::move(cage).finish();
+    CageTopology topology = std::move(cage).finish();
+    assert(topology.sites.size() == kControlPoints && topology.faces.size() == kCageFaces);
+    return topology;
 }
 
 namespace {
 
+// The shape of the cage. Lengths in body lengths.
 constexpr float kGrow = 1.045F;  // a Catmull-Clark limit surface is smaller than its cage by this
 constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly that fins grow from
 constexpr float kNoseStation = 0.004F;     // of ring 0
@@ -192,7 +207,7 @@ constexpr float kStripOverlap = 0.02F;  // of the rays, above the gap, which the
 constexpr float kRootHalfLength = 0.012F;  // of the pectoral fins
 
 // Where a column is on its ring: how far down from back (0) over flank (1) to belly (2), at what
-// angle above the horizontal, on which side, and which ray of the tail fin it becomes.
+// angle above the horizontal (radians), on which side, and which ray of the tail fin it becomes.
 struct ColumnPlace {
     float down;
     float angle;
@@ -217,25 +232,29 @@ float superellipse(float circular, float fullness) {
     return std::copysign(std::pow(std::abs(circular), 2 / fullness), circular);
 }
 
+// The four columns along the middle of back and belly, between which the median fins grow.
 bool isRidge(int column) {
     return column <= 1 || column == 6 || column == 7;
 }
 
-// A membrane thins from root to edge.
+// Half the thickness of a fin, in body lengths: a membrane thins from root to edge.
 float finHalfThickness(float q) {
     return 0.0045F * (1 - q) + 0.0008F;
 }
 
+// Even steps from one value to another.
 float between(float from, float to, int step, int steps) {
     return glm::mix(from, to, static_cast<float>(step) / static_cast<float>(steps));
 }
 
-// Rings crowd towards the nose, where the head curves most.
+// Rings are closer together towards the nose, where the head curves most.
 float headStation(std::size_t ring, std::size_t lastRing, float lastStation) {
     const float share = static_cast<float>(ring) / static_cast<float>(lastRing);
     return glm::mix(kNoseStation, lastStation, std::pow(share, 1.35F));
 }
 
+// The two rings between which the pectoral fins grow from the flank, and the columns of their
+// roots.
 bool isPectoralRing(int ring) {
     return ring == 5 || ring == 6;
 }
@@ -273,6 +292,10 @@ CageShape::CageShape(const config::Species& species)
     slantRings(species);
 }
 
+// Ring by ring: 6-13 span the first dorsal fin on the back and 14-20 the second; on the belly 7-8
+// span the pelvic and 15-20 the anal fin; on the flank 5-6 hold the root of the pectoral fin. The
+// head's rings are spaced by headStation(); flank rings behind the pectoral fin follow the mean of
+// back and belly.
 void CageShape::slantRings(const config::Species& species) {
     const float end = species.profile.stations.back();
     const auto fill = [](RingStations& rings, int first, int last, float from, float to) {
@@ -306,6 +329,9 @@ void CageShape::slantRings(const config::Species& species) {
 }
 
 CageVertex CageShape::place(const CageSite& site) const {
+    assert(site.ring >= 0 && site.ring < kTubeRings && site.column >= 0 &&
+           site.column < kTubeColumns);
+    assert(site.kind != CageSiteKind::Flap || (site.level >= 1 && site.level <= site.levels));
     switch (site.kind) {
         case CageSiteKind::Nose:
             return {.rest = onNose(site.ring, site.column)};
@@ -324,6 +350,7 @@ CageShape::Section CageShape::sectionAt(float s) const {
         dorsal_.at(s), ventral_.at(s), halfWidth_.at(s), fullnessUp_.at(s), fullnessDown_.at(s)};
 }
 
+// The inner grid of the nose: all at s = 0, at 0.4 of the first section's height and width.
 glm::vec3 CageShape::onNose(int row, int column) const {
     const Section section = sectionAt(kNoseStation);
     return {0,
@@ -331,6 +358,8 @@ glm::vec3 CageShape::onNose(int row, int column) const {
             (column == 0 ? -0.4F : 0.4F) * section.halfWidth};
 }
 
+// On the superellipse of the section, grown by kGrow; the columns of the ridges and of the pectoral
+// root have places of their own.
 glm::vec3 CageShape::onBody(int ring, int column) const {
     const auto r = static_cast<std::size_t>(ring);
     const ColumnPlace at = placeOf(column);
@@ -353,6 +382,8 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
     return onPectoralRoot(ring, column);
 }
 
+// On the drawn base of the pectoral fin, a little before it (ring 5) or behind it (ring 6), as far
+// out as the section is at that height.
 glm::vec3 CageShape::onPectoralRoot(int ring, int column) const {
     const glm::vec2 base = pectoral_.at(pectoralRay(column), 0);
     const float s = base.x + (ring == 5 ? -kRootHalfLength : kRootHalfLength);
@@ -366,7 +397,7 @@ glm::vec3 CageShape::onPectoralRoot(int ring, int column) const {
                 std::pow(std::max(0.05F, 1 - std::pow(relative, fullness)), 1 / fullness)};
 }
 
-// Its rays start where the body ends.
+// Rays of the tail fin start where the body ends, not at the drawn base.
 CageVertex CageShape::onCaudal(int ring, int column) const {
     const ColumnPlace at = placeOf(column);
     const float q = static_cast<float>(ring - kBodyEndRing) / (kTubeRings - 1 - kBodyEndRing);
@@ -376,8 +407,8 @@ CageVertex CageShape::onCaudal(int ring, int column) const {
             .fin = {at.ray, q}};
 }
 
-// Its rays start at the ridge itself: a base drawn a little too deep would hide the fin's margins
-// inside the body.
+// Rays of a median fin start at the ridge itself: a base that is drawn a little too deep would hide
+// the fin's margins inside the body.
 CageVertex CageShape::onMedianFin(const CageSite& site) const {
     const bool isAnal = site.part == CagePart::Anal;
     const FinPatch& fin = isAnal                               ? anal_
@@ -424,6 +455,7 @@ CageVertex CageShape::onPairedFin(const CageSite& site) const {
 
 namespace {
 
+// A rest position carried along by the spine: the plane across the axis is kept square to it.
 glm::vec3 place(const Spine& spine, glm::vec3 rest) {
     const SpineSample sample = sampleAt(spine, rest.x);
     const glm::vec3 forward = -glm::normalize(sample.tailwards);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/body/fins.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -16,8 +16,10 @@ namespace aquarama::body {
 
 namespace {
 
+// Of each curve of a patch; even in p.
 constexpr int kSamples = 101;
 
+// Values from 0 to 1.
 std::vector<float> evenSteps(std::size_t count) {
     std::vector<float> steps(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -25,7 +27,9 @@ std::vector<float> evenSteps(std::size_t count) {
     return steps;
 }
 
+// One component of a drawn line, sampled by a monotone curve through its points.
 std::vector<float> sampled(const std::vector<glm::vec2>& points, int component) {
+    assert(points.size() >= 2);
     std::vector<float> values(points.size());
     std::ranges::transform(
         points, values.begin(), [&](glm::vec2 point) { return point[component]; });
@@ -66,21 +70,23 @@ namespace {
 
 constexpr float kTurn = glm::two_pi<float>();
 constexpr float kFlatRadians = 5.0F * kTurn / 360;  // off the flank, of a folded fin
-// The margin of a membrane follows its root late by a sixth of a beat, a rowing tip by an eighth.
+// Phase lags, in radians and in cycles: the margin of a membrane follows its root by a sixth of a
+// beat, the tip of a rowing fin follows its root by an eighth.
 constexpr float kMarginLag = kTurn / 6;
-constexpr float kTipLag = 0.12F;  // cycles
+constexpr float kTipLag = 0.12F;
 // Below the first speed a fish stands, above the second it swims. Body lengths a second.
 constexpr float kStands = 0.2F, kSwims = 0.6F;
 constexpr float kFolded = 1.5F;    // above it pelvic fins lie as near to the belly as they go
 constexpr float kFoldBand = 0.2F;  // of the speed at which fins fold, to either side
 constexpr float kTrimGain = 3;     // a slope of a third is steep
 
+// About a unit axis (Rodrigues).
 glm::vec3 rotated(glm::vec3 axis, float angle, glm::vec3 v) {
     const float c = std::cos(angle);
     return c * v + std::sin(angle) * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
 }
 
-// The axes of a paired fin of the right side.
+// The axes of a paired fin of the right side, in (s, y, z) of the rest cage.
 struct Hinge {
     glm::vec3 root{};   // its middle
     glm::vec3 axis{};   // about it the fin leaves the flank
@@ -88,6 +94,7 @@ struct Hinge {
     glm::vec3 chord{};  // from there to the margin's front
 };
 
+// flank: how far the root is from the middle plane.
 Hinge hingeOf(const config::Fin& fin, float flank) {
     const FinPatch patch(fin);
     const glm::vec2 base = glm::normalize(patch.baseRear() - patch.baseFront());
@@ -105,8 +112,8 @@ Hinge hingeOf(const config::Fin& fin, float flank) {
             .chord = lifted(patch.at(0, 1) - patch.at(0.5F, 1))};
 }
 
-// In whole tenths of a hertz every fin is where it was ten seconds ago: time may begin anew there,
-// and keeps its precision in a show of days.
+// Rounds to whole tenths of a hertz: then every fin is where it was ten seconds ago, so time can
+// restart after kFinSeconds and keeps its precision in a show of days.
 float tenths(float hertz) {
     return std::round(10 * hertz) / 10;
 }
@@ -152,6 +159,7 @@ FinStyle styleOf(const config::Species& species, const Hinge& hinge) {
     return style;
 }
 
+// The fin of the file that a part of the cage was made from.
 const config::Fin& finOf(const config::Fins& fins, CagePart part) {
     switch (part) {
         case CagePart::Caudal:
@@ -165,6 +173,8 @@ const config::Fin& finOf(const config::Fins& fins, CagePart part) {
     }
 }
 
+// FinPoint::sway of a point (p, q) of a median fin. It grows with q^1.5, so the root stays in place
+// and the margin swings most.
 float swayOf(const config::Fin& fin, glm::vec2 at) {
     const FinPatch patch(fin);
     const float span = glm::distance(patch.at(at.x, 0), patch.at(at.x, 1));
@@ -177,11 +187,14 @@ float beyond(float speed, float limit) {
     return glm::smoothstep(limit - band, limit + band, std::abs(speed) + 1e-3F);
 }
 
-// By which a fish differs from others.
+// A phase offset, by which a fish differs from others.
 float ownCycles(std::uint32_t id) {
     return glm::fract(0.37F * static_cast<float>(id));
 }
 
+// The displacement of a point of a pectoral fin, right side: feathering about the ray, opening
+// about the hinge, the stroke. Fast swimming and the outer side of a turn fold the fin, which then
+// rests.
 glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
     const bool isRight = point.side > 0;
     const float apart = isRight ? 0.0F : 0.5F * (1 - beyond(drive.speed, style.alternateBelow));
@@ -197,6 +210,8 @@ glm::vec3 rowed(const FinStyle& style, const FinPoint& point, const FinDrive& dr
     return rotated(style.stroke, angle, arm) - point.arm;
 }
 
+// The displacement to the right of a point of a median fin: the wave of swimming, locked to the
+// tail beat, and that of hovering, by the clock, mixed by speed.
 float rippled(const FinStyle& style, const FinPoint& point, const FinDrive& drive) {
     const auto wave = [&](float cycles, float waves) {
         return std::sin(kTurn * (waves * point.p - cycles) - kMarginLag * point.q);
@@ -216,6 +231,7 @@ float rippled(const FinStyle& style, const FinPoint& point, const FinDrive& driv
 
 FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
     const config::Fins& fins = species.fins;
+    assert(cage.vertices.size() == kControlPoints);
     const Hinge pectoral = hingeOf(fins.pectoral, 0.97F * flankAt(species, fins.pectoral));
     const Hinge pelvic = hingeOf(fins.pelvic, 0.35F * flankAt(species, fins.pelvic));
     FinTable table{.style = styleOf(species, pectoral), .points = {}};
@@ -235,6 +251,7 @@ FinTable makeFinTable(const config::Species& species, const ControlCage& cage) {
 }
 
 glm::vec3 finOffset(const FinTable& fins, std::size_t i, const FinDrive& drive, float drift) {
+    assert(i < fins.points.size());
     const FinPoint& point = fins.points[i];
     const FinStyle& style = fins.style;
     switch (static_cast<CagePart>(point.part)) {
@@ -258,6 +275,7 @@ glm::vec3 finOffset(const FinTable& fins, std::size_t i, const FinDrive& drive, 
 }
 
 void headingsOf(const FishBody& body, const NodalPoints& nodes, std::span<float> headings) {
+    assert(headings.size() <= body.cage.vertices.size());
     const Spine spine = spineOf(knotStations(body), nodes);
     for (std::size_t i = 0; i < headings.size(); ++i) {
         const glm::vec3 right = sampleAt(spine, body.cage.vertices[i].rest.x).right;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fin as a ruled patch: p runs along its base, q along each ray from base (0) to edge (1).
+// The shape and the motion of fins. A fin is a ruled patch: p runs along its base from front (0) to
+// rear (1), q along each ray from base (0) to edge (1).
 #pragma once
 
 #include <array>
@@ -16,57 +17,68 @@
 
 namespace aquarama::body {
 
+// A fin as drawn in the species file, in the plane of the body: (s, y) in body lengths, y up. Base
+// and edge are monotone curves through the drawn points.
 class FinPatch {
   public:
     explicit FinPatch(const config::Fin& fin);
-    [[nodiscard]] glm::vec2 at(float p, float q) const;  // (s, y)
-    [[nodiscard]] float rayAtStation(float s) const;     // the p whose base is at s
-    // The same of a paddle: as round as the fin is, it is widest at half its length.
+    // The point (s, y) of ray p at q; outside of [0, 1] p takes the nearest ray.
+    [[nodiscard]] glm::vec2 at(float p, float q) const;
+    // The p of the ray whose base is at station s. The stations of the base must rise with p.
+    [[nodiscard]] float rayAtStation(float s) const;
+    // As at(), for a paddle: with Fin::round = 1 the fin is a fifth wider than drawn at 0.4 of its
+    // length and narrows towards its edge; with 0 it is as drawn.
     [[nodiscard]] glm::vec2 paddleAt(float p, float q) const;
+    // How far a paired fin at rest stands off the flank.
     [[nodiscard]] float angleRadians() const { return angleRadians_; }
     [[nodiscard]] glm::vec2 baseFront() const { return at(0, 0); }
     [[nodiscard]] glm::vec2 baseRear() const { return at(1, 0); }
 
   private:
-    // Finely sampled, because p is even along the drawn points and not along the length.
+    // The curves, finely sampled: p is even along the drawn points, not along the length.
     std::vector<float> p_;
     std::vector<float> baseS_, baseY_, edgeS_, edgeY_;
     float angleRadians_;
     float round_;
 };
 
-// Fins that row, flutter, ripple and fold beside the body that bears them: a pure function of time
-// and of what a node knows of a fish. The reference of fish_fins.glsl.
+// Fins that row, flutter, ripple and fold relative to the body: a pure function of time and of what
+// a node knows about a fish. This is the reference that fish_fins.glsl is tested against.
 // (docs/appendices/look.md, "Fins")
 
-// cage: of this species at rest.
+// The constants of the motion of a species' fins. cage: of this species at rest.
 [[nodiscard]] FinTable makeFinTable(const config::Species& species, const ControlCage& cage);
 
-inline constexpr float kFinSeconds = 10;  // after which all fins that go by the clock are as before
+// The period of all fin motion that depends on the time: all rates are whole tenths of a hertz.
+inline constexpr float kFinSeconds = 10;
 
-// What drives the fins of one fish.
+// What drives the fins of one fish at one moment.
 struct FinDrive {
     float seconds = 0;               // of the show, modulo kFinSeconds
     float speed = 0;                 // body lengths a second; backwards is negative
     float climb = 0;                 // sine of its pitch, up is positive
     std::array<float, 2> turning{};  // 0 to 1: how far it is in a turn to the left, to the right
+    // Of the fish; gives each its own phase.
     std::uint32_t id = 0;
-    // Of its beat, in cycles; and of the one that it comes from, until the weight is 1.
+    // Phase of its tail beat and of the beat that a motion warp leaves, in cycles; weight is the
+    // share of the first, 1 when no warp is under way.
     float phase = 0, fromPhase = 0, weight = 1;
 };
 
-// How far a control point is from where the body alone would have it: tailwards, up, to the right;
-// body lengths. drift: how fast the point goes to the right, body lengths in a radian of the beat.
+// The displacement of a control point from where the body alone would place it: tailwards, up, to
+// the right; body lengths. drift: how fast the point goes to the right, body lengths in a radian of
+// the beat; it bends the tail fin.
 [[nodiscard]] glm::vec3 finOffset(const FinTable& fins,
                                   std::size_t point,
                                   const FinDrive& drive,
                                   float drift);
 
-// Of each control point the angle by which its right is turned from the body frame's z towards its
-// x. Fins move in that frame.
+// For each control point the angle, in radians, by which the direction to its right is turned from
+// the body frame's z axis towards its x axis. Fin offsets are given in that turned frame. headings:
+// one element for each vertex of the cage.
 void headingsOf(const FishBody& body, const NodalPoints& nodes, std::span<float> headings);
 
-// tailwards, up, right to the body frame.
+// An offset (tailwards, up, right) of finOffset() as a vector of the body frame.
 [[nodiscard]] glm::vec3 turned(glm::vec3 offset, float heading);
 
 }  // namespace aquarama::body

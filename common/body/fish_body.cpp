@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/body/fish_body.h"
 
 #include <algorithm>
@@ -13,6 +12,8 @@ namespace aquarama::body {
 
 namespace {
 
+// The colour of a part in the palette of the species, linear Rec. 709; `otherwise` where the
+// palette has none.
 glm::vec3 colourOf(const config::Species& species,
                    std::string_view part,
                    const glm::vec3& otherwise) {
@@ -31,6 +32,7 @@ FishSkin skinOf(const config::Species& species) {
 
 namespace {
 
+// The nodal points of the skeleton at rest, in the order of NodalPoints; body frame.
 NodalPoints restNodesOf(const config::Skeleton& skeleton) {
     NodalPoints nodes{};
     std::size_t next = 1;
@@ -49,6 +51,7 @@ NodalPoints restNodesOf(const config::Skeleton& skeleton) {
     return nodes;
 }
 
+// The common topology with the positions of this species.
 ControlCage makeCage(const config::Species& species) {
     CageTopology topology = makeCageTopology();
     const CageShape shape(species);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the fins of a species move beside its body, as shaders read it (fish_fins.glsl, std430).
+// A species as data for drawing: how its fins move, its rest shape, its control cage, its colours.
+// Lengths are in body lengths where no unit is named.
 #pragma once
 
 #include <array>
@@ -13,28 +14,37 @@
 
 namespace aquarama::body {
 
-// Of a species; angles in radians, speeds in body lengths a second. Axes and arms are of the right
-// side: tailwards, up, away from the body. The left side is its mirror image.
+// How the fins of one species move, as shaders read it (fish_fins.glsl, std430). Angles in radians,
+// speeds in body lengths a second. Axes and arms are those of the right side: tailwards, up, away
+// from the body. The left side is the mirror image.
 struct FinStyle {
-    glm::vec3 hinge{};      // of the pectoral fin: about it the fin opens
-    float open = 0;         // from the rest angle to the middle of the stroke
-    glm::vec3 stroke{};     // about it the fin beats
-    float fold = 0;         // from the rest angle to the flank
-    glm::vec3 ray{};        // the fin's own axis, about which it feathers
-    float strokeAngle = 0;  // to either side
+    glm::vec3 hinge{};   // of the pectoral fin: about it the fin opens
+    float open = 0;      // from the rest angle to the middle of the stroke
+    glm::vec3 stroke{};  // about it the fin beats
+    float fold = 0;      // from the rest angle to the flank
+    glm::vec3 ray{};     // the fin's own axis, about which it feathers
+    // Amplitudes of the beat about `stroke` and of the twist about `ray`; the largest twist with
+    // which a climbing or diving fish trims.
+    float strokeAngle = 0;
     float featherAngle = 0, trimAngle = 0;
+    // Beats of the pectoral fins a second.
     float rowHertz = 0;
+    // Below the first speed left and right beat in turn, above the second both lie folded.
     float alternateBelow = 0, foldAbove = 0;
+    // From the rest angle to the belly, at speed.
     float pelvicFold = 0;
-    float swimRipple = 0, swimWaves = 0;  // of the median fins: in ray lengths, along the fin
+    // The ripple of the median fins, swimming and hovering: amplitude in ray lengths, waves along
+    // the fin.
+    float swimRipple = 0, swimWaves = 0;
     float hoverRipple = 0, hoverWaves = 0, hoverHertz = 0;
     float opposed = 0;  // phase of the anal fin against the dorsal
+    // How far the middle rays of the tail fin bend against its lobes, for each unit of drift.
     float cupping = 0;
     float padding[3] = {0, 0, 0};  // to whole vectors
 };
 static_assert(sizeof(FinStyle) == 112);
 
-// Of a control point.
+// A control point as the fin shader reads it.
 struct FinPoint {
     glm::vec3 arm{};         // on a paired fin: from the middle of its root, at rest
     float side = 0;          // right 1, left -1
@@ -44,9 +54,11 @@ struct FinPoint {
 };
 static_assert(sizeof(FinPoint) == 32);
 
+// All that moves the fins of one species.
 struct FinTable {
     FinStyle style;
-    std::vector<FinPoint> points;  // one a control point
+    // One for each vertex of the cage, in its order.
+    std::vector<FinPoint> points;
 };
 
 }  // namespace aquarama::body
@@ -57,9 +69,8 @@ struct Species;
 
 namespace aquarama::body {
 
-// What a species is: the rest shape of the 23 nodal points and the control cage that is bound to
-// them.
-
+// The rest shape of the 23 nodal points, which the biomechanics moves, and the control cage that is
+// bound to them. All species have the same numbers of both.
 inline constexpr int kNodalPoints = 23;
 inline constexpr int kControlPoints = 426;
 inline constexpr int kCageFaces = 424;
@@ -86,10 +97,12 @@ enum class CagePart : std::uint8_t {
 struct CageVertex {
     glm::vec3 rest{};  // (s, y, z)
     CagePart part = CagePart::Body;
-    glm::vec2
-        fin{};  // on a fin: p along its base and q from base (0) to edge (1); on the body zero
+    // On a fin: p along its base and q from base (0) to edge (1). On the body zero.
+    glm::vec2 fin{};
 };
 
+// An edge that subdivision keeps sharp. The ends are in ascending order; the sharpness is
+// OpenSubdiv's, in levels of refinement.
 struct CageCrease {
     std::array<std::uint16_t, 2> edge{};
     float sharpness = 0.0F;
@@ -103,13 +116,15 @@ struct ControlCage {
     std::vector<CageCrease> creases;
 };
 
-// Thinner than the cage can draw, in the middle plane of the body (species.proto, Thread).
+// A whip, lone spine or barbel: thinner than the cage can draw, in the middle plane of the body
+// (species.proto, Thread). Widths in body lengths.
 struct BodyThread {
     std::vector<glm::vec2> at;  // (s, y) from its root to its tip
     float rootWidth = 0.0F, tipWidth = 0.0F;
     bool isOfFirstDorsal = false;
 };
 
+// All that drawing and posing a species needs of its file. Made once by makeBody(), then read only.
 struct FishBody {
     std::string species;
     float typicalLengthMetres = 0.0F;
@@ -126,11 +141,13 @@ struct FishBody {
     FinTable fins;
 };
 
+// species: as its reader has checked it. A pure function.
 [[nodiscard]] FishBody makeBody(const config::Species& species);
 
-// The cage moved by the nodal points: cubic spine through nose, ring centres and tail, lateral axis
-// from the rings. nodes and the result are in one and the same frame (body or world), body lengths.
-// The rest nodes give the rest cage.
+// Moves the cage by the nodal points: a cubic spine through nose, ring centres and tail, the
+// lateral axis from the rings. nodes and controlPoints are in the same frame (body or world), in
+// body lengths; controlPoints has one element for each vertex of the cage. The rest nodes give the
+// rest cage.
 void poseCage(const FishBody& body, const NodalPoints& nodes, std::span<glm::vec3> controlPoints);
 
 }  // namespace aquarama::body
@@ -141,15 +158,16 @@ struct Species;
 
 namespace aquarama::body {
 
-// How the skin of a species is painted: by a program of its own where there is one, else plainly in
-// the colours of its file.
-
+// How the skin of a species is painted: by its own shader where there is one, else with a plain
+// pattern in these colours of its file.
 struct FishSkin {
-    std::string species;  // whose skin shader is render_node/shaders/skin_SPECIES.glsl
+    // Name of the species; its shader is render_node/shaders/skin_SPECIES.glsl.
+    std::string species;
     // Linear Rec. 709.
     glm::vec3 back{}, flank{}, belly{};
 };
 
+// A colour that the file does not name has a neutral default.
 [[nodiscard]] FishSkin skinOf(const config::Species& species);
 
 }  // namespace aquarama::body

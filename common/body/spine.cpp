@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/body/spine.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -13,12 +13,14 @@ namespace aquarama::body {
 
 namespace {
 
-// The piece of the table that holds `at`, which is inside of it.
+// The piece of the table that contains `at`, which must lie between its ends. Binary search.
 std::size_t pieceOf(const std::vector<float>& x, float at) {
     const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, at);
     return static_cast<std::size_t>(above - x.begin()) - 1;
 }
 
+// Slope at an end of the table, from the two pieces next to it (h: widths, rise: slopes):
+// three-point formula, limited so that the curve stays monotone.
 float endSlope(float h0, float h1, float rise0, float rise1) {
     const float slope = ((2 * h0 + h1) * rise0 - h0 * rise1) / (h0 + h1);
     if (slope * rise0 <= 0) return 0;
@@ -26,6 +28,7 @@ float endSlope(float h0, float h1, float rise0, float rise1) {
     return slope;
 }
 
+// Slope between two pieces: their weighted harmonic mean, 0 at an extremum of the table.
 float middleSlope(float h0, float h1, float rise0, float rise1) {
     if (rise0 * rise1 <= 0) return 0;
     const float w0 = 2 * h1 + h0;
@@ -38,6 +41,7 @@ float middleSlope(float h0, float h1, float rise0, float rise1) {
 MonotoneCurve::MonotoneCurve(std::vector<float> x, std::vector<float> y)
     : x_(std::move(x)), y_(std::move(y)), slope_(x_.size()) {
     assert(x_.size() == y_.size() && x_.size() >= 2);
+    assert(std::ranges::adjacent_find(x_, std::ranges::greater_equal{}) == x_.end());
     const std::size_t pieces = x_.size() - 1;
     std::vector<float> h(pieces);
     std::vector<float> rise(pieces);
@@ -67,6 +71,7 @@ float MonotoneCurve::at(float x) const {
 }
 
 float interpolate(const std::vector<float>& x, const std::vector<float>& y, float at) {
+    assert(!x.empty() && x.size() == y.size());
     if (at <= x.front()) return y.front();
     if (at >= x.back()) return y.back();
     const std::size_t i = pieceOf(x, at);
@@ -76,6 +81,7 @@ float interpolate(const std::vector<float>& x, const std::vector<float>& y, floa
 
 namespace {
 
+// How far behind the tail the axis is continued; fins may reach beyond the tail's tip.
 constexpr float kLastStation = 1.2F;
 
 // Second-order difference on uneven stations; one-sided at the ends.
@@ -102,6 +108,8 @@ void setSlopes(Spine& spine) {
     for (std::size_t k = 0; k < kKnots; ++k) spine.slopes[k] = slopeAt(spine, k);
 }
 
+// The right of a ring: from its left to its right nodes. The tail has only two nodes: its right is
+// square to them and to the axis, on the side of the last ring's.
 Spine spineOf(const std::array<float, kKnots>& stations, const NodalPoints& n) {
     Spine spine{.stations = stations};
     spine.centres[0] = n[0];
@@ -119,6 +127,8 @@ Spine spineOf(const std::array<float, kKnots>& stations, const NodalPoints& n) {
     return spine;
 }
 
+// A linear search is enough for 7 knots. `beyond` exceeds 1 behind the tail, where the curve goes
+// on along its end slope.
 SpineSample sampleAt(const Spine& spine, float station) {
     const float s = std::clamp(station, 0.0F, kLastStation);
     std::size_t i = 0;

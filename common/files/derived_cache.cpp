@@ -2,6 +2,7 @@
 #include "common/files/derived_cache.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -21,12 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr auto kLongestWait = 60s;  // for another process that makes the same
+// For another process that makes the same data, and between two looks at its lock.
+constexpr auto kLongestWait = 60s;
 constexpr auto kLook = 20ms;
 constexpr std::string_view kDataEnding = ".data";
 
-// Held by the process that makes a piece of data. Taken without a file where none can be made, and
-// after the longest wait: then two processes make the same, and no harm is done.
+// Held by the process that makes a piece of data; released by the system when the process dies.
+// Where no lock file can be made, and after the longest wait, the maker goes on without it: then
+// two processes make the same data, which does no harm.
 class MakerLock {
   public:
     explicit MakerLock(const fs::path& path)
@@ -46,9 +49,9 @@ class MakerLock {
     int file_;
 };
 
-// The head of a file, before the content. The digest is of the inputs: content under another's name
-// is damage, too. The sum of the content finds damage in a seventh of a digest's time; it need not
-// withstand an attacker, as nobody but this user writes here.
+// The head of a file, before the content. The digest is that of the inputs: content under the wrong
+// name counts as damaged. The checksum (CRC-32) of the content finds damage in a seventh of a
+// digest's time; it need not withstand an attacker, as only this user writes here.
 struct Seal {
     Digest inputs;
     std::uint64_t sum;
@@ -60,6 +63,7 @@ Seal sealOf(const DerivedKey& key, std::span<const std::byte> content) {
     return {key.digest(), crc32_z(crc32_z(0, nullptr, 0), bytes, content.size())};
 }
 
+// A file of the folder, for makeRoom().
 struct KeptFile {
     fs::file_time_type used;
     std::uintmax_t bytes = 0;
@@ -83,11 +87,13 @@ DerivedCache::DerivedCache(fs::path folder, std::uintmax_t mostBytes)
 
 DerivedCache::Bytes DerivedCache::find(const DerivedKey& key,
                                        const std::function<Bytes()>& make) const {
+    assert(make != nullptr);
     if (auto kept = read(key)) return *std::move(kept);
     std::error_code none;
     fs::create_directories(folder_, none);
     const fs::path lockFile = folder_ / (key.fileName() + ".lock");
     const MakerLock lock(lockFile);
+    // Another process may have made it during the wait.
     if (auto kept = read(key)) return *std::move(kept);
     Bytes made = make();
     write(key, made);
@@ -95,7 +101,7 @@ DerivedCache::Bytes DerivedCache::find(const DerivedKey& key,
     return made;
 }
 
-// The file: a seal, then the content.
+// The file is a seal and then the content. The time of last write serves as the time of last use.
 std::optional<DerivedCache::Bytes> DerivedCache::read(const DerivedKey& key) const {
     const fs::path path = folder_ / (key.fileName() + std::string(kDataEnding));
     std::error_code error;
@@ -149,6 +155,7 @@ DerivedCache derivedCache() {
 }
 
 std::span<const std::byte> ArrayReader::take(std::uint64_t count, std::size_t size) {
+    assert(size > 0);
     if (count > rest_.size() / size) throw Error("derived data ends within an array");
     const auto bytes = static_cast<std::size_t>(count) * size;
     const std::span<const std::byte> taken = rest_.first(bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derived data: what is a pure function of a few inputs and takes long to make, kept on disk, so
-// that a machine makes it once.
+// Derived data, kept on disk: the results of long computations that depend on a few inputs only, so
+// that a machine makes them once.
 #pragma once
 
 #include <cstddef>
@@ -20,14 +20,16 @@
 
 namespace aquarama::files {
 
-// Of all sources of common and render_node: hexadecimal, from the build. Part of every key.
+// The digest of all sources of common and render_node, in hexadecimal, set by the build. Part of
+// every key, so a change of the program makes all data anew.
 [[nodiscard]] std::string_view sourceDigest();
 
-// The inputs of one piece of derived data, by the names of which its file is found.
+// The inputs of one piece of derived data. Their digest names its file.
 class DerivedKey {
   public:
-    // kind: what it is, such as "reef"; a file name.
+    // kind: what the data is, such as "reef"; the file name begins with it.
     explicit DerivedKey(std::string kind) : kind_{std::move(kind)} { add(sourceDigest()); }
+    // Adds an input. The order of inputs matters.
     DerivedKey& add(std::string_view text);
     DerivedKey& add(std::span<const std::byte> bytes);
     template <class Number>
@@ -39,37 +41,42 @@ class DerivedKey {
 
   private:
     std::string kind_;
-    std::string inputs_;  // each behind its length, so that no two lists of inputs read alike
+    // Each input after its length, so that no two lists of inputs give the same text.
+    std::string inputs_;
 };
 
-// A folder of derived data. Any number of processes and threads may use it. What it cannot read or
-// write it does without.
+// A folder of derived data. Any number of processes and threads may use it at a time. A failure to
+// read or write is not an error: the data is then made again.
 class DerivedCache {
   public:
     using Bytes = std::vector<std::byte>;
 
-    // The folder holds at most about `mostBytes`; what was not used for longest goes first.
+    // The folder holds at most about `mostBytes`; files that were not used for longest are removed
+    // first.
     explicit DerivedCache(std::filesystem::path folder,
                           std::uintmax_t mostBytes = std::uintmax_t{512} << 20U);
 
     // What is kept under the key, or else what `make` returns, which is then kept. While one
     // process makes a piece of data, others that ask for it wait, for a minute at most. Data that
-    // was damaged on the disk is made anew.
+    // was damaged on the disk is made again. What `make` throws goes to the caller.
     [[nodiscard]] Bytes find(const DerivedKey& key, const std::function<Bytes()>& make) const;
 
   private:
+    // Nothing where there is no file, or a damaged one. Marks the file as used.
     [[nodiscard]] std::optional<Bytes> read(const DerivedKey& key) const;
     void write(const DerivedKey& key, const Bytes& content) const;
+    // Removes files until the folder is within its limit.
     void makeRoom() const;
 
     std::filesystem::path folder_;
     std::uintmax_t mostBytes_;
 };
 
-// This user's: the folder "derived" of cacheFolder().
+// The cache of this user: the folder "derived" of cacheFolder().
 [[nodiscard]] DerivedCache derivedCache();
 
-// Arrays of plain values as bytes, one after the other.
+// Arrays of plain values as bytes, one after the other: a count of 64 bits, then the values as they
+// are in memory. Only for files that this machine reads itself.
 class ArrayWriter {
   public:
     template <class T>
@@ -83,6 +90,7 @@ class ArrayWriter {
     ArrayWriter& add(const std::vector<T>& values) {
         return add(std::span{values});
     }
+    // All that was added; the writer is empty afterwards.
     [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
 
   private:
@@ -92,7 +100,7 @@ class ArrayWriter {
     std::vector<std::byte> bytes_;
 };
 
-// Reads what an ArrayWriter wrote, in the same order with the same types.
+// Reads what an ArrayWriter wrote, in the same order with the same types. Does not own the bytes.
 class ArrayReader {
   public:
     explicit ArrayReader(std::span<const std::byte> bytes) : rest_{bytes} {}
@@ -109,12 +117,13 @@ class ArrayReader {
     }
 
   private:
+    // The next count * size bytes.
     [[nodiscard]] std::span<const std::byte> take(std::uint64_t count, std::size_t size);
     std::span<const std::byte> rest_;
 };
 
-// Tables from this user's cache, or else what `make` returns, which is then kept. Of Tables,
-// arrays() ties its arrays (vectors of plain values) in a fixed order.
+// Tables from this user's cache, or else what `make` returns, which is then kept. Tables::arrays()
+// returns a std::tie of its arrays (vectors of plain values) in a fixed order.
 template <class Tables, class Make>
 [[nodiscard]] Tables derivedTables(const DerivedKey& key, const Make& make) {
     const std::vector<std::byte> bytes = derivedCache().find(key, [&] {

@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// An environment variable, empty where it is not set.
 fs::path variable(const char* name) {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
     return value != nullptr ? value : "";
@@ -38,7 +39,9 @@ std::vector<std::byte> readWhole(const fs::path& path, std::uintmax_t mostBytes)
 }
 
 void writeWhole(const fs::path& path, std::span<const std::byte> content) {
-    static std::atomic<unsigned> parts = 0;  // threads of one process may write the same file
+    // Process and number make the temporary name unique: threads of one process may write the same
+    // file.
+    static std::atomic<unsigned> parts = 0;
     std::error_code error;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
     fs::path part = path;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files: read with a bound, written so that a reader sees the old file or the new one, never
+// Whole files: read up to a limit, written so that a reader sees the old file or the new one, never
 // a part.
 #pragma once
 
@@ -11,15 +11,16 @@
 
 namespace aquarama::files {
 
-// The content of a file of at most `mostBytes`. Throws Error.
+// The content of a file of at most `mostBytes`. Throws Error when it is larger or cannot be read.
 [[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path,
                                                std::uintmax_t mostBytes);
 
-// Makes the folder of the file where there is none. Throws Error when it cannot be written.
+// Writes a temporary file beside it and renames that. Makes the folder of the file where there is
+// none. Throws Error when it cannot be written.
 void writeWhole(const std::filesystem::path& path, std::span<const std::byte> content);
 
-// Where this user's programs keep what they can make again: $XDG_CACHE_HOME/aquarama, or
-// ~/.cache/aquarama.
+// Where this user's programs keep data that they can make again: $XDG_CACHE_HOME/aquarama, or
+// ~/.cache/aquarama; in the folder for temporary files where neither variable is set.
 [[nodiscard]] std::filesystem::path cacheFolder();
 
 }  // namespace aquarama::files

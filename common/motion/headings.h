@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where fish head, of many at a time.
+// The direction of travel of many fish at a time, for the behaviour, which reads it at every tick.
 #pragma once
 
 #include <cstddef>
@@ -11,22 +11,27 @@
 
 namespace aquarama::motion {
 
-struct HeadingColumns {  // unit vectors, world frame; of the first fish asked for at 0
+// Where meanHeadings() writes unit vectors in the world frame; owned by the caller. Element 0 is
+// that of the first fish asked for, and each column has room for all of them.
+struct HeadingColumns {
     float *x, *y, *z;
 };
 
-// The x axis of meanRotation() of fish [first, last); the same bits on any instruction set.
+// The x axis of meanRotation() of fish [first, last); the same bits on any instruction set. Reads
+// the states only: ranges may run on several threads.
 void meanHeadings(const MotorTables& tables,
                   const MotionStates& states,
                   std::size_t first,
                   std::size_t last,
                   const HeadingColumns& headings);
-// The same of one fish by plain code.
+// The same for one fish, in plain C++: what meanHeadings() is tested against.
 [[nodiscard]] glm::vec3 meanHeadingReference(const MotorTables& tables,
                                              const MotionStates& states,
                                              std::size_t fish);
 
-// The cycle-mean frame as its body frame sees it, in a warp between that of two segments.
+// The rotation from the cycle-mean frame to the body frame at the phase of a fish: how far the tail
+// beat has turned the body. In a warp it is interpolated between those of the two segments and not
+// normalised.
 [[nodiscard]] Quaternion swayOf(const MotorTables& tables,
                                 const MotionStates& states,
                                 std::size_t fish);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // meanHeadingReference() on vectors of fish, operation for operation.
+#include <cassert>
+
 #include "common/motion/headings.h"
 #include "common/motion/motor_tables.h"
 
@@ -16,7 +18,7 @@ namespace {
 
 constexpr hn::CappedTag<float, 4> kFour;
 
-// Of the body frame at a phase, between two samples of its segment.
+// bodyFromMean at a phase, between two samples of the segment: swayAt(). Writes four floats.
 HWY_INLINE void storeSway(const SegmentTables& tables, std::uint32_t phase, float* four) {
     const Quaternion* const samples = &tables.bodyFromMean[phase >> kPhaseCellBits];
     const auto share = hn::Set(kFour, fractionOf(phase));
@@ -27,6 +29,7 @@ HWY_INLINE void storeSway(const SegmentTables& tables, std::uint32_t phase, floa
     }
 }
 
+// The same for a fish, which may be in a warp: swayOf(). Warps are rare and stay scalar.
 HWY_INLINE void storeSwayOf(const MotorTables& tables,
                             const MotionStates& states,
                             std::size_t fish,
@@ -42,7 +45,8 @@ HWY_INLINE void storeSwayOf(const MotorTables& tables,
 
 }  // namespace
 
-// A multiple of kWidestLanes fish.
+// last - first: a multiple of kWidestLanes. Group by group: gathers the sways of one vector of
+// fish, then computes their headings side by side.
 void headVectors(const MotorTables& tables,
                  const MotionStates& states,
                  std::size_t first,
@@ -80,6 +84,9 @@ void meanHeadings(const MotorTables& tables,
                   std::size_t first,
                   std::size_t last,
                   const HeadingColumns& headings) {
+    assert(first <= last && last <= states.size());
+    assert(first == last ||
+           (headings.x != nullptr && headings.y != nullptr && headings.z != nullptr));
     const std::size_t rest = last - (last - first) % kWidestLanes;
     HWY_DYNAMIC_DISPATCH(headVectors)(tables, states, first, rest, headings);
     for (std::size_t fish = rest; fish < last; ++fish) {

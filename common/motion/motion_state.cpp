@@ -2,12 +2,15 @@
 #include "common/motion/motion_state.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 namespace aquarama::motion {
 namespace {
 
 constexpr std::uint64_t kMask20 = 0xFFFFF;
 
+// 20-bit two's complement: the low bits of a number, and the number that such bits mean.
 std::uint64_t low20(std::int32_t value) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)) & kMask20;
 }
@@ -24,6 +27,7 @@ std::uint64_t mix(std::uint64_t h) {
     return h ^ h >> 33U;
 }
 
+// Two numbers side by side in one word.
 std::uint64_t pair(std::int32_t low, std::int32_t high) {
     return static_cast<std::uint32_t>(low) |
            static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32U;
@@ -41,6 +45,8 @@ BodyFrame frameOf(std::int32_t x, std::int32_t y, std::int32_t z, const PackedOr
             glm::quat(q.w, q.x, q.y, q.z)};
 }
 
+// Rounded, and kept within 32 bits. In double, because a float has no room for 2^-16 m far from the
+// origin.
 std::int32_t positionUnits(float metres) {
     constexpr double kFar = 2147483647.0;
     const double units = static_cast<double>(metres) / static_cast<double>(kPositionUnitMetres);
@@ -70,6 +76,7 @@ void MotorCommands::resize(std::size_t fish) {
 }
 
 FishRecord recordOf(const MotionStates& states, std::size_t fish) {
+    assert(fish < states.size());
     const std::uint64_t orientation =
         low20(states.orientationA[fish]) | low20(states.orientationB[fish]) << 20U |
         low20(states.orientationC[fish]) << 40U |
@@ -96,6 +103,7 @@ PackedOrientation orientationOf(const FishRecord& record) {
 }
 
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record) {
+    assert(fish < states.size());
     const PackedOrientation orientation = orientationOf(record);
     states.x[fish] = record.x;
     states.y[fish] = record.y;
@@ -128,6 +136,7 @@ BodyFrame bodyFrameOf(const MotionStates& states, std::size_t fish) {
 }
 
 void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame) {
+    assert(fish < states.size());
     const glm::quat& q = frame.rotation;
     const PackedOrientation packed = pack(normalised({q.w, q.x, q.y, q.z}));
     states.x[fish] = positionUnits(frame.position.x);
@@ -141,7 +150,7 @@ void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame
 
 namespace {
 
-// Half-way down: wherever the motor takes an absent fish, it stays below.
+// Half of the height that setAway() sets: wherever the motor moves an absent fish, it stays below.
 constexpr std::int32_t kAwayBelow =
     static_cast<std::int32_t>(kAwayHeightMetres / kPositionUnitMetres) / 2;
 
@@ -156,6 +165,7 @@ bool isAway(const MotionStates& states, std::size_t fish) {
 }
 
 void setAway(MotionStates& states, std::size_t fish) {
+    assert(fish < states.size());
     states.y[fish] = positionUnits(kAwayHeightMetres);
 }
 
@@ -164,6 +174,7 @@ float speedBodyLengths(const MotionStates& states, std::size_t fish) {
 }
 
 void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed) {
+    assert(fish < states.size() && std::isfinite(speed));
     constexpr auto kFastest = static_cast<float>(kFastestUnits);
     const float units = std::clamp(speed * kSpeedUnitsPerBodyLength, -kFastest, kFastest);
     states.speed[fish] = static_cast<std::int32_t>(roundToEven(units));
@@ -174,7 +185,8 @@ std::uint64_t hashOf(const MotionStates& states) {
     std::uint64_t hash = mix(states.size());
     for (std::size_t fish = 0; fish < states.size(); ++fish) {
         const FishRecord r = recordOf(states, fish);
-        // Four independent words a fish, so that only the last line waits for the fish before.
+        // Four words that do not depend on each other, so the processor works on them side by side;
+        // only the last line waits for the fish before.
         const std::int32_t phases = r.phase | static_cast<std::int32_t>(wide(r.fromPhase) << 16U);
         const std::uint64_t place = mix(pair(r.x, r.y)) + 3 * mix(pair(r.z, phases));
         const std::uint64_t turn = mix(wide(r.orientationLow) | wide(r.orientationHigh) << 32U);

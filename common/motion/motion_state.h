@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quaternions in the order of operations that every machine and instruction set shares: + - * / and
-// sqrt only, so the vectorised step can be held to these bits. Rounding is to nearest even.
+// The state of the school's motion in integers, and the arithmetic that every machine shares to the
+// bit.
 #pragma once
 
 #include <array>
@@ -16,22 +16,28 @@
 
 namespace aquarama::motion {
 
+// Quaternions with a fixed order of operations: + - * / and sqrt only, all of which IEEE 754
+// defines to the bit, and no fused multiply-add. So the vectorised step can be tested for equal
+// bits. Rounding is to nearest even.
 struct Quaternion {
     float w = 1.0F, x = 0.0F, y = 0.0F, z = 0.0F;
 };
 
-// Smallest three: the component of largest magnitude is left out and taken as positive.
+// A unit quaternion as its smallest three components, in units of kOrientationUnit: the one of
+// largest magnitude is left out and taken as positive. abc are the others in the order w, x, y, z.
 struct PackedOrientation {
     std::array<std::int32_t, 3> abc{};
     std::uint8_t largest = 0;
 };
 
+// No component but the largest exceeds 1 / sqrt(2), which is 2^19 units.
 inline constexpr float kOrientationUnitsPerOne = 741455.2F;  // 2^19 * sqrt(2)
 inline constexpr float kOrientationUnit = 1.0F / kOrientationUnitsPerOne;
-inline constexpr float kOrientationLimit = 524287.0F;  // 2^19 - 1, so that the sign may change
+// 2^19 - 1: fits 20 bits with either sign.
+inline constexpr float kOrientationLimit = 524287.0F;
 
-// Exact for |value| up to 2^51 and 2^22: the sum has no room for a fraction, so the processor
-// rounds it away, to nearest even.
+// To the nearest integer, ties to even. Exact for |value| up to 2^51 (double) and 2^22 (float): the
+// last bit of the sum is worth one, so the processor rounds the fraction away.
 [[nodiscard]] inline double roundToEven(double value) {
     constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52
     return (value + kShift) - kShift;
@@ -41,6 +47,7 @@ inline constexpr float kOrientationLimit = 524287.0F;  // 2^19 - 1, so that the 
     return (value + kShift) - kShift;
 }
 
+// The product a * b rotates by b first.
 [[nodiscard]] inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
     return {(a.w * b.w - a.x * b.x) - (a.y * b.y + a.z * b.z),
             (a.w * b.x + a.x * b.w) + (a.y * b.z - a.z * b.y),
@@ -48,22 +55,25 @@ inline constexpr float kOrientationLimit = 524287.0F;  // 2^19 - 1, so that the 
             (a.w * b.z + a.z * b.w) + (a.x * b.y - a.y * b.x)};
 }
 
+// The inverse of a unit quaternion.
 [[nodiscard]] inline Quaternion conjugate(const Quaternion& q) {
     return {q.w, -q.x, -q.y, -q.z};
 }
 
+// q must not be zero.
 [[nodiscard]] inline Quaternion normalised(const Quaternion& q) {
     const float inverse = 1.0F / std::sqrt((q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z));
     return {q.w * inverse, q.x * inverse, q.y * inverse, q.z * inverse};
 }
 
-// Of a quaternion within a few thousandths of unit length: one Newton step leaves 10^-6 of the
-// error, without a square root or a division.
+// For a quaternion within a few thousandths of unit length: one Newton step squares the error,
+// without a square root or a division.
 [[nodiscard]] inline Quaternion renormalised(const Quaternion& q) {
     const float inverse = 1.5F - 0.5F * ((q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z));
     return {q.w * inverse, q.x * inverse, q.y * inverse, q.z * inverse};
 }
 
+// The component that was left out follows from the unit length.
 [[nodiscard]] inline Quaternion unpack(const PackedOrientation& packed) {
     const float a = static_cast<float>(packed.abc[0]) * kOrientationUnit;
     const float b = static_cast<float>(packed.abc[1]) * kOrientationUnit;
@@ -82,6 +92,7 @@ inline constexpr float kOrientationLimit = 524287.0F;  // 2^19 - 1, so that the 
     }
 }
 
+// One component, rounded and kept within 20 bits.
 [[nodiscard]] inline std::int32_t orientationUnits(float component) {
     const float units = component * kOrientationUnitsPerOne;
     const float bounded = units < -kOrientationLimit  ? -kOrientationLimit
@@ -90,7 +101,8 @@ inline constexpr float kOrientationLimit = 524287.0F;  // 2^19 - 1, so that the 
     return static_cast<std::int32_t>(roundToEven(bounded));
 }
 
-// Of equally large components the first is left out.
+// q: of unit length. Of equally large components the first is left out. The sign of the quaternion,
+// which means nothing for a rotation, is chosen so that the missing component is positive.
 [[nodiscard]] inline PackedOrientation pack(const Quaternion& q) {
     std::array<float, 4> c{q.w, q.x, q.y, q.z};
     std::uint8_t largest = 0;
@@ -109,26 +121,31 @@ inline constexpr float kOrientationLimit = 524287.0F;  // 2^19 - 1, so that the 
 // The state of a school's motion: integers only, so that every machine agrees to the bit
 // (docs/architecture.md).
 
+// Units of position and speed.
 inline constexpr float kPositionUnitMetres = 1.0F / 65536.0F;
 inline constexpr float kSpeedUnitsPerBodyLength = 262144.0F;  // 2^18
 inline constexpr std::int32_t kFastestUnits = 4194303;        // 16 body lengths a second
 
-// Structure of arrays, one element a fish. Position of the body frame's origin in units of 2^-16 m;
-// orientation as the smallest three of a unit quaternion, 20 bits each; phase in 1/65536 of a
-// cycle.
+// Structure of arrays, one element for each fish; all columns have the same length. The world owns
+// it; during a tick, each thread writes a range of fish of its own. Position of the body frame's
+// origin in units of 2^-16 m; orientation as the smallest three of a unit quaternion, 20 bits each;
+// phase in 1/65536 of a cycle.
 struct MotionStates {
     std::vector<std::int32_t> x, y, z;
-    std::vector<std::int32_t> orientationA, orientationB,
-        orientationC;                              // signed 20-bit, in units of 2^-19 / sqrt(2)
-    std::vector<std::uint8_t> orientationLargest;  // which of w, x, y, z is left out (it is >= 0)
+    // Signed 20-bit, in units of 2^-19 / sqrt(2).
+    std::vector<std::int32_t> orientationA, orientationB, orientationC;
+    // Which of w, x, y, z (0 to 3) is left out; it is >= 0.
+    std::vector<std::uint8_t> orientationLargest;
     std::vector<std::uint16_t> phase;
     std::vector<std::uint8_t> segment;  // Action
-    // A motion warp glides from a frozen pose of one segment to the first pose of the next
-    // (section 4.2).
+    // A motion warp goes from a frozen pose of one segment to the first pose of the next (section
+    // 4.2).
     std::vector<std::uint16_t> fromPhase;
     std::vector<std::uint8_t> fromSegment;
-    std::vector<std::uint8_t> warpFrame;   // 0 .. warpLength; equal when no warp is under way
-    std::vector<std::uint8_t> warpLength;  // K interpolated frames
+    // From 0 to warpLength, which is K, the number of interpolated frames; equal when no warp is
+    // under way.
+    std::vector<std::uint8_t> warpFrame;
+    std::vector<std::uint8_t> warpLength;
     // Along the mean frame's x axis, in units of 2^-18 body lengths a second; backwards is
     // negative.
     std::vector<std::int32_t> speed;
@@ -137,34 +154,37 @@ struct MotionStates {
     [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
-// What the mind asks of the body; the motor's only input. It changes at decision instants, not
-// every tick.
+// What the mind asks of the body; the motor's only input. One element for each fish. It changes at
+// decision instants, not every tick.
 struct MotorCommands {
     std::vector<std::uint8_t> segment;  // Action to play next
-    // Of that action, in 1/65536 of a cycle in a tick; a turn that first plays to its end does so
-    // as recorded. Negative: the cycle is played backwards, and the fish retreats. A turn has no
-    // way back, and takes the magnitude.
+    // How fast to play that action, in 1/65536 of a cycle in a tick; a turn that has to play to its
+    // end first does so as recorded. Negative: the cycle is played backwards, and the fish
+    // retreats. A turn cannot be played backwards: it takes the magnitude.
     std::vector<std::int16_t> phaseRate;
-    std::vector<std::uint8_t> brake;  // share of the pectoral fins that is spread, in 1/255
-    std::vector<std::int16_t> pitch;  // sine of the wanted pitch, in units of 2^-15; up is positive
-    std::vector<std::int16_t>
-        yawRate;  // extra turn about the world's up, in units of 2^-20 rad a tick; left is positive
+    // How far the pectoral fins are spread, in 1/255.
+    std::vector<std::uint8_t> brake;
+    // Sine of the desired pitch, in units of 2^-15; up is positive.
+    std::vector<std::int16_t> pitch;
+    // Turn about the world's up in addition to the played one, in units of 2^-20 rad a tick; left
+    // is positive.
+    std::vector<std::int16_t> yawRate;
 
     void resize(std::size_t fish);
 };
 
-// What never changes about a fish, sent once.
+// What never changes about a fish, sent once to each node.
 struct FishTraits {
     std::uint32_t id = 0;
-    std::uint16_t lengthMillimetres = 0;  // alpha of eq. 12: the recorded data are in body lengths
+    // The alpha of eq. 12: the recorded data are in body lengths.
+    std::uint16_t lengthMillimetres = 0;
 };
 
 // One fish on the wire and on its way to the GPU: exactly the bits of MotionStates, little-endian.
 struct FishRecord {
     std::int32_t x = 0, y = 0, z = 0;
-    std::uint32_t orientationLow = 0,
-                  orientationHigh =
-                      0;  // a | b << 20 | c << 40 | largest << 60 (20-bit two's complement)
+    // The low and high half of a | b << 20 | c << 40 | largest << 60 (20-bit two's complement).
+    std::uint32_t orientationLow = 0, orientationHigh = 0;
     std::uint16_t phase = 0, fromPhase = 0;
     std::uint8_t segment = 0, fromSegment = 0, warpFrame = 0, warpLength = 0;
     std::int32_t speed = 0;
@@ -172,37 +192,40 @@ struct FishRecord {
 };
 static_assert(sizeof(FishRecord) == 32);
 
+// One fish of the columns as a record and back, without loss.
 [[nodiscard]] FishRecord recordOf(const MotionStates& states, std::size_t fish);
 void setFromRecord(MotionStates& states, std::size_t fish, const FishRecord& record);
 
-// Whether the motor and the reconstruction can play it: segments that exist, a warp within its
-// length, a speed within kFastestUnits, no stray bits. A decoder refuses any other.
+// Whether motor and reconstruction can play a record: segments that exist, a warp within its
+// length, a speed within kFastestUnits, unused bits zero. Decoders refuse any other, so no index
+// into a table needs a check.
 [[nodiscard]] bool isPlayable(const FishRecord& record);
 
-// The body frame as floats: position of o in metres, rotation that takes body axes (x anterior, y
-// dorsal, z right) to world.
+// The body frame as floats: the position of its origin o in metres, and the rotation that takes
+// body axes (x anterior, y dorsal, z right) to world axes.
 struct BodyFrame {
     glm::vec3 position{};
     glm::quat rotation{1, 0, 0, 0};
 };
 [[nodiscard]] BodyFrame bodyFrameOf(const FishRecord& record);
 [[nodiscard]] BodyFrame bodyFrameOf(const MotionStates& states, std::size_t fish);
-void setBodyFrame(MotionStates& states,
-                  std::size_t fish,
-                  const BodyFrame& frame);  // rounds to the integers
+// Rounds to the integers; the rotation need not be of unit length.
+void setBodyFrame(MotionStates& states, std::size_t fish, const BodyFrame& frame);
 
-// Body lengths a second; set, it is rounded and kept within kFastestUnits.
+// Body lengths a second. Setting rounds to the integers and limits to kFastestUnits; the speed must
+// be finite.
 [[nodiscard]] float speedBodyLengths(const MotionStates& states, std::size_t fish);
 void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed);
 
-// A fish that is not in the water: eaten, until another comes in its place. It keeps its index, and
-// its body frame is so far below every sea floor that no wall ever shows it.
+// A fish that is not in the water: it was eaten, and no other has come in its place yet. It keeps
+// its index; its body frame is so far below every sea floor that no wall ever shows it.
 inline constexpr float kAwayHeightMetres = -16384.0F;
 [[nodiscard]] bool isAway(const FishRecord& record);
 [[nodiscard]] bool isAway(const MotionStates& states, std::size_t fish);
 void setAway(MotionStates& states, std::size_t fish);
 
-// Folds every bit of the state into one number; equal worlds have equal hashes.
+// Folds every bit of the state into one number: equal worlds have equal hashes. Cost: four multiply
+// chains for each fish.
 [[nodiscard]] std::uint64_t hashOf(const MotionStates& states);
 
 }  // namespace aquarama::motion

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plain step, one fish at a time: the order of operations that the vectorised one repeats.
+// The plain step, one fish at a time. It defines the order of operations: motor_lanes-inl.h repeats
+// it, so any change here has to be made there too.
 #include "common/motion/motor.h"
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 #include "common/motion/headings.h"
@@ -14,7 +16,8 @@ namespace {
 
 using Vector = std::array<float, 3>;
 
-// Along the recorded path from one phase to another, up to a cycle later or earlier.
+// Along the recorded path from one phase to another, up to a cycle later or earlier. The path has
+// two cycles, so neither phase wraps around.
 Travel playedTravel(const SegmentTables& tables, const Playing& playing) {
     const auto placeAt = [&](std::int32_t phase) {
         const auto at = static_cast<std::uint32_t>(phase);
@@ -27,6 +30,7 @@ Travel playedTravel(const SegmentTables& tables, const Playing& playing) {
             .rate = playing.to - playing.from};
 }
 
+// v + 2w (u x v) + 2 u x (u x v), with u the vector part of q.
 Vector rotated(const Quaternion& q, const Vector& v) {
     const float x = 2.0F * (q.y * v[2] - q.z * v[1]);
     const float y = 2.0F * (q.z * v[0] - q.x * v[2]);
@@ -40,8 +44,9 @@ float bounded(float value, float limit) {
     return std::min(std::max(value, -limit), limit);
 }
 
-// The balancing roll about the nose (paper, section 4.2), from the heights of the fish's own up and
-// right: towards upright, at full rate while belly-up, and none where the nose is vertical.
+// The balancing roll about the nose (paper, section 4.2), radians in a tick, from the heights of
+// the fish's own up and right: towards upright, at full rate while belly-up, and none where the
+// nose is vertical.
 float levellingRoll(float up, float right) {
     if (up * up + right * right < kNoseVerticalSquared) return 0.0F;
     if (up < 0.0F) return std::copysign(kRollRate, right);
@@ -54,6 +59,7 @@ struct Attitude {
     float up, right;
 };
 
+// The first column of the rotation matrix of m, and the y components of its second and third.
 Attitude attitudeOf(const Quaternion& m) {
     return {{1.0F - 2.0F * (m.y * m.y + m.z * m.z),
              2.0F * (m.x * m.y + m.w * m.z),
@@ -62,8 +68,8 @@ Attitude attitudeOf(const Quaternion& m) {
             2.0F * (m.y * m.z - m.w * m.x)};
 }
 
-// 1 / sqrt within 5 millionths: a guess from the exponent and two steps by Newton, which cost less
-// than a root and a division.
+// 1 / sqrt within 5 millionths: a guess from the exponent and two Newton steps, which cost less
+// than a square root and a division.
 float inverseRoot(float value) {
     const std::uint32_t halved = std::bit_cast<std::uint32_t>(value) >> 1U;
     float root = std::bit_cast<float>(kInverseRootGuess - halved);
@@ -72,9 +78,9 @@ float inverseRoot(float value) {
     return root;
 }
 
-// Half the turn that the fish adds in this tick, about world axes: commanded yaw about up, pitch
-// about the level axis to its right, roll about its nose. Measured on the mean frame, else the tail
-// beat would be steered against.
+// Half the turn (radians, about world axes) that the fish adds in this tick: commanded yaw about
+// up, pitch about the level axis to its right, roll about its nose. Measured on the mean frame;
+// otherwise the fish would steer against its own tail beat.
 Vector halfSteering(const Attitude& attitude, float pitchSine, float yaw) {
     const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const float wanted = bounded(pitchSine, kSteepestPitch);
@@ -88,17 +94,17 @@ Vector halfSteering(const Attitude& attitude, float pitchSine, float yaw) {
             0.5F * (roll * forwardZ + alongLevel * levelZ)};
 }
 
-// Goes from v towards target and not beyond, by a whole step if there is any at all: so rounding
-// never lets it stall short of the target.
+// Moves v towards target and not beyond, by the step rounded up to a whole unit: so rounding never
+// makes it stop short of the target.
 float approached(float v, float target, float step) {
     const float whole = std::ceil(step);
     return v < target ? std::min(v + whole, target) : std::max(v - whole, target);
 }
 
 // The speed after a tick, from v and the path's at the tick's start and end; all in whole units.
-// On a turn the speed changes as was recorded. What is faster or slower than the recorded fish
-// goes after it by the law of SpeedResponse; in a glide the path's speed counts as nothing, and
-// a fish whose tail rests glides. Spread fins brake what comes of that.
+// First, v changes as the path's speed does, which matters in turns. Then the rest of the
+// difference decays by the law of SpeedResponse; in a glide the target is 0, and a fish whose tail
+// rests glides. Last, spread fins brake.
 float speedAfter(const SpeedLoss& loss,
                  float v,
                  float pathAtStart,
@@ -116,11 +122,13 @@ float speedAfter(const SpeedLoss& loss,
     return approached(swum, 0.0F, (brake * loss.brake) * std::abs(swum));
 }
 
+// A travel as whole position units.
 std::int32_t stepUnits(float units) {
     return static_cast<std::int32_t>(roundToEven(bounded(units, kLongestStepUnits)));
 }
 
-// Two's complement: the world has no edge to overflow at.
+// Addition that wraps around: the world has no edge to overflow at. Signed overflow would be
+// undefined.
 std::int32_t moved(std::int32_t position, std::int32_t step) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(position) +
                                      static_cast<std::uint32_t>(step));
@@ -131,6 +139,7 @@ Quaternion orientationOf(const MotionStates& s, std::size_t i) {
         {{s.orientationA[i], s.orientationB[i], s.orientationC[i]}, s.orientationLargest[i]});
 }
 
+// One tick of fish i: the whole of the motor, as the comments of MotorStep describe it.
 void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i) {
     MotionStates& s = *step.states;
     const Playing playing = advanceSegment(*step.tables, columns, i);
@@ -148,19 +157,19 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
                                    s.segment[i],
                                    static_cast<float>(step.commands->brake[i]) * kBrakeUnit);
     s.speed[i] = static_cast<std::int32_t>(speed);
-    // Eq. 10 in body axes; the frame from which the path is seen, in the world, comes first.
+    // Eq. 10 in body axes. seenFrom is the frame from which the path is seen, in the world.
     const Quaternion seenFrom =
         renormalised(orientationOf(s, i) * conjugate(travel.start.rotation));
     const Quaternion swum = seenFrom * travel.end.rotation;
     const Attitude attitude = attitudeOf(swum * travel.bodyFromMean);
-    // Eq. 11 with the fish's own length, and what it is faster than the path.
+    // Eq. 11 with the fish's own length, and what it travels more or less than the path.
     const Vector moves = rotated(seenFrom, {b[0] - a[0], b[1] - a[1], b[2] - a[2]});
     const float faster = (speed - pathAtEnd) * kLengthsPerSpeedUnit;
     const float units = static_cast<float>(step.traits[i].lengthMillimetres) * kUnitsPerMillimetre;
     s.x[i] = moved(s.x[i], stepUnits((moves[0] + faster * attitude.forward[0]) * units));
     s.y[i] = moved(s.y[i], stepUnits((moves[1] + faster * attitude.forward[1]) * units));
     s.z[i] = moved(s.z[i], stepUnits((moves[2] + faster * attitude.forward[2]) * units));
-    // Then the fish's own steering.
+    // Last, the fish's own steering, as a quaternion of small angle: 1 and half the turn.
     const Vector steering = halfSteering(attitude,
                                          static_cast<float>(step.commands->pitch[i]) * kPitchUnit,
                                          static_cast<float>(step.commands->yawRate[i]) * kYawUnit);
@@ -175,6 +184,9 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
 }  // namespace
 
 void MotorStep::runReference() const {
+    assert(tables != nullptr && commands != nullptr && states != nullptr);
+    assert(first <= last && last <= states->size() && last <= traits.size() &&
+           last <= commands->segment.size());
     const MotorColumns columns = columnsOf(*commands, *states);
     for (std::size_t fish = first; fish < last; ++fish) stepFish(*this, columns, fish);
 }
@@ -191,6 +203,7 @@ Quaternion swayOf(const MotorTables& tables, const MotionStates& states, std::si
 }
 
 glm::quat meanRotation(const MotorTables& tables, const MotionStates& states, std::size_t fish) {
+    assert(fish < states.size());
     const Quaternion mean = normalised(orientationOf(states, fish) * swayOf(tables, states, fish));
     return {mean.w, mean.x, mean.y, mean.z};
 }

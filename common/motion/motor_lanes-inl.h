@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arithmetic of motor.cpp and orientation.h on vectors of fish, operation for operation.
-// Elementwise only, and no fused multiply-add: so every width gives the same bits.
+// The arithmetic of motor.cpp and motion_state.h on vectors of fish, operation for operation. A
+// function here has the name of its scalar counterpart, where the meaning is explained. Elementwise
+// only, and no fused multiply-add: so every vector width gives the same bits. Change both together.
 
 // Included once for each instruction set, by motor_simd.cpp.
 #if defined(AQUARAMA_MOTOR_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -20,6 +21,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// One lane is one fish. At most kWidestLanes, so that a range splits alike on every machine.
 using Floats = hn::CappedTag<float, kWidestLanes>;
 using Ints = hn::RebindToSigned<Floats>;
 using Lanes = hn::Vec<Floats>;
@@ -33,7 +35,8 @@ struct QuaternionLanes {
 struct VectorLanes {
     Lanes x, y, z;
 };
-struct PlaceLanes {  // on a path
+// Translation and speed of a PathSample.
+struct PlaceLanes {
     VectorLanes translation;
     Lanes speed;
 };
@@ -48,14 +51,15 @@ HWY_INLINE Lanes bounded(Lanes value, float limit) {
     return hn::Min(hn::Max(value, hn::Set(kFloats, -limit)), hn::Set(kFloats, limit));
 }
 
-// To the nearest even integer, for |value| up to 2^22: where the sum's last bit is worth one.
+// To the nearest even integer, for |value| up to 2^22: the last bit of the sum is worth one, so the
+// bits of the sum less those of the shift are the integer.
 HWY_INLINE IntLanes rounded(Lanes value) {
     const Lanes shift = hn::Set(kFloats, 12582912.0F);  // 1.5 * 2^23
     return hn::Sub(hn::BitCast(kInts, hn::Add(value, shift)), hn::BitCast(kInts, shift));
 }
 
-// Where among the fours of a block that of fish i lies: so that those of a vector of fish are the
-// rows of 4 x 4 matrices, which are transposed without crossing the borders of 128 bits.
+// Groups of four floats, one for each fish of a block, are stored in an order from which load() can
+// transpose them without crossing 128-bit borders: slotOf(i) is the place of the group of fish i.
 HWY_INLINE std::size_t slotOf(std::size_t i) {
     const std::size_t lanes = hn::Lanes(kFloats);
     if (lanes < 4) return i;
@@ -63,7 +67,8 @@ HWY_INLINE std::size_t slotOf(std::size_t i) {
     return i - inVector + inVector % 4 * (lanes / 4) + inVector / 4;
 }
 
-// The fours of a vector of fish as columns.
+// Reads the groups of one vector of fish, stored by slotOf(), as four columns: 4 x 4 transpositions
+// within each 128 bits.
 HWY_INLINE QuaternionLanes load(const float* fours) {
 #if HWY_TARGET == HWY_SCALAR
     QuaternionLanes q{};
@@ -98,7 +103,7 @@ HWY_INLINE QuaternionLanes product(const QuaternionLanes& a, const QuaternionLan
             hn::Add(sumOfProducts(a.w, b.z, a.z, b.w), differenceOfProducts(a.x, b.y, a.y, b.x))};
 }
 
-// a times the conjugate of b: the signs are carried into the sums, which leaves every bit alone.
+// a times the conjugate of b. The signs are moved into the sums, which changes no bit.
 HWY_INLINE QuaternionLanes quotient(const QuaternionLanes& a, const QuaternionLanes& b) {
     return {
         hn::Add(sumOfProducts(a.w, b.w, a.x, b.x), sumOfProducts(a.y, b.y, a.z, b.z)),
@@ -130,6 +135,7 @@ HWY_INLINE auto isLargest(IntLanes largest, int component) {
     return hn::RebindMask(kFloats, hn::Eq(largest, hn::Set(kInts, component)));
 }
 
+// Reads and unpacks the orientations of a vector of fish: unpack() without branches.
 HWY_INLINE QuaternionLanes orientationOf(const MotionStates& s, std::size_t fish) {
     const auto component = [fish](const std::vector<std::int32_t>& column) HWY_ATTR {
         return hn::Mul(hn::ConvertTo(kFloats, hn::LoadU(kInts, column.data() + fish)),
@@ -154,6 +160,8 @@ HWY_INLINE QuaternionLanes orientationOf(const MotionStates& s, std::size_t fish
             hn::IfThenElse(isZ, most, c)};
 }
 
+// Packs and writes them: pack() without branches. Strictly greater wins, so the first of equal
+// components is left out here too.
 HWY_INLINE void setOrientation(const QuaternionLanes& q, MotionStates& s, std::size_t fish) {
     Lanes best = q.w;
     IntLanes largest = hn::Zero(kInts);
@@ -233,7 +241,7 @@ HWY_INLINE VectorLanes halfSteering(const AttitudeLanes& attitude, Lanes pitchSi
             hn::Mul(half, sumOfProducts(roll, forwardZ, alongLevel, levelZ))};
 }
 
-// To the nearest even integer: |value| up to 2^22.
+// Rounds by adding and subtracting the shift, as roundToEven() does: |value| up to 2^22.
 HWY_INLINE Lanes pathSpeed(Lanes perRate, Lanes rate) {
     const Lanes shift = hn::Set(kFloats, 12582912.0F);  // 1.5 * 2^23
     return hn::Sub(hn::Add(bounded(hn::Mul(perRate, rate), kFastest), shift), shift);
@@ -265,6 +273,7 @@ HWY_INLINE Lanes speedAfter(const SpeedLoss& loss,
     return approached(swum, hn::Zero(kFloats), hn::Mul(spread, hn::Abs(swum)));
 }
 
+// A 16-bit column of the commands as floats.
 HWY_INLINE Lanes commanded(const std::vector<std::int16_t>& column, std::size_t fish, float unit) {
     const hn::Rebind<std::int16_t, Ints> shorts;
     const IntLanes integers = hn::PromoteTo(kInts, hn::LoadU(shorts, column.data() + fish));
@@ -276,6 +285,7 @@ HWY_INLINE IntLanes bytesAt(const std::vector<std::uint8_t>& column, std::size_t
     return hn::PromoteTo(kInts, hn::LoadU(bytes, column.data() + fish));
 }
 
+// Adds a step to one coordinate. Integer lanes wrap around, as moved() does.
 HWY_INLINE void move(std::vector<std::int32_t>& column, std::size_t fish, Lanes units) {
     std::int32_t* const position = column.data() + fish;
     const IntLanes step = rounded(bounded(units, kLongestStepUnits));

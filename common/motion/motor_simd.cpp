@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vectorised step: what motor.cpp does to a fish, on as many as the processor has lanes.
+// The vectorised step: what motor.cpp does to one fish, on as many fish at a time as the processor
+// has lanes. Blocks of 64 fish go through it in passes: first the phases and the tables, where each
+// fish reads its own segment, then the arithmetic, which is the same for all.
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 
 #include "common/motion/motor.h"
@@ -24,7 +27,7 @@ constexpr std::size_t kBlockFish = 64;
 using FishSet = std::uint64_t;  // bit i: fish i of the block
 
 // What a block of fish does in this tick: phases and fractions of their cells, phase rates, and the
-// travels, four floats a fish, to be read as columns.
+// travels, four floats for each fish, stored by slotOf() to be read as columns.
 struct Block {
     HWY_ALIGN std::int32_t from[kBlockFish];
     HWY_ALIGN std::int32_t to[kBlockFish];
@@ -37,7 +40,7 @@ struct Block {
     HWY_ALIGN float left[4 * kBlockFish];  // translation and speed at the start
     HWY_ALIGN float reached[4 * kBlockFish];
     HWY_ALIGN std::int32_t lengthMillimetres[kBlockFish];
-    // From pass to pass, as columns.
+    // From one pass to the next, as columns.
     HWY_ALIGN float travel[3 * kBlockFish];
     HWY_ALIGN float faster[kBlockFish];
     HWY_ALIGN float swum[3 * kBlockFish];
@@ -59,6 +62,7 @@ HWY_INLINE VectorLanes loadColumns(const float* columns, std::size_t lane) {
             hn::Load(kFloats, columns + 2 * kBlockFish + lane)};
 }
 
+// Writes the travel of one fish that was computed by scalar code.
 void store(const Travel& travel, Block& block, std::size_t i) {
     const auto put = [i](const auto& four, float* column) {
         static_assert(sizeof(four) == 4 * sizeof(float));
@@ -72,14 +76,16 @@ void store(const Travel& travel, Block& block, std::size_t i) {
     block.rate[i] = travel.rate;
 }
 
+// Bit i: lane i is set. At most 16 lanes, so two bytes hold them.
 HWY_INLINE FishSet setOf(hn::Mask<Ints> mask) {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(kInts, mask, bits);
     return bits[0] | FishSet{bits[1]} << 8U;
 }
 
-// Every fish of the block plays on, a turn that is not wanted any more as recorded. Returns those
-// that should not have: they are in a motion warp, or leave their segment in this tick.
+// advanceSegment() for a block, as if every fish simply played on; a turn that is no longer
+// commanded plays as recorded. Returns the fish for which that was wrong: those in a motion warp,
+// and those that leave their segment in this tick.
 HWY_INLINE FishSet playOn(const MotorTables& tables,
                           const MotorColumns& columns,
                           std::size_t first,
@@ -119,7 +125,8 @@ HWY_INLINE FishSet playOn(const MotorTables& tables,
     return restless;
 }
 
-// Takes the restless fish back, to do what they should. Returns those of them that warp.
+// For the fish that playOn() got wrong: takes back its change of the phase and calls
+// advanceSegment() on each. Returns those of them that warp.
 HWY_INLINE FishSet settle(const MotorStep& step,
                           const MotorColumns& columns,
                           std::size_t first,
@@ -138,6 +145,7 @@ HWY_INLINE FishSet settle(const MotorStep& step,
     return warping;
 }
 
+// fractionOf() for a block.
 HWY_INLINE void fractionsOf(const std::int32_t* phases, std::size_t count, float* fractions) {
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(kInts)) {
         const IntLanes inCell = hn::And(hn::Load(kInts, phases + lane), hn::Set(kInts, 1023));
@@ -160,6 +168,7 @@ HWY_INLINE hn::Vec<Tag> between(Tag tag, const float* a, const float* b, float s
     return hn::Add(from, hn::Mul(hn::Set(tag, share), step));
 }
 
+// Two neighbouring samples at q, interpolated.
 HWY_INLINE void storeBetween(const Quaternion* q, float share, float* four) {
     for (std::size_t c = 0; c < 4; c += hn::Lanes(kFour)) {
         hn::Store(between(kFour, &q[0].w + c, &q[1].w + c, share), kFour, four + c);
@@ -186,6 +195,7 @@ HWY_INLINE void storeBetween(
     }
 }
 
+// playedTravel() of fish i of the block, whose phases and fractions are known.
 HWY_INLINE void storePlayed(const SegmentTables& tables, Block& block, std::size_t i) {
     const auto start = static_cast<std::size_t>(block.from[i]) >> kPhaseCellBits;
     const auto end = static_cast<std::size_t>(block.to[i]) >> kPhaseCellBits;
@@ -195,7 +205,8 @@ HWY_INLINE void storePlayed(const SegmentTables& tables, Block& block, std::size
     storeBetween(&tables.bodyFromMean[end % kPhases], block.atEnd[i], block.bodyFromMean + to);
 }
 
-// The warping fish play too, which costs less than asking each, and are then put right.
+// Fills the block for `count` fish from `first` on. Warping fish are computed as if they played,
+// which costs less than a branch for each fish; then theirs is overwritten.
 HWY_INLINE void travelBlock(const MotorStep& step,
                             const MotorColumns& columns,
                             std::size_t first,
@@ -215,9 +226,10 @@ HWY_INLINE void travelBlock(const MotorStep& step,
     }
 }
 
-// In three passes over a block, each a chain of dependent sums short enough that the processor
-// works on several vectors at once. The lanes of `block` from `lane` on are the fish from `fish`
-// on.
+// The arithmetic runs in three passes over a block, each a chain of dependent operations short
+// enough that the processor works on several vectors at once. The lanes of `block` from `lane` on
+// are the fish from `fish` on. First pass: the speeds after the tick, and the travel along the
+// path.
 HWY_INLINE void changeSpeed(const MotorStep& step,
                             Block& block,
                             std::size_t lane,
@@ -245,6 +257,7 @@ HWY_INLINE void changeSpeed(const MotorStep& step,
                  lane);
 }
 
+// Second pass: eq. 10 and 11, positions and attitudes.
 HWY_INLINE void swim(const MotorStep& step, Block& block, std::size_t lane, std::size_t fish) {
     MotionStates& s = *step.states;
     const QuaternionLanes start = load(block.start + 4 * lane);
@@ -268,6 +281,7 @@ HWY_INLINE void swim(const MotorStep& step, Block& block, std::size_t lane, std:
     hn::Store(attitude.right, kFloats, block.right + lane);
 }
 
+// Third pass: the fish's own steering, and the new orientations.
 HWY_INLINE void steer(const MotorStep& step,
                       const Block& block,
                       std::size_t lane,
@@ -286,7 +300,7 @@ HWY_INLINE void steer(const MotorStep& step,
 
 }  // namespace
 
-// A multiple of kWidestLanes fish.
+// step.last - step.first: a multiple of kWidestLanes.
 void stepVectors(const MotorStep& step) {
     const MotorColumns columns = columnsOf(*step.commands, *step.states);
     Block block;
@@ -311,6 +325,9 @@ namespace aquarama::motion {
 HWY_EXPORT(stepVectors);
 
 void MotorStep::run() const {
+    assert(tables != nullptr && commands != nullptr && states != nullptr);
+    assert(first <= last && last <= states->size() && last <= traits.size() &&
+           last <= commands->segment.size());
     MotorStep vectors = *this;
     vectors.last = last - (last - first) % kWidestLanes;
     HWY_DYNAMIC_DISPATCH(stepVectors)(vectors);

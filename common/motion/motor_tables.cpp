@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/motion/motor_tables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -12,8 +12,9 @@ namespace aquarama::motion {
 namespace {
 
 constexpr std::size_t kCycle = kPhases;
-constexpr double kNoWayBodyLengths = 1e-6;  // over some phases: too short to have a direction
+constexpr double kNoWayBodyLengths = 1e-6;  // a path shorter than this has no direction
 
+// The body frame over two cycles, from the increments (eq. 6 and 7).
 void integrate(const ActionSegment& segment, GaitPath& path) {
     path.rotation[0] = glm::dquat(1, 0, 0, 0);
     for (std::size_t k = 0; k + 1 < kPathSamples; ++k) {
@@ -26,14 +27,15 @@ void integrate(const ActionSegment& segment, GaitPath& path) {
     }
 }
 
-// The path with the cycle repeated before and after it.
+// The path continued by a cycle before its first phase.
 glm::dquat rotationAt(const GaitPath& path, int phase) {
     if (phase >= 0) return path.rotation[static_cast<std::size_t>(phase)];
     const int inCycle = phase + kPhases;
     return glm::conjugate(path.rotation[kCycle]) * path.rotation[static_cast<std::size_t>(inCycle)];
 }
 
-// The mean of the frames within half a cycle of `phase`.
+// The mean of the rotations within half a cycle of `phase`, the two outermost at half weight. A sum
+// of quaternions, normalised: exact enough as they differ by a tail beat only.
 glm::dquat meanAt(const GaitPath& path, int phase) {
     constexpr int kHalf = kPhases / 2;
     glm::dquat sum = (rotationAt(path, phase - kHalf) + rotationAt(path, phase + kHalf)) * 0.5;
@@ -43,8 +45,8 @@ glm::dquat meanAt(const GaitPath& path, int phase) {
     return glm::normalize(sum);
 }
 
-// The least rotation that brings the body's x axis along the path at phase k; the path is taken
-// over a sixteenth of a turn, less at its ends.
+// The least rotation that turns the body's x axis along the path at phase k. The path's direction
+// is taken over two phases to either side, or fewer near the ends.
 glm::dquat alongPath(const GaitPath& path, std::size_t k) {
     const std::size_t reach = std::clamp<std::size_t>(std::min(k, kCycle - k), 1, 2);
     const std::size_t from = k < reach ? k : k - reach;
@@ -56,9 +58,9 @@ glm::dquat alongPath(const GaitPath& path, std::size_t k) {
     return glm::normalize(glm::dquat(1 + way.x / length, 0, -way.z / length, way.y / length));
 }
 
-// A turn that plays to its end is no cycle, and has no mean over one. Its frame looks along its
-// path, from which the bent body points away; but at the end where the straight body does, since
-// there the water soon takes what is left of a slip.
+// A turn that plays to its end is no cycle and has no mean over one. Its mean frame looks along its
+// path, from which the bent body deviates; over the last quarter it changes to the body's own
+// direction, since there the body is straight and the water soon stops the rest of a slip.
 glm::dquat courseAt(const GaitPath& path, std::size_t k) {
     constexpr std::size_t kLastQuarter = kCycle / 4;
     const double left =
@@ -68,6 +70,7 @@ glm::dquat courseAt(const GaitPath& path, std::size_t k) {
     return path.rotation[k] * glm::normalize(straight * (1 - share) + alongPath(path, k) * share);
 }
 
+// The cycle-mean frame at each phase, as seen from phase 0.
 std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsToEnd) {
     std::array<glm::dquat, kCycleSamples> means{};
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
@@ -76,8 +79,9 @@ std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsTo
     return means;
 }
 
-// Central difference of the body frame's origin, taken in the second cycle, which has a first
-// before it; seen in mean axes. Where a turn begins and ends, one side is not its own.
+// Body lengths along the mean frame's x axis in 1/64 of a cycle at phase k: a central difference,
+// taken in the second cycle, which has a first before it. Where a turn begins or ends, the
+// difference is one-sided.
 double forwardAt(const GaitPath& path, std::size_t k, bool playsToEnd) {
     const std::size_t at = kCycle + k % kCycle;
     const bool begins = playsToEnd && k == 0;
@@ -109,6 +113,7 @@ GaitPath pathOf(const ActionSegment& segment) {
 
 namespace {
 
+// To floats, when all arithmetic is done.
 Quaternion narrow(const glm::dquat& q) {
     return {static_cast<float>(q.w),
             static_cast<float>(q.x),
@@ -120,17 +125,19 @@ std::array<float, 3> narrow(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+// 1/65536 of a cycle in a tick: a recorded fish plays its cycle in its period.
 std::int16_t phaseRateOf(const ActionSegment& segment) {
     const double rate = 65536.0 / (static_cast<double>(segment.periodSeconds) * kTicksPerSecond);
     return static_cast<std::int16_t>(std::clamp(roundToEven(rate), 1.0, 32767.0));
 }
 
-// atan by its series: one part in 10^9 for the turn of 1/64 cycle.
+// Twice the arc tangent, by its series: one part in 10^9 for the turn of 1/64 cycle.
 double angleOfHalfTurn(double tangent) {
     const double squared = tangent * tangent;
     return 2 * tangent * (1 - squared * (1.0 / 3 - squared * (1.0 / 5 - squared / 7)));
 }
 
+// Means over the cycle: speed, and rate of turn about the mean frame's y axis.
 void measure(const GaitPath& path, double periodSeconds, SegmentTables& tables) {
     double forward = 0;
     double turn = 0;
@@ -157,12 +164,13 @@ float speedOf(const GaitPath& path, std::size_t k, bool playsToEnd) {
 }
 
 // dv = drag v^2 dt, in units u of which there are U to a body length a second: du = drag u^2 dt /
-// U.
+// U. dt is a tick.
 float squareLoss(float drag) {
     return drag / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));
 }
 
-// By the rate over 1 + rate, each tick, a braking fish comes as far as by exp(-rate) all the time.
+// With a loss of rate / (ticks a second + rate) in each tick, a braking fish travels as far as with
+// the continuous exp(-rate t).
 SpeedLoss lossOf(const SpeedResponse& response) {
     const auto& [slow, medium, fast] = response.swimDrag;
     const bool followsAtOnce = slow + medium + fast <= 0.0F;
@@ -180,6 +188,7 @@ SpeedLoss lossOf(const SpeedResponse& response) {
     return loss;
 }
 
+// The tables of one segment, but for its warps.
 void fill(const ActionSegment& segment, SegmentTables& tables) {
     const GaitPath path = pathOf(segment);
     tables.phaseRate = phaseRateOf(segment);
@@ -198,9 +207,10 @@ void fill(const ActionSegment& segment, SegmentTables& tables) {
     tables.bodyFromMean.back() = tables.bodyFromMean.front();
 }
 
-// A turn was entered at the mean speed of medium swimming, but its first phase has the speed that
-// the body frame had within the beat. The fish goes over from the one to the other in the first
-// cell, so that one that comes from medium swimming plays the turn as recorded.
+// When turns were recorded, the fish entered them at the mean speed of medium swimming; but the
+// first phase of the recording has the speed that the body frame had within the beat. The first
+// sample is therefore given the mean speed, and the table interpolates over the first cell: so a
+// fish that comes from medium swimming plays the turn as recorded.
 void enterFromMedium(MotorTables& tables) {
     const SegmentTables& medium = tables.segments[static_cast<std::size_t>(Action::ForwardMedium)];
     const float speed = medium.path.front().translationAndSpeed[3] * medium.phaseRate;
@@ -243,7 +253,8 @@ float recordedTurnRate(const MotorTables& tables, Action action) {
 
 namespace {
 
-// A repertoire that hardly moves would warp for seconds; this step keeps K within its 8 bits.
+// The least step of a warp. A repertoire that hardly moves would otherwise warp for seconds; this
+// keeps K within its 8 bits.
 constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
 
 using Pose = std::array<glm::vec3, body::kNodalPoints>;  // body lengths
@@ -262,8 +273,9 @@ Cycle cycleOf(const ActionSegment& segment) {
     return cycle;
 }
 
-// The paper watches node 22, the tail; we watch every nodal point, since a tail that comes back to
-// its place may leave the head far from its own.
+// How far a warp between two poses has to move a nodal point, at most. The paper compares node 22,
+// the tail; we compare every nodal point, since a tail that comes back to its place may leave the
+// head far from its own.
 float squaredTravel(const Pose& a, const Pose& b) {
     float most = 0;
     for (std::size_t i = 0; i < body::kNodalPoints; ++i) {
@@ -273,6 +285,7 @@ float squaredTravel(const Pose& a, const Pose& b) {
     return most;
 }
 
+// The pose at a phase in 1/65536 of a cycle, between two samples; the cycle repeats.
 Pose poseAt(const Cycle& cycle, unsigned phase) {
     const std::size_t cell = (phase & 0xFFFFU) >> kPhaseCellBits;
     const float share = static_cast<float>(phase & 1023U) * kPhaseCellUnit;
@@ -283,7 +296,8 @@ Pose poseAt(const Cycle& cycle, unsigned phase) {
     return pose;
 }
 
-// The furthest that any nodal point moves in a tick of any segment: what the eye knows already.
+// The longest way that any nodal point moves in a tick of any segment: a warp of such steps is no
+// faster than what the fish does anyway.
 float largestStep(const std::vector<Cycle>& cycles,
                   const std::array<std::int16_t, kActions>& phaseRates) {
     float most = kSmallestStepBodyLengths * kSmallestStepBodyLengths;
@@ -305,11 +319,14 @@ Travels travelsBetween(const Cycle& a, const Cycle& b) {
     return travels;
 }
 
-// Travel within the cell is convex in the phase, so its ends bound it.
+// The largest travel from anywhere within a cell: travel is convex in the phase there, so its ends
+// bound it.
 float travelFromCell(const Travels& travels, std::size_t cell, std::size_t to) {
     return std::max(travels[cell][to], travels[cell + 1][to]);
 }
 
+// The entry phase whose pose is nearest (phase 0 for a turn), and as many frames as keep each step
+// within `step` (section 4.2).
 WarpPlan planFor(const Travels& travels, std::size_t cell, bool enterAtStart, float step) {
     std::size_t entry = 0;
     for (std::size_t m = 1; m < kPhases && !enterAtStart; ++m) {
@@ -325,6 +342,7 @@ WarpPlan planFor(const Travels& travels, std::size_t cell, bool enterAtStart, fl
 
 WarpPlans planWarps(const Repertoire& repertoire,
                     const std::array<std::int16_t, kActions>& phaseRates) {
+    assert(std::ranges::all_of(phaseRates, [](std::int16_t rate) { return rate > 0; }));
     std::vector<Cycle> cycles;
     for (const ActionSegment& segment : repertoire.segments) cycles.push_back(cycleOf(segment));
     const float step = largestStep(cycles, phaseRates);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where one cycle of a segment takes the body frame, in doubles and without libm: what the motor's
-// tables are made of.
+// What the motor step reads, how it is made from a repertoire, and the part of the step that both
+// its versions share. Tables are made in doubles and without libm, so they are the same on every
+// machine.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 
 namespace aquarama::motion {
 
+// Sample k is at phase k / kPhases of a cycle.
 inline constexpr std::size_t kPathSamples = 2 * kPhases + 1;
 inline constexpr std::size_t kCycleSamples = kPhases + 1;  // the last repeats the first
 
@@ -27,59 +29,70 @@ struct MeanMotion {
     double forward = 0.0;   // body lengths
 };
 
+// The path of the body frame over a segment.
 struct GaitPath {
     // The body frame at phase k as seen from phase 0, over two cycles: a tick that runs over the
     // end of a cycle then needs no case of its own.
     std::array<glm::dquat, kPathSamples> rotation{};
     std::array<glm::dvec3, kPathSamples> translation{};  // body lengths
-    // From body axes to the cycle-mean frame, which the tail beat does not sway: it points where
-    // the fish goes.
+    // Rotation from the cycle-mean frame to body axes. The tail beat does not sway the mean frame:
+    // its x axis points where the fish goes.
     std::array<glm::dquat, kCycleSamples> bodyFromMean{};
     std::array<MeanMotion, kCycleSamples> mean{};
 };
 
+// Integrates the increments of a segment and takes the mean over one cycle around each phase.
 [[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
 
-// What the motor step reads of a species: about 60 kB, of which a steady school touches 36.
+// What the motor step reads of a species: about 60 kB, of which a steady school touches 36. Kept
+// small so that it stays in the processor's cache.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
 
-// The body frame at a phase as seen from phase 0, in body lengths; and how fast the path is there:
-// speed units for each unit of phase rate. Swimming, that is the mean of the cycle at every phase.
+// The body frame at a phase as seen from phase 0, in body lengths; and the speed of the path there:
+// speed units for each unit of phase rate. For a swimming segment that is the mean over the cycle
+// at every phase.
 struct alignas(32) PathSample {
     Quaternion rotation;
     std::array<float, 4> translationAndSpeed{};
 };
 
-// How to go from a segment, within a cell of its phases, to another.
+// How to go from one segment, within a cell of its phases, to another.
 struct WarpPlan {
     std::uint16_t entryPhase = 0;
     std::uint8_t frames = 0;  // K, interpolated frames between the last pose and the first
 };
 
+// The tables of one segment. bodyFromMean has one sample more than a cycle, so interpolation never
+// wraps around; warpTo is indexed by phase cell and then by the next action.
 struct SegmentTables {
     std::array<PathSample, kPathSamples> path;
     std::array<Quaternion, kCycleSamples> bodyFromMean;
     std::array<std::array<WarpPlan, kActions>, kPhases> warpTo;
-    float speedBodyLengths = 0.0F;  // a second
-    float turnRate = 0.0F;          // radians a second, left positive
-    std::int16_t phaseRate = 0;     // as recorded
+    // As recorded: body lengths a second; radians a second, left positive; 1/65536 of a cycle in a
+    // tick.
+    float speedBodyLengths = 0.0F;
+    float turnRate = 0.0F;
+    std::int16_t phaseRate = 0;
     bool playsToEnd = false;
 };
 
-// By how many speed units the speed changes in a tick: SpeedResponse in the motor's units.
+// SpeedResponse in the motor's units: by how many speed units the speed changes in a tick.
 struct SpeedLoss {
-    // For each square of a unit, while a segment plays; 1 where no response was measured, so that
+    // For each squared speed unit, while a segment plays; 1 where no response was measured, so that
     // the speed follows at once.
     std::array<float, kActions> drag{};
-    float brake = 0.0F;  // for each unit, of wholly spread fins
+    // The share of its speed that a fish loses with its fins fully spread.
+    float brake = 0.0F;
 };
 
+// All tables of a species. Made by makeMotorTables(), read by every thread of the world.
 class MotorTables {
   public:
     std::array<SegmentTables, kActions> segments;
-    // The recorded phase rate of what plays to its end, 0 of the others.
+    // The recorded phase rate of the segments that play to their end, 0 for the others: one column
+    // that the vectorised step gathers from.
     std::array<std::int32_t, kActions> turnRate{};
     SpeedLoss loss;
 };
@@ -88,12 +101,13 @@ class MotorTables {
 
 using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
 
-// [from][cell of its phase][to]. phaseRates: as recorded, 1/65536 of a cycle in a tick.
+// [from][cell of its phase][to]. phaseRates: as recorded, 1/65536 of a cycle in a tick. For every
+// pair of segments compares all pairs of phases, about 270 000 pairs of poses.
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
                                   const std::array<std::int16_t, kActions>& phaseRates);
 
 // What a tick does to one fish before it steers: which segment plays, and where that takes the body
-// frame. Shared by the plain and the vectorised step.
+// frame. Shared by the plain and the vectorised step; compiled once for each instruction set.
 
 // Limits of what a fish adds to the recorded motion, per tick of 1/60 s. The gains let it settle
 // without a jerk; the rates keep it within what a fish does.
@@ -107,8 +121,13 @@ inline constexpr float kPitchUnit = 1.0F / 32768.0F;    // of MotorCommands::pit
 inline constexpr float kYawUnit = 1.0F / 1048576.0F;    // of MotorCommands::yawRate, radians
 inline constexpr float kUnitsPerMillimetre = 65.536F;   // position
 inline constexpr float kLongestStepUnits = 4194304.0F;  // 2^22, 64 m: rounds exactly up to there
-inline constexpr float kLevelAxisBias = 0.0009765625F;  // gives a vertical nose a way to fall
-inline constexpr float kTiniest = 5.9604645e-08F;       // 2^-24: divides where nothing is left
+// 2^-10, added to the level axis: a fish whose nose is exactly vertical has none of its own, and
+// pitches about this one.
+inline constexpr float kLevelAxisBias = 0.0009765625F;
+// 2^-24: keeps a squared length off zero before its inverse root.
+inline constexpr float kTiniest = 5.9604645e-08F;
+// First guess of the inverse square root from the bits of a float: the constant of Quake III Arena,
+// analysed by Lomont 2003.
 inline constexpr std::uint32_t kInverseRootGuess = 0x5F3759DFU;
 inline constexpr float kFastest = 4194303.0F;       // kFastestUnits
 inline constexpr float kBrakeUnit = 1.0F / 255.0F;  // of MotorCommands::brake
@@ -116,7 +135,8 @@ inline constexpr float kBrakeUnit = 1.0F / 255.0F;  // of MotorCommands::brake
 inline constexpr float kLengthsPerSpeedUnit =
     1.0F / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));
 
-// A range is stepped in whole vectors of this many fish on every machine, and what is left plainly.
+// A range is stepped in whole vectors of this many fish on every machine; the rest is stepped by
+// the plain version.
 inline constexpr std::size_t kWidestLanes = 16;
 
 // The columns of the states and commands, as plain pointers: their stores alias nothing.
@@ -138,13 +158,17 @@ struct MotorColumns {
             states.warpLength.data()};
 }
 
-// One tick's travel along the recorded path, as seen from a frame that the fish carries along.
+// One tick's travel along the recorded path. start and end are the body frame at the tick's ends,
+// both as seen from one frame that the fish carries along: phase 0 of the path, or in a warp the
+// mean frame at the tick's start.
 struct Travel {
     PathSample start, end;
     Quaternion bodyFromMean;  // at the end
-    std::int32_t rate = 0;    // by which the path's speeds are multiplied
+    // The phase rate that the path's speeds are multiplied by.
+    std::int32_t rate = 0;
 };
 
+// Component by component and not normalised.
 [[nodiscard]] inline Quaternion lerp(const Quaternion& a, const Quaternion& b, float share) {
     return {a.w + share * (b.w - a.w),
             a.x + share * (b.x - a.x),
@@ -161,10 +185,12 @@ struct Travel {
     return at;
 }
 
+// Where in its cell a phase is, [0, 1).
 [[nodiscard]] inline float fractionOf(std::uint32_t phase) {
     return static_cast<float>(phase & 1023U) * kPhaseCellUnit;
 }
 
+// Leaves the segment of fish i for the commanded one, by the plan for its phase cell.
 inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::size_t i) {
     const WarpPlan plan =
         tables.segments[fish.segment[i]].warpTo[fish.phase[i] >> kPhaseCellBits][fish.wanted[i]];
@@ -176,21 +202,22 @@ inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::
     fish.warpLength[i] = plan.frames;
 }
 
-// The rate at which a fish plays its segment: a turn has no way back.
+// The rate at which a fish plays its segment: a turn is not played backwards.
 [[nodiscard]] inline std::int32_t commandedRate(const SegmentTables& playing, std::int32_t rate) {
     return playing.playsToEnd && rate < 0 ? -rate : rate;
 }
 
 // What a fish does in a tick: it warps, or plays its segment between two phases of the two-cycle
-// path.
+// path (1/65536 of a cycle).
 struct Playing {
     bool warps = true;
     std::int32_t from = 0, to = 0;
 };
 
-// Advances segment, phase and warp counter by a tick. Counters run whether or not anyone looks. The
-// commanded rate is that of the commanded segment; a turn that others wait for plays as recorded. A
-// turn is left at its end only, and by a warp even if the same turn follows.
+// Advances segment, phase and warp counter of fish i by a tick. The commanded rate is that of the
+// commanded segment: while a turn plays that is no longer commanded, it plays as recorded. A turn
+// is left at its end only, and by a warp even if the same turn follows; every other segment is left
+// at once. A command for a segment that does not exist starts no warp.
 [[nodiscard]] inline Playing advanceSegment(const MotorTables& tables,
                                             const MotorColumns& fish,
                                             std::size_t i) {
@@ -213,18 +240,19 @@ struct Playing {
     return {.warps = false, .from = from, .to = from + rate};
 }
 
+// The rotation from the mean frame to the body frame at a phase.
 [[nodiscard]] inline Quaternion swayAt(const SegmentTables& tables, std::uint32_t phase) {
     const std::size_t cell = phase >> kPhaseCellBits;
     return lerp(tables.bodyFromMean[cell], tables.bodyFromMean[cell + 1], fractionOf(phase));
 }
 
-// The path's speed in units, at a phase rate.
+// The path's speed in whole speed units, at a phase rate.
 [[nodiscard]] inline float pathSpeed(float perRate, float rate) {
     return roundToEven(std::min(std::max(perRate * rate, -kFastest), kFastest));
 }
 
-// The paper does not say what the body frame does during a warp; frozen, the fish would halt. Here
-// its mean frame goes straight on, while the body's sway goes over from that of the last pose to
+// The paper does not say what the body frame does during a warp; if it were frozen, the fish would
+// halt. Here its mean frame goes straight on, while the sway changes from that of the last pose to
 // that of the first: so a warp never turns the course.
 [[nodiscard]] inline Travel warpingTravel(const MotorTables& tables,
                                           const MotorColumns& fish,

@@ -6,8 +6,10 @@
 namespace aquarama::motion {
 namespace {
 
+// Cycles in a unit of a recorded phase.
 constexpr float kPhaseUnit = 1.0F / 65536.0F;
 
+// A point of a pose in body lengths.
 glm::vec3 lengthsOf(const std::array<std::int16_t, 3>& point) {
     return glm::vec3(point[0], point[1], point[2]) * kPoseUnit;
 }
@@ -19,30 +21,36 @@ glm::vec3 pointAt(const Poses& poses, const PhaseSample& sample, std::size_t i) 
         lengthsOf(poses[sample.before][i]), lengthsOf(poses[sample.after][i]), sample.share);
 }
 
+// The share of the new segment in a warp: from 1 / (K + 1) at its first frame to 1 when it is over.
 float weightOf(const FishRecord& record) {
     return static_cast<float>(record.warpFrame + 1) / static_cast<float>(record.warpLength + 1);
 }
 
+// One coordinate between two ticks, in metres. The difference is taken in 64 bits, where it cannot
+// overflow.
 float metres(std::int32_t before, std::int32_t after, float fraction) {
     const auto step = static_cast<float>(static_cast<std::int64_t>(after) - before);
     return (static_cast<float>(before) + fraction * step) * kPositionUnitMetres;
 }
 
+// Between two phases, in cycles, [0, 1). Takes the shorter way round: a retreating fish plays its
+// cycle backwards.
 float presentedPhase(std::uint16_t before, std::uint16_t after, float fraction) {
-    // The shorter way round: a retreating fish plays its cycle backwards.
     const auto played = static_cast<std::int16_t>(static_cast<std::uint16_t>(after - before));
     const float phase = static_cast<float>(before) + fraction * static_cast<float>(played);
     const float cycle = phase < 0.0F ? 65536.0F : phase < 65536.0F ? 0.0F : -65536.0F;
     return (phase + cycle) * kPhaseUnit;
 }
 
-// A fish that left its segment in this tick glides from the pose in which it was last seen.
+// In this tick the fish left its segment for a warp: it goes on from the pose in which it was last
+// seen.
 bool hasJustLeft(const FishRecord& before, const FishRecord& after) {
     return after.warpFrame == 0 && before.segment == after.fromSegment &&
            before.phase == after.fromPhase && before.segment != after.segment &&
            before.warpFrame == before.warpLength;
 }
 
+// Segment, phase and warp weight of the presented fish.
 void pose(const FishRecord& before, const FishRecord& after, float fraction, PresentedFish& fish) {
     fish.segment = after.segment;
     fish.fromSegment = after.fromSegment;
@@ -57,6 +65,7 @@ void pose(const FishRecord& before, const FishRecord& after, float fraction, Pre
     }
 }
 
+// Linear interpolation of the nearer quaternions, normalised; two ticks differ by little.
 glm::vec4 presentedRotation(const glm::quat& before, const glm::quat& after, float fraction) {
     const glm::quat near = glm::dot(before, after) < 0.0F ? -after : after;
     const glm::quat q = glm::normalize(before * (1.0F - fraction) + near * fraction);
@@ -69,7 +78,7 @@ PresentedFish present(const FishRecord& before,
                       const FishRecord& after,
                       float fraction,
                       const FishTraits& traits) {
-    // One that goes or comes between the two is away, not on its way.
+    // A fish that goes or comes between the two ticks is shown away, not half-way.
     if (isAway(before) != isAway(after)) {
         const FishRecord& away = isAway(before) ? before : after;
         return present(away, away, fraction, traits);

@@ -10,16 +10,16 @@
 
 namespace aquarama::motion {
 
-// One fish as a frame shows it: between two ticks in the live show, on one in lockstep. 64 bytes,
-// uploaded as it is.
+// One fish as a frame shows it: between two ticks in the live show, at a tick in lockstep. 64
+// bytes, uploaded to the GPU as they are (std430).
 struct PresentedFish {
     glm::vec3 positionMetres{};
     float lengthMetres = 0.0F;
     glm::vec4 rotation{0, 0, 0, 1};  // quaternion (x, y, z, w), body to world
     float phase = 0.0F;              // cycles, [0, 1)
     float fromPhase = 0.0F;
-    float warpWeight =
-        1.0F;  // share of `segment` against `fromSegment`; 1 when no warp is under way
+    // Share of `segment`, the rest is that of `fromSegment`; 1 when no warp is under way.
+    float warpWeight = 1.0F;
     std::uint32_t segment = 0;
     std::uint32_t fromSegment = 0;
     std::uint32_t id = 0;
@@ -28,20 +28,22 @@ struct PresentedFish {
 };
 static_assert(sizeof(PresentedFish) == 64);
 
-// fraction 0 shows `before`, 1 shows `after` (the next tick). A fish that
-// left its segment in between glides from the pose it left; one that jumped is shown as `after`;
-// of one that is away at either tick the record of that tick is shown: nothing.
+// Interpolates between two ticks: fraction 0 shows `before`, 1 shows `after`, the next tick. A fish
+// that left its segment in between goes from the pose that it left to the first pose of the warp;
+// any other change of segment is shown as in `after`. If the fish is away at one of the ticks, the
+// record of that tick is shown: nothing.
 [[nodiscard]] PresentedFish present(const FishRecord& before,
                                     const FishRecord& after,
                                     float fraction,
                                     const FishTraits& traits);
 
-// Not in the water: nobody draws it.
+// Not in the water: not drawn. The limit is half of the height of setAway().
 [[nodiscard]] inline bool isAway(const PresentedFish& fish) {
     return fish.positionMetres.y < 0.5F * kAwayHeightMetres;
 }
 
-// Body frame, body lengths (eq. 12 before R and o).
+// The nodal points in the body frame, in body lengths (eq. 12 before R and o), interpolated between
+// samples and, in a warp, between segments.
 void nodalPose(const Repertoire& repertoire, const PresentedFish& fish, body::NodalPoints& nodes);
 
 }  // namespace aquarama::motion

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/motion/repertoire.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -15,6 +15,7 @@
 namespace aquarama::motion {
 namespace {
 
+// The head of the file, and the bounds of its numbers.
 constexpr std::string_view kMagic = "AQREP";
 constexpr std::uint16_t kVersion = 3;
 constexpr std::size_t kLongestSpecies = 64;
@@ -25,6 +26,7 @@ constexpr float kShortestPeriodSeconds = 0.02F;  // a beat of 50 Hz; no fish is 
 constexpr float kLongestPeriodSeconds = 60.0F;
 constexpr float kLongestStepBodyLengths = 1.0F;  // in 1/64 of a cycle; a burst is near 0.02
 constexpr float kMostDrag = 1000.0F;  // 1 / body length, or 1 / s: stops within a thousandth of one
+// Numbers of a SpeedResponse.
 constexpr std::size_t kResponses = kForwardGaits + 2;
 
 template <class Pose>
@@ -74,6 +76,7 @@ FrameIncrement readIncrement(ByteReader& in) {
     return step;
 }
 
+// The size of a segment in the file.
 constexpr std::size_t bytesOfSegment(bool withControlPoints) {
     const std::size_t points = body::kNodalPoints + (withControlPoints ? body::kControlPoints : 0);
     return sizeof(float) + 1 + kPhases * (7 * sizeof(float) + points * 3 * sizeof(std::int16_t));
@@ -88,6 +91,7 @@ bool inBounds(const FrameIncrement& step) {
            near(step.translation.y) && near(step.translation.z);
 }
 
+// The numbers of a response in the order of the file.
 std::array<float*, kResponses> numbersOf(SpeedResponse& response) {
     auto& [slow, medium, fast] = response.swimDrag;
     return {&slow, &medium, &fast, &response.glideDrag, &response.brakeRate};
@@ -108,6 +112,7 @@ std::optional<std::string> faultOf(const ActionSegment& segment) {
     return std::nullopt;
 }
 
+// What is wrong with a repertoire, or nothing; names the segment.
 std::optional<std::string> faultOf(const Repertoire& repertoire) {
     const auto printable = [](char c) { return c > ' ' && c <= '~'; };
     if (repertoire.species.empty() || repertoire.species.size() > kLongestSpecies ||
@@ -130,6 +135,7 @@ std::optional<std::string> faultOf(const Repertoire& repertoire) {
     return std::nullopt;
 }
 
+// source: the file, or the species that is to be written.
 [[noreturn]] void refuse(const std::string& source, const std::string& fault) {
     throw Error(source + ": repertoire " + fault + "; capture the species again");
 }
@@ -151,7 +157,8 @@ std::size_t bytesOfSegments(unsigned withControlPoints) {
     return bytes;
 }
 
-// The content between length and digest, once its digest is known to be right.
+// Reads the content between length and digest, whose digest is known to match: what is wrong now
+// was written wrong.
 Repertoire readContent(ByteReader& in, const std::string& source) {
     Repertoire repertoire;
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());
@@ -262,14 +269,15 @@ void addGlide(Repertoire& repertoire) {
     glide = {};
     glide.periodSeconds = medium.periodSeconds;
 
+    assert(medium.periodSeconds > 0);
     const GaitPath path = pathOf(medium);
     double forward = 0;
     for (std::size_t k = 0; k < kPhases; ++k) forward += path.mean[k].forward;
     glide.increments.fill({{1, 0, 0, 0}, {static_cast<float>(forward / kPhases), 0, 0}});
 
-    // A turn ends almost straight, with all muscles at rest; its mirror image bends to the other
-    // side. The mean of a beat would be straight too, but short: half the muscles pull all the
-    // time.
+    // A turn ends almost straight, with all muscles at rest; the turn to the other side ends bent
+    // the other way by as little, so the mean of both is straight. The mean of a beat would be
+    // straight too, but too short: half of the muscles pull all the time.
     const ActionSegment& left =
         repertoire.segments[static_cast<std::size_t>(Action::TurnLeftGradual)];
     const ActionSegment& right =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Little-endian numbers to and from bytes; the reader never passes its end and says so by `ok()`.
+// The action repertoire of a species, and its file.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 
 namespace aquarama::motion {
 
+// Appends little-endian numbers to bytes, which it owns.
 class ByteWriter {
   public:
     template <class Unsigned>
@@ -41,7 +42,8 @@ class ByteWriter {
     std::vector<std::byte> bytes_;
 };
 
-// After the first number that is not wholly there, every number is zero and ok() is false.
+// Reads them back; does not own the bytes. It never reads beyond their end: after the first number
+// that is not wholly there, every number is zero and ok() is false.
 class ByteReader {
   public:
     explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -59,6 +61,7 @@ class ByteReader {
         return static_cast<std::int16_t>(unsignedNumber<std::uint16_t>());
     }
     [[nodiscard]] float float32() { return std::bit_cast<float>(unsignedNumber<std::uint32_t>()); }
+    // Empty where there are fewer.
     [[nodiscard]] std::string characters(std::size_t count) {
         std::string text;
         for (const std::byte byte : take(count)) text += std::to_integer<char>(byte);
@@ -84,9 +87,11 @@ class ByteReader {
 // The action repertoire of a species: one cycle of each action, captured from the biomechanical
 // fish (paper, section 3).
 
-inline constexpr int kPhases = 64;  // samples of one cycle; phase k is at k / 64 of the period
+// Samples of one cycle; phase k is at k / 64 of the period.
+inline constexpr int kPhases = 64;
 
-// The order of the segments in every repertoire: an action is its index here.
+// The order of the segments in every repertoire: an action is its index there. The numbers are part
+// of files and of the wire.
 enum class Action : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -97,45 +102,53 @@ enum class Action : std::uint8_t {
     TurnRightSharp,
     Glide,
 };
-inline constexpr int kCapturedActions = 7;  // all but the last are captured
+// All but the last are captured; the first kForwardGaits of them are gaits.
+inline constexpr int kCapturedActions = 7;
 inline constexpr int kActions = 8;
-inline constexpr int kForwardGaits = 3;           // the first of them
+inline constexpr int kForwardGaits = 3;
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
 
 // The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
-// increment (eq. 6 and 7 with the remedy of a body-frame rotation, R' = R * rotation). Translation
-// in body lengths.
+// increment (eq. 6 and 7, corrected: the rotation is one of the body frame, R' = R * rotation).
+// Translation in body lengths.
 struct FrameIncrement {
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 translation{};
 };
 
+// A position for each control point or nodal point, in units of kPoseUnit.
 using ControlPointPose = std::array<std::array<std::int16_t, 3>, body::kControlPoints>;
 using NodalPose = std::array<std::array<std::int16_t, 3>, body::kNodalPoints>;
 
-// Poses are 16-bit: position in the body frame, in body lengths, is component * kPoseUnit.
+// Poses are 16-bit: a position in the body frame, in body lengths, is component * kPoseUnit.
 inline constexpr float kPoseUnit = 1.0F / 32767.0F;
 
+// One captured cycle of an action, as recorded from a fish of Repertoire::recordedLengthMetres.
 struct ActionSegment {
-    float periodSeconds = 0.0F;  // of one cycle, for the recorded fish
-    bool playsToEnd =
-        false;  // a turn is entered at phase 0 and left at its end; the others anywhere
-    std::array<FrameIncrement, kPhases> increments{};  // from phase k to k + 1
-    std::array<NodalPose, kPhases> nodes{};            // deformation d at phase k (eq. 8)
-    std::vector<ControlPointPose> controlPoints;  // s at phase k (eq. 9): kPhases of them, or none
+    // Of one cycle.
+    float periodSeconds = 0.0F;
+    // A turn is entered at phase 0 and left at its end; all other segments anywhere.
+    bool playsToEnd = false;
+    // From phase k to k + 1; the last leads to the end of the cycle.
+    std::array<FrameIncrement, kPhases> increments{};
+    // Deformation d at phase k (eq. 8).
+    std::array<NodalPose, kPhases> nodes{};
+    // The surface s at phase k (eq. 9): kPhases poses, or none.
+    std::vector<ControlPointPose> controlPoints;
 };
 
-// How the speed v of a fish goes after that of what it plays, p, in body lengths and seconds:
+// How the speed v of a fish follows that of what it plays, p, in body lengths and seconds:
 //     dv/dt = swimDrag |p| (p - v)     while the tail beats: it meets the water at a speed near p,
-//     dv/dt = -glideDrag v |v|         in a glide or at rest, by the square of the speed;
-// in both, fins that are spread to a share of one take away share * brakeRate * v. (The paper
-// leaves this open; the law is ours.)
+//     dv/dt = -glideDrag v |v|         in a glide or at rest: quadratic drag;
+// in both, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
+// this open; the law is ours.)
 struct SpeedResponse {
     std::array<float, kForwardGaits> swimDrag{};  // 1 / body length; turns have that of medium
     float glideDrag = 0.0F;                       // 1 / body length
     float brakeRate = 0.0F;                       // 1 / s
 };
 
+// All segments of a species, by Action. Read only once it is complete.
 struct Repertoire {
     std::string species;
     float recordedLengthMetres = 0.0F;
@@ -149,28 +162,28 @@ struct Repertoire {
 void addGlide(Repertoire& repertoire);
 
 // The file: "AQREP", version, length, species, speed response, captured segments, SHA-256 of all
-// that precedes it; little-endian.
+// that precedes it; little-endian. Throws Error when a number is out of its bounds.
 [[nodiscard]] std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire);
 
-// With its glide. Throws Error, naming `source`, when the bytes are truncated, altered, of another
-// version or out of bounds; sizes are checked before memory is taken.
+// The reverse, with the glide added. Throws Error, naming `source`, when the bytes are truncated,
+// altered, of another version or out of bounds. Sizes are checked before memory is allocated.
 [[nodiscard]] Repertoire decodeRepertoire(std::span<const std::byte> bytes,
                                           const std::string& source);
 
-// Where a presented phase lies between two samples of the cycle.
-
+// Where a presented phase lies between two samples of the cycle; the last is followed by the first.
 struct PhaseSample {
     std::size_t before = 0, after = 0;
     float share = 0.0F;  // of `after`
 };
 
-// A phase outside of [0, 1) plays its nearest end.
+// phase in cycles; one outside of [0, 1] is taken as the nearest end.
 [[nodiscard]] inline PhaseSample sampleAt(float phase) {
     const float at = std::clamp(phase, 0.0F, 1.0F) * kPhases;
     const auto before = static_cast<std::size_t>(at);
     return {before % kPhases, (before + 1) % kPhases, at - static_cast<float>(before)};
 }
 
+// A number beyond the last action gives the last.
 [[nodiscard]] inline const ActionSegment& segmentOf(const Repertoire& repertoire,
                                                     std::uint32_t segment) {
     return repertoire.segments[std::min<std::size_t>(segment, kActions - 1)];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/place/place.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "common/units/hash.h"
 #include "common/units/random_streams.h"
@@ -14,20 +14,24 @@ namespace {
 
 constexpr float kFarthestCell = 1.0e6F;  // keeps the conversion to integers defined for any input
 
+// Rounds down; a cast alone rounds towards zero.
 int cellOf(float x) {
     const int towardsZero = static_cast<int>(x);
     return x < static_cast<float>(towardsZero) ? towardsZero - 1 : towardsZero;
 }
 
+// The quintic of Perlin 2002: first and second derivative are 0 at both ends.
 float smooth(float t) {
     return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
 }
 
+// The random value of a lattice point, -1 to 1.
 float lattice(std::uint32_t seed, int x, int y) {
     const std::uint32_t column = hashOf(seed, static_cast<std::uint32_t>(x));
     return signedUnitOf(hashOf(column, static_cast<std::uint32_t>(y)));
 }
 
+// glm::mix with a fixed order of operations.
 float mixed(float a, float b, float t) {
     return a + (b - a) * t;
 }
@@ -48,6 +52,7 @@ float valueNoise(std::uint32_t seed, glm::vec2 place) {
 }
 
 float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves) {
+    assert(octaves >= 1);
     float sum = 0.0F;
     float height = 1.0F;
     for (int octave = 0; octave < octaves; ++octave) {
@@ -61,14 +66,16 @@ float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves) {
 
 namespace {
 
-// Streams of one seed, so that adding a rock never moves the sand.
-// The composition: what stands where is planned for the wall's 120 degrees, with low heads before,
-// high reefs at both sides and a gap between them into the blue; a seed only moves it a little.
+// Each kind of thing draws from a random stream of its own, so that adding a rock never moves the
+// sand. The composition is planned for the wall's 120 degrees, with low rocks in front, high reefs
+// at both sides and a gap between them into the blue; a seed only moves it a little. Positions are
+// (x, z) in metres.
 struct RockGroup {
     glm::vec2 xz;
     float radiusMetres;
     int satellites;
-    int storeys = 0;  // boulders piled upon the first
+    // How many boulders are piled upon the first.
+    int storeys = 0;
 };
 constexpr std::array kRockGroups{
     // Left: a reef that climbs from the corner of the wall to near the surface.
@@ -92,7 +99,7 @@ constexpr std::array kRockGroups{
     RockGroup{{-14.6F, -7.0F}, 2.6F, 3, 2},
     RockGroup{{0.7F, -12.8F}, 1.05F, 2},
     RockGroup{{0.2F, -28.0F}, 3.4F, 3, 1},
-    // What is but a shape in the blue.
+    // Far reefs, of which only the outline shows in the blue.
     RockGroup{{-19.0F, -15.0F}, 3.8F, 3, 3},
     RockGroup{{-14.5F, -23.0F}, 3.4F, 2, 3},
     RockGroup{{13.0F, -25.0F}, 3.8F, 3, 3},
@@ -122,13 +129,15 @@ constexpr std::array kArchStones{
     ArchStone{{-4.7F, 0.9F}, 0.1F, 0.9F},
 };
 
+// How much deeper the sand is at the end of the slope of dropAt().
 constexpr float kDropMetres = 10.0F;
 
-// Beside and behind the eye chance places the reefs, in a ring with room to pass between them.
+// Beside and behind the eye the seed places the reefs, in a ring with room to pass between them.
 constexpr int kRingGroups = 22;
 constexpr float kRingInnerMetres = 7.5F;
 constexpr float kRingOuterMetres = 30.0F;
 
+// A stand of plants: its disc, how many plants are sown, and the height of the highest.
 struct Stand {
     glm::vec2 xz;
     float radiusMetres;
@@ -154,7 +163,8 @@ constexpr std::array kMeadows{
     Stand{{-7.0F, 7.0F}, 3.4F, 150, 0.44F},
 };
 
-// A point of the disc by rejection: no square root, no angle, evenly spread.
+// An evenly distributed point of the unit disc by rejection: no square root, no angle. Different
+// indices of a seed are independent.
 glm::vec2 inDisc(std::uint32_t seed, std::uint32_t index) {
     constexpr std::uint32_t kTries = 16;
     for (std::uint32_t attempt = 0; attempt < kTries; ++attempt) {
@@ -162,11 +172,12 @@ glm::vec2 inDisc(std::uint32_t seed, std::uint32_t index) {
         const glm::vec2 point{signedUnitOf(hash), signedUnitOf(hashOf(hash))};
         if (point.x * point.x + point.y * point.y <= 1.0F) return point;
     }
-    return glm::vec2{0.0F};  // once in 10^11
+    // All tries miss once in 10^11 calls.
+    return glm::vec2{0.0F};
 }
 
-// Between the two reefs, ahead and to the left, the sand slopes down into the blue. 0 about the
-// fishes' water.
+// How much lower the sand is on a slope between the two reefs, ahead and to the left, where it
+// falls away into the blue. 0 around the fish's water.
 float dropAt(glm::vec2 xz) {
     constexpr glm::vec2 kTowards{-0.5F, -0.8660254F};
     constexpr float kBeginsMetres = 14.0F;
@@ -176,12 +187,14 @@ float dropAt(glm::vec2 xz) {
     return kDropMetres * share * share * (3.0F - 2.0F * share);
 }
 
+// A boulder on the sand.
 Rock rockAt(const PlaceKey& place, glm::vec2 xz, float radiusMetres, std::uint32_t rockSeed) {
     constexpr float kSunk = 0.12F;  // of the radius: a boulder lies in the sand, not on it
     return {{xz.x, floorHeight(place, xz) + kSunk * radiusMetres, xz.y}, radiusMetres, rockSeed};
 }
 
-// A reef that climbs: each boulder sits on the one below, a little aside, and leans on another.
+// A reef that climbs: each boulder sits on the one below, a little to one side; a smaller one on
+// the other side supports it. Stops below the surface.
 void pile(std::vector<Rock>& rocks, const RockGroup& group, Rock below, std::uint32_t seed) {
     constexpr float kHighestMetres = -1.2F;  // the sea wears off what comes near its surface
     for (int storey = 0; storey < group.storeys; ++storey) {
@@ -204,6 +217,8 @@ void pile(std::vector<Rock>& rocks, const RockGroup& group, Rock below, std::uin
     }
 }
 
+// A main boulder near the planned place, its pile, and satellites within 1.5 radii. next: the state
+// of a chain of random numbers that runs through all groups.
 void addGroup(std::vector<Rock>& rocks,
               const PlaceKey& place,
               const RockGroup& group,
@@ -235,7 +250,8 @@ void addArch(std::vector<Rock>& rocks, const PlaceKey& place) {
     }
 }
 
-// In front of the wall all is planned; elsewhere groups keep their distance from each other.
+// Whether a group of the ring may stand at xz: neither within the planned view nor near the eye,
+// and at a distance from all rocks so far.
 bool isFree(const std::vector<Rock>& rocks, glm::vec2 xz, float radius) {
     const float range2 = xz.x * xz.x + xz.y * xz.y;
     const float least = kRingInnerMetres + radius;
@@ -250,6 +266,7 @@ bool isFree(const std::vector<Rock>& rocks, glm::vec2 xz, float radius) {
     return true;
 }
 
+// Tries random places in the ring until enough groups stand, or the tries are used up.
 void addRing(std::vector<Rock>& rocks, const PlaceKey& place) {
     std::uint32_t next = hashOf(place.seed, Stream::Ring);
     constexpr std::uint32_t kTries = 220;
@@ -268,6 +285,7 @@ void addRing(std::vector<Rock>& rocks, const PlaceKey& place) {
     }
 }
 
+// Cost: all rocks for each plant.
 bool standsInRock(const std::vector<Rock>& rocks, glm::vec3 root) {
     for (const Rock& rock : rocks) {
         const float dx = root.x - rock.centre.x;
@@ -278,12 +296,14 @@ bool standsInRock(const std::vector<Rock>& rocks, glm::vec3 root) {
     return false;
 }
 
+// What is sown, from which seed, and the least height as a share of the stand's.
 struct Sowing {
     PlantKind kind;
     std::uint32_t seed;
-    float leastHeight;  // of the stand's
+    float leastHeight;
 };
 
+// Plants that would stand in a rock are left out; this does not move the others.
 void sow(std::vector<Plant>& plants,
          const std::vector<Rock>& rocks,
          const PlaceKey& place,

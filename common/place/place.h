@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Angles and sizes of vectors by exact arithmetic: two machines' libm do not agree to the bit.
+// The place of a scene, and the arithmetic that it and the behaviour need to be the same on every
+// machine: no libm but sqrt, since two machines' libm do not agree to the bit.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace aquarama::place {
 
 inline constexpr float kPi = 3.14159265F;
 
-// Angle of (x, y) from the x axis, -pi to pi, within 2e-5 rad (Abramowitz & Stegun 4.4.49).
+// Angle of (x, y) from the x axis, -pi to pi, within 2e-5 rad (Abramowitz & Stegun 4.4.49); 0 for
+// (0, 0).
 [[nodiscard]] constexpr float angleOf(float y, float x) {
     const float absX = x < 0 ? -x : x;
     const float absY = y < 0 ? -y : y;
@@ -31,6 +33,7 @@ inline constexpr float kPi = 3.14159265F;
     return y < 0 ? -angle : angle;
 }
 
+// As glm's, with a fixed order of additions.
 [[nodiscard]] inline float dot(glm::vec3 a, glm::vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -39,18 +42,20 @@ inline constexpr float kPi = 3.14159265F;
     return std::sqrt(dot(v, v));
 }
 
-// The direction of v; `otherwise` where v has none.
+// The unit vector along v; `otherwise` where v is shorter than 10^-6.
 [[nodiscard]] inline glm::vec3 directionOf(glm::vec3 v, glm::vec3 otherwise) {
     const float length = lengthOf(v);
     return length > 1.0e-6F ? v / length : otherwise;
 }
 
-// The turn about the world's up that brings the course of `from` to that of `to`, left positive.
+// The turn about the world's up, in radians, that brings the horizontal course of `from` to that of
+// `to`; left positive.
 [[nodiscard]] inline float yawBetween(glm::vec3 from, glm::vec3 to) {
     return angleOf(from.z * to.x - from.x * to.z, from.x * to.x + from.z * to.z);
 }
 
-// No fish here wants to climb or dive more steeply than by 25 degrees.
+// A unit direction limited to 25 degrees of climb or dive, the steepest that a fish here chooses.
+// Keeps its course; a vertical direction has none and becomes (1, 0, 0).
 [[nodiscard]] inline glm::vec3 levelled(glm::vec3 direction) {
     constexpr float kSteepest = 0.42F;  // sine of 25 degrees
     const float y = std::clamp(direction.y, -kSteepest, kSteepest);
@@ -62,10 +67,12 @@ inline constexpr float kPi = 3.14159265F;
 
 // Noise by integer hashes: the same bits on every machine, from a seed and a place alone.
 
-// Smooth (C2) value noise, -1 to 1, lattice of side 1.
+// Smooth (C2) value noise, -1 to 1, lattice of side 1; defined up to 10^6 cells from the origin,
+// constant beyond.
 [[nodiscard]] float valueNoise(std::uint32_t seed, glm::vec2 place);
 
-// Octaves of it, each of twice the frequency and half the height; within -2 to 2.
+// Octaves of it, each of twice the frequency and half the height; within -2 to 2. The cost is one
+// valueNoise() for each octave.
 [[nodiscard]] float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves);
 
 // The place: sea floor, rocks and plants as functions of its kind and a seed, the same in the
@@ -77,35 +84,40 @@ inline constexpr glm::vec3 kEyePosition{0.0F, -6.0F, 0.0F};
 inline constexpr float kMeanFloorDepthMetres = 8.6F;  // of the reef
 inline constexpr float kOpenSeaFloorDepthMetres = 60.0F;
 
-// All that a place follows from.
+// All that a place follows from: equal keys have equal places on every machine.
 struct PlaceKey {
     std::uint32_t seed = 0;
     config::PlaceKind kind = config::PlaceKind::Reef;
 };
 
-// Height (y, negative) of the sand. Exact arithmetic only: the master's world depends on it.
+// Height (y in metres, negative) of the sand at (x, z). Exact arithmetic only: the master's world
+// depends on it.
 [[nodiscard]] float floorHeight(const PlaceKey& place, glm::vec2 xz);
 
-// A boulder, half sunk in the sand; everything that grows on it is within the radius.
+// A boulder that lies in the sand or on others, as a sphere; everything that grows on it is within
+// the radius. The seed decides its details.
 struct Rock {
     glm::vec3 centre{};
     float radiusMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-[[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);  // none in the open sea
+// Made anew at every call; none in the open sea.
+[[nodiscard]] std::vector<Rock> rocksOf(const PlaceKey& place);
 
 enum class PlantKind : std::uint8_t { Kelp, Seagrass };
 
+// One plant; the seed decides its details.
 struct Plant {
     PlantKind kind = PlantKind::Kelp;
     glm::vec3 root{};  // on the sand
     float heightMetres = 0.0F;
     std::uint32_t seed = 0;
 };
-[[nodiscard]] std::vector<Plant> plantsOf(const PlaceKey& place);  // none in the open sea
+// Made anew at every call, rocks included; none in the open sea.
+[[nodiscard]] std::vector<Plant> plantsOf(const PlaceKey& place);
 
-// The water in which the school lives: fish keep inside it. Chosen so that the wall always has them
-// in view.
+// The water in which the school lives, as a box in the world frame (metres): fish keep inside it.
+// Chosen so that the wall always has them in view.
 struct Region {
     glm::vec3 centre{};
     glm::vec3 halfExtent{};

@@ -2,6 +2,7 @@
 #include "common/place/water.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -12,18 +13,25 @@ namespace aquarama::place {
 
 namespace {
 
-constexpr double kReefHalfWidthMetres = 30;  // beyond, there is but bare sand
-constexpr double kSeaBottomMetres = -55;     // above the floor of the open sea by a margin
-constexpr float kFloorBumpsMetres = 0.6F;    // of the reef's sand
+// Beyond this there is only bare sand.
+constexpr double kReefHalfWidthMetres = 30;
+// The lowest water of the open sea: 5 m above its floor.
+constexpr double kSeaBottomMetres = -55;
+// Allowance for the dunes of the reef, above its mean floor.
+constexpr float kFloorBumpsMetres = 0.6F;
+// Limits of the submarine: margin around water and eye; the highest place of its middle; the height
+// of a stop above the floor, for the hull and its safe distance.
 constexpr float kRoamMetres = 4;
-constexpr float kHighestHullMetres = -0.75F;  // of the submarine's middle
-constexpr float kLowestStopMetres = 0.8F;     // above the floor: the hull and what it keeps off
+constexpr float kHighestHullMetres = -0.75F;
+constexpr float kLowestStopMetres = 0.8F;
 
+// Cubic metres of the scene's own box.
 double volumeOf(const config::SceneWater& water) {
     const glm::dvec3 half = water.halfExtent;
     return 8 * half.x * half.y * half.z;
 }
 
+// Cubic metres that a fish needs.
 double roomOf(const config::Scene& scene, double meanLengthMetres) {
     return scene.water.leastLengthsCubed * meanLengthMetres * meanLengthMetres * meanLengthMetres;
 }
@@ -33,7 +41,7 @@ float floorOf(const config::Scene& scene) {
                                                   : -kOpenSeaFloorDepthMetres;
 }
 
-// Where the tour cannot lead.
+// Why the submarine cannot go to a stop; empty where it can.
 std::string wrongWith(const config::Scene& scene,
                       const Region& roaming,
                       const config::TourStop& stop) {
@@ -47,12 +55,13 @@ std::string wrongWith(const config::Scene& scene,
     return {};
 }
 
-// What the box grows by, as factors: sideways and away, and downwards.
+// By which factors the box grows: sideways and away from the eye, and downwards.
 struct Growth {
     double wider = 1, deeper = 1;
 };
 
-// In the open sea depth grows only as the fourth root of length and breadth: the sea is shallow.
+// more: the factor of the volume. In the open sea the depth grows as its eighth root only, down to
+// kSeaBottomMetres: the sea is shallow against its breadth.
 Growth growthFor(const config::Scene& scene, double more) {
     if (more <= 1) return {};
     if (scene.place == config::PlaceKind::Reef) return {std::sqrt(more), 1};
@@ -67,6 +76,7 @@ Growth growthFor(const config::Scene& scene, double more) {
 }  // namespace
 
 Region waterFor(const config::Scene& scene, std::size_t fish, float meanLengthMetres) {
+    assert(meanLengthMetres >= 0);
     const config::SceneWater& box = scene.water;
     const double wanted =
         static_cast<double>(fish) * roomOf(scene, static_cast<double>(meanLengthMetres));
@@ -79,6 +89,8 @@ Region waterFor(const config::Scene& scene, std::size_t fish, float meanLengthMe
 }
 
 Region roamingRegion(const Region& fishWater, glm::vec3 eye) {
+    assert(fishWater.halfExtent.x >= 0 && fishWater.halfExtent.y >= 0 &&
+           fishWater.halfExtent.z >= 0);
     const glm::vec3 roam{kRoamMetres};
     const glm::vec3 least = glm::min(fishWater.centre - fishWater.halfExtent, eye) - roam;
     glm::vec3 most = glm::max(fishWater.centre + fishWater.halfExtent, eye) + roam;
@@ -87,6 +99,7 @@ Region roamingRegion(const Region& fishWater, glm::vec3 eye) {
 }
 
 std::uint32_t mostFishIn(const config::Scene& scene, float meanLengthMetres) {
+    assert(meanLengthMetres > 0);
     if (scene.place == config::PlaceKind::OpenSea) return kMostFish;
     const double wider =
         std::max(1.0, kReefHalfWidthMetres / static_cast<double>(scene.water.halfExtent.x));
@@ -99,6 +112,7 @@ void checkRoom(const config::Scene& scene,
                const std::string& scenePath,
                std::size_t fish,
                float meanLengthMetres) {
+    assert(!scene.cast.empty());
     const config::SourcePlace place = scene.cast.front().place;
     const std::uint32_t most = mostFishIn(scene, meanLengthMetres);
     if (fish > most)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/skin/attachments.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -24,6 +24,8 @@ std::uint32_t tubePoint(int ring, int column) {
     return static_cast<std::uint32_t>(ring * body::kTubeColumns + column);
 }
 
+// The ring whose flank is nearest to a station; never the first or the last of the body, so it has
+// two neighbours.
 int ringNear(const body::ControlCage& cage, float station) {
     constexpr int kFlank = 3;
     int nearest = 1;
@@ -37,8 +39,10 @@ int ringNear(const body::ControlCage& cage, float station) {
 
 }  // namespace
 
-// Both flanks a ring before, back and belly a ring behind: never in one plane.
+// The four points: both flanks a ring before, back and belly a ring behind. They are never in one
+// plane, so the matrix has an inverse.
 RestBinding::RestBinding(const body::ControlCage& cage, float station) {
+    assert(cage.vertices.size() == body::kControlPoints);
     const int ring = ringNear(cage, station);
     points_ = {tubePoint(ring - 1, 3),
                tubePoint(ring - 1, 10),
@@ -63,17 +67,26 @@ RestBinding::Weights RestBinding::ofDirection(glm::vec3 direction) const {
 
 namespace {
 
+// The mesh of an eye: vertices on each of its rings.
 constexpr std::size_t kSpokes = 16;
-// Rings of an eye, in its radii; the last lies under the skin.
+// Radii of its rings, in radii of the eye; the last lies under the skin.
 constexpr std::array kEyeRings{0.38F, 0.70F, 0.94F, 1.12F};
-constexpr float kSunk = 0.10F;  // radii
-// An eye follows the curve of the head by this share, for the rest it is flat.
+// How deep the last ring lies under the skin, in radii of the eye.
+constexpr float kSunk = 0.10F;
+// How far the middle of an eye follows the curve of the head (1) instead of a plane (0).
 constexpr float kDraped = 0.55F;
+// The mesh of a thread.
 constexpr std::size_t kSides = 4;
-constexpr float kThreadDepth = 0.3F;        // of a thread, seen from above, of its width
-constexpr float kMostThreadDepth = 0.003F;  // body lengths
-constexpr float kLastBinding = 0.6F;  // a whip trails behind the body's middle, not behind its tail
+// Its half thickness across the body: a share of its half width, with an upper limit in body
+// lengths.
+constexpr float kThreadDepth = 0.3F;
+constexpr float kMostThreadDepth = 0.003F;
+// No thread is bound behind this station: a whip trails behind the middle of the body and does not
+// swing with the tail.
+constexpr float kLastBinding = 0.6F;
 
+// Adds the weights of a binding, times a factor, to one component (position or tangent) of a
+// vertex's entries; a control point has one entry.
 void add(std::vector<StencilEntry>& entries,
          const RestBinding& binding,
          const RestBinding::Weights& weights,
@@ -89,8 +102,8 @@ void add(std::vector<StencilEntry>& entries,
     }
 }
 
-// A vertex of the surface spanned by two directions, whose cross product in the body frame looks
-// outwards: its x runs against s.
+// A vertex with two tangents. The cross product u x v has to point outwards in the body frame,
+// whose x axis runs against s.
 Attachments::Vertex vertexAt(const RestBinding& binding, glm::vec3 rest, glm::vec3 u, glm::vec3 v) {
     Attachments::Vertex vertex;
     add(vertex.entries, binding, binding.ofPlace(rest), &StencilEntry::position);
@@ -100,6 +113,7 @@ Attachments::Vertex vertexAt(const RestBinding& binding, glm::vec3 rest, glm::ve
     return vertex;
 }
 
+// Two triangles of a quad, with its orientation.
 void addQuad(std::vector<std::array<std::uint32_t, 3>>& triangles,
              const std::array<std::size_t, 4>& quad) {
     const auto number = [&](std::size_t k) { return static_cast<std::uint32_t>(quad.at(k)); };
@@ -107,7 +121,8 @@ void addQuad(std::vector<std::array<std::uint32_t, 3>>& triangles,
     triangles.push_back({number(0), number(2), number(3)});
 }
 
-// How far out the skin is at (s, y), or a little less than nothing where there is none.
+// How far from the middle plane the skin is at (s, y); -1 where no triangle covers the point.
+// Searches all triangles.
 float skinAt(std::span<const RestTriangle> skin, glm::vec2 at) {
     float out = -1;
     for (const RestTriangle& t : skin) {
@@ -122,7 +137,8 @@ float skinAt(std::span<const RestTriangle> skin, glm::vec2 at) {
     return out;
 }
 
-// The right eye's ball: how far out it is at a place in its radii.
+// The surface of the right eye: its z as a function of a place (tailwards, up) relative to its
+// middle, in radii of the eye. The sum of the head's skin, flattened, and a dome.
 class Ball {
   public:
     Ball(const body::FishBody& body, std::span<const RestTriangle> head)
@@ -155,6 +171,7 @@ class Ball {
     glm::vec2 slope_{};
 };
 
+// side: 1 right, -1 left, mirrored. Tangents by central differences.
 Attachments::Vertex eyeVertex(const Ball& ball,
                               const RestBinding& binding,
                               glm::vec2 at,
@@ -165,7 +182,8 @@ Attachments::Vertex eyeVertex(const Ball& ball,
         (ball.at(at + glm::vec2(kStep, 0)) - ball.at(at - glm::vec2(kStep, 0)));
     const glm::vec3 upwards =
         (ball.at(at + glm::vec2(0, kStep)) - ball.at(at - glm::vec2(0, kStep)));
-    // On the right side up, then tailwards turn outwards: tailwards is -x.
+    // On the right side "up" x "tailwards" points outwards, since tailwards is -x; on the left side
+    // the order is reversed.
     const glm::vec3 u = mirror * (side > 0 ? upwards : tailwards);
     const glm::vec3 v = mirror * (side > 0 ? tailwards : upwards);
     Attachments::Vertex vertex = vertexAt(binding, mirror * ball.at(at), u, v);
@@ -174,6 +192,7 @@ Attachments::Vertex eyeVertex(const Ball& ball,
     return vertex;
 }
 
+// A disc of rings and spokes around a middle vertex.
 void addEye(const body::FishBody& body, const Ball& ball, float side, Attachments& attachments) {
     const RestBinding binding(body.cage, body.eye.x);
     const std::size_t middle = attachments.vertices.size();
@@ -188,7 +207,7 @@ void addEye(const body::FishBody& body, const Ball& ball, float side, Attachment
     const auto on = [&](std::size_t ring, std::size_t k) {
         return middle + 1 + ring * kSpokes + k % kSpokes;
     };
-    // Spokes turn from tailwards to upwards: seen from the right, clockwise.
+    // Spokes are numbered from tailwards to upwards, clockwise as seen from the right.
     for (std::size_t k = 0; k < kSpokes; ++k) {
         const std::size_t here = side > 0 ? k + 1 : k, next = side > 0 ? k : k + 1;
         attachments.onBody.push_back({static_cast<std::uint32_t>(on(0, here)),
@@ -200,7 +219,7 @@ void addEye(const body::FishBody& body, const Ball& ball, float side, Attachment
     }
 }
 
-// The margin of the first dorsal fin, from its front.
+// The right vertices of the margin of the first dorsal fin, from front to rear.
 std::vector<std::uint32_t> marginOf(const body::FishBody& body) {
     const auto& vertices = body.cage.vertices;
     std::vector<std::uint32_t> margin;
@@ -212,7 +231,8 @@ std::vector<std::uint32_t> marginOf(const body::FishBody& body) {
     return margin;
 }
 
-// The ripple of the first dorsal fin's margin at p, which a whip passes on.
+// Adds the ripple of the first dorsal fin's margin at p to a vertex of a whip: the difference of
+// the margin's control points from where the body alone would take them.
 void addRipple(const body::FishBody& body,
                float p,
                float gain,
@@ -232,7 +252,8 @@ void addRipple(const body::FishBody& body,
     }
 }
 
-// A curve through the points (Catmull & Rom 1974).
+// A point of the Catmull-Rom curve through the points (Catmull & Rom 1974), share from 0 to 1.
+// Beyond its ends the curve is extended in a straight line.
 glm::vec2 along(const std::vector<glm::vec2>& points, float share) {
     const float at = share * static_cast<float>(points.size() - 1);
     const auto k = std::min(static_cast<std::size_t>(at), points.size() - 2);
@@ -244,7 +265,7 @@ glm::vec2 along(const std::vector<glm::vec2>& points, float share) {
                    (3.0F * b - 3.0F * c + d - a) * (t * t * t));
 }
 
-// Where on the first dorsal fin a thread begins.
+// The p of the margin vertex of the first dorsal fin that is nearest to the root of a thread.
 float dorsalRayOf(const body::FishBody& body, glm::vec2 root) {
     float best = 1e9F, p = 0;
     for (const body::CageVertex& vertex : body.cage.vertices) {
@@ -257,6 +278,9 @@ float dorsalRayOf(const body::FishBody& body, glm::vec2 root) {
     return p;
 }
 
+// A tube of kSides sides along the thread. Each place is bound to the station halfway between the
+// thread's root and its own, so the thread swings less than the body there. A thread of the first
+// dorsal fin also passes on that fin's ripple, more so towards its tip.
 void addThread(const body::FishBody& body,
                const body::BodyThread& thread,
                Attachments& attachments) {
@@ -303,6 +327,7 @@ void addThread(const body::FishBody& body,
 }  // namespace
 
 std::size_t threadSteps(const body::BodyThread& thread) {
+    assert(thread.at.size() >= 2);
     return 2 * (thread.at.size() - 1);
 }
 
@@ -318,10 +343,12 @@ namespace {
 
 using Face = std::array<std::uint16_t, 4>;
 
+// Off the base of a fin; vertices of the base count as the body's.
 bool onFin(const body::CageVertex& vertex) {
     return vertex.fin.y > 0.0F;
 }
 
+// The fin to which any of its corners belongs, else the body.
 body::CagePart partOf(const body::ControlCage& cage, const Face& face) {
     for (const std::uint16_t corner : face) {
         if (onFin(cage.vertices[corner])) return cage.vertices[corner].part;
@@ -330,7 +357,7 @@ body::CagePart partOf(const body::ControlCage& cage, const Face& face) {
 }
 
 // (p, q) at the corners of a fin's face. Where a fin grows out of the body, the corner is the
-// body's and knows no p: it takes that of the ray which starts there.
+// body's and has no p: it takes that of the ray that starts there.
 std::array<glm::vec2, 4> finCorners(const body::ControlCage& cage, const Face& face) {
     std::array<glm::vec2, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -345,6 +372,7 @@ std::array<glm::vec2, 4> finCorners(const body::ControlCage& cage, const Face& f
     return corners;
 }
 
+// Linear between the points of a table; outside of it the value of the nearest end.
 float tableAt(const std::vector<float>& x, const std::vector<float>& y, float at) {
     const auto above = std::ranges::upper_bound(x, at);
     if (above == x.begin()) return y.front();
@@ -353,6 +381,7 @@ float tableAt(const std::vector<float>& x, const std::vector<float>& y, float at
     return glm::mix(y[i - 1], y[i], (at - x[i - 1]) / (x[i] - x[i - 1]));
 }
 
+// The rest position of a vertex by its stencil, and its height on the body.
 glm::vec4 restOf(const body::FishBody& body, const LimitTable& table, std::size_t vertex) {
     glm::vec3 rest{};
     for (std::uint32_t k = table.firstEntry[vertex]; k < table.firstEntry[vertex + 1]; ++k) {
@@ -362,6 +391,8 @@ glm::vec4 restOf(const body::FishBody& body, const LimitTable& table, std::size_
     return {rest, heightOnBody(body, rest.x, rest.y)};
 }
 
+// Fin coordinates and parts of the vertices on fins. A vertex on the border of a face may belong to
+// two parts: only inner vertices, or on level 0 those off the base, get the part of the face.
 void placeFinVertices(const body::ControlCage& cage, const FaceGrid& grid, LimitTable& table) {
     const int n = grid.cuts();
     for (std::size_t f = 0; f < cage.faces.size(); ++f) {
@@ -383,8 +414,9 @@ void placeFinVertices(const body::ControlCage& cage, const FaceGrid& grid, Limit
     }
 }
 
-// A quad's part is told by the last vertex of its triangles (GL's provoking vertex), which
-// therefore must be the face's own: inside it, or on level 0 the corner that is furthest out.
+// The flat part of a triangle is that of its last vertex (GL's provoking vertex). It therefore must
+// belong to this face alone: a vertex inside of it, or on level 0 the corner that is furthest out
+// on the fin.
 std::size_t provokingCorner(const LimitTable& table,
                             const std::array<std::uint32_t, 4>& quad,
                             const std::array<bool, 4>& isInside) {
@@ -396,6 +428,7 @@ std::size_t provokingCorner(const LimitTable& table,
     return best;
 }
 
+// Two triangles for each piece of a face, both with the provoking corner last.
 void addTriangles(const FaceGrid& grid,
                   std::size_t face,
                   const LimitTable& table,
@@ -427,6 +460,7 @@ float heightOnBody(const body::FishBody& body, float s, float y) {
 }
 
 void paintPlaces(const body::FishBody& body, const FaceGrid& grid, LimitTable& table) {
+    assert(table.firstEntry.size() == grid.locations().size() + 1);
     table.vertices.resize(grid.locations().size());
     for (std::size_t i = 0; i < table.vertices.size(); ++i)
         table.vertices[i].rest = restOf(body, table, i);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/skin/limit_table.h"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <memory>
 #include <set>
@@ -21,7 +21,8 @@ namespace aquarama::skin {
 
 namespace {
 
-// The two ends of the edge on which a border point lies, and how many cuts it is from the first.
+// The two ends of the edge on which a border vertex of a face lies, and how many cuts it is from
+// the first.
 struct OnEdge {
     std::uint16_t from, to;
     int step;
@@ -36,7 +37,10 @@ OnEdge onEdge(const std::array<std::uint16_t, 4>& face, int i, int j, int cuts) 
 
 }  // namespace
 
+// Runs over all faces; a vertex on an edge is found again by the edge's ends and its step, however
+// the other face is turned.
 FaceGrid::FaceGrid(const body::ControlCage& cage, int cuts) : cuts_{cuts} {
+    assert(cuts >= 1);
     using EdgePoint = std::array<int, 3>;  // lower end, higher end, cuts from the lower
     std::map<EdgePoint, std::uint32_t> edgePoints;
     locations_.resize(cage.vertices.size());
@@ -74,7 +78,9 @@ FaceGrid::FaceGrid(const body::ControlCage& cage, int cuts) : cuts_{cuts} {
 }
 
 std::uint32_t FaceGrid::at(std::size_t face, int i, int j) const {
+    assert(i >= 0 && i <= cuts_ && j >= 0 && j <= cuts_);
     const std::size_t side = static_cast<std::size_t>(cuts_) + 1;
+    assert((face + 1) * side * side <= numbers_.size());
     return numbers_[face * side * side + static_cast<std::size_t>(j) * side +
                     static_cast<std::size_t>(i)];
 }
@@ -87,6 +93,7 @@ namespace Sdc = OpenSubdiv::Sdc;
 // Semi-sharp creases of the cage end at sharpness 3, so four levels isolate every feature.
 constexpr int kIsolationLevel = 4;
 
+// The cage with its creases, refined adaptively by Catmull-Clark.
 std::unique_ptr<Far::TopologyRefiner> refine(const body::ControlCage& cage) {
     const std::vector<int> verticesPerFace(cage.faces.size(), 4);
     std::vector<int> corners;
@@ -114,7 +121,8 @@ std::unique_ptr<Far::TopologyRefiner> refine(const body::ControlCage& cage) {
     return refiner;
 }
 
-// The limit stencils of all vertices of the grid, in OpenSubdiv's order: face by face.
+// The limit stencils, with first derivatives, of the vertices in faceOrder. OpenSubdiv takes
+// locations face by face, so vertices of the same face must follow each other.
 std::unique_ptr<const Far::LimitStencilTable> limitStencils(
     const Far::TopologyRefiner& refiner,
     const std::vector<FaceGrid::Location>& locations,
@@ -143,6 +151,7 @@ std::unique_ptr<const Far::LimitStencilTable> limitStencils(
         Far::LimitStencilTableFactory::Create(refiner, arrays, nullptr, nullptr, options)};
 }
 
+// One stencil as entries, without those that are all zero.
 std::vector<StencilEntry> entriesOf(const Far::LimitStencilTable& stencils, std::size_t stencil) {
     const auto first = static_cast<std::size_t>(stencils.GetOffsets()[stencil]);
     const auto size = static_cast<std::size_t>(stencils.GetSizes()[stencil]);
@@ -158,13 +167,15 @@ std::vector<StencilEntry> entriesOf(const Far::LimitStencilTable& stencils, std:
     return entries;
 }
 
-// The vertices of the control mesh are the control points; only their normals are the limit's.
+// Level 0 only: its vertices are the control points themselves; the tangents, and so the normals,
+// stay those of the limit surface.
 void holdToControlPoint(std::vector<StencilEntry>& entries, std::uint32_t controlPoint) {
     for (StencilEntry& entry : entries)
         entry.position = entry.controlPoint == controlPoint ? 1.0F : 0.0F;
 }
 
-// The limit surface at rest of the right side of the head, about the eye.
+// The limit surface at rest of the right side of the head, around the eye: the faces of the body
+// within three radii of it, each cut into 4 x 4.
 std::vector<RestTriangle> headAtRest(const Far::TopologyRefiner& refiner,
                                      const body::FishBody& body) {
     constexpr int kCuts = 4;
@@ -208,6 +219,8 @@ std::vector<RestTriangle> headAtRest(const Far::TopologyRefiner& refiner,
     return head;
 }
 
+// Adds the attachments to a table whose skin is complete: vertices at the end, triangles at the end
+// of the body's and of the fins'.
 void append(const body::FishBody& body, const Attachments& attachments, LimitTable& table) {
     table.skinVertices = table.vertices.size();
     const auto first = static_cast<std::uint32_t>(table.vertices.size());
@@ -234,6 +247,7 @@ void append(const body::FishBody& body, const Attachments& attachments, LimitTab
 SkinPoint skinPoint(const LimitTable& table,
                     std::size_t vertex,
                     std::span<const glm::vec3> controlPoints) {
+    assert(vertex + 1 < table.firstEntry.size());
     glm::vec3 position{}, u{}, v{};
     for (std::uint32_t k = table.firstEntry[vertex]; k < table.firstEntry[vertex + 1]; ++k) {
         const StencilEntry& entry = table.entries[k];
@@ -245,6 +259,7 @@ SkinPoint skinPoint(const LimitTable& table,
 }
 
 LimitTable makeLimitTable(const body::FishBody& body, int level) {
+    assert(level >= 0 && level < kSurfaceLevels);
     const FaceGrid grid{body.cage, 1 << level};
     const auto& locations = grid.locations();
 
@@ -283,8 +298,8 @@ Pair ordered(std::uint32_t a, std::uint32_t b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-// The edges that only the two triangles of one quad share. A quad's triangles follow each other,
-// and those of attachments stand between.
+// The edges that only the two triangles of one quad share. The two triangles of a quad follow each
+// other; those of attachments, which stand between, are skipped.
 std::set<Pair> diagonalsOf(const LimitTable& table) {
     std::vector<std::array<std::uint32_t, 3>> skin;
     for (std::size_t t = 0; t < table.indices.size(); t += 3) {
@@ -307,11 +322,14 @@ std::set<Pair> diagonalsOf(const LimitTable& table) {
 std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
                                                          int level,
                                                          const LimitTable& coarser) {
+    assert(level >= 1 && level < kSurfaceLevels);
     const FaceGrid fine{body.cage, 1 << level};
     const FaceGrid coarse{body.cage, 1 << (level - 1)};
     const std::set<Pair> diagonals = diagonalsOf(coarser);
     std::vector<std::array<std::uint32_t, 2>> parents(fine.locations().size());
     const int n = fine.cuts();
+    // A vertex with an odd column or row is in the middle of an edge; with both odd it is in the
+    // middle of a quad, whose diagonal decides.
     const auto parentsAt = [&](std::size_t face, int i, int j) -> std::array<std::uint32_t, 2> {
         const int di = i % 2, dj = j % 2;
         if (di == 0 || dj == 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers the vertices of a cage whose faces are each cut into n x n pieces, so that faces share
-// those on their borders.
+// The surface of a species at each level of detail, as tables that the compute shaders read. Made
+// once at the start or read from the cache of derived data; never changed afterwards.
 #pragma once
 
 #include <array>
@@ -17,20 +17,24 @@
 
 namespace aquarama::skin {
 
-// Vertex numbers of one face, row by row: column i is at u = i / n, row j at v = j / n. Corners of
-// the face are the cage's own vertices.
+// Numbers the vertices of a cage whose faces are each cut into n x n pieces, so that neighbouring
+// faces share the vertices on their common border. Corners of faces are the cage's own vertices,
+// with the same numbers. Column i of a face is at u = i / n, row j at v = j / n.
 class FaceGrid {
   public:
+    // cuts: n, at least 1.
     FaceGrid(const body::ControlCage& cage, int cuts);
 
+    // A place on a face; u and v from 0 to 1.
     struct Location {
         std::uint32_t face = 0;
         float u = 0, v = 0;
     };
 
     [[nodiscard]] int cuts() const { return cuts_; }
+    // The vertex of a face at column i and row j, each from 0 to n.
     [[nodiscard]] std::uint32_t at(std::size_t face, int i, int j) const;
-    // For each vertex a place where it lies, ordered by vertex.
+    // For each vertex one place where it lies, ordered by vertex; those on borders have several.
     [[nodiscard]] const std::vector<Location>& locations() const { return locations_; }
 
   private:
@@ -39,14 +43,12 @@ class FaceGrid {
     std::vector<Location> locations_;
 };
 
-// The surface of a species at one level of detail: how each vertex follows from the control points,
-// and its triangles.
-
 // Level 0 is the control mesh itself (paper, section 6); 1 and 2 lie on the Catmull-Clark limit
 // surface, at the corners of the faces that so many refinements make.
 inline constexpr int kSurfaceLevels = 3;
 
-// Weights of one control point in one vertex, as the compute shader reads them.
+// How much one control point contributes to the position and the two tangents of one vertex, as the
+// compute shader reads it (std430).
 struct StencilEntry {
     std::uint32_t controlPoint = 0;
     float position = 0;
@@ -55,8 +57,7 @@ struct StencilEntry {
 };
 static_assert(sizeof(StencilEntry) == 16);
 
-// What never changes about a vertex: where it is on the fish at rest. The skin shader's
-// coordinates.
+// What never changes about a vertex: its place on the fish at rest. The skin shader's coordinates.
 struct SkinPlace {
     glm::vec4 rest{};        // s, y, z in body lengths; w: height v, -1 belly .. +1 back
     glm::vec2 fin{};         // p along a fin's base, q from base to edge; zero on the body
@@ -64,38 +65,40 @@ struct SkinPlace {
 };
 static_assert(sizeof(SkinPlace) == 28);
 
+// The surface of a species at one level of detail: how each vertex follows from the control points,
+// and its triangles.
 struct LimitTable {
-    std::vector<std::uint32_t>
-        firstEntry;  // vertex i owns entries [firstEntry[i], firstEntry[i + 1])
+    // Vertex i has entries [firstEntry[i], firstEntry[i + 1]): one more element than vertices.
+    std::vector<std::uint32_t> firstEntry;
     std::vector<StencilEntry> entries;
-    std::vector<SkinPlace>
-        vertices;  // the first kControlPoints are those of the cage, in its order
-    std::vector<std::uint32_t>
-        indices;  // counter-clockwise triangles: first the body's, then the fins'
+    // The first kControlPoints are those of the cage, in its order.
+    std::vector<SkinPlace> vertices;
+    // Counter-clockwise triangles: first the body's, which have bodyIndices indices, then the
+    // fins'.
+    std::vector<std::uint32_t> indices;
     std::size_t bodyIndices = 0;
     // The vertices from here on are attachments (attachments.h), the same at every level; their
     // triangles come last among the body's and the fins'.
     std::size_t skinVertices = 0;
 };
 
+// In the frame of the control points.
 struct SkinPoint {
     glm::vec3 position{};
     glm::vec3 normal{};  // outward
 };
-// A vertex of the surface over these control points.
+// A vertex of the surface for given control points: what the compute shader does, on the CPU.
 [[nodiscard]] SkinPoint skinPoint(const LimitTable& table,
                                   std::size_t vertex,
                                   std::span<const glm::vec3> controlPoints);
 
-// Takes 5 to 50 ms.
+// level: 0 to kSurfaceLevels - 1. Takes 5 to 50 ms. Throws Error where OpenSubdiv refuses the cage.
 [[nodiscard]] LimitTable makeLimitTable(const body::FishBody& body, int level);
 
-// How a level of detail hangs on the next coarser one, so that a mesh may grow out of it without a
-// jump.
-
-// For each vertex of makeLimitTable(body, level) the two vertices of the same table in whose middle
-// the triangles of the next coarser level have it; twice itself for those that the coarser level
-// has too. level is at least 1.
+// How a level of detail refines the next coarser one, so that a mesh can change between them
+// without a jump. For each vertex of makeLimitTable(body, level) two vertices of the same table:
+// the triangles of the coarser level have it in the middle between them. Twice itself for vertices
+// that the coarser level has too. level is at least 1; coarser is makeLimitTable(body, level - 1).
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
                                                                        int level,
                                                                        const LimitTable& coarser);

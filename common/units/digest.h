@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The name of a piece of content: its SHA-256. Repertoires and other blobs are fetched, cached and
-// checked by it.
+// Two kinds of hashes: SHA-256 for the identity of content, and a fast one for the state of a
+// world.
 #pragma once
 
 #include <array>
@@ -17,6 +17,8 @@
 
 namespace aquarama {
 
+// The SHA-256 of a piece of content, which serves as its name: repertoires and other blobs are
+// fetched, cached and checked by it.
 struct Digest {
     std::array<std::uint8_t, 32> bytes{};
     friend auto operator<=>(const Digest&, const Digest&) = default;
@@ -26,8 +28,10 @@ struct Digest {
 [[nodiscard]] Digest digestOf(std::string_view content);
 [[nodiscard]] std::string toHex(const Digest& digest);  // 64 lower-case digits
 
-// Folds arrays into one number: equal states have equal hashes.
+// Folds arrays into one number: equal states have equal hashes. Fast, and the same on every
+// machine; not safe against an attacker.
 
+// A float by its bits, so 0 and -0 differ; an integer or enum by its value.
 template <class Value>
 [[nodiscard]] std::uint64_t bitsOf(Value value) {
     if constexpr (std::is_same_v<Value, float>)
@@ -36,15 +40,16 @@ template <class Value>
         return static_cast<std::uint64_t>(value);
 }
 
-// The multiply-and-shift of splitmix64.
+// Adds one value to a hash: one multiply-and-shift of splitmix64.
 template <class Value>
 [[nodiscard]] std::uint64_t foldedOne(std::uint64_t hash, Value value) {
     hash = (hash ^ bitsOf(value)) * 0xbf58476d1ce4e5b9U;
     return hash ^ hash >> 29U;
 }
 
-// Eight chains side by side: one alone would wait for each of its multiplications, and a quarter of
-// a million fish are folded at every tick.
+// Adds an array to a hash; projection chooses what of each element. Eight chains run side by side:
+// one alone would wait for each of its multiplications, and a quarter of a million fish are folded
+// at every tick.
 template <class Value, class Projection = std::identity>
 [[nodiscard]] std::uint64_t folded(std::uint64_t hash,
                                    const std::vector<Value>& values,
@@ -62,6 +67,7 @@ template <class Value, class Projection = std::identity>
     return foldedOne(hash, values.size());
 }
 
+// The memory that the elements of some vectors take.
 template <class... Vectors>
 [[nodiscard]] std::size_t bytesIn(const Vectors&... vectors) {
     return (... + (vectors.size() * sizeof(vectors[0])));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that look random, by integers alone: the same bits on every machine, in C++ and in GLSL.
+// Pseudo-random numbers from integers alone: the same bits on every machine. Compiled as C++ and as
+// GLSL.
 #ifndef AQUARAMA_HASH_H
 #define AQUARAMA_HASH_H
 #ifdef __cplusplus
@@ -28,6 +29,7 @@ float unitOf(uint hash) {
 #ifdef __cplusplus
 // clang-format on
 
+// Number `index` of the sequence of a seed; any order of calls.
 [[nodiscard]] constexpr std::uint32_t hashOf(std::uint32_t seed, std::uint32_t index) {
     return hashOf(hashOf(seed) ^ (index * 0x9e3779b9U));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The register of random streams: what is drawn from a world's seed. Two draws that should not go
-// together have two streams; a number that is given away once stays, as every seed's world hangs on
-// it.
+// The register of random streams: what is drawn from a world's seed. Two draws that must be
+// independent have two streams. The number of a stream never changes and is never used again, as
+// the world of every seed depends on it.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace aquarama {
 
+// Groups of streams begin at round numbers, so that a group can grow.
 enum class Stream : std::uint32_t {
     // The place.
     Dunes = 1,
@@ -61,6 +62,7 @@ enum class Stream : std::uint32_t {
     Arrival,
 };
 
+// The seed of a stream in the world of `seed`.
 [[nodiscard]] constexpr std::uint32_t hashOf(std::uint32_t seed, Stream stream) {
     return hashOf(seed, static_cast<std::uint32_t>(stream));
 }

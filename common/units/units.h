@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Units, limits and counters that all parts share.
 #pragma once
 
 #include <compare>
@@ -11,10 +12,10 @@ namespace aquarama {
 template <class Real>
 inline constexpr Real kRadiansPerDegree = std::numbers::pi_v<Real> / 180;
 
-// The largest world: what is larger is refused where it comes in, by a reader or a decoder.
-
+// The largest world: readers and decoders refuse larger ones.
 inline constexpr std::uint32_t kMostFish = 1'000'000;
-inline constexpr std::uint32_t kMostSpecies = 64;  // sets of them are the bits of one number
+// A set of species is the bits of one 64-bit number.
+inline constexpr std::uint32_t kMostSpecies = 64;
 
 // Counters and names as types, so that a tick is never taken for a frame nor a fish for an index.
 
@@ -30,22 +31,26 @@ struct Frame {
     friend constexpr auto operator<=>(Frame, Frame) = default;
 };
 
-// Never reused in the life of a world.
+// The name of a fish, never used again in the life of a world.
 struct FishId {
     std::uint32_t value = 0;
     friend constexpr auto operator<=>(FishId, FishId) = default;
 };
 
+// Of the simulation, on every machine.
 inline constexpr double kTicksPerSecond = 60.0;
 
-// What a pilot's hands ask of the submarine at one moment: a state, not a change, so that one that
-// is lost is made good by the next.
+// What a pilot's controls ask of the submarine at one moment: a state, not a change, so that the
+// next message makes good for a lost one.
 
-inline constexpr std::int8_t kFullSteering = 127;  // of each axis, to either side
-// A hand that is silent for longer holds nothing: a dead window never leaves the throttle open.
+// Full deflection of an axis, to either side.
+inline constexpr std::int8_t kFullSteering = 127;
+// After so many ticks without a message the controls count as released: a window that has died does
+// not leave the submarine at full speed.
 inline constexpr std::uint64_t kTicksOfAHand = 30;
 
-// Whole numbers: the same on the wire, in a recording and on every machine.
+// Deflections in 1/kFullSteering. Whole numbers: the same on the wire, in a recording and on every
+// machine.
 struct Steering {
     std::int8_t ahead = 0;  // along the nose, or back
     std::int8_t aside = 0;  // to the right

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/units/worker_pool.h"
 
+#include <cassert>
+
 namespace aquarama {
 
 WorkerPool::WorkerPool(unsigned threads) {
@@ -14,11 +16,14 @@ WorkerPool::~WorkerPool() {
 }
 
 void WorkerPool::share(std::size_t chunks, const void* job, Call call) {
+    assert(job != nullptr && call != nullptr);
+    assert(busy_ == 0);  // neither nested nor from two threads
     chunks_ = chunks;
     job_ = job;
     call_ = call;
     nextChunk_ = 0;
-    if (workers_.empty() || chunks <= 1) return work();  // not worth waking anyone
+    // Waking the others would cost more than it saves.
+    if (workers_.empty() || chunks <= 1) return work();
     busy_ = static_cast<std::uint32_t>(workers_.size());
     ++jobs_;
     jobs_.notify_all();
@@ -32,8 +37,8 @@ void WorkerPool::work() {
 }
 
 void WorkerPool::serve() {
-    // Every worker takes part in every job, so it counts them itself: read anew, the counter might
-    // already stand at the next one.
+    // Every worker takes part in every job, so it counts the jobs itself: if it read the counter
+    // again, that might already be at the next job, and the worker would miss it.
     for (std::uint32_t seen = 0;; ++seen) {
         jobs_.wait(seen);
         if (stopping_) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test patterns of the world as pure functions of the direction from the wall's origin: the render
-// node's shader computes the same formulas.
+// Test patterns as pure functions of the direction from the wall's origin. The render node's shader
+// computes the same formulas, and the tests compare its pictures with these.
 #pragma once
 
 #include <cmath>
@@ -9,20 +9,26 @@
 
 namespace aquarama::wall {
 
+// Lines of equal azimuth and elevation, for geometry; or an even grey, for the blend.
 enum class TestPattern { Grid, Grey };
 
-inline constexpr double kGreyLight = 0.18;        // linear
-inline constexpr double kGridDegrees = 5;         // between lines
-inline constexpr double kGridMajorDegrees = 30;   // between bright lines
-inline constexpr double kGridMinorLight = 0.4;    // of the others; bright ones are 1
-inline constexpr double kGridSigmaDegrees = 0.1;  // a line is a Gaussian: no edge, no aliasing
+// Linear light; 1 is full white.
+inline constexpr double kGreyLight = 0.18;
+// The grid: spacing of lines and of bright lines in degrees, light of the others (bright ones are
+// 1), and the width of a line. A line is a Gaussian: it has no edge, so there is no aliasing.
+inline constexpr double kGridDegrees = 5;
+inline constexpr double kGridMajorDegrees = 30;
+inline constexpr double kGridMinorLight = 0.4;
+inline constexpr double kGridSigmaDegrees = 0.1;
 
 namespace pattern {
 
+// Angle of (x, y) from the x axis.
 [[nodiscard]] inline double degrees(double y, double x) {
     return std::atan2(y, x) * 57.29577951308232;
 }
 
+// Light at an angle, of lines at all multiples of the spacing.
 [[nodiscard]] inline double lines(double atDegrees, double spacingDegrees) {
     const double off = atDegrees - spacingDegrees * std::round(atDegrees / spacingDegrees);
     return std::exp(-off * off / (2 * kGridSigmaDegrees * kGridSigmaDegrees));
@@ -35,7 +41,8 @@ namespace pattern {
 
 }  // namespace pattern
 
-// Lines of equal azimuth and of equal elevation: upright lines and rings on an upright cylinder.
+// On an upright cylinder about the origin: upright lines and horizontal rings. direction: wall
+// frame, of any length.
 [[nodiscard]] inline double gridLight(glm::dvec3 direction) {
     const double azimuth = pattern::degrees(direction.x, -direction.z);
     const double level = std::sqrt(direction.x * direction.x + direction.z * direction.z);

@@ -2,6 +2,7 @@
 #include "common/wall/picture.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -12,10 +13,12 @@ namespace aquarama::wall {
 
 namespace {
 
+// The middle of one of 2^32 equal parts of (0, 1).
 double unit(std::uint32_t bits) {
     return (bits + 0.5) / 4294967296.0;
 }
 
+// A table, since pow() for each pixel would take seconds.
 std::vector<float> lightOfEveryCode(int bits) {
     std::vector<float> table(std::size_t{1} << bits);
     for (std::size_t code = 0; code < table.size(); ++code)
@@ -24,7 +27,8 @@ std::vector<float> lightOfEveryCode(int bits) {
     return table;
 }
 
-// Less than a code of noise where there is less than a code of light, so that black stays black.
+// most: the largest code. Below one code of light the noise shrinks with the light, so that black
+// stays black.
 std::uint16_t codeOf(double linear, double most, double noise) {
     const double exact = srgbFromLinear(std::clamp(linear, 0.0, 1.0)) * most;
     const double code = exact + noise * std::min(1.0, exact);
@@ -34,6 +38,7 @@ std::uint16_t codeOf(double linear, double most, double noise) {
 }  // namespace
 
 Light darkness(glm::ivec2 sizePixels) {
+    assert(sizePixels.x >= 0 && sizePixels.y >= 0);
     const auto count =
         static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y);
     Light light;
@@ -56,8 +61,10 @@ double ditherCodes(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
 }
 
 Light lightOf(const Picture& picture) {
+    assert(picture.bits == 8 || picture.bits == 16);
     const std::vector<float> table = lightOfEveryCode(picture.bits);
     Light light = darkness(picture.sizePixels);
+    assert(picture.rgb.size() == 3 * light.rgb.size());
     for (std::size_t i = 0; i < light.rgb.size(); ++i)
         light.rgb[i] = {table[picture.rgb[3 * i]],
                         table[picture.rgb[3 * i + 1]],
@@ -66,6 +73,7 @@ Light lightOf(const Picture& picture) {
 }
 
 Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed) {
+    assert(bits == 8 || bits == 16);
     const double most = (1 << bits) - 1;
     Picture picture;
     picture.sizePixels = light.sizePixels;
@@ -74,6 +82,7 @@ Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed) {
     for (int y = 0; y < light.sizePixels.y; ++y)
         for (int x = 0; x < light.sizePixels.x; ++x)
             for (int c = 0; c < 3; ++c) {
+                // Each colour has noise of its own.
                 const auto column = static_cast<std::uint32_t>(3 * x + c);
                 const double noise =
                     bits == 8 ? ditherCodes(column, static_cast<std::uint32_t>(y), ditherSeed) : 0;
@@ -84,6 +93,7 @@ Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed) {
 }
 
 glm::vec3 bilinear(const Light& light, glm::dvec2 pixel) {
+    assert(!light.rgb.empty());
     const glm::dvec2 last(light.sizePixels - 1);
     const glm::dvec2 at = glm::clamp(pixel - 0.5, glm::dvec2(0), last);
     const glm::ivec2 low(at);

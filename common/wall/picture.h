@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as they are stored (sRGB codes) and as light (linear), and the one pair of functions
-// between the two.
+// Pictures as they are stored (sRGB codes) and as light (linear), and the only conversions between
+// the two.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@
 
 namespace aquarama::wall {
 
-// Codes of 8 or 16 bits, red green blue, top row first.
+// Codes of 8 or 16 bits (`bits`), red green blue, top row first: 3 * width * height of them.
 struct Picture {
     glm::ivec2 sizePixels{};
     int bits = 8;
     std::vector<std::uint16_t> rgb;
 };
 
-// Linear Rec. 709, 1 is a projector's full white; top row first.
+// Linear light with the primaries of Rec. 709; 1 is a projector's full white. Top row first.
 struct Light {
     glm::ivec2 sizePixels{};
     std::vector<glm::vec3> rgb;
 
+    // Column x and row y, both within the picture.
     [[nodiscard]] const glm::vec3& at(int x, int y) const { return rgb[index(x, y)]; }
     [[nodiscard]] glm::vec3& at(int x, int y) { return rgb[index(x, y)]; }
 
@@ -32,20 +33,25 @@ struct Light {
                static_cast<std::size_t>(x);
     }
 };
+// All black.
 [[nodiscard]] Light darkness(glm::ivec2 sizePixels);
 
-// IEC 61966-2-1, both ways between 0 and 1.
+// The transfer functions of sRGB (IEC 61966-2-1), both ways between 0 and 1.
 [[nodiscard]] double srgbFromLinear(double linear);
 [[nodiscard]] double linearFromSrgb(double encoded);
 
-// Triangular noise of one code either way, the same for the same pixel and seed.
+// Dither: noise with a triangular distribution from -1 to 1 code, the same for the same place and
+// seed.
 [[nodiscard]] double ditherCodes(std::uint32_t x, std::uint32_t y, std::uint32_t seed);
 
+// Exact: each code has one value.
 [[nodiscard]] Light lightOf(const Picture& picture);
-// 8 bits are dithered, 16 bits only rounded. Black stays black.
+// bits: 8 or 16. With 8 bits the codes are dithered, with 16 only rounded. Light outside of 0 to 1
+// is clipped; black stays black.
 [[nodiscard]] Picture pictureOf(const Light& light, int bits, std::uint32_t ditherSeed);
 
-// Between the centres of pixels, which are at +0.5; the border's colour goes on outside.
+// Bilinear interpolation between the centres of pixels, which are at +0.5; outside of them the
+// colour of the border continues. The picture must not be empty.
 [[nodiscard]] glm::vec3 bilinear(const Light& light, glm::dvec2 pixel);
 
 }  // namespace aquarama::wall

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/wall/pinhole.h"
 
+#include <cassert>
 #include <cmath>
 
 #include <glm/gtc/quaternion.hpp>
@@ -12,6 +12,7 @@ namespace aquarama::wall {
 
 namespace {
 
+// Yaw about y, then pitch about the turned x, then roll about the turned z axis; radians.
 glm::dmat3 turned(glm::dvec3 yawPitchRoll) {
     const glm::dquat yaw = glm::angleAxis(yawPitchRoll.x, glm::dvec3(0, 1, 0));
     const glm::dquat pitch = glm::angleAxis(yawPitchRoll.y, glm::dvec3(1, 0, 0));
@@ -26,7 +27,9 @@ Pinhole::Pinhole(const config::Channel& channel)
       position_(channel.projector.positionMetres),
       focal_(channel.projector.focalPixels),
       principal_(channel.projector.principalPixels),
-      size_(channel.sizePixels) {}
+      size_(channel.sizePixels) {
+    assert(focal_.x > 0 && focal_.y > 0);
+}
 
 Ray Pinhole::ray(glm::dvec2 pixel) const {
     const glm::dvec2 tangent = (pixel - principal_) / focal_;  // rows run down, y runs up
@@ -44,6 +47,7 @@ std::optional<glm::dvec2> Pinhole::pixelOf(glm::dvec3 point) const {
 std::optional<glm::dvec3> screenHit(const config::Screen& screen,
                                     const Ray& ray,
                                     double spillMetres) {
+    // Where the ray o + t d crosses the cylinder x^2 + z^2 = r^2: a t^2 + 2 b t + c = 0.
     const glm::dvec3& o = ray.origin;
     const glm::dvec3& d = ray.direction;
     const double a = d.x * d.x + d.z * d.z;
@@ -51,7 +55,8 @@ std::optional<glm::dvec3> screenHit(const config::Screen& screen,
     const double c = o.x * o.x + o.z * o.z - screen.radiusMetres * screen.radiusMetres;
     const double root = b * b - a * c;
     if (a <= 0 || root < 0) return std::nullopt;
-    // The far crossing is where light leaves the cylinder: the screen's inside.
+    // Of the two crossings the far one is on the inside of the screen, where the light leaves the
+    // cylinder.
     const double along = (std::sqrt(root) - b) / a;
     if (along <= 0) return std::nullopt;
     const glm::dvec3 point = o + along * d;
@@ -72,9 +77,10 @@ double azimuthOf(glm::dvec3 point) {
 
 namespace {
 
-constexpr int kStepsPerSide = 2048;  // finer than a pixel
+// One point for each pixel or two of a projector.
+constexpr int kStepsPerSide = 2048;
 
-// Round the unit square, corners included.
+// Calls visit for points along the border of the unit square, corners included.
 template <class Visit>
 void walkUnitSquare(Visit visit) {
     for (int i = 0; i <= kStepsPerSide; ++i) {
@@ -91,6 +97,7 @@ void walkUnitSquare(Visit visit) {
 std::vector<glm::dvec3> litOutline(const config::Screen& screen,
                                    const Pinhole& projector,
                                    double spillMetres) {
+    // The screen enlarged by its spill.
     config::Screen spilled = screen;
     spilled.arcRadians += 2 * spillMetres / screen.radiusMetres;
     spilled.heightMetres += 2 * spillMetres;

@@ -3,6 +3,7 @@
 // out of (readRows, writeRows) own nothing, and what they fill belongs to their callers.
 #include "common/wall/png_file.h"
 
+#include <cassert>
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
@@ -16,17 +17,21 @@ namespace aquarama::wall {
 
 namespace {
 
+// Limits of what is read, in pixels each way and in all.
 constexpr png_uint_32 kLargest = 16384;
-constexpr png_uint_32 kMostPixels = 1U
-                                    << 26;  // a small file must not claim the memory of a machine
-constexpr int kCompression = 3;             // a snapshot is worth a second of packing, not five
+// A small file could otherwise make the program allocate all memory of the machine.
+constexpr png_uint_32 kMostPixels = 1U << 26;
+// A snapshot takes a second to compress at this level, and five at the best.
+constexpr int kCompression = 3;
 
+// Closes a file that an error leaves open; a written file is closed by hand, to see whether that
+// succeeds.
 struct Closer {
     void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, Closer>;
 
-// What a read or write needs, outside of the reach of longjmp.
+// The state of a read or write. Owned by readPng() or writePng(), which longjmp() does not leave.
 struct Job {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -35,6 +40,7 @@ struct Job {
     std::string complaint;
 };
 
+// libpng's error handler: keeps the message and jumps back.
 void remember(png_structp png, png_const_charp what) {
     static_cast<Job*>(png_get_error_ptr(png))->complaint = what;
     std::longjmp(png_jmpbuf(png), 1);
@@ -47,6 +53,7 @@ std::size_t rowBytes(const Picture& picture) {
            static_cast<std::size_t>(picture.bits / 8);
 }
 
+// Memory for the packed picture, and pointers to its rows, as libpng wants them.
 void makeRows(Job& job, const Picture& picture) {
     const auto height = static_cast<std::size_t>(picture.sizePixels.y);
     job.bytes.resize(rowBytes(picture) * height);
@@ -54,6 +61,7 @@ void makeRows(Job& job, const Picture& picture) {
         job.rows.push_back(job.bytes.data() + y * rowBytes(picture));
 }
 
+// Size and depth into `picture`, and what libpng shall convert. False after an error.
 bool readHeader(Job& job, std::FILE* file, Picture& picture) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
     png_init_io(job.png, file);
@@ -73,6 +81,7 @@ bool readHeader(Job& job, std::FILE* file, Picture& picture) {
     return true;
 }
 
+// The two below may be jumped out of. False after an error.
 bool readRows(Job& job) {
     if (setjmp(png_jmpbuf(job.png)) != 0) return false;
     png_read_image(job.png, job.rows.data());
@@ -100,7 +109,7 @@ bool writeRows(Job& job, std::FILE* file, const Picture& picture) {
     return true;
 }
 
-// PNG is big-endian.
+// From packed bytes to codes and back; 16-bit PNG is big-endian.
 void unpack(const std::vector<png_byte>& bytes, Picture& picture) {
     const bool deep = picture.bits == 16;
     picture.rgb.resize(deep ? bytes.size() / 2 : bytes.size());
@@ -139,6 +148,9 @@ Picture readPng(const std::string& path) {
 }
 
 void writePng(const std::string& path, const Picture& picture) {
+    assert(picture.bits == 8 || picture.bits == 16);
+    assert(picture.rgb.size() * static_cast<std::size_t>(picture.bits / 8) ==
+           rowBytes(picture) * static_cast<std::size_t>(picture.sizePixels.y));
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) throw Error(path + ": cannot be written; check the folder and its permissions");
     Job job;

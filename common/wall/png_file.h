@@ -8,10 +8,11 @@
 
 namespace aquarama::wall {
 
-// Throws Error when the file is no readable picture of 16384 pixels or fewer each way, 64
-// million in all. Grey and
-// palettes come as red green blue, transparency is dropped.
+// Grey and palettes are read as red green blue, transparency is dropped; 16 bits stay 16, fewer
+// become 8. Throws Error when the file is not a readable picture of at most 16384 pixels each way
+// and 64 million in all.
 [[nodiscard]] Picture readPng(const std::string& path);
+// 8 or 16 bits, as the picture has. Throws Error when the file cannot be written.
 void writePng(const std::string& path, const Picture& picture);
 
 }  // namespace aquarama::wall

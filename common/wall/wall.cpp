@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "common/wall/wall.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -24,6 +24,7 @@ glm::dvec3 eyePosition(const config::Rig& rig, EyeSide side) {
 }
 
 config::Stereo stereoOf(const config::Rig& rig, std::size_t channel) {
+    assert(channel < rig.channels.size());
     const config::Display& display = rig.channels[channel].display;
     config::Stereo stereo = rig.stereo;
     stereo.mode = display.stereo.value_or(stereo.mode);
@@ -63,6 +64,8 @@ double bump(double position, double size) {
     return hill * hill;
 }
 
+// The weight of a projector at a point before the weights are divided by their sum; 0 where it does
+// not light the point.
 double pull(const Pinhole& projector, glm::dvec3 point) {
     const auto pixel = projector.pixelOf(point);
     if (!pixel || !lightsInside(projector, point)) return 0;
@@ -76,6 +79,7 @@ Blend::Blend(const config::Rig& rig) {
 }
 
 double Blend::weight(std::size_t channel, glm::dvec3 point) const {
+    assert(channel < projectors_.size());
     const double own = pull(projectors_[channel], point);
     if (own <= 0) return 0;
     double sum = own;
@@ -89,6 +93,7 @@ double blendWeight(const config::Rig& rig, std::size_t channel, glm::dvec3 scree
 }
 
 WarpMap warpMap(const config::Rig& rig, std::size_t channel) {
+    assert(channel < rig.channels.size());
     const Blend blend(rig);
     const glm::ivec2 size = rig.channels[channel].sizePixels;
     WarpMap map;
@@ -106,8 +111,8 @@ WarpMap warpMap(const config::Rig& rig, std::size_t channel) {
 
 namespace {
 
-// From `eye`, level, towards azimuth (right positive): upright things stay upright in every
-// channel.
+// A camera at `eye` that looks horizontally towards an azimuth (right positive): upright things
+// stay upright in every channel.
 glm::dmat4 levelCamera(glm::dvec3 eye, double azimuth) {
     const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
     const glm::dvec3 back(-std::sin(azimuth), 0, std::cos(azimuth));
@@ -115,13 +120,14 @@ glm::dmat4 levelCamera(glm::dvec3 eye, double azimuth) {
     return glm::translate(glm::dmat4(glm::transpose(wallFromCamera)), -eye);
 }
 
-// The middle of what is lit, seen from between the eyes.
+// The azimuth of the middle of what is lit, seen from between the eyes.
 double azimuthOfMiddle(const std::vector<glm::dvec3>& lit, glm::dvec3 between) {
     const auto [leftmost, rightmost] =
         std::ranges::minmax(lit, {}, [&](glm::dvec3 point) { return azimuthOf(point - between); });
     return (azimuthOf(leftmost - between) + azimuthOf(rightmost - between)) / 2;
 }
 
+// The tangent of an angle that is larger by so much.
 double widened(double tangent, double byRadians) {
     return std::tan(std::atan(tangent) + byRadians);
 }
@@ -132,6 +138,8 @@ ChannelFrustum channelFrustum(const config::Rig& rig,
                               std::size_t channel,
                               double marginRadians,
                               EyeSide eye) {
+    assert(channel < rig.channels.size());
+    // What is lit must be so far in front of the eye.
     constexpr double kLeastAheadMetres = 0.1;
     const std::vector<glm::dvec3> lit =
         litOutline(rig.screen, Pinhole(rig.channels[channel]), kSpillMetres);
@@ -158,6 +166,7 @@ ChannelFrustum channelFrustum(const config::Rig& rig,
 }
 
 glm::mat4 clipFromCamera(const ChannelFrustum& f, float nearMetres) {
+    assert(f.right > f.left && f.top > f.bottom && nearMetres > 0);
     const double width = f.right - f.left;
     const double height = f.top - f.bottom;
     glm::mat4 clip(0.0F);
@@ -166,12 +175,15 @@ glm::mat4 clipFromCamera(const ChannelFrustum& f, float nearMetres) {
     clip[2][0] = static_cast<float>((f.right + f.left) / width);
     clip[2][1] = static_cast<float>((f.top + f.bottom) / height);
     clip[2][3] = -1;
-    clip[3][2] = nearMetres;  // depth = near / distance
+    // So depth is near / distance.
+    clip[3][2] = nearMetres;
     return clip;
 }
 
+// Angles between the directions of pixels next to each other, at a grid of places.
 double finestPixelRadians(const config::Rig& rig) {
-    constexpr int kProbes = 5;  // along each side of a picture
+    // Places along each side of a picture.
+    constexpr int kProbes = 5;
     double finest = std::numbers::pi;
     for (const config::Channel& channel : rig.channels) {
         const glm::dvec2 size(channel.sizePixels);
@@ -193,9 +205,11 @@ double finestPixelRadians(const config::Rig& rig) {
 
 namespace {
 
+// The samples of the screen that checkCovered() looks at.
 constexpr int kColumns = 481;
 constexpr int kRows = 121;
-constexpr double kWidestDegrees = 150;  // past it a flat picture would need endless pixels
+// Beyond this a flat picture would need very many pixels at its sides.
+constexpr double kWidestDegrees = 150;
 
 [[noreturn]] void refuse(const std::string& source,
                          config::SourcePlace place,
@@ -209,12 +223,13 @@ std::string oneDecimal(double value) {
     return text;
 }
 
-// "12.0 degrees left", "3.5 degrees right"
+// As in "12.0 degrees left", "3.5 degrees right".
 std::string sideways(double azimuth) {
     return oneDecimal(std::abs(azimuth) / kRadiansPerDegree<double>) + " degrees " +
            (azimuth < 0 ? "left" : "right");
 }
 
+// A projector must light some of the screen, and not too wide a part.
 void checkProjector(const config::Rig& rig,
                     const config::Channel& channel,
                     const std::string& source) {
@@ -234,7 +249,8 @@ void checkProjector(const config::Rig& rig,
                    " degrees of the screen: give it a longer focal_x_px, or share with another");
 }
 
-// Sample `index` of `count` from edge to edge of what has to be lit.
+// Where sample `index` of `count` is between the edges of what has to be lit, as a share of the
+// screen.
 double sample(int index, int count) {
     return kDarkBorder + (1 - 2 * kDarkBorder) * index / (count - 1);
 }
@@ -255,7 +271,8 @@ std::vector<glm::dvec3> darkPoints(const config::Screen& screen,
     return dark;
 }
 
-// Names the first stretch of neighbouring columns that hold a dark point.
+// All samples of the screen must be lit. Reports the first run of neighbouring columns that have a
+// dark point.
 void checkCovered(const config::Rig& rig, const std::string& source) {
     std::vector<Pinhole> projectors;
     for (const config::Channel& channel : rig.channels) projectors.emplace_back(channel);
@@ -287,7 +304,7 @@ void checkCovered(const config::Rig& rig, const std::string& source) {
                ": aim one there, shorten its focal length, or make the screen smaller");
 }
 
-// The eyes must be before the screen, not beside or behind a part of it.
+// The eyes must be in front of the screen, not beside or behind a part of it.
 void checkEyes(const config::Rig& rig, const std::string& source) {
     for (std::size_t channel = 0; channel < rig.channels.size(); ++channel)
         for (const EyeSide eye : {EyeSide::Left, EyeSide::Right}) try {
