@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/config/angle.h"
 #include "common/units/angle.h"
 #include "common/units/error.h"
 #include "common/wall/outline.h"
@@ -47,7 +46,7 @@ void checkProjector(const config::Rig& rig,
                    "move it");
     const auto [low, high] =
         std::ranges::minmax(lit, {}, [](glm::dvec3 point) { return azimuthOf(point); });
-    if (azimuthOf(high) - azimuthOf(low) > config::radiansOf(kWidestDegrees))
+    if (azimuthOf(high) - azimuthOf(low) > kWidestDegrees * kRadiansPerDegree<double>)
         refuse(source,
                channel.place,
                "projector \"" + channel.name + "\" lights more than " + oneDecimal(kWidestDegrees) +

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/config/habits.h"
+#include "common/config/species.h"
 #include "common/units/limits.h"
 
 namespace aquarama::fish {

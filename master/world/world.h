@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "common/config/habits.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/motion/motion_state.h"

@@ -2,7 +2,7 @@
 // How much a frame may cost: what each tier of quality buys, in one place.
 #pragma once
 
-#include "common/config/quality.h"
+#include "common/config/rig.h"
 #include "render_node/gl/shader_text.h"
 
 namespace aquarama::scene {

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "common/config/quality.h"
+#include "common/config/rig.h"
 
 namespace aquarama::show {
 

@@ -61,7 +61,7 @@ class Program : public testing::Test {
     }
     // A species file, with one text put in another's place.
     [[nodiscard]] std::string edited(const std::string& good, const std::string& bad) const {
-        std::string text = readSpeciesText(test::kScadFile).text;
+        std::string text = config::readTextFile(test::kScadFile);
         text.replace(text.find(good), good.size(), bad);
         const fs::path path = root_ / "edited.txtpb";
         std::ofstream(path) << text;
