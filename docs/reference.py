@@ -55,6 +55,8 @@ def read(path):
             choice = None
         elif field:
             rule = {key: value.strip('"') for key, value in RULE.findall((field[4] or "").replace("(rule).", ""))}
+            if field[2] in ("double", "int32") and not {"least", "most"} <= rule.keys():
+                sys.exit(f"{path}: {field[3]} has no bounds: give it least and most")
             messages[-1].fields.append((field[1] == "repeated", field[2], field[3], rule, said))
         elif messages and not re.match(r"}|reserved |extend ", code):
             sys.exit(f"{path}: {code}: write one field a line")
