@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/config/text_file.h"
 #include "common/motion/repertoire.h"
 #include "common/units/error.h"
 #include "master/capture/compile/config_folder.h"

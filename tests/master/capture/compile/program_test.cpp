@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/config/text_file.h"
 #include "master/capture/compile/repertoire_cache.h"
 #include "tests/support/scad.h"
 
