@@ -4,7 +4,6 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "common/config/cast.h"
 #include "common/place/water.h"
 
 namespace aquarama {
@@ -68,11 +67,9 @@ std::string lineOf(const config::Day& day) {
 
 }  // namespace
 
-std::string inventoryOfScene(const std::string& path) {
-    const config::Scene scene = config::readScene(path);
+std::string inventoryOf(const config::Scene& scene, const std::string& path) {
     const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, path);
-    std::size_t fish = 0;
-    for (const config::CastMember& member : scene.cast) fish += member.fish;
+    const std::size_t fish = config::fishIn(scene);
     const auto length = cast.front().species.size.meanMetres;
     place::checkRoom(scene, path, fish, length);
 
@@ -97,8 +94,7 @@ std::string inventoryOfScene(const std::string& path) {
     return text + lineOfTour(scene) + lineOf(scene.day) + path + ": good\n";
 }
 
-std::string inventoryOfSpecies(const std::string& path) {
-    const config::Species species = config::readSpecies(path);
+std::string inventoryOf(const config::Species& species, const std::string& path) {
     return "species " + lineOf(species) + "\n" + path + ": good\n";
 }
 

@@ -4,11 +4,13 @@
 
 #include <string>
 
+#include "common/config/scene.h"
+
 namespace aquarama {
 
-// Several lines; each throws Error with file:line:column for a mistake in the file, or in one that
-// it names.
-[[nodiscard]] std::string inventoryOfScene(const std::string& path);
-[[nodiscard]] std::string inventoryOfSpecies(const std::string& path);
+// Several lines. `path`: of the file that it was read from. Throws Error with file:line:column
+// where the scene has no room for its fish, or for a mistake in a file of its cast.
+[[nodiscard]] std::string inventoryOf(const config::Scene& scene, const std::string& path);
+[[nodiscard]] std::string inventoryOf(const config::Species& species, const std::string& path);
 
 }  // namespace aquarama

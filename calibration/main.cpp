@@ -11,9 +11,9 @@
 #include "calibration/theatre/snapshot.h"
 #include "calibration/theatre/survey.h"
 #include "common/cli/program.h"
-#include "common/config/cast.h"
-#include "common/config/file_kind.h"
-#include "common/config/stereo_names.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/config/text_file.h"
 #include "common/units/log.h"
 #include "common/units/units.h"
 #include "common/wall/wall.h"
@@ -25,33 +25,38 @@ void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
-config::Rig checkedRig(const std::string& path) {
-    config::Rig rig = config::readRig(path);
+config::Rig checkedRig(const std::string& text, const std::string& path) {
+    config::Rig rig = config::parseRig(text, path);
     wall::checkGeometry(rig, path);
     return rig;
 }
 
+config::Rig readCheckedRig(const std::string& path) {
+    return checkedRig(config::readTextFile(path), path);
+}
+
 // With the scene that it shows.
-void checkRig(const std::string& path) {
-    const config::Rig rig = checkedRig(path);
+void checkRig(const config::Rig& rig, const std::string& path) {
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, i)).c_str());
     const double worst = theatre::worstBlendSum(rig);
     if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
-    (void)inventoryOfScene(config::scenePathOf(rig, path));
+    const std::string scene = config::scenePathOf(rig, path);
+    (void)inventoryOf(config::readScene(scene), scene);
     std::printf(
         "%s: good; the channels' shares of light sum to one within %.0e\n", path.c_str(), worst);
 }
 
-// A rig, a scene or a species, whichever the file holds.
-void check(const std::string& path) {
-    switch (config::fileKindAt(path)) {
+// A rig, a scene or a species, whichever the file holds; `showRig` is called for a rig.
+void show(const std::string& path, void (*showRig)(const config::Rig&, const std::string&)) {
+    const std::string text = config::readTextFile(path);
+    switch (config::fileKindOf(text)) {
         case config::FileKind::Rig:
-            return checkRig(path);
+            return showRig(checkedRig(text, path), path);
         case config::FileKind::Scene:
-            return say(inventoryOfScene(path));
+            return say(inventoryOf(config::parseScene(text, path), path));
         case config::FileKind::Species:
-            return say(inventoryOfSpecies(path));
+            return say(inventoryOf(config::parseSpecies(text, path), path));
     }
 }
 
@@ -60,7 +65,7 @@ int checkAll(const std::vector<std::string>& paths) {
     int status = 0;
     for (const std::string& path : paths) {
         try {
-            check(path);
+            show(path, checkRig);
         } catch (const Error& error) {
             cli::sayError("aquarama-calibrate", error.what());
             status = 1;
@@ -69,8 +74,7 @@ int checkAll(const std::vector<std::string>& paths) {
     return status;
 }
 
-void inspectRig(const std::string& path) {
-    const config::Rig rig = checkedRig(path);
+void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
     std::printf("rig \"%s\": %zu channels\n", rig.name.c_str(), rig.channels.size());
     std::printf("scene: %s\n", rig.scene.c_str());
     std::printf("screen: radius %.3f m, %.1f degrees (%.3f m of arc), %.3f m high\n",
@@ -81,7 +85,7 @@ void inspectRig(const std::string& path) {
     std::printf("panorama: %d x %d pixels\n", rig.panoramaPixels.x, rig.panoramaPixels.y);
     if (rig.stereo.mode != config::StereoMode::Mono)
         std::printf("stereo: %s, eyes %.0f mm apart\n",
-                    std::string(config::nameOf(rig.stereo.mode)).c_str(),
+                    config::nameOf(rig.stereo.mode).c_str(),
                     1000 * rig.stereo.eyeSeparationMetres);
     std::printf(
         "addresses: control %s, state %s\n", rig.controlAddress.c_str(), rig.stateAddress.c_str());
@@ -105,11 +109,6 @@ void inspectRig(const std::string& path) {
     }
 }
 
-void inspect(const std::string& path) {
-    if (config::fileKindAt(path) == config::FileKind::Rig) return inspectRig(path);
-    check(path);
-}
-
 struct Composition {
     std::string rig;
     std::string folder;
@@ -131,7 +130,7 @@ void describeCompose(CLI::App& app, Composition& options, cli::Job& job) {
     compose.callback([&] {
         job = [&] {
             theatre::composeSnapshot(
-                checkedRig(options.rig), options.folder, options.deep ? 16 : 8);
+                readCheckedRig(options.rig), options.folder, options.deep ? 16 : 8);
             return 0;
         };
     });
@@ -156,7 +155,7 @@ void describeClip(CLI::App& app, Clip& options, cli::Job& job) {
                     "folder for panorama.png and hall.png of the first frame, at once");
     clip.callback([&] {
         job = [&] {
-            theatre::film(checkedRig(options.rig), options.filming);
+            theatre::film(readCheckedRig(options.rig), options.filming);
             return 0;
         };
     });
@@ -191,7 +190,7 @@ int main(int count, char** arguments) {
     inspecting.add_option("FILE", inspected, "a rig, a scene or a species")->required();
     inspecting.callback([&] {
         job = [&] {
-            inspect(inspected);
+            show(inspected, inspectRig);
             return 0;
         };
     });

@@ -13,7 +13,6 @@
 #include "common/cli/outputs.h"
 #include "common/cli/program.h"
 #include "common/cli/signals.h"
-#include "common/config/cast.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "common/units/digest.h"
@@ -91,7 +90,7 @@ void show(const config::Rig& rig,
           conductor::Conductor** running = nullptr) {
     conductor::Blobs blobs;
     wire::Welcome welcome;
-    welcome.rigText = config::writeRig(rig);
+    welcome.rigText = rig.text;
     welcome.sceneText = shown.assets.scene;
     welcome.cast = castOf(shown.assets, blobs);
     const auto school = shown.world.world().traits();
@@ -106,16 +105,16 @@ void show(const config::Rig& rig,
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
-    const wire::AssetBundle assets = simulation::readAssets(
+    const simulation::Assets assets = simulation::readAssets(
         options.scenePath.empty() ? config::scenePathOf(rig, options.rigPath) : options.scenePath,
         {.seed = options.seed, .fish = options.fish});
     simulation::LivingWorld world(simulation::worldOptionsOf(assets));
     const conductor::ConductorOptions conducting = conductorOptions(rig, options);
     if (options.recordPath.empty())
-        return show(rig, conducting, {assets, world, world}, std::move(channels));
-    simulation::RecordingFile file(options.recordPath, assets);
+        return show(rig, conducting, {assets.bytes, world, world}, std::move(channels));
+    simulation::RecordingFile file(options.recordPath, assets.bytes);
     simulation::RecordedWorld recorded(world, file);
-    show(rig, conducting, {assets, world, recorded}, std::move(channels));
+    show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
 }
 
 void showAgain(const config::Rig& rig,

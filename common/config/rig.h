@@ -3,18 +3,45 @@
 // data.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/config/quality.h"
-#include "common/config/source_place.h"
+#include "common/config/text_file.h"
 
 namespace aquarama::config {
+
+// How fine a wall is drawn. All nodes of a wall draw at the same tier, or their pictures would part
+// where they overlap; render_node/scene/quality.h says what each buys.
+enum class QualityTier : std::uint8_t {
+    Low,     // software OpenGL on two cores, live
+    Medium,  // a small GPU
+    High,    // a GPU of today
+    Ultra,   // no expense spared: pictures, references
+};
+// As command lines name them, in the order of the tiers.
+inline constexpr std::array<std::string_view, 4> kTierNames{"low", "medium", "high", "ultra"};
+
+[[nodiscard]] constexpr std::string_view nameOf(QualityTier tier) {
+    return kTierNames.at(static_cast<std::size_t>(tier));
+}
+// Nothing where there is no such tier: for numbers and names from outside.
+[[nodiscard]] constexpr std::optional<QualityTier> tierAt(std::uint32_t index) {
+    if (index >= kTierNames.size()) return std::nullopt;
+    return static_cast<QualityTier>(index);
+}
+[[nodiscard]] constexpr std::optional<QualityTier> tierNamed(std::string_view name) {
+    const auto found = std::ranges::find(kTierNames, name);
+    return tierAt(static_cast<std::uint32_t>(found - kTierNames.begin()));
+}
 
 // A piece of an upright cylinder, open towards the audience. Wall frame: metres, Y up, origin on
 // the cylinder's axis at the screen's mid-height, where the sweet spot is unless a rig moves it;
@@ -35,9 +62,10 @@ struct Projector {
     glm::dvec2 principalPixels{};      // from the top left corner of the picture
 };
 
+// What takes the picture of a channel: a window on a desktop, or a whole monitor.
 enum class DisplayMode : std::uint8_t { Window, Fullscreen };
 
-// How the pictures of two eyes share what one display takes.
+// How the pictures of two eyes share what one display takes; in the schema's order.
 enum class StereoMode : std::uint8_t {
     Mono,
     QuadBuffer,  // the driver's left and right buffers
@@ -47,22 +75,27 @@ enum class StereoMode : std::uint8_t {
     Anaglyph     // red and cyan
 };
 
+// As the rig's file names it: "SIDE_BY_SIDE".
+[[nodiscard]] std::string nameOf(StereoMode mode);
+
 struct Stereo {
     StereoMode mode = StereoMode::Mono;
-    double eyeSeparationMetres = 0.063;
+    double eyeSeparationMetres = 0;
     bool swapEyes = false;
 };
 
+// Where and how a node shows its channel.
 struct Display {
     DisplayMode mode = DisplayMode::Window;
-    int monitor = 0;                     // index of the monitor, for fullscreen
-    glm::ivec2 windowPosition{};         // top left corner on the desktop, for a window
-    std::string device = "auto";         // auto | nvidia | mesa | surfaceless | device:N
-    std::optional<double> refreshHertz;  // refused where the monitor's differs
-    std::optional<StereoMode> stereo;    // instead of the rig's
-    std::optional<bool> swapEyes;        // instead of the rig's
+    int monitor = 0;                          // index of the monitor, for fullscreen
+    glm::ivec2 windowPosition{};              // top left corner on the desktop, for a window
+    std::string device = "auto";              // auto | nvidia | mesa | surfaceless | device:N
+    std::optional<double> refreshHertz = {};  // refused where the monitor's differs
+    std::optional<StereoMode> stereo = {};    // instead of the rig's
+    std::optional<bool> swapEyes = {};        // instead of the rig's
 };
 
+// One projector, the picture that it throws and the node that draws it.
 struct Channel {
     std::uint32_t id = 0;
     std::string name;
@@ -72,14 +105,16 @@ struct Channel {
     SourcePlace place;
 };
 
+// Of the whole wall.
 struct Timing {
-    double refreshHertz = 60;
-    double presentDeadlineSeconds =
-        0;  // how long the first ready node waits for the others; default one refresh
-    double membershipSeconds = 0.25;  // silence after which a node is no longer counted
+    double refreshHertz = 0;
+    double presentDeadlineSeconds = 0;  // how long the first ready node waits for the others
+    double membershipSeconds = 0;       // silence after which a node is no longer counted
 };
 
+// A whole installation. Where its file leaves something out it has what rig.proto says.
 struct Rig {
+    std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;
     Screen screen;
     glm::ivec2 panoramaPixels{};  // the unrolled wall, for the composed pictures
@@ -95,12 +130,13 @@ struct Rig {
     std::optional<QualityTier> quality;  // nothing: measured at start
 };
 
-// Reads and validates the schema (unknown field, missing value, overlapping ids, zero sizes, a bind
-// past the loopback): throws Error with file:line:column. Geometry (a projector that misses the
-// screen) is checked by common/wall.
+// Reads a rig and holds it to rig.proto and to what no single field can tell (overlapping ids, a
+// bind past the loopback): throws Error with file:line:column. `source` is the file's name in
+// errors. Geometry (a projector that misses the screen) is checked by common/wall.
 [[nodiscard]] Rig readRig(const std::string& path);
 [[nodiscard]] Rig parseRig(const std::string& text, const std::string& source);
-[[nodiscard]] std::string writeRig(
-    const Rig& rig);  // text that parseRig reads back to the same rig; sent to the nodes
+
+// Where the scene lies that a rig shows. Throws Error at its place in the rig where there is none.
+[[nodiscard]] std::string scenePathOf(const Rig& rig, const std::string& rigPath);
 
 }  // namespace aquarama::config

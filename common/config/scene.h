@@ -12,13 +12,16 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/config/source_place.h"
+#include "common/config/species.h"
+#include "common/config/text_file.h"
 #include "common/units/units.h"
 
 namespace aquarama::config {
 
+// As many particles as scene.proto allows.
 inline constexpr std::uint32_t kMostPlankton = 60'000;
 
+// What stands about the wall; in the schema's order, as Gathering.
 enum class PlaceKind : std::uint8_t {
     Reef,     // sand, rocks and plants about the wall
     OpenSea,  // nothing but water
@@ -27,6 +30,7 @@ enum class PlaceKind : std::uint8_t {
 // Jerlov's optical types of sea water, the clearest first: I to III of the oceans, 1C and 3C of
 // coasts.
 enum class WaterType : std::uint8_t { I, IA, IB, II, III, C1, C3 };
+// As scenes name them, in the order of the types.
 inline constexpr std::array<std::string_view, 7> kWaterTypeNames{
     "I", "IA", "IB", "II", "III", "1C", "3C"};
 
@@ -88,12 +92,16 @@ struct TourStop {
     std::optional<glm::vec3> lookAt;  // without: where the school is drawn to
     SourcePlace place = {};
 };
+// The speed along it, and its stops in their order.
 struct SceneTour {
     double metresPerSecond = 0.4;
     std::vector<TourStop> stops;
 };
 
+// What is shown on a wall. The values here are those of a scene built in code; where a file leaves
+// something out it has what scene.proto says.
 struct Scene {
+    std::string text = {};  // of the file, as it was read: recorded, and sent to the nodes
     std::string name = "reef";
     PlaceKind place = PlaceKind::Reef;
     glm::vec3 eye{0.0F, -6.0F, 0.0F};  // where the submarine begins, looking along -z
@@ -110,10 +118,23 @@ struct Scene {
 };
 
 // Throws Error with file:line:column for what the schema does not allow, for water out of the sea
-// and for starts out of the water. That the species are there is checked by readCastSpecies.
+// and for starts out of the water. `source` is the file's name in errors. That the species are
+// there is checked by readCastSpecies.
 [[nodiscard]] Scene readScene(const std::string& path);
 [[nodiscard]] Scene parseScene(const std::string& text, const std::string& source);
-// Text that parseScene reads back to the same scene; sent to the nodes.
-[[nodiscard]] std::string writeScene(const Scene& scene);
+
+// Of a member of the cast: its species, and the file that it was read from.
+struct CastSpecies {
+    std::string path;
+    Species species;
+};
+
+// Of each member of the cast, in its order. Throws Error at the member's place in the scene where
+// there is no such file, or at the mistake in it.
+[[nodiscard]] std::vector<CastSpecies> readCastSpecies(const Scene& scene,
+                                                       const std::string& scenePath);
+
+// Of all members together.
+[[nodiscard]] std::uint32_t fishIn(const Scene& scene);
 
 }  // namespace aquarama::config

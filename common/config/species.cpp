@@ -1,145 +1,424 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/species.h"
 
-#include <google/protobuf/text_format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
 
-#include "common/config/angle.h"
 #include "common/config/species.pb.h"
-#include "common/config/species_habits.h"
-#include "common/config/species_shape.h"
 #include "common/config/text_reader.h"
+#include "common/units/units.h"
 
 namespace aquarama::config {
 
 namespace {
 
-constexpr Range kShare{0, 1};
-constexpr Range kStrength{0.001, 1e6};
-constexpr Range kMetres{0.005, 20};
+namespace pb = google::protobuf;
 
-SizeRange readSize(const TextPlace& at) {
-    SizeRange size;
-    size.meanMetres = static_cast<float>(at.number("mean_m", kMetres));
-    size.deviationMetres = static_cast<float>(at.number("deviation_m", {0, 10}));
-    size.leastMetres = static_cast<float>(at.number("least_m", kMetres));
-    size.mostMetres = static_cast<float>(at.number("most_m", kMetres));
+constexpr double kDegree = kRadiansPerDegree<double>;
+constexpr float kHead = 0.05F;  // no fin stands before it
+
+static_assert(v1::Habits::PREDATOR - v1::Habits::PREY == static_cast<int>(Role::Predator));
+
+float real(double value) {
+    return static_cast<float>(value);
+}
+
+float radians(double degrees) {
+    return static_cast<float>(degrees * kDegree);
+}
+
+BodyProfile profileOf(const TextReader& file, const v1::Species& in) {
+    BodyProfile profile;
+    for (const v1::ProfileStation& at : in.profile()) {
+        const float s = real(at.s());
+        if (profile.stations.empty() ? s != 0.0F : s <= profile.stations.back())
+            file.refuse(at, "s", "profile stations must begin at s: 0 and rise: sort them");
+        profile.stations.push_back(s);
+        profile.dorsal.push_back(real(at.up()));
+        profile.ventral.push_back(real(at.down()));
+        profile.halfWidth.push_back(real(at.half_width()));
+        profile.fullnessUp.push_back(real(at.full_up()));
+        profile.fullnessDown.push_back(real(at.full_down()));
+    }
+    return profile;
+}
+
+std::vector<glm::vec2> polylineOf(const pb::RepeatedPtrField<v1::Point>& in) {
+    std::vector<glm::vec2> points;
+    for (const v1::Point& at : in) points.emplace_back(at.s(), at.y());
+    return points;
+}
+
+Fin finOf(const v1::Fin& in) {
+    return {.base = polylineOf(in.base()),
+            .edge = polylineOf(in.edge()),
+            .angleRadians = radians(in.angle_deg()),
+            .round = real(in.round()),
+            .flex = real(in.flex())};
+}
+
+// A fin along the back or the belly: the skin's rings follow its base, so that must run tailwards.
+Fin medianFinOf(const TextReader& file, const v1::Fin& in, const std::string& name) {
+    Fin fin = finOf(in);
+    for (std::size_t i = 1; i < fin.base.size(); ++i)
+        if (fin.base[i].x <= fin.base[i - 1].x)
+            file.refuse(in,
+                        "base",
+                        "the base of " + name + " must run from head to tail: sort it",
+                        static_cast<int>(i));
+    return fin;
+}
+
+// A fin that stands off the flank turns about its base. tailRoot: the last station of the profile,
+// before which all fins but the tail end.
+Fin pectoralOf(const TextReader& file, const v1::Fin& in, float tailRoot) {
+    Fin fin = finOf(in);
+    if (fin.base.front() == fin.base.back())
+        file.refuse(in, "base", "the base of pectoral ends where it begins: spread it");
+    for (std::size_t i = 0; i < fin.base.size(); ++i)
+        if (fin.base[i].x < kHead || fin.base[i].x >= tailRoot)
+            file.refuse(in,
+                        "base",
+                        "the base of pectoral must lie behind the head and before the tail, from "
+                        "s: 0.05 to the last profile station: move it",
+                        static_cast<int>(i));
+    return fin;
+}
+
+// Along back and belly the bases of the fins come one after the other, between the head and the
+// root of the tail.
+void checkOrder(const TextReader& file, const v1::Fins& in, const Fins& fins, float tailRoot) {
+    const auto begin = [](const Fin& fin) { return fin.base.front().x; };
+    const auto end = [](const Fin& fin) { return fin.base.back().x; };
+    const auto require = [&](bool good, const std::string& fin, const std::string& why) {
+        if (!good) file.refuse(in, fin, fin + why);
+    };
+    require(begin(fins.firstDorsal) >= kHead,
+            "first_dorsal",
+            " begins on the head, before s: 0.05: move it back");
+    require(begin(fins.pelvic) >= 2 * kHead,
+            "pelvic",
+            " begins on the head, before s: 0.1: move it back");
+    const std::string tooLong = " ends behind the last profile station: shorten it";
+    if (fins.secondDorsal) {
+        require(begin(*fins.secondDorsal) > end(fins.firstDorsal),
+                "second_dorsal",
+                " begins before first_dorsal ends: move it back");
+        require(end(*fins.secondDorsal) < tailRoot, "second_dorsal", tooLong);
+    } else {
+        require(end(fins.firstDorsal) < tailRoot, "first_dorsal", tooLong);
+    }
+    require(
+        begin(fins.anal) > end(fins.pelvic), "anal", " begins before pelvic ends: move it back");
+    require(end(fins.anal) < tailRoot, "anal", tooLong);
+}
+
+Fins finsOf(const TextReader& file, const v1::Fins& in, float tailRoot) {
+    Fins fins{.firstDorsal = medianFinOf(file, in.first_dorsal(), "first_dorsal"),
+              .secondDorsal = {},
+              .anal = medianFinOf(file, in.anal(), "anal"),
+              .caudal = finOf(in.caudal()),
+              .pelvic = medianFinOf(file, in.pelvic(), "pelvic"),
+              .pectoral = pectoralOf(file, in.pectoral(), tailRoot)};
+    if (in.has_second_dorsal())
+        fins.secondDorsal = medianFinOf(file, in.second_dorsal(), "second_dorsal");
+    checkOrder(file, in, fins, tailRoot);
+    return fins;
+}
+
+Ripple rippleOf(const v1::Ripple& in) {
+    return {.amplitude = real(in.amplitude()),
+            .waves = real(in.waves()),
+            .beatHertz = real(in.beat_hz()),
+            .isOpposed = in.opposed()};
+}
+
+// What is left out has zeros, and keeps still.
+FinMotion finMotionOf(const v1::FinMotion& in) {
+    const v1::Rowing& rowing = in.rowing();
+    return {.rowing = {.beatHertz = real(rowing.beat_hz()),
+                       .strokeRadians = radians(rowing.stroke_deg()),
+                       .featherRadians = radians(rowing.feather_deg()),
+                       .openRadians = radians(rowing.open_deg()),
+                       .flapRadians = radians(rowing.flap_deg()),
+                       .trimRadians = radians(rowing.trim_deg()),
+                       .alternateBelow = real(rowing.alternate_below()),
+                       .foldAbove = real(rowing.fold_above())},
+            .swimming = rippleOf(in.swimming()),
+            .hovering = rippleOf(in.hovering()),
+            .cuppingRadians = radians(in.cupping_deg()),
+            .pelvicFoldRadians = radians(in.pelvic_fold_deg())};
+}
+
+// No fish is drawn to both.
+void refuseBoth(const TextReader& file,
+                const v1::Shares& in,
+                const std::string& one,
+                const std::string& other,
+                double sum) {
+    if (sum > 1)
+        file.refuse(in, other, one + " and " + other + " sum to more than 1: no fish likes both");
+}
+
+HabitShares sharesOf(const TextReader& file, const v1::Shares& in) {
+    refuseBoth(file, in, "brightness", "darkness", in.brightness() + in.darkness());
+    refuseBoth(file, in, "warmth", "cold", in.warmth() + in.cold());
+    return {.schooling = in.schooling(),
+            .brightness = in.brightness(),
+            .darkness = in.darkness(),
+            .warmth = in.warmth(),
+            .cold = in.cold(),
+            .female = in.female()};
+}
+
+void comfortOf(const TextReader& file, const v1::Comfort& in, Habits& habits) {
+    const auto rising = [&](const char* least, const char* most, Span span) {
+        if (span.most <= span.least)
+            file.refuse(
+                in, most, std::string(most) + " must be more than " + least + ": exchange them");
+        return span;
+    };
+    habits.depthMetres =
+        rising("least_depth_m", "most_depth_m", {in.least_depth_m(), in.most_depth_m()});
+    habits.bestDepthMetres = in.best_depth_m();
+    if (in.best_depth_m() < in.least_depth_m() || in.best_depth_m() > in.most_depth_m())
+        file.refuse(in,
+                    "best_depth_m",
+                    "best_depth_m must be from least_depth_m to most_depth_m: move it in between");
+    habits.light = rising("least_light", "most_light", {in.least_light(), in.most_light()});
+    habits.waterCelsius = rising("coldest_c", "warmest_c", {in.coldest_c(), in.warmest_c()});
+}
+
+Paces pacesOf(const TextReader& file, const v1::Paces& in) {
+    if (std::abs(in.hover() + in.slow() + in.medium() + in.fast() - 1) > 1e-6)
+        file.refuse(in, "the paces must sum to 1: they are shares of the time");
+    return {.hover = in.hover(), .slow = in.slow(), .medium = in.medium(), .fast = in.fast()};
+}
+
+Home homeOf(const TextReader& file, const v1::Home& in) {
+    if (in.kind() == v1::Home::SCHOOL) {
+        for (const auto& [field, has] : {std::pair{"radius_m", in.has_radius_m()},
+                                         std::pair{"leash_m", in.has_leash_m()},
+                                         std::pair{"on_the_reef", in.has_on_the_reef()}})
+            if (has)
+                file.refuse(in,
+                            field,
+                            "a home with the school has no " + std::string(field) + ": remove it");
+        return {.kind = HomeKind::School};
+    }
+    file.require(in, "radius_m");
+    file.require(in, "leash_m");
+    if (in.leash_m() < in.radius_m())
+        file.refuse(in, "leash_m", "leash_m is less than radius_m: exchange them");
+    return {.kind = HomeKind::Place,
+            .radiusMetres = in.radius_m(),
+            .leashMetres = in.leash_m(),
+            .onTheReef = in.on_the_reef()};
+}
+
+// Names of other species; no name twice.
+std::vector<std::string> othersOf(const TextReader& file,
+                                  const pb::Message& in,
+                                  const std::string& field,
+                                  const pb::RepeatedPtrField<std::string>& written,
+                                  const std::string& own) {
+    std::vector<std::string> names;
+    for (const std::string& name : written) {
+        const int index = static_cast<int>(names.size());
+        if (name == own)
+            file.refuse(in, field, field + " names the species itself: name others", index);
+        if (std::ranges::count(names, name) > 0)
+            file.refuse(in, field, "\"" + name + "\" is named twice: once is enough", index);
+        names.push_back(name);
+    }
+    return names;
+}
+
+// What the role rules out is refused, so that no line of a file is without effect.
+void refuseContradictions(const TextReader& file, const v1::Habits& in) {
+    const bool hunts = in.role() == v1::Habits::PREDATOR;
+    if (hunts && !in.has_hunt()) file.refuse(in, "role", "a predator needs a hunt: add it");
+    if (!hunts && in.has_hunt())
+        file.refuse(in, "hunt", "only a predator hunts: remove it or change the role");
+    if (hunts && in.has_fear()) file.refuse(in, "fear", "a predator fears nobody: remove it");
+    if (!hunts && !in.has_fear()) file.refuse(in, "role", "all but predators fear: add fear");
+    if (in.role() != v1::Habits::PACIFIST && in.has_libido_per_s())
+        file.refuse(in, "libido_per_s", "only a pacifist mates: remove it or change the role");
+    if (hunts && in.has_pair_bl())
+        file.refuse(in, "pair_bl", "a predator keeps no partner: remove it or change the role");
+    if (in.role() != v1::Habits::PREY && in.shares().schooling() > 0)
+        file.refuse(in.shares(), "schooling", "only prey schools: remove it or change the role");
+    if (in.home().kind() == v1::Home::SCHOOL && in.shares().schooling() <= 0)
+        file.refuse(
+            in.home(), "kind", "nobody of this species schools: its home is a PLACE or none");
+    if (!in.hunger().plankton() && !in.has_hunt())
+        file.refuse(in.hunger(), "plankton", "it would eat nothing: let it eat plankton or hunt");
+}
+
+void fearOf(const TextReader& file, const v1::Habits& in, Habits& habits) {
+    habits.fearMetres = 0, habits.fearFrom = 1, habits.fearAlone = 1;
+    if (!in.has_fear()) return;
+    const v1::Fear& fear = in.fear();
+    habits.fearMetres = real(fear.whole_m());
+    habits.fearFrom = real(fear.heeded_from());
+    habits.fearAlone = real(fear.alone_from());
+    if (habits.fearAlone <= habits.fearFrom)
+        file.refuse(fear, "alone_from", "alone_from must be more than heeded_from: exchange them");
+}
+
+// `own`: the name of the species itself, which it neither hunts nor shadows.
+Habits habitsOf(const TextReader& file, const v1::Habits& in, const std::string& own) {
+    refuseContradictions(file, in);
+    Habits habits;
+    habits.role = static_cast<Role>(in.role() - v1::Habits::PREY);
+    habits.appetiteParticles = real(in.hunger().appetite_particles());
+    habits.digestionPerSecond = real(in.hunger().digestion_per_s());
+    habits.eatsPlankton = in.hunger().plankton();
+    habits.libidoPerSecond = real(in.libido_per_s());
+    fearOf(file, in, habits);
+    habits.shares = sharesOf(file, in.shares());
+    comfortOf(file, in.comfort(), habits);
+    habits.paces = pacesOf(file, in.paces());
+    habits.gradualShare = in.gradual_share();
+    habits.visionBodyLengths = real(in.senses().vision_bl());
+    habits.smellBodyLengths = real(in.senses().smell_bl());
+    if (habits.smellBodyLengths < habits.visionBodyLengths)
+        file.refuse(in.senses(),
+                    "smell_bl",
+                    "smell_bl is less than vision_bl: food that is seen is sensed too");
+    habits.box = {.aheadBodyLengths = real(in.box().ahead_bl()),
+                  .asideBodyLengths = real(in.box().aside_bl()),
+                  .upBodyLengths = real(in.box().up_bl())};
+    habits.persistence = real(in.persistence());
+    if (in.has_home()) habits.home = homeOf(file, in.home());
+    if (in.has_hunt()) {
+        habits.hunts = othersOf(file, in.hunt(), "prey", in.hunt().prey(), own);
+        habits.hunt = {.chaseSeconds = in.hunt().chase_s(),
+                       .giveUpMetres = in.hunt().give_up_m(),
+                       .restSeconds = in.hunt().rest_s()};
+    }
+    habits.pairBodyLengths = in.pair_bl();
+    habits.shadows = othersOf(file, in, "shadows", in.shadows(), own);
+    return habits;
+}
+
+SizeRange sizeOf(const TextReader& file, const v1::Size& in) {
+    const SizeRange size{.meanMetres = real(in.mean_m()),
+                         .deviationMetres = real(in.deviation_m()),
+                         .leastMetres = real(in.least_m()),
+                         .mostMetres = real(in.most_m())};
     if (size.leastMetres > size.meanMetres)
-        at.refuse("least_m", "least_m is more than mean_m: exchange them");
+        file.refuse(in, "least_m", "least_m is more than mean_m: exchange them");
     if (size.mostMetres < size.meanMetres)
-        at.refuse("most_m", "most_m is less than mean_m: exchange them");
+        file.refuse(in, "most_m", "most_m is less than mean_m: exchange them");
     return size;
 }
 
-Skeleton readSkeleton(const TextPlace& at) {
+Skeleton skeletonOf(const TextReader& file, const v1::Skeleton& in) {
     Skeleton skeleton;
-    if (at.count("rings") != 5) at.refuse("a skeleton has five rings: give five");
     double before = 0;
-    for (std::size_t i = 0; i < 5; ++i) {
-        const TextPlace in = at.in("rings", static_cast<int>(i));
-        SkeletonRing& ring = skeleton.rings.at(i);
-        ring.s = in.number("s", {0.05, 0.95});
-        if (ring.s < before + 0.02)
-            in.refuse("s", "rings must stand 0.02 body lengths apart or more: move this one back");
-        before = ring.s;
-        ring.halfHeight = in.number("half_height", {0.005, 0.5});
-        ring.halfWidth = in.number("half_width", {0.005, 0.5});
-        ring.nodeMass = in.number("node_mass", kStrength);
+    for (std::size_t i = 0; i < skeleton.rings.size(); ++i) {
+        const v1::Ring& ring = in.rings(static_cast<int>(i));
+        if (ring.s() < before + 0.02)
+            file.refuse(
+                ring, "s", "rings must stand 0.02 body lengths apart or more: move this one back");
+        before = ring.s();
+        skeleton.rings.at(i) = {.s = ring.s(),
+                                .halfHeight = ring.half_height(),
+                                .halfWidth = ring.half_width(),
+                                .nodeMass = ring.node_mass()};
     }
-    skeleton.tailHalfSpan = at.number("tail_half_span", {0.005, 0.5});
-    skeleton.noseMass = at.number("nose_mass", kStrength);
-    skeleton.tailTipMass = at.number("tail_tip_mass", kStrength);
+    skeleton.tailHalfSpan = in.tail_half_span();
+    skeleton.noseMass = in.nose_mass();
+    skeleton.tailTipMass = in.tail_tip_mass();
     return skeleton;
 }
 
-Tissue readTissue(const TextPlace& at) {
-    return {.timeScale = at.number("time_scale", {0.1, 10}),
-            .stiffness = at.number("stiffness", kStrength),
-            .crossStiffness = at.number("cross_stiffness", kStrength),
-            .muscleStiffness = at.number("muscle_stiffness", kStrength),
-            .tailStiffening = at.number("tail_stiffening", {0.1, 10}),
-            .damping = at.number("damping", {0, 1000}),
-            .muscleContraction = at.number("muscle_contraction", {0, 0.6})};
+Tissue tissueOf(const v1::Tissue& in) {
+    return {.timeScale = in.time_scale(),
+            .stiffness = in.stiffness(),
+            .crossStiffness = in.cross_stiffness(),
+            .muscleStiffness = in.muscle_stiffness(),
+            .tailStiffening = in.tail_stiffening(),
+            .damping = in.damping(),
+            .muscleContraction = in.muscle_contraction()};
 }
 
-Gait readGait(const TextPlace& at) {
-    return {.beatHertz = at.number("beat_hz", {0.1, 20}), .gain = at.number("gain", {0, 2})};
+Gait gaitOf(const v1::Gait& in) {
+    return {.beatHertz = in.beat_hz(), .gain = in.gain()};
 }
 
-Swim readSwim(const TextPlace& at) {
-    return {.middleDrive = at.number("middle_drive", kShare),
-            .backDrive = at.number("back_drive", kShare),
-            .backLagRadians = radiansOf(at.number("back_lag_deg", {0, 360})),
-            .slow = readGait(at.in("slow")),
-            .medium = readGait(at.in("medium")),
-            .fast = readGait(at.in("fast"))};
+Swim swimOf(const v1::Swim& in) {
+    return {.middleDrive = in.middle_drive(),
+            .backDrive = in.back_drive(),
+            .backLagRadians = in.back_lag_deg() * kDegree,
+            .slow = gaitOf(in.slow()),
+            .medium = gaitOf(in.medium()),
+            .fast = gaitOf(in.fast())};
 }
 
-Bend readBend(const TextPlace& at) {
-    return {.strength = at.number("strength", kShare), .tempo = at.number("tempo", {0.5, 4})};
+Bend bendOf(const v1::Bend& in) {
+    return {.strength = in.strength(), .tempo = in.tempo()};
 }
 
-Turn readTurn(const TextPlace& at) {
-    return {.gradual = readBend(at.in("gradual")), .sharp = readBend(at.in("sharp"))};
-}
-
-std::vector<Paint> readPalette(const TextPlace& root) {
-    std::vector<Paint> palette;
-    for (int i = 0; i < root.count("palette"); ++i) {
-        const TextPlace at = root.in("palette", i);
-        palette.push_back(
-            {at.text("part"),
-             glm::dvec3(
-                 at.number("red", kShare), at.number("green", kShare), at.number("blue", kShare))});
-    }
-    return palette;
+// All that moves the animal, as text.
+std::string motionOf(v1::Species in) {
+    in.clear_habits();
+    in.clear_palette();
+    in.clear_fin_motion();
+    in.clear_threads();
+    in.clear_eye();
+    std::string kept;
+    pb::TextFormat::PrintToString(in, &kept);
+    return kept;
 }
 
 // The name becomes the name of the repertoire's file.
-std::string readName(const TextPlace& root) {
-    std::string name = root.text("name");
-    if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
-        root.refuse("name", "name \"" + name + "\" may hold a-z, 0-9 and _ only: rename it");
-    return name;
+void checkName(const TextReader& file, const v1::Species& in) {
+    if (in.name().find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+        file.refuse(
+            in, "name", "name \"" + in.name() + "\" may hold a-z, 0-9 and _ only: rename it");
 }
 
 }  // namespace
 
 Species parseSpecies(const std::string& text, const std::string& source) {
-    v1::Species message;
-    const TextReader reader(text, source, message);
-    const TextPlace root = reader.root();
+    v1::Species in;
+    TextReader file(text, source, in);
     Species species;
-    species.name = readName(root);
-    species.size = readSize(root.in("size"));
-    species.profile = readProfile(root);
-    species.fins = readFins(root.in("fins"), species.profile.stations.back());
-    if (root.has("fin_motion")) species.finMotion = readFinMotion(root.in("fin_motion"));
-    species.eye = readEye(root.in("eye"));
-    species.threads = readThreads(root);
-    species.skeleton = readSkeleton(root.in("skeleton"));
-    species.tissue = readTissue(root.in("tissue"));
-    species.water = {.drag = root.in("water").number("drag", {0, 1e5}),
-                     .frontFactor = root.in("water").number("front_factor", kShare),
-                     .finDrag = root.in("water").number("fin_drag", {0, 100})};
-    species.swim = readSwim(root.in("swim"));
-    species.turn = readTurn(root.in("turn"));
-    species.habits = readHabits(root.in("habits"), species.name);
-    species.palette = readPalette(root);
-    species.recordsControlPoints = message.recorded_control_points();
+    species.text = text;
+    species.motion = motionOf(in);  // of what the file says, without defaults
+    file.check();
+    checkName(file, in);
+    species.name = in.name();
+    species.size = sizeOf(file, in.size());
+    species.profile = profileOf(file, in);
+    species.fins = finsOf(file, in.fins(), species.profile.stations.back());
+    species.finMotion = finMotionOf(in.fin_motion());
+    species.eye = {.s = real(in.eye().s()),
+                   .y = real(in.eye().y()),
+                   .radius = real(in.eye().radius()),
+                   .bulge = real(in.eye().bulge())};
+    for (const v1::Thread& thread : in.threads())
+        species.threads.push_back({.at = polylineOf(thread.at()),
+                                   .rootWidth = real(thread.root_width()),
+                                   .tipWidth = real(thread.tip_width()),
+                                   .isOfFirstDorsal = thread.of_first_dorsal()});
+    species.skeleton = skeletonOf(file, in.skeleton());
+    species.tissue = tissueOf(in.tissue());
+    species.water = {.drag = in.water().drag(),
+                     .frontFactor = in.water().front_factor(),
+                     .finDrag = in.water().fin_drag()};
+    species.swim = swimOf(in.swim());
+    species.turn = {.gradual = bendOf(in.turn().gradual()), .sharp = bendOf(in.turn().sharp())};
+    species.habits = habitsOf(file, in.habits(), in.name());
+    for (const v1::Paint& paint : in.palette())
+        species.palette.push_back(
+            {paint.part(), glm::dvec3(paint.red(), paint.green(), paint.blue())});
+    species.recordsControlPoints = in.recorded_control_points();
     return species;
-}
-
-std::string motionText(const std::string& text, const std::string& source) {
-    v1::Species message;
-    const TextReader reader(text, source, message);
-    message.clear_habits();
-    message.clear_palette();
-    message.clear_fin_motion();
-    message.clear_threads();
-    message.clear_eye();
-    std::string kept;
-    google::protobuf::TextFormat::PrintToString(message, &kept);
-    return kept;
 }
 
 Species readSpecies(const std::string& path) {

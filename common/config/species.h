@@ -11,8 +11,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/config/habits.h"
-
 namespace aquarama::config {
 
 // On the animal lengths are body lengths: s from 0 at the nose to 1 at the tip of the tail, y up.
@@ -35,6 +33,7 @@ struct Fin {
     float flex = 1.0F;          // median fins and tail: how far it ripples
 };
 
+// All fins of a fish; of pelvic and pectoral fins, which come in pairs, one.
 struct Fins {
     Fin firstDorsal;  // the only one, along the whole back, where there is no second
     std::optional<Fin> secondDorsal;
@@ -47,18 +46,21 @@ struct Rowing {
     float strokeRadians = 0, featherRadians = 0, openRadians = 0, flapRadians = 0, trimRadians = 0;
     float alternateBelow = 0, foldAbove = 0;  // body lengths a second
 };
+// Of the median fins, from their front to their end.
 struct Ripple {
     float amplitude = 0;  // lengths of a ray
     float waves = 0;
     float beatHertz = 0;
     bool isOpposed = false;
 };
+// Ripples: in time with the tail, and of a fish that stands.
 struct FinMotion {
     Rowing rowing;
     Ripple swimming, hovering;
     float cuppingRadians = 0, pelvicFoldRadians = 0;
 };
 
+// A ball that stands out of the skin.
 struct FishEye {
     float s = 0.0F;
     float y = 0.0F;
@@ -73,6 +75,7 @@ struct Thread {
     bool isOfFirstDorsal = false;
 };
 
+// Four nodal points about the axis.
 struct SkeletonRing {
     double s = 0, halfHeight = 0, halfWidth = 0;
     double nodeMass = 0;
@@ -101,11 +104,13 @@ struct Water {
     double finDrag = 0;      // of each pectoral fin: force = finDrag * normal speed
 };
 
+// Of steady swimming.
 struct Gait {
     double beatHertz = 0;
     double gain = 1;
 };
 
+// The muscles of the middle and the back beat left against right, the back ones later.
 struct Swim {
     double middleDrive = 0, backDrive = 0;  // contraction, 0 to 1
     double backLagRadians = 0;
@@ -118,6 +123,7 @@ struct Bend {
     double tempo = 1;     // 1: over in 1.45 of the fish's own seconds
 };
 
+// The two turns of the repertoire, either to both sides.
 struct Turn {
     Bend gradual, sharp;
 };
@@ -127,12 +133,91 @@ struct SizeRange {
     float meanMetres = 0.24F, deviationMetres = 0.012F, leastMetres = 0.20F, mostMetres = 0.28F;
 };
 
+// The colour of a part of the skin.
 struct Paint {
     std::string part;
     glm::vec3 linear{};  // Rec. 709
 };
 
+// Prey escapes and schools and does not mate; a pacifist mates and neither escapes nor schools; a
+// predator hunts, and neither escapes, schools, mates nor leaves. In the schema's order.
+enum class Role : std::uint8_t { Prey, Pacifist, Predator };
+
+// From one bound to the other, both included.
+struct Span {
+    double least = 0, most = 0;
+};
+
+// Of the fish of a species, the share that has a habit, 0 to 1; a fish draws its own by the seed.
+struct HabitShares {
+    double schooling = 0, brightness = 0, darkness = 0, warmth = 0, cold = 0;
+    double female = 0.5;
+};
+
+// A fish feels threatened by what is inside this box about its middle line, in its own body
+// lengths. Timid fish have large ones.
+struct SensitivityBox {
+    float aheadBodyLengths = 1.2F, asideBodyLengths = 0.4F, upBodyLengths = 0.35F;
+};
+
+// Shares of the time that a fish at ease swims so; they sum to 1.
+struct Paces {
+    double hover = 0, slow = 0.6, medium = 0.3, fast = 0.1;
+};
+
+enum class HomeKind : std::uint8_t { None, School, Place };
+
+// A place of the fish's own, drawn by the seed in the water: it goes about within the radius and
+// turns back at the leash.
+struct Home {
+    HomeKind kind = HomeKind::None;
+    double radiusMetres = 2, leashMetres = 5;
+    bool onTheReef = false;  // by a rock where there is one, and low
+};
+
+// Of predators.
+struct Hunt {
+    double chaseSeconds = 8;  // at most
+    double giveUpMetres = 6;  // a prey that is farther is let go
+    double restSeconds = 60;  // after a chase
+};
+
+// How a species lives: what it feels, fears, eats and likes. Formulas: Tu & Terzopoulos 1994 and Tu
+// 1996, with their time units taken as seconds and their distances given in metres or body lengths
+// (docs/minds.md). The values here are those of habits built in code; species.proto says which a
+// file may leave out.
+struct Habits {
+    Role role = Role::Prey;
+    // Hunger: appetite alpha in particles of plankton, digestion p0 per second.
+    float appetiteParticles = 4, digestionPerSecond = 0.004F;
+    float libidoPerSecond = 0;  // p1; 0: never mates
+    // Fear: a predator at this distance or nearer frightens wholly (D0); fear above f0 is heeded,
+    // above f1 a schooling fish flees alone.
+    float fearMetres = 1.6F, fearFrom = 0.25F, fearAlone = 0.6F;
+    HabitShares shares;
+    Span depthMetres{1, 40};
+    double bestDepthMetres = 6;
+    Span light{0, 1};
+    Span waterCelsius{20, 32};
+    Paces paces;
+    double gradualShare = 0.8;  // of turns for no reason; the others are sharp
+    float visionBodyLengths = 14;
+    float smellBodyLengths = 16;  // food is sensed so far in every direction
+    SensitivityBox box;
+    float persistence = 0.3F;  // another target must be nearer by this share to be preferred
+    Home home;
+    bool eatsPlankton = true;
+    std::vector<std::string> hunts;  // species by name
+    Hunt hunt;
+    double pairBodyLengths = 0;        // keeps this near to a partner of its species; 0: alone
+    std::vector<std::string> shadows;  // species that it likes to follow closely
+};
+
+// All of a species' file.
 struct Species {
+    std::string text;    // of the file, as it was read: recorded, and sent to the nodes
+    std::string motion;  // all of it that moves the animal, in one form: no habits, colours or
+                         // comments. Two species that agree in it swim alike
     std::string name;
     SizeRange size;
     BodyProfile profile;
@@ -152,11 +237,9 @@ struct Species {
     bool recordsControlPoints = false;
 };
 
-// Throws Error with file:line:column for whatever the schema or the animal cannot have.
+// Throws Error with file:line:column for whatever the schema or the animal cannot have. `source` is
+// the file's name in errors.
 [[nodiscard]] Species readSpecies(const std::string& path);
 [[nodiscard]] Species parseSpecies(const std::string& text, const std::string& source);
-// All of the file that moves the animal, in one form: no habits, colours or comments. Two files
-// that agree in it swim alike.
-[[nodiscard]] std::string motionText(const std::string& text, const std::string& source);
 
 }  // namespace aquarama::config

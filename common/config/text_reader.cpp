@@ -2,14 +2,20 @@
 #include "common/config/text_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
-#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include "common/config/rig.pb.h"
+#include "common/config/scene.pb.h"
+#include "common/config/species.pb.h"
 #include "common/units/log.h"
 
 namespace aquarama::config {
@@ -18,7 +24,7 @@ namespace pb = google::protobuf;
 
 namespace {
 
-constexpr std::streamoff kMostBytes = 4 << 20;  // a large rig or species takes some 10 KB
+constexpr std::streamoff kMostBytes = 1 << 20;
 
 // Protobuf counts lines and columns from 0, editors from 1.
 SourcePlace counted(int line, int column) {
@@ -73,28 +79,72 @@ std::string shown(double value) {
     return out.str();
 }
 
-// The numeric value of a field of any numeric type.
-double numberIn(const pb::Message& message, const pb::FieldDescriptor& field, int index) {
+bool isNumber(const pb::FieldDescriptor& field) {
+    const auto type = field.cpp_type();
+    return type == pb::FieldDescriptor::CPPTYPE_DOUBLE ||
+           type == pb::FieldDescriptor::CPPTYPE_INT32 ||
+           type == pb::FieldDescriptor::CPPTYPE_UINT32;
+}
+
+double numberIn(const pb::Message& message, const pb::FieldDescriptor& field) {
+    assert(isNumber(field) && !field.is_repeated());
     const pb::Reflection& get = *message.GetReflection();
-    const bool many = field.is_repeated();
-    switch (field.cpp_type()) {
-        case pb::FieldDescriptor::CPPTYPE_DOUBLE:
-            return many ? get.GetRepeatedDouble(message, &field, index)
-                        : get.GetDouble(message, &field);
-        case pb::FieldDescriptor::CPPTYPE_FLOAT:
-            return static_cast<double>(many ? get.GetRepeatedFloat(message, &field, index)
-                                            : get.GetFloat(message, &field));
-        case pb::FieldDescriptor::CPPTYPE_INT32:
-            return many ? get.GetRepeatedInt32(message, &field, index)
-                        : get.GetInt32(message, &field);
-        default:
-            assert(field.cpp_type() == pb::FieldDescriptor::CPPTYPE_UINT32);
-            return many ? get.GetRepeatedUInt32(message, &field, index)
-                        : get.GetUInt32(message, &field);
+    if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE)
+        return get.GetDouble(message, &field);
+    if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_INT32)
+        return get.GetInt32(message, &field);
+    return get.GetUInt32(message, &field);
+}
+
+// "A, B or C", without the first, which says nothing.
+std::string choicesOf(const pb::EnumDescriptor& type) {
+    std::string list = type.value(1)->name();
+    for (int i = 2; i < type.value_count(); ++i)
+        list += (i + 1 < type.value_count() ? ", " : " or ") + type.value(i)->name();
+    return list;
+}
+
+// "1 to 64", "5", "1 or more".
+std::string countsOf(const v1::Rule& rule) {
+    if (!rule.has_most()) return shown(rule.least()) + " or more";
+    if (rule.least() == rule.most()) return shown(rule.most());
+    return shown(rule.least()) + " to " + shown(rule.most());
+}
+
+const pb::FieldDescriptor& fieldNamed(const pb::Message& message, const std::string& name) {
+    const pb::FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(name);
+    assert(field != nullptr && "the code asks for a field that the schema lacks");
+    return *field;
+}
+
+// Errors in the text are its reader's to report.
+class IgnoredErrors : public pb::io::ErrorCollector {
+    void AddError(int /*line*/, int /*column*/, const std::string& /*why*/) override {}
+};
+
+std::vector<std::string> outermostNames(const std::string& text) {
+    pb::io::ArrayInputStream stream(text.data(), static_cast<int>(text.size()));
+    IgnoredErrors errors;
+    pb::io::Tokenizer tokens(&stream, &errors);
+    tokens.set_comment_style(pb::io::Tokenizer::SH_COMMENT_STYLE);
+    std::vector<std::string> names;
+    int depth = 0;
+    while (tokens.Next()) {
+        const std::string& token = tokens.current().text;
+        if (token == "{" || token == "<") ++depth;
+        if (token == "}" || token == ">") --depth;
+        if (depth == 0 && tokens.current().type == pb::io::Tokenizer::TYPE_IDENTIFIER)
+            names.push_back(token);
     }
+    return names;
 }
 
 }  // namespace
+
+std::string placed(const std::string& source, SourcePlace place, const std::string& why) {
+    return source + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " +
+           why;
+}
 
 std::string readTextFile(const std::string& path) {
     std::ifstream in(path, std::ios::binary | std::ios::ate);
@@ -108,7 +158,24 @@ std::string readTextFile(const std::string& path) {
     return text;
 }
 
-TextReader::TextReader(const std::string& text, std::string source, pb::Message& message)
+std::string besideFile(const std::string& file, const std::string& path) {
+    return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
+FileKind fileKindOf(const std::string& text) {
+    const std::array schemas{
+        v1::Rig::descriptor(), v1::Scene::descriptor(), v1::Species::descriptor()};
+    std::array<int, schemas.size()> known{};
+    for (const std::string& name : outermostNames(text))
+        for (std::size_t i = 0; i < schemas.size(); ++i)
+            if (schemas[i]->FindFieldByName(name) != nullptr) ++known[i];
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < schemas.size(); ++i)
+        if (known[i] > known[best]) best = i;
+    return static_cast<FileKind>(best);
+}
+
+TextReader::TextReader(const std::string& text, std::string source, Message& message)
     : source_(std::move(source)), message_(&message) {
     FirstError error(source_);
     pb::TextFormat::Parser parser;
@@ -117,100 +184,117 @@ TextReader::TextReader(const std::string& text, std::string source, pb::Message&
     if (!parser.ParseFromString(text, &message)) throw Error(error.text());
 }
 
-TextPlace TextReader::root() const {
-    TextPlace place;
-    place.message_ = message_;
-    place.tree_ = &tree_;
-    place.source_ = &source_;
-    place.name_ = "the file";
-    return place;
+void TextReader::check() {
+    assert(parts_.empty() && "a file is checked once");
+    checkPart(*message_, {&tree_, {1, 1}, "the file"});
 }
 
-const TextPlace::Field& TextPlace::fieldNamed(const std::string& name) const {
-    const Field* field = message_->GetDescriptor()->FindFieldByName(name);
-    assert(field != nullptr && "the code asks for a field that the schema lacks");
-    return *field;
+void TextReader::checkPart(Message& message, Part part) {
+    parts_.emplace(&message, std::move(part));
+    const pb::Descriptor& type = *message.GetDescriptor();
+    for (int i = 0; i < type.field_count(); ++i) checkField(message, *type.field(i));
 }
 
-const TextPlace::Field& TextPlace::present(const std::string& name, int index) const {
-    const Field& field = fieldNamed(name);
-    assert(field.is_repeated() == (index != kSingle));
-    const bool there = field.is_repeated() ? index < count(name) : has(name);
-    if (!there) refuse(name_ + " lacks " + name + ": add it");
-    return field;
+void TextReader::checkField(Message& message, const Field& field) {
+    const v1::Rule& rule = field.options().GetExtension(v1::rule);
+    const pb::Reflection& get = *message.GetReflection();
+    if (field.is_repeated()) {
+        checkCount(message, field, rule);
+    } else if (!get.HasField(message, &field)) {
+        if (rule.required()) require(message, field.name());
+        if (rule.default_value().empty()) return;
+        [[maybe_unused]] const bool filled =
+            pb::TextFormat::ParseFieldValueFromString(rule.default_value(), &field, &message);
+        assert(filled && "a default of the schema cannot be read");
+    }
+    const int count = field.is_repeated() ? get.FieldSize(message, &field) : 1;
+    for (int i = 0; i < count; ++i) {
+        if (field.cpp_type() != Field::CPPTYPE_MESSAGE) {
+            checkValue(message, field, rule, i);
+            continue;
+        }
+        Message& inner = field.is_repeated() ? *get.MutableRepeatedMessage(&message, &field, i)
+                                             : *get.MutableMessage(&message, &field);
+        const Tree* tree = partOf(message).tree;
+        if (tree != nullptr) tree = tree->GetTreeForNested(&field, field.is_repeated() ? i : -1);
+        checkPart(inner, {tree, placeOf(message, field.name(), i), field.name()});
+    }
 }
 
-bool TextPlace::has(const std::string& field) const {
-    return message_->GetReflection()->HasField(*message_, &fieldNamed(field));
+void TextReader::checkCount(const Message& message,
+                            const Field& field,
+                            const v1::Rule& rule) const {
+    const int count = message.GetReflection()->FieldSize(message, &field);
+    const bool few = rule.has_least() && count < rule.least();
+    if (!few && (!rule.has_most() || count <= rule.most())) return;
+    const std::string had = count == 0 ? " lacks " : " has " + std::to_string(count) + " ";
+    refuse(message,
+           field.name(),
+           partOf(message).name + had + field.name() + ": give " + countsOf(rule),
+           few ? 0 : static_cast<int>(rule.most()));
 }
 
-int TextPlace::count(const std::string& field) const {
-    return message_->GetReflection()->FieldSize(*message_, &fieldNamed(field));
+void TextReader::checkValue(const Message& message,
+                            const Field& field,
+                            const v1::Rule& rule,
+                            int index) const {
+    const pb::Reflection& get = *message.GetReflection();
+    if (field.cpp_type() == Field::CPPTYPE_STRING) {
+        const std::string text = field.is_repeated() ? get.GetRepeatedString(message, &field, index)
+                                                     : get.GetString(message, &field);
+        if (text.empty())
+            refuse(message, field.name(), field.name() + " is empty: fill it in", index);
+    } else if (field.cpp_type() == Field::CPPTYPE_ENUM) {
+        const pb::EnumValueDescriptor& value = *get.GetEnum(message, &field);
+        if (value.number() == 0)
+            refuse(message,
+                   field.name(),
+                   field.name() + " is " + value.name() + ": write " + choicesOf(*value.type()));
+    } else if (isNumber(field)) {
+        assert(rule.has_least() == rule.has_most());
+        assert((rule.has_least() || field.cpp_type() == Field::CPPTYPE_UINT32) &&
+               "the schema gives no bounds");
+        const double value = numberIn(message, field);
+        if (rule.has_least() && !(value >= rule.least() && value <= rule.most()))  // refuses nan
+            refuse(message,
+                   field.name(),
+                   field.name() + " is " + shown(value) + ": it must be from " +
+                       shown(rule.least()) + " to " + shown(rule.most()));
+    }
 }
 
-TextPlace TextPlace::in(const std::string& name, int index) const {
-    const Field& field = present(name, index);
-    const pb::Reflection& get = *message_->GetReflection();
-    TextPlace inner;
-    inner.message_ = field.is_repeated() ? &get.GetRepeatedMessage(*message_, &field, index)
-                                         : &get.GetMessage(*message_, &field);
-    inner.tree_ = tree_->GetTreeForNested(&field, index);
-    inner.source_ = source_;
-    inner.name_ = name;
-    const auto at = tree_->GetLocation(&field, index);
-    inner.line_ = at.line + 1;
-    inner.column_ = at.column + 1;
-    return inner;
+const TextReader::Part& TextReader::partOf(const Message& message) const {
+    const auto found = parts_.find(&message);
+    assert(found != parts_.end() && "no part of the checked message");
+    return found->second;
 }
 
-double TextPlace::number(const std::string& name, Range range, int index) const {
-    const double value = numberIn(*message_, present(name, index), index);
-    if (!(value >= range.low && value <= range.high))  // also refuses nan
-        refuse(name,
-               name + " is " + shown(value) + ": it must be from " + shown(range.low) + " to " +
-                   shown(range.high),
-               index);
-    return value;
+SourcePlace TextReader::placeOf(const Message& part) const {
+    return partOf(part).place;
 }
 
-double TextPlace::numberOr(const std::string& name, Range range, double fallback) const {
-    return has(name) ? number(name, range) : fallback;
+SourcePlace TextReader::placeOf(const Message& part, const std::string& name, int index) const {
+    const Part& known = partOf(part);
+    const Field& field = fieldNamed(part, name);
+    if (known.tree == nullptr) return known.place;
+    const auto at = known.tree->GetLocation(&field, field.is_repeated() ? index : -1);
+    return at.line < 0 ? known.place : counted(at.line, at.column);
 }
 
-bool TextPlace::truth(const std::string& name) const {
-    return message_->GetReflection()->GetBool(*message_, &present(name, kSingle));
+void TextReader::require(const Message& part, const std::string& name) const {
+    if (!part.GetReflection()->HasField(part, &fieldNamed(part, name)))
+        refuse(part, partOf(part).name + " lacks " + name + ": add it");
 }
 
-std::string TextPlace::text(const std::string& name, int index) const {
-    const Field& field = present(name, index);
-    const pb::Reflection& get = *message_->GetReflection();
-    std::string value = field.is_repeated() ? get.GetRepeatedString(*message_, &field, index)
-                                            : get.GetString(*message_, &field);
-    if (value.empty()) refuse(name, name + " is empty: fill it in", index);
-    return value;
+void TextReader::refuse(const Message& part, const std::string& why) const {
+    throw Error(placed(source_, placeOf(part), why));
 }
 
-std::string TextPlace::choice(const std::string& name) const {
-    return message_->GetReflection()->GetEnum(*message_, &present(name, kSingle))->name();
-}
-
-SourcePlace TextPlace::placeOf(const std::string& name) const {
-    const Field& field = fieldNamed(name);
-    const auto at = tree_->GetLocation(&field, field.is_repeated() ? 0 : kSingle);
-    return counted(at.line, at.column);
-}
-
-void TextPlace::refuse(const std::string& name, const std::string& why, int index) const {
-    const Field& field = fieldNamed(name);
-    if (field.is_repeated()) index = std::max(index, 0);
-    const bool there = field.is_repeated() ? index < count(name) : has(name);
-    if (!there) refuse(why);
-    const auto at = tree_->GetLocation(&field, index);
-    throw Error(placed(*source_, counted(at.line, at.column), why));
-}
-
-void TextPlace::refuse(const std::string& why) const {
-    throw Error(placed(*source_, place(), why));
+void TextReader::refuse(const Message& part,
+                        const std::string& name,
+                        const std::string& why,
+                        int index) const {
+    throw Error(placed(source_, placeOf(part, name, index), why));
 }
 
 }  // namespace aquarama::config

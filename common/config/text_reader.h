@@ -1,85 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a protobuf text file and names file:line:column for whatever is wrong with it. Protobuf's
-// types appear here, so only .cpp files of common/config may include this header.
+// Parses a text file into a message of our schemas, holds it to their rules (rules.proto), and
+// names file:line:column for whatever is wrong with it. Protobuf's types appear here, so only .cpp
+// files of common/config may include this header.
 #pragma once
 
-#include <cstdint>
 #include <string>
+#include <unordered_map>
 
 #include <google/protobuf/message.h>
 #include <google/protobuf/text_format.h>
 
-#include "common/config/source_place.h"
+#include "common/config/rules.pb.h"
+#include "common/config/text_file.h"
 
 namespace aquarama::config {
 
-// The whole file; throws Error when it cannot be read or is larger than any configuration is.
-[[nodiscard]] std::string readTextFile(const std::string& path);
-
-struct Range {
-    double low = 0;
-    double high = 0;
-};
-
-// One message of a text, and where it and each of its fields stand. Each getter throws Error with
-// the place when the field is missing or its value is refused. An index is given for repeated
-// fields only.
-class TextPlace {
-  public:
-    static constexpr int kSingle = -1;
-
-    [[nodiscard]] bool has(const std::string& field) const;
-    [[nodiscard]] int count(const std::string& field) const;
-    [[nodiscard]] TextPlace in(const std::string& field, int index = kSingle) const;
-
-    // Of any numeric type; finite and inside the range.
-    [[nodiscard]] double number(const std::string& field, Range range, int index = kSingle) const;
-    [[nodiscard]] double numberOr(const std::string& field, Range range, double fallback) const;
-    [[nodiscard]] bool truth(const std::string& field) const;
-    // Set, and not empty.
-    [[nodiscard]] std::string text(const std::string& field, int index = kSingle) const;
-    // The name of the enumeration's value.
-    [[nodiscard]] std::string choice(const std::string& field) const;
-
-    [[nodiscard]] SourcePlace place() const { return {line_, column_}; }
-    // Of a field that is there; of a repeated one, its first.
-    [[nodiscard]] SourcePlace placeOf(const std::string& field) const;
-
-    // Throws Error "file:line:column: why", placed at the field if it is there (a repeated one
-    // without an index: at its first), else at the message.
-    [[noreturn]] void refuse(const std::string& field,
-                             const std::string& why,
-                             int index = kSingle) const;
-    [[noreturn]] void refuse(const std::string& why) const;
-
-  private:
-    friend class TextReader;
-    using Tree = google::protobuf::TextFormat::ParseInfoTree;
-    using Field = google::protobuf::FieldDescriptor;
-
-    TextPlace() = default;
-    [[nodiscard]] const Field& fieldNamed(const std::string& name) const;
-    [[nodiscard]] const Field& present(const std::string& name, int index) const;
-
-    const google::protobuf::Message* message_ = nullptr;
-    const Tree* tree_ = nullptr;
-    const std::string* source_ = nullptr;
-    std::string name_;  // of this message, as a reader of the file knows it
-    int line_ = 1;
-    int column_ = 1;
-};
-
-// Parses `text` into `message`, which must outlive it; throws Error with source:line:column at the
-// first thing that the schema does not allow, an unknown field among them.
+// First check() the message, then make a struct of it; what no single field can tell is refused
+// meanwhile, by a reference to the part of the message where it is wrong. Every error is an Error
+// "file:line:column: what is wrong: what to do".
 class TextReader {
   public:
-    TextReader(const std::string& text, std::string source, google::protobuf::Message& message);
-    [[nodiscard]] TextPlace root() const;
+    using Message = google::protobuf::Message;
+
+    // Parses `text` into `message`, which must outlive the reader. `source` is the file's name in
+    // errors. Throws Error at the first thing that the schema does not allow, an unknown field
+    // among them.
+    TextReader(const std::string& text, std::string source, Message& message);
+
+    // Fills in the defaults of what is left out and holds every field to its rule: required fields,
+    // bounds, numbers of entries; no text is empty and no choice unspecified. Once, before all
+    // that follows.
+    void check();
+
+    // `part` is the checked message or one inside it; a field is named as in the schema.
+    [[nodiscard]] SourcePlace placeOf(const Message& part) const;
+    // Of a field that the file has, else of the part.
+    [[nodiscard]] SourcePlace placeOf(const Message& part,
+                                      const std::string& field,
+                                      int index = 0) const;
+    // For a field that only some files must have.
+    void require(const Message& part, const std::string& field) const;
+    [[noreturn]] void refuse(const Message& part, const std::string& why) const;
+    // At the field, where the file has it; of a repeated one, at its entry `index`.
+    [[noreturn]] void refuse(const Message& part,
+                             const std::string& field,
+                             const std::string& why,
+                             int index = 0) const;
 
   private:
+    using Tree = google::protobuf::TextFormat::ParseInfoTree;
+    using Field = google::protobuf::FieldDescriptor;
+    // Of a message: where it stands, and its fields.
+    struct Part {
+        const Tree* tree = nullptr;  // null where a default was filled in
+        SourcePlace place;
+        std::string name;  // as a reader of the file knows it
+    };
+
+    void checkPart(Message& message, Part part);
+    void checkField(Message& message, const Field& field);
+    void checkCount(const Message& message, const Field& field, const v1::Rule& rule) const;
+    void checkValue(const Message& message,
+                    const Field& field,
+                    const v1::Rule& rule,
+                    int index) const;
+    [[nodiscard]] const Part& partOf(const Message& message) const;
+
     std::string source_;
-    const google::protobuf::Message* message_;
-    google::protobuf::TextFormat::ParseInfoTree tree_;
+    Message* message_;
+    Tree tree_;
+    std::unordered_map<const Message*, Part> parts_;
 };
 
 }  // namespace aquarama::config

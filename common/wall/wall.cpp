@@ -10,7 +10,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vec4.hpp>
 
-#include "common/config/angle.h"
 #include "common/units/log.h"
 #include "common/units/units.h"
 #include "common/wall/pinhole.h"
@@ -242,7 +241,7 @@ void checkProjector(const config::Rig& rig,
                    "move it");
     const auto [low, high] =
         std::ranges::minmax(lit, {}, [](glm::dvec3 point) { return azimuthOf(point); });
-    if (azimuthOf(high) - azimuthOf(low) > config::radiansOf(kWidestDegrees))
+    if (azimuthOf(high) - azimuthOf(low) > kWidestDegrees * kRadiansPerDegree<double>)
         refuse(source,
                channel.place,
                "projector \"" + channel.name + "\" lights more than " + oneDecimal(kWidestDegrees) +

@@ -11,7 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/config/quality.h"
+#include "common/config/rig.h"
 #include "common/motion/motion_state.h"
 #include "common/units/digest.h"
 #include "common/units/units.h"
@@ -57,8 +57,8 @@ struct SpeciesBlobs {
 
 // What a node needs to take part, sent in answer to its hello.
 struct Welcome {
-    std::string rigText;       // writeRig / parseRig
-    std::string sceneText;     // writeScene / parseScene
+    std::string rigText;       // of the rig's file
+    std::string sceneText;     // of the scene's file; how many fish there are: see cast
     std::string stateAddress;  // where the states are published
     std::uint32_t seed = 0;
     Pace pace = Pace::Live;

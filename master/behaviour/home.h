@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/config/habits.h"
+#include "common/config/species.h"
 #include "common/place/place.h"
 #include "common/units/units.h"
 #include "master/behaviour/perceive.h"

@@ -30,11 +30,11 @@ struct CaptureOptions {
     std::string config;
 };
 
-std::vector<capture::RepertoireFile> captured(const std::vector<capture::SpeciesText>& texts) {
+std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>& species) {
     std::atomic<bool> isStopped = false;
     const cli::SignalWatch watch([&] { isStopped = true; });
     capture::ProgressBar bar("capturing");
-    return capture::repertoiresFor(texts,
+    return capture::repertoiresFor(species,
                                    files::cacheFolder() / "repertoires",
                                    {.progress = [&](double share) { bar.show(share); },
                                     .isStopped = [&] { return isStopped.load(); }});
@@ -58,19 +58,23 @@ int captureAll(const CaptureOptions& options) {
     if (!options.report.empty()) cli::requirePython({"matplotlib"});
     const fs::path config =
         options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
-    std::vector<capture::SpeciesText> texts;
-    for (const fs::path& file : capture::speciesFiles(options.species, config))
-        texts.push_back(capture::readSpeciesText(file));
-    const std::vector<capture::RepertoireFile> files = captured(texts);
     int status = 0;
-    std::vector<std::string> reports;
-    for (const capture::RepertoireFile& file : files) {
-        if (file.error.empty()) {
-            reports.push_back(write(file, options));
-        } else {
-            cli::sayError("aquarama-capture", file.error);
-            status = 1;
+    const auto fail = [&](const std::string& why) {
+        cli::sayError("aquarama-capture", why);
+        status = 1;
+    };
+    std::vector<config::Species> species;
+    for (const fs::path& file : capture::speciesFiles(options.species, config)) try {
+            species.push_back(config::readSpecies(file.string()));
+        } catch (const Error& error) {
+            fail(error.what());
         }
+    std::vector<std::string> reports;
+    for (const capture::RepertoireFile& file : captured(species)) {
+        if (file.error.empty())
+            reports.push_back(write(file, options));
+        else
+            fail(file.error);
     }
     if (!options.report.empty() && !reports.empty())
         cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", reports);

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include <unistd.h>
@@ -205,11 +203,8 @@ namespace fs = std::filesystem;
 constexpr const char* kCaptureVersion = "aquarama capture 4\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
 
-fs::path cachedPath(const config::Species& species,
-                    const std::string& text,
-                    const fs::path& folder) {
-    const std::string key =
-        toHex(digestOf(kCaptureVersion + config::motionText(text, species.name)));
+fs::path cachedPath(const config::Species& species, const fs::path& folder) {
+    const std::string key = toHex(digestOf(kCaptureVersion + species.motion));
     return folder / (species.name + "-" + key + ".aqrep");
 }
 
@@ -222,22 +217,6 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     } catch (const Error&) {
         return std::nullopt;  // damaged, or of another version of the format
     }
-}
-
-// The species, where it must be captured.
-std::optional<config::Species> lookUp(const SpeciesText& text,
-                                      const fs::path& cacheFolder,
-                                      RepertoireFile& file) {
-    try {
-        config::Species species = config::parseSpecies(text.text, text.source);
-        file.species = species.name;
-        auto cached = findIntact(cachedPath(species, text.text, cacheFolder));
-        if (!cached) return species;
-        file.bytes = *std::move(cached);
-    } catch (const Error& error) {
-        file.error = error.what();
-    }
-    return std::nullopt;
 }
 
 void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& file) {
@@ -258,30 +237,24 @@ std::vector<std::byte> readRepertoireFile(const fs::path& path) {
     return files::readWhole(path, kMostBytes);
 }
 
-SpeciesText readSpeciesText(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw Error(path.string() + ": cannot be read; check the path and its permissions");
-    return {path.string(), text.str()};
-}
-
-std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts,
+std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& all,
                                            const fs::path& cacheFolder,
                                            const CaptureRun& run) {
-    std::vector<RepertoireFile> files(texts.size());
+    std::vector<RepertoireFile> files(all.size());
     std::vector<config::Species> missing;
     std::vector<std::size_t> missingAt;
-    for (std::size_t i = 0; i < texts.size(); ++i)
-        if (auto species = lookUp(texts[i], cacheFolder, files[i])) {
-            missing.push_back(*std::move(species));
-            missingAt.push_back(i);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        files[i].species = all[i].name;
+        if (auto cached = findIntact(cachedPath(all[i], cacheFolder))) {
+            files[i].bytes = *std::move(cached);
+            continue;
         }
-    const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
-    for (std::size_t k = 0; k < missing.size(); ++k) {
-        const std::size_t i = missingAt[k];
-        keep(outcomes[k], cachedPath(missing[k], texts[i].text, cacheFolder), files[i]);
+        missing.push_back(all[i]);
+        missingAt.push_back(i);
     }
+    const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
+    for (std::size_t k = 0; k < missing.size(); ++k)
+        keep(outcomes[k], cachedPath(missing[k], cacheFolder), files[missingAt[k]]);
     return files;
 }
 

@@ -76,13 +76,6 @@ struct CaptureOutcome {
 // The bytes of a file that may be a repertoire. Throws Error.
 [[nodiscard]] std::vector<std::byte> readRepertoireFile(const std::filesystem::path& path);
 
-// A species file and where it is from.
-struct SpeciesText {
-    std::string source;
-    std::string text;
-};
-[[nodiscard]] SpeciesText readSpeciesText(const std::filesystem::path& path);
-
 // The encoded repertoire of a species, or why there is none.
 struct RepertoireFile {
     std::string species;
@@ -92,7 +85,7 @@ struct RepertoireFile {
 
 // Of each species, in their order: from the folder where it was captured before, else captured now
 // and kept there. A damaged file is captured anew.
-[[nodiscard]] std::vector<RepertoireFile> repertoiresFor(const std::vector<SpeciesText>& texts,
+[[nodiscard]] std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& all,
                                                          const std::filesystem::path& cacheFolder,
                                                          const CaptureRun& run);
 

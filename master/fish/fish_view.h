@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/config/habits.h"
+#include "common/config/species.h"
 #include "common/units/units.h"
 
 namespace aquarama::fish {

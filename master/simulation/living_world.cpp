@@ -3,12 +3,12 @@
 #include "master/simulation/living_world.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "common/config/cast.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/files/files.h"
@@ -73,12 +73,10 @@ namespace {
 constexpr std::uint32_t kFishOfAThread = 2000;
 
 // The first show of a species on this machine simulates it; later ones find what it swam.
-std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::CastSpecies>& cast) {
-    std::vector<capture::SpeciesText> texts;
-    for (const config::CastSpecies& member : cast) texts.push_back({member.path, member.text});
+std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Species>& species) {
     capture::ProgressBar bar("capturing");
     std::vector<capture::RepertoireFile> files =
-        capture::repertoiresFor(texts,
+        capture::repertoiresFor(species,
                                 files::cacheFolder() / "repertoires",
                                 {.progress = [&](double share) { bar.show(share); }});
     for (const capture::RepertoireFile& file : files)
@@ -86,66 +84,78 @@ std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Cast
     return files;
 }
 
-world::WorldSpecies worldSpeciesOf(const wire::SpeciesAssets& produced,
-                                   const std::optional<config::Start>& start) {
-    const config::Species species = config::parseSpecies(produced.text, produced.file);
-    return {.tables = motion::makeMotorTables(
-                motion::decodeRepertoire(produced.repertoire, produced.file)),
-            .fish = produced.fish,
-            .size = species.size,
-            .name = species.name,
-            .habits = species.habits,
-            .start = start};
-}
-
-std::uint32_t fishIn(const config::Scene& scene) {
-    std::uint32_t fish = 0;
-    for (const config::CastMember& member : scene.cast) fish += member.fish;
-    return fish;
-}
-
 // The scene with the number of fish that is asked for.
 config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
     config::Scene scene = config::readScene(path);
     config::CastMember& school = scene.cast.front();
     school.fish = choice.fish.value_or(school.fish);
+    const auto refuse = [&](const std::string& why) {
+        throw Error(config::placed(path, school.place, why));
+    };
     if (school.fish == 0 && scene.place != config::PlaceKind::OpenSea)
-        throw Error(config::placed(
-            path, school.place, "0 fish: only an open sea may be without; take another --scene"));
+        refuse("0 fish: only an open sea may be without; take another --scene");
+    if (config::fishIn(scene) > kMostFish)
+        refuse("more than " + std::to_string(kMostFish) + " fish together: take fewer --fish");
     return scene;
 }
 
 }  // namespace
 
-wire::AssetBundle readAssets(const std::string& scenePath, const AssetChoice& choice) {
-    const config::Scene scene = chosenScene(scenePath, choice);
-    const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, scenePath);
-    place::checkRoom(scene, scenePath, fishIn(scene), cast.front().species.size.meanMetres);
-    wire::AssetBundle assets{.seed = choice.seed,
-                             .sceneFile = scenePath,
-                             .scene = config::writeScene(scene),
-                             .cast = {}};
-    std::vector<capture::RepertoireFile> captured = capturedOnce(cast);
-    for (std::size_t i = 0; i < cast.size(); ++i)
-        assets.cast.push_back(
-            {cast[i].path, cast[i].text, std::move(captured[i].bytes), scene.cast[i].fish});
+Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {
+    Assets assets{.bytes = {.seed = choice.seed, .sceneFile = scenePath, .scene = {}, .cast = {}},
+                  .scene = chosenScene(scenePath, choice),
+                  .species = {}};
+    const config::Scene& scene = assets.scene;
+    assets.bytes.scene = scene.text;
+    for (config::CastSpecies& member : config::readCastSpecies(scene, scenePath)) {
+        const std::uint32_t fish = scene.cast[assets.species.size()].fish;
+        assets.bytes.cast.push_back({member.path, member.species.text, {}, fish});
+        assets.species.push_back(std::move(member.species));
+    }
+    place::checkRoom(
+        scene, scenePath, config::fishIn(scene), assets.species.front().size.meanMetres);
+    std::vector<capture::RepertoireFile> captured = capturedOnce(assets.species);
+    for (std::size_t i = 0; i < captured.size(); ++i)
+        assets.bytes.cast[i].repertoire = std::move(captured[i].bytes);
     return assets;
 }
 
-world::WorldOptions worldOptionsOf(const wire::AssetBundle& assets) {
+world::WorldOptions worldOptionsOf(const Assets& assets) {
+    assert(assets.species.size() == assets.scene.cast.size());
+    assert(assets.species.size() == assets.bytes.cast.size());
     world::WorldOptions options;
-    options.seed = assets.seed;
-    options.scene = config::parseScene(assets.scene, assets.sceneFile);
-    if (options.scene.cast.size() != assets.cast.size())
-        throw Error(assets.sceneFile + ": its cast has " +
-                    std::to_string(options.scene.cast.size()) + " members, and there are " +
-                    std::to_string(assets.cast.size()) + " species with it");
-    for (std::size_t i = 0; i < assets.cast.size(); ++i)
-        options.cast.push_back(worldSpeciesOf(assets.cast[i], options.scene.cast[i].start));
-    options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,
+    options.seed = assets.bytes.seed;
+    options.scene = assets.scene;
+    for (std::size_t i = 0; i < assets.species.size(); ++i) {
+        const wire::SpeciesAssets& bytes = assets.bytes.cast[i];
+        const config::Species& species = assets.species[i];
+        options.cast.push_back({.tables = motion::makeMotorTables(
+                                    motion::decodeRepertoire(bytes.repertoire, bytes.file)),
+                                .fish = bytes.fish,
+                                .size = species.size,
+                                .name = species.name,
+                                .habits = species.habits,
+                                .start = assets.scene.cast[i].start});
+    }
+    options.threads = std::clamp(config::fishIn(options.scene) / kFishOfAThread,
                                  1U,
                                  std::max(std::thread::hardware_concurrency(), 1U));
     return options;
+}
+
+world::WorldOptions worldOptionsOf(const wire::AssetBundle& recorded) {
+    Assets assets{.bytes = recorded,
+                  .scene = config::parseScene(recorded.scene, recorded.sceneFile),
+                  .species = {}};
+    if (assets.scene.cast.size() != recorded.cast.size())
+        throw Error(recorded.sceneFile + ": its cast has " +
+                    std::to_string(assets.scene.cast.size()) + " members, and there are " +
+                    std::to_string(recorded.cast.size()) + " species with it");
+    for (const wire::SpeciesAssets& species : recorded.cast) {
+        assets.scene.cast[assets.species.size()].fish = species.fish;
+        assets.species.push_back(config::parseSpecies(species.text, species.file));
+    }
+    return worldOptionsOf(assets);
 }
 
 }  // namespace aquarama::simulation

@@ -83,21 +83,16 @@ namespace {
 
 constexpr std::uint64_t kTicksBetweenPinches = 30 * kTicksPerSecond;
 
-// The greatest of the body.
-float halfWidthOf(const wire::SpeciesAssets& species) {
-    return std::ranges::max(config::parseSpecies(species.text, species.file).profile.halfWidth);
-}
-
 }  // namespace
 
 Scenario readScenario(const std::filesystem::path& scene) {
-    const wire::AssetBundle assets = simulation::readAssets(scene.string(), {});
+    const simulation::Assets assets = simulation::readAssets(scene.string(), {});
     Scenario scenario;
     scenario.world = simulation::worldOptionsOf(assets);
     scenario.world.scene.tour.reset();  // fish are measured, not how they make way
     scenario.name = scenario.world.scene.name;
-    for (const wire::SpeciesAssets& species : assets.cast)
-        scenario.halfWidths.push_back(halfWidthOf(species));
+    for (const config::Species& species : assets.species)
+        scenario.halfWidths.push_back(std::ranges::max(species.profile.halfWidth));
     return scenario;
 }
 

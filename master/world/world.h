@@ -13,7 +13,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/config/habits.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/motion/motion_state.h"

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/config/quality.h"
+#include "common/config/rig.h"
 #include "render_node/gl/program.h"
 #include "render_node/surface/visibility.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config/quality.h"
+#include "common/config/rig.h"
 #include "common/motion/reconstruct.h"
 #include "common/units/units.h"
 #include "common/wall/frame_pipe.h"

@@ -25,13 +25,9 @@ class ClipOfAShow : public testing::Test {
   protected:
     void SetUp() override {
         fs::create_directories(folder_);
-        const std::string config = std::string(AQUARAMA_SOURCE_DIR) + "/config/";
-        config::Rig rig = config::readRig(config + "desk.txtpb");
-        rig.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
-        rig.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
-        rig.scene = config + rig.scene;
-        rig.panoramaPixels = {451, 201};
-        std::ofstream(folder_ / "rig.txtpb") << config::writeRig(rig);
+        std::string rig = test::withField(rigOnFreePorts("desk"), "width_px", "451");
+        rig = test::withField(rig, "height_px", "201");  // the first size is the panorama's
+        std::ofstream(folder_ / "rig.txtpb") << rig;
     }
     void TearDown() override { fs::remove_all(folder_); }
 

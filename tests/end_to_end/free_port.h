@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "tests/support/edited_text.h"
 
 namespace aquarama {
 
@@ -18,6 +22,15 @@ inline int freePort() {
     getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
     close(descriptor);
     return ntohs(address.sin_port);
+}
+
+// config/NAME.txtpb on ports of its own.
+inline std::string rigOnFreePorts(const std::string& name) {
+    std::string text = test::shippedRigText(name);
+    for (const char* address : {"control", "state"})
+        text = test::withField(
+            text, address, test::quoted("tcp://127.0.0.1:" + std::to_string(freePort())));
+    return text;
 }
 
 }  // namespace aquarama

@@ -31,12 +31,8 @@ class Installation {
         : folder_{fs::temp_directory_path() / ("aquarama-wall-" + name)} {
         fs::remove_all(folder_);
         fs::create_directories(folder_);
-        const std::string config = std::string(AQUARAMA_SOURCE_DIR) + "/config/";
-        rig_ = config::readRig(config + name + ".txtpb");
-        rig_.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
-        rig_.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
-        rig_.scene = config + rig_.scene;
-        std::ofstream(folder_ / "rig.txtpb") << config::writeRig(rig_);
+        rig_ = config::parseRig(rigOnFreePorts(name), name);
+        std::ofstream(folder_ / "rig.txtpb") << rig_.text;
     }
     ~Installation() { fs::remove_all(folder_); }
     Installation(const Installation&) = delete;

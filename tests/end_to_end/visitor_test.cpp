@@ -31,12 +31,9 @@ class Master {
   public:
     explicit Master(const std::vector<std::string>& arguments) {
         fs::create_directories(folder_);
-        const std::string config = std::string(AQUARAMA_SOURCE_DIR) + "/config/";
-        config::Rig rig = config::readRig(config + "desk.txtpb");
-        control_ = rig.controlAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
-        rig.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
-        rig.scene = config + rig.scene;
-        std::ofstream(folder_ / "rig.txtpb") << config::writeRig(rig);
+        const config::Rig rig = config::parseRig(rigOnFreePorts("desk"), "desk");
+        control_ = rig.controlAddress;
+        std::ofstream(folder_ / "rig.txtpb") << rig.text;
         std::vector<std::string> words{std::string(getenv("AQUARAMA_BIN")) + "/aquarama-master",
                                        (folder_ / "rig.txtpb").string()};
         words.insert(words.end(), arguments.begin(), arguments.end());

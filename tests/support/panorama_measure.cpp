@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "common/config/angle.h"
 #include "common/units/units.h"
 #include "common/wall/pattern.h"
 #include "common/wall/wall.h"
@@ -47,10 +46,11 @@ std::optional<double> centroid(const Walk& walk, int from, int to, int along) {
 
 // Panorama pixels of an azimuth or an elevation.
 double columnOf(const config::Rig& rig, double degrees) {
-    return (0.5 + config::radiansOf(degrees) / rig.screen.arcRadians) * rig.panoramaPixels.x;
+    return (0.5 + degrees * kRadiansPerDegree<double> / rig.screen.arcRadians) *
+           rig.panoramaPixels.x;
 }
 double rowOf(const config::Rig& rig, double degrees) {
-    const double height = rig.screen.radiusMetres * std::tan(config::radiansOf(degrees));
+    const double height = rig.screen.radiusMetres * std::tan(degrees * kRadiansPerDegree<double>);
     return (0.5 - height / rig.screen.heightMetres) * rig.panoramaPixels.y;
 }
 double azimuthAt(const config::Rig& rig, double column) {

@@ -299,9 +299,8 @@ class StageMaster {
     }
     static wire::Welcome welcomeTo(const config::Rig& rig) {
         wire::Welcome welcome;
-        welcome.rigText = config::writeRig(rig);
-        welcome.sceneText =
-            config::writeScene(config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb"));
+        welcome.rigText = rig.text;
+        welcome.sceneText = config::readTextFile(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
         welcome.school = {{1, 200}, {2, 210}, {3, 220}};
         welcome.cast = {{digestOf(species()), digestOf(repertoire()), 3}};
         return welcome;

@@ -11,13 +11,13 @@ namespace aquarama::bench {
 
 namespace {
 
-session::Admission admissionTo(const wire::AssetBundle& assets, const world::World& world) {
+session::Admission admissionTo(const simulation::Assets& assets, const world::World& world) {
     session::Admission admission;
-    admission.welcome.seed = assets.seed;
+    admission.welcome.seed = assets.bytes.seed;
     const auto school = world.traits();
     admission.welcome.school.assign(school.begin(), school.end());
-    admission.scene = config::parseScene(assets.scene, assets.sceneFile);
-    for (const wire::SpeciesAssets& species : assets.cast) {
+    admission.scene = assets.scene;
+    for (const wire::SpeciesAssets& species : assets.bytes.cast) {
         const auto text = std::as_bytes(std::span{species.text});
         admission.welcome.cast.push_back(
             {digestOf(text), digestOf(species.repertoire), species.fish});
@@ -49,7 +49,7 @@ Sea makeSea(const std::string& scenePath,
             std::optional<std::uint32_t> fish,
             int ticksBefore,
             int frames) {
-    const wire::AssetBundle assets = simulation::readAssets(scenePath, {.seed = 1, .fish = fish});
+    const simulation::Assets assets = simulation::readAssets(scenePath, {.seed = 1, .fish = fish});
     simulation::LivingWorld world(simulation::worldOptionsOf(assets));
     for (int i = 0; i < ticksBefore; ++i) world.advance();
     Sea sea{admissionTo(assets, world.world()), {}};

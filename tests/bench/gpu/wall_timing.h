@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config/quality.h"
+#include "common/config/rig.h"
 #include "common/wall/picture.h"
 #include "render_node/gl/handle.h"
 #include "render_node/show/channel_picture.h"

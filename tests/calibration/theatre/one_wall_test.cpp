@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "calibration/theatre/compose.h"
-#include "common/config/angle.h"
 #include "common/config/rig.h"
+#include "common/units/units.h"
 #include "tests/support/panorama_measure.h"
 #include "tests/support/projected.h"
 
@@ -85,7 +85,7 @@ TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
     const config::Rig rig = shippedRig("desk");
     const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grid);
     config::Rig pushed = rig;
-    pushed.channels[0].projector.yawPitchRollRadians.x += config::radiansOf(0.1);
+    pushed.channels[0].projector.yawPitchRollRadians.x += 0.1 * kRadiansPerDegree<double>;
     // The pictures were made for the rig; the hall has the left projector turned by 0.1 degrees.
     const auto offsets = test::lineOffsets(
         rig, composed(pushed, channels, 16), test::directPanorama(rig, wall::TestPattern::Grid));

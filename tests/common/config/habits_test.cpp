@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/config/habits.h"
-
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -228,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "best_depth_m: 9",
                 "best_depth_m: 40",
                 "best_depth_m",
-                "must be from 2 to 30"},
+                "must be from least_depth_m to most_depth_m"},
         Mistake{"lightsExchanged",
                 "bigeye_scad",
                 "least_light: 0.25 most_light: 1",

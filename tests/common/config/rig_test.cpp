@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rig's file is read as written, written as read, and refused at the place of its first mistake.
+// A rig's file is read as written, and refused at the place of its first mistake.
 #include "common/config/rig.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/config/angle.h"
 #include "common/units/log.h"
+#include "common/units/units.h"
 
 namespace aquarama::config {
 namespace {
@@ -63,7 +63,9 @@ TEST(Rig, everyValueArrivesInItsPlace) {
     EXPECT_EQ(left.sizePixels, glm::ivec2(320, 240));
     EXPECT_EQ(left.projector.positionMetres, glm::dvec3(0.5, 1, 0.25));
     EXPECT_EQ(left.projector.yawPitchRollRadians,
-              glm::dvec3(radiansOf(20), radiansOf(-3), radiansOf(1.5)));
+              glm::dvec3(20 * kRadiansPerDegree<double>,
+                         -3 * kRadiansPerDegree<double>,
+                         1.5 * kRadiansPerDegree<double>));
     EXPECT_EQ(left.projector.focalPixels, glm::dvec2(300, 310));
     EXPECT_EQ(left.projector.principalPixels, glm::dvec2(150, -20));
     EXPECT_EQ(left.display.mode, DisplayMode::Fullscreen);
@@ -85,30 +87,15 @@ TEST(Rig, whatIsLeftOutGetsItsDocumentedDefault) {
     EXPECT_FALSE(right.display.refreshHertz.has_value());
 }
 
-TEST(Rig, writtenTextIsReadBackToTheSameBits) {
-    Rig rig = parseRig(kRig, "small.txtpb");
-    for (int tenths = -1799; tenths < 1800; tenths += 7) {  // angles lose bits most easily
-        rig.channels[0].projector.yawPitchRollRadians.x = radiansOf(tenths / 10.0);
-        rig.channels[0].projector.yawPitchRollRadians.y = radiansOf(tenths / 30.0);
-        const Rig back = parseRig(writeRig(rig), "back");
-        ASSERT_EQ(back.channels[0].projector.yawPitchRollRadians,
-                  rig.channels[0].projector.yawPitchRollRadians);
-    }
-    const Rig back = parseRig(writeRig(rig), "back");
-    EXPECT_EQ(writeRig(back), writeRig(rig));
-    EXPECT_EQ(back.screen.arcRadians, rig.screen.arcRadians);
-    EXPECT_EQ(back.timing.presentDeadlineSeconds, rig.timing.presentDeadlineSeconds);
-    EXPECT_EQ(back.channels[1].projector.principalPixels,
-              rig.channels[1].projector.principalPixels);
+TEST(Rig, keepsTheTextOfItsFile) {
+    EXPECT_EQ(parseRig(kRig, "small.txtpb").text, kRig);
 }
 
 TEST(Rig, saysHowFineItsWallIsDrawnOrLeavesItToMeasuring) {
     EXPECT_EQ(parseRig(kRig, "small.txtpb").quality, std::nullopt);
     EXPECT_EQ(parseRig(kRig + "quality: MEASURED", "small.txtpb").quality, std::nullopt);
     EXPECT_EQ(parseRig(kRig + "quality: LOW", "small.txtpb").quality, QualityTier::Low);
-    const Rig rig = parseRig(kRig + "quality: ULTRA", "small.txtpb");
-    EXPECT_EQ(rig.quality, QualityTier::Ultra);
-    EXPECT_EQ(parseRig(writeRig(rig), "back").quality, QualityTier::Ultra);
+    EXPECT_EQ(parseRig(kRig + "quality: ULTRA", "small.txtpb").quality, QualityTier::Ultra);
 }
 
 TEST(Rig, isMonoFromTheOriginUnlessItSaysOtherwise) {
@@ -122,33 +109,24 @@ TEST(Rig, isMonoFromTheOriginUnlessItSaysOtherwise) {
                        "stereo { mode: INTERLACED eye_separation_m: 0.07 swap_eyes: true }\n"
                        "sweet_spot { x_m: 0.5 y_m: -0.25 z_m: 1 }";
     text.replace(text.find("mode: WINDOW"), 12, "mode: WINDOW stereo: ANAGLYPH swap_eyes: false");
-    const Rig read = parseRig(text, "small.txtpb");
-    for (const Rig& rig : {read, parseRig(writeRig(read), "back")}) {
-        EXPECT_EQ(rig.stereo.mode, StereoMode::Interlaced);
-        EXPECT_EQ(rig.stereo.eyeSeparationMetres, 0.07);
-        EXPECT_TRUE(rig.stereo.swapEyes);
-        EXPECT_EQ(rig.sweetSpotMetres, glm::dvec3(0.5, -0.25, 1));
-        EXPECT_EQ(rig.channels[1].display.stereo, StereoMode::Anaglyph);
-        EXPECT_EQ(rig.channels[1].display.swapEyes, false);
-        EXPECT_FALSE(rig.channels[0].display.stereo);
-    }
+    const Rig rig = parseRig(text, "small.txtpb");
+    EXPECT_EQ(rig.stereo.mode, StereoMode::Interlaced);
+    EXPECT_EQ(rig.stereo.eyeSeparationMetres, 0.07);
+    EXPECT_TRUE(rig.stereo.swapEyes);
+    EXPECT_EQ(rig.sweetSpotMetres, glm::dvec3(0.5, -0.25, 1));
+    EXPECT_EQ(rig.channels[1].display.stereo, StereoMode::Anaglyph);
+    EXPECT_EQ(rig.channels[1].display.swapEyes, false);
+    EXPECT_FALSE(rig.channels[0].display.stereo);
 }
 
-TEST(Rig, everyModeOfStereoIsReadBack) {
+TEST(Rig, everyModeOfStereoIsReadAndNamed) {
     for (const std::string mode :
          {"MONO", "QUAD_BUFFER", "TOP_BOTTOM", "INTERLACED", "ANAGLYPH", "SIDE_BY_SIDE"}) {
         std::string text = kRig + "stereo { mode: " + mode + " }";
         text.replace(text.find("width_px: 321"), 13, "width_px: 320");
         text.replace(text.find("height_px: 241"), 14, "height_px: 240");
-        const Rig rig = parseRig(text, "small.txtpb");
-        EXPECT_EQ(parseRig(writeRig(rig), "back").stereo.mode, rig.stereo.mode) << mode;
-        EXPECT_THAT(writeRig(rig), testing::HasSubstr("mode: " + mode));
+        EXPECT_EQ(nameOf(parseRig(text, "small.txtpb").stereo.mode), mode);
     }
-}
-
-TEST(Rig, aRoundAngleIsWrittenRound) {
-    for (int tenths = -1800; tenths <= 1800; ++tenths)
-        EXPECT_EQ(degreesOf(radiansOf(tenths / 10.0)), tenths / 10.0);
 }
 
 TEST(Rig, theRigsThatComeWithAquaramaAreValid) {
@@ -227,7 +205,11 @@ INSTANTIATE_TEST_SUITE_P(
                 " focal_x_px: 300",
                 "projector",
                 "lacks focal_y_px"},
-        Mistake{"noChannels", kRig.substr(kRig.find("channels")), "", "", "no channels"},
+        Mistake{"noChannels",
+                kRig.substr(kRig.find("channels")),
+                "",
+                "",
+                "the file lacks channels: give 1 to 64"},
         Mistake{"radiusZero", "radius_m: 2", "radius_m: 0", "radius_m", "must be from"},
         Mistake{"radiusNan", "radius_m: 2", "radius_m: nan", "radius_m", "must be from"},
         Mistake{"arcNegative", "arc_deg: 90", "arc_deg: -90", "arc_deg", "must be from"},

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/config/angle.h"
 #include "common/units/log.h"
 #include "common/units/units.h"
 #include "rigs.h"
@@ -34,7 +33,7 @@ TEST(CheckGeometry, acceptsTheRigsThatComeWithAquarama) {
 
 TEST(CheckGeometry, aProjectorThatLooksAwayIsNamedAtItsChannel) {
     config::Rig rig = shippedRig("desk");
-    rig.channels[2].projector.yawPitchRollRadians.x = config::radiansOf(140.8);
+    rig.channels[2].projector.yawPitchRollRadians.x = 140.8 * kRadiansPerDegree<double>;
     EXPECT_THAT(refusal(rig),
                 testing::StartsWith(at(rig.channels[2].place) +
                                     "projector \"right\" misses the screen: aim it"));
@@ -62,7 +61,7 @@ TEST(CheckGeometry, aGapBetweenNeighboursIsNamedInDegrees) {
 
 TEST(CheckGeometry, aScreenThatReachesPastTheLightIsNamedInDegrees) {
     config::Rig rig = shippedRig("theatre");
-    rig.screen.arcRadians = config::radiansOf(140);
+    rig.screen.arcRadians = 140 * kRadiansPerDegree<double>;
     EXPECT_THAT(refusal(rig),
                 testing::StartsWith(at(rig.screen.place) +
                                     "no projector lights the screen from 69.3 degrees left"));
@@ -76,7 +75,7 @@ TEST(CheckGeometry, aScreenThatIsTallerThanTheLightIsRefused) {
 
 TEST(CheckGeometry, aProjectorForMoreThanAFlatPictureHoldsIsRefused) {
     config::Rig rig = axisRig();
-    rig.screen.arcRadians = config::radiansOf(170);
+    rig.screen.arcRadians = 170 * kRadiansPerDegree<double>;
     rig.screen.heightMetres = 0.01;
     rig.channels[0].projector.focalPixels = {2, 2};
     EXPECT_THAT(refusal(rig), testing::HasSubstr("150.0 degrees"));

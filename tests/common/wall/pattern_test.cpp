@@ -6,14 +6,16 @@
 
 #include <gtest/gtest.h>
 
-#include "common/config/angle.h"
+#include "common/units/units.h"
 
 namespace aquarama::wall {
 namespace {
 
 glm::dvec3 towards(double azimuthDegrees, double elevationDegrees) {
-    const double azimuth = config::radiansOf(azimuthDegrees);
-    return {std::sin(azimuth), std::tan(config::radiansOf(elevationDegrees)), -std::cos(azimuth)};
+    const double azimuth = azimuthDegrees * kRadiansPerDegree<double>;
+    return {std::sin(azimuth),
+            std::tan(elevationDegrees * kRadiansPerDegree<double>),
+            -std::cos(azimuth)};
 }
 
 TEST(TestPattern, linesStandAtEveryFifthDegreeAndTheThirtiethAreBright) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/config/text_file.h"
 #include "common/motion/repertoire.h"
 #include "common/units/log.h"
 #include "master/capture/capture_repertoire.h"
@@ -21,19 +21,17 @@ class RepertoireCache : public testing::Test {
   protected:
     void SetUp() override {
         fs::remove_all(folder_);
-        std::ostringstream text;
-        text << std::ifstream(test::kScadFile).rdbuf();
-        text_ = text.str();
+        text_ = config::readTextFile(test::kScadFile);
     }
     void TearDown() override { fs::remove_all(folder_); }
 
     // Returns whether it was simulated.
     bool fetch() {
         bool simulated = false;
-        const RepertoireFile file =
-            repertoiresFor(
-                {{"scad", text_}}, folder_, {.progress = [&](double) { simulated = true; }})
-                .front();
+        const RepertoireFile file = repertoiresFor({config::parseSpecies(text_, "scad")},
+                                                   folder_,
+                                                   {.progress = [&](double) { simulated = true; }})
+                                        .front();
         bytes_ = file.bytes;
         error_ = file.error;
         return simulated;

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/config/text_file.h"
 #include "master/capture/capture_repertoire.h"
 #include "tests/support/scad.h"
 
@@ -61,7 +62,7 @@ class Program : public testing::Test {
     }
     // A species file, with one text put in another's place.
     [[nodiscard]] std::string edited(const std::string& good, const std::string& bad) const {
-        std::string text = readSpeciesText(test::kScadFile).text;
+        std::string text = config::readTextFile(test::kScadFile);
         text.replace(text.find(good), good.size(), bad);
         const fs::path path = root_ / "edited.txtpb";
         std::ofstream(path) << text;

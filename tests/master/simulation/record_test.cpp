@@ -149,7 +149,7 @@ TEST_F(Record, aFileThatWasCutShortReplaysUpToThere) {
 TEST_F(Record, neverOverwritesAFileAndSaysWhereItCannotWrite) {
     std::ofstream(path()) << "dear diary";
     EXPECT_THROW(RecordingFile(path(), test::syntheticAssets()), Error);
-    EXPECT_EQ(test::textOf(path()), "dear diary");
+    EXPECT_EQ(config::readTextFile(path()), "dear diary");
     try {
         const RecordingFile nowhere("/nowhere/show.aqrec", test::syntheticAssets());
         FAIL() << "it was opened";

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "common/config/cast.h"
 #include "common/config/scene.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 

@@ -108,9 +108,9 @@ inline std::string fileText(const std::string& path) {
 inline session::Admission admissionTo(wire::Pattern pattern) {
     session::Admission admission;
     admission.rig = wall::shippedRig("desk");
-    admission.welcome.rigText = config::writeRig(admission.rig);
+    admission.welcome.rigText = admission.rig.text;
     admission.scene = config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
-    admission.welcome.sceneText = config::writeScene(admission.scene);
+    admission.welcome.sceneText = admission.scene.text;
     admission.welcome.seed = 1;
     admission.welcome.pattern = pattern;
     return admission;

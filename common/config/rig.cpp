@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/config/rig.h"
+
+#include <charconv>
+#include <filesystem>
+#include <set>
+
+#include "common/config/rig.pb.h"
+#include "common/config/text_reader.h"
+#include "common/units/log.h"
+#include "common/units/units.h"
+
+namespace aquarama::config {
+
+namespace {
+
+constexpr double kDegree = kRadiansPerDegree<double>;
+
+static_assert(v1::Stereo::ANAGLYPH - v1::Stereo::MONO == static_cast<int>(StereoMode::Anaglyph));
+static_assert(v1::Rig::ULTRA - v1::Rig::LOW == static_cast<int>(QualityTier::Ultra));
+
+bool isAll(std::string_view text, std::string_view allowed) {
+    return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+std::optional<int> wholeNumber(std::string_view text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+bool isLoopback(std::string_view host) {
+    return host == "localhost" || host == "[::1]" ||
+           (host.starts_with("127.") && isAll(host, "0123456789."));
+}
+
+// Without keys anyone in reach could steer the wall, so nothing listens past this machine.
+void checkAddress(const TextReader& file,
+                  const v1::Network& in,
+                  const std::string& field,
+                  const std::string& address) {
+    const auto refuse = [&](const std::string& why) {
+        file.refuse(in, field, field + " \"" + address + "\" " + why);
+    };
+    const std::string_view scheme = "tcp://";
+    const std::size_t colon = address.rfind(':');
+    if (!address.starts_with(scheme) || colon < scheme.size())
+        refuse("is no address: write tcp://127.0.0.1:PORT");
+    const std::optional<int> port = wholeNumber(std::string_view(address).substr(colon + 1));
+    if (!port || *port < 1 || *port > 65535) refuse("needs a port from 1 to 65535");
+    if (!isLoopback(std::string_view(address).substr(scheme.size(), colon - scheme.size())))
+        refuse(
+            "listens past this machine, which needs keys that do not exist yet: use "
+            "tcp://127.0.0.1:" +
+            std::to_string(*port));
+}
+
+void checkNetwork(const TextReader& file, const v1::Network& in) {
+    checkAddress(file, in, "control", in.control());
+    checkAddress(file, in, "state", in.state());
+    const auto port = [](const std::string& address) { return address.substr(address.rfind(':')); };
+    if (port(in.control()) == port(in.state()))
+        file.refuse(in, "state", "state and control share one port: give each its own");
+}
+
+// Of a panorama or a channel.
+glm::ivec2 sizeOf(const auto& in) {
+    return {in.width_px(), in.height_px()};
+}
+
+Screen screenOf(const TextReader& file, const v1::Screen& in) {
+    return {.radiusMetres = in.radius_m(),
+            .arcRadians = in.arc_deg() * kDegree,
+            .heightMetres = in.height_m(),
+            .place = file.placeOf(in)};
+}
+
+Timing timingOf(const TextReader& file, const v1::Timing& in) {
+    const Timing timing{.refreshHertz = in.refresh_hz(),
+                        .presentDeadlineSeconds = in.has_present_deadline_s()
+                                                      ? in.present_deadline_s()
+                                                      : 1 / in.refresh_hz(),
+                        .membershipSeconds = in.membership_s()};
+    if (timing.membershipSeconds < timing.presentDeadlineSeconds)
+        file.refuse(in,
+                    "membership_s",
+                    "membership_s is shorter than present_deadline_s, so that every late frame "
+                    "would cost a node its place: make it longer");
+    return timing;
+}
+
+glm::dvec3 positionOf(const v1::Position& in) {
+    return {in.x_m(), in.y_m(), in.z_m()};
+}
+
+StereoMode modeOf(v1::Stereo::Mode mode) {
+    return static_cast<StereoMode>(mode - v1::Stereo::MONO);
+}
+
+std::optional<QualityTier> qualityOf(const v1::Rig& in) {
+    if (in.quality() == v1::Rig::MEASURED) return std::nullopt;
+    return static_cast<QualityTier>(in.quality() - v1::Rig::LOW);
+}
+
+Projector projectorOf(const v1::Projector& in, glm::dvec2 sizePixels) {
+    return {.positionMetres = positionOf(in.position()),
+            .yawPitchRollRadians = {in.yaw_deg() * kDegree,
+                                    in.pitch_deg() * kDegree,
+                                    in.roll_deg() * kDegree},
+            .focalPixels = {in.focal_x_px(), in.focal_y_px()},
+            .principalPixels = {in.has_principal_x_px() ? in.principal_x_px() : sizePixels.x / 2,
+                                in.has_principal_y_px() ? in.principal_y_px() : sizePixels.y / 2}};
+}
+
+void checkDevice(const TextReader& file, const v1::Display& in) {
+    const std::string_view device = in.device();
+    const std::string_view numbered = "device:";
+    const bool known =
+        device == "auto" || device == "nvidia" || device == "mesa" || device == "surfaceless" ||
+        (device.starts_with(numbered) && isAll(device.substr(numbered.size()), "0123456789") &&
+         device.size() <= numbered.size() + 3);
+    if (!known)
+        file.refuse(in,
+                    "device",
+                    "unknown device \"" + in.device() +
+                        "\": write auto, nvidia, mesa, surfaceless or device:N");
+}
+
+Display displayOf(const TextReader& file, const v1::Display& in) {
+    checkDevice(file, in);
+    Display display{
+        .mode = in.mode() == v1::Display::WINDOW ? DisplayMode::Window : DisplayMode::Fullscreen,
+        .monitor = static_cast<int>(in.monitor()),
+        .windowPosition = {in.window_x_px(), in.window_y_px()},
+        .device = in.device()};
+    if (in.has_refresh_hz()) display.refreshHertz = in.refresh_hz();
+    if (in.has_stereo()) display.stereo = modeOf(in.stereo());
+    if (in.has_swap_eyes()) display.swapEyes = in.swap_eyes();
+    return display;
+}
+
+// Both eyes must get as many pixels.
+void refuseOddHalves(const TextReader& file, const v1::Channel& in, StereoMode mode) {
+    if (mode == StereoMode::SideBySide && in.width_px() % 2 != 0)
+        file.refuse(in, "width_px", "width_px is odd: SIDE_BY_SIDE gives each eye half of it");
+    if (mode == StereoMode::TopBottom && in.height_px() % 2 != 0)
+        file.refuse(in, "height_px", "height_px is odd: TOP_BOTTOM gives each eye half of it");
+}
+
+Channel channelOf(const TextReader& file, const v1::Channel& in, const Stereo& stereo) {
+    if (!isAll(in.name(), "abcdefghijklmnopqrstuvwxyz0123456789_-") || in.name().size() > 32)
+        file.refuse(in,
+                    "name",
+                    "channel name \"" + in.name() +
+                        "\" also names files: use up to 32 of a-z, 0-9, _ and -");
+    Channel channel{.id = in.id(),
+                    .name = in.name(),
+                    .sizePixels = sizeOf(in),
+                    .projector = projectorOf(in.projector(), sizeOf(in)),
+                    .display = displayOf(file, in.display()),
+                    .place = file.placeOf(in)};
+    refuseOddHalves(file, in, channel.display.stereo.value_or(stereo.mode));
+    return channel;
+}
+
+void refuseOverlaps(const TextReader& file, const v1::Rig& in) {
+    std::set<std::uint32_t> ids;
+    std::set<std::string> names;
+    std::set<std::uint32_t> monitors;
+    for (const v1::Channel& channel : in.channels()) {
+        const auto giveOwn = ": give \"" + channel.name() + "\" its own";
+        if (!ids.insert(channel.id()).second)
+            file.refuse(
+                channel,
+                "id",
+                "id " + std::to_string(channel.id()) + " is taken by another channel" + giveOwn);
+        if (!names.insert(channel.name()).second)
+            file.refuse(
+                channel,
+                "name",
+                "name \"" + channel.name() + "\" is taken by another channel: give each its own");
+        const v1::Display& display = channel.display();
+        if (display.mode() == v1::Display::FULLSCREEN && !monitors.insert(display.monitor()).second)
+            file.refuse(display,
+                        "monitor",
+                        "monitor " + std::to_string(display.monitor()) +
+                            " already shows another channel" + giveOwn);
+    }
+}
+
+}  // namespace
+
+std::string nameOf(StereoMode mode) {
+    return v1::Stereo::Mode_Name(static_cast<int>(mode) + v1::Stereo::MONO);
+}
+
+Rig parseRig(const std::string& text, const std::string& source) {
+    v1::Rig in;
+    TextReader file(text, source, in);
+    file.check();
+    checkNetwork(file, in.network());
+    Rig rig{.text = text,
+            .name = in.name(),
+            .screen = screenOf(file, in.screen()),
+            .panoramaPixels = sizeOf(in.panorama()),
+            .controlAddress = in.network().control(),
+            .stateAddress = in.network().state(),
+            .channels = {},
+            .timing = timingOf(file, in.timing()),
+            .scene = in.scene(),
+            .scenePlace = file.placeOf(in, "scene"),
+            .stereo = {.mode = modeOf(in.stereo().mode()),
+                       .eyeSeparationMetres = in.stereo().eye_separation_m(),
+                       .swapEyes = in.stereo().swap_eyes()},
+            .sweetSpotMetres = positionOf(in.sweet_spot()),
+            .sweetSpotPlace = {},
+            .quality = qualityOf(in)};
+    if (in.has_sweet_spot()) rig.sweetSpotPlace = file.placeOf(in.sweet_spot());
+    for (const v1::Channel& channel : in.channels())
+        rig.channels.push_back(channelOf(file, channel, rig.stereo));
+    refuseOverlaps(file, in);
+    return rig;
+}
+
+Rig readRig(const std::string& path) {
+    return parseRig(readTextFile(path), path);
+}
+
+std::string scenePathOf(const Rig& rig, const std::string& rigPath) {
+    std::string path = besideFile(rigPath, rig.scene);
+    if (!std::filesystem::is_regular_file(path))
+        throw Error(
+            placed(rigPath,
+                   rig.scenePlace,
+                   "there is no scene file " + path + ": give its path from the rig's folder"));
+    return path;
+}
+
+}  // namespace aquarama::config

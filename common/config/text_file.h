@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A text file as its readers know it: read whole, of one of three kinds, with places in it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace aquarama::config {
+
+// Where something stands in a file, for messages. Both count from 1; 0 when built in code.
+struct SourcePlace {
+    int line = 0;
+    int column = 0;
+};
+
+// "file:line:column: why"
+[[nodiscard]] std::string placed(const std::string& source,
+                                 SourcePlace place,
+                                 const std::string& why);
+
+// The whole file. Throws Error when it cannot be read or is larger than a master may send to its
+// nodes (1 MiB; a large rig or species takes some 10 KB).
+[[nodiscard]] std::string readTextFile(const std::string& path);
+
+// A path that the file `file` gives relative to its own folder.
+[[nodiscard]] std::string besideFile(const std::string& file, const std::string& path);
+
+// All three end in .txtpb; what they hold tells them apart.
+enum class FileKind : std::uint8_t { Rig, Scene, Species };
+
+// The kind whose schema has the most of the text's outermost fields, so that a file with a mistake
+// is still known; a rig where none has any.
+[[nodiscard]] FileKind fileKindOf(const std::string& text);
+
+}  // namespace aquarama::config

@@ -1,1 +1,0 @@
-aquarama_test(rig SOURCES rig_test.cpp LINK aquarama_config)

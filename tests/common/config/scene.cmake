@@ -1,1 +1,0 @@
-aquarama_test(scene_file SOURCES scene_test.cpp LINK aquarama_config)

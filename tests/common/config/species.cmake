@@ -1,1 +1,0 @@
-aquarama_test(species SOURCES species_test.cpp habits_test.cpp LINK aquarama_config)
