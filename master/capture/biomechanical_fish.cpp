@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/biomechanical_fish.h"
 
 #include <algorithm>
@@ -15,21 +14,28 @@ namespace aquarama::capture {
 
 namespace {
 
+// Connections.
+
 constexpr int kRings = 5;
 constexpr int kDorsalTip = 21;
 constexpr int kVentralTip = 22;
 
-// The k-th node of a ring: dorsal left, dorsal right, ventral right, ventral left, and round again.
+// The k-th node of a ring: dorsal left, dorsal right, ventral right, ventral left; k is taken
+// modulo 4, so that k + 1 is always the next corner. Here rings count from 0.
 constexpr int ringNode(int ring, int k) {
     return 1 + 4 * ring + k % 4;
 }
 
+// The side of the corner k of a ring, 0 to 3.
 constexpr Side sideOf(int k) {
     return k == 1 || k == 2 ? Side::Right : Side::Left;
 }
 
+// Lists units and faces from head to tail. The order is part of the format of a simulation: it
+// decides the order of the sums in step(), and so the last bit of a captured repertoire.
 class Builder {
   public:
+    // Used once for each Builder. 4 + 5 * 6 + 4 * 12 + 9 = 91 units and 4 + 4 * 16 + 10 = 78 faces.
     Anatomy build() {
         for (int k = 0; k < 4; ++k) {
             unit(0, ringNode(0, k), UnitKind::Normal);
@@ -43,6 +49,7 @@ class Builder {
     }
 
   private:
+    // The four edges of a ring and its two diagonals.
     void addRing(int ring) {
         for (int k = 0; k < 4; ++k)
             unit(ringNode(ring, k), ringNode(ring, k + 1), UnitKind::Normal);
@@ -50,7 +57,8 @@ class Builder {
         unit(ringNode(ring, 1), ringNode(ring, 3), UnitKind::Cross);
     }
 
-    // Between a ring and the next: four units along the body and two struts across each face.
+    // Between a ring and the next: four units along the body and both diagonals of each of the four
+    // side faces. The units along the first three segments are the 12 muscles.
     void addSegment(int ring) {
         constexpr std::array<UnitKind, 4> kAlong{
             UnitKind::FrontMuscle, UnitKind::MiddleMuscle, UnitKind::BackMuscle, UnitKind::Normal};
@@ -67,6 +75,8 @@ class Builder {
         }
     }
 
+    // From the last ring to the two tips. The dorsal nodes hold the dorsal tip by normal units and
+    // the ventral tip by cross units, and the other way round.
     void addTail() {
         const int dorsalLeft = ringNode(4, 0);
         const int dorsalRight = ringNode(4, 1);
@@ -99,6 +109,7 @@ class Builder {
                                         static_cast<std::uint8_t>(c)},
                                        weight};
     }
+    // Both ways of splitting a quad, each triangle with half the weight (see DragFace).
     void quad(int a, int b, int c, int d) {
         face(a, b, c, 0.5);
         face(a, c, d, 0.5);
@@ -111,8 +122,9 @@ class Builder {
     std::size_t faces_ = 0;
 };
 
-// The same ring, its nodes exchanged in the given way.
+// For a node of a ring: the node of the same ring that the permutation of its corners gives.
 int exchanged(int node, const std::array<int, 4>& exchange) {
+    assert(node > 0 && node < kDorsalTip);
     const int ring = (node - 1) / 4;
     return ringNode(ring, exchange.at(static_cast<std::size_t>((node - 1) % 4)));
 }
@@ -135,7 +147,8 @@ int mirroredTopBottom(int node) {
     return exchanged(node, {3, 2, 1, 0});
 }
 
-// A row a unit: how fast its length grows, times that length, as each coordinate does.
+// The rigidity matrix has a row for each unit and a column for each coordinate of each node. An
+// element is the derivative of half the squared length of the unit by that coordinate.
 int freeShapeChanges(const NodeVectors& positions, std::span<const Unit> units) {
     constexpr Eigen::Index kCoordinates = 3 * Eigen::Index{body::kNodalPoints};
     Eigen::MatrixXd rigidity =
@@ -149,18 +162,22 @@ int freeShapeChanges(const NodeVectors& positions, std::span<const Unit> units) 
         }
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> reduced(rigidity);
-    // The softest change of shape of a thin fish has a pivot of a hundredth of the largest; what a
-    // missing unit leaves is rounding.
+    // The smallest pivot of a thin but rigid fish is about a hundredth of the largest. Where a unit
+    // is missing, only rounding remains. The threshold is far from both.
     reduced.setThreshold(1e-6);
     return kShapeChanges - static_cast<int>(reduced.rank());
 }
 
 namespace {
 
-constexpr int kLastHeadNode = 8;    // of ring 2
-constexpr int kFirstTailNode = 13;  // of ring 4
-constexpr std::size_t kFirstTip = 21;
+// Physical parameters. Here rings count from 1, as in the paper and in the species files.
 
+constexpr int kLastHeadNode = 8;       // the last node of ring 2
+constexpr int kFirstTailNode = 13;     // the first node of ring 4
+constexpr std::size_t kFirstTip = 21;  // the dorsal tip; the ventral one follows
+
+// Nose at the origin, tips of the tail at x = -1; the four corners of a ring in the order of
+// ringNode().
 NodeVectors restPositionsOf(const config::Skeleton& skeleton) {
     NodeVectors nodes{};
     std::size_t next = 1;
@@ -175,6 +192,7 @@ NodeVectors restPositionsOf(const config::Skeleton& skeleton) {
     return nodes;
 }
 
+// The masses in a species file are relative; here their sum is 1.
 std::array<double, body::kNodalPoints> massesOf(const config::Skeleton& skeleton) {
     std::array<double, body::kNodalPoints> masses{};
     masses[0] = skeleton.noseMass;
@@ -183,12 +201,13 @@ std::array<double, body::kNodalPoints> massesOf(const config::Skeleton& skeleton
     masses[kFirstTip] = masses[kFirstTip + 1] = skeleton.tailTipMass;
     double sum = 0;
     for (const double mass : masses) sum += mass;
+    assert(sum > 0);
     for (double& mass : masses) mass /= sum;
     return masses;
 }
 
-// A fish that lives a times faster is the same fish with stiffness a^2 and damping a; drag that
-// goes with the square of speed needs no change.
+// The same motion, a times faster, needs stiffness times a^2 and damping times a, by dimensions.
+// Drag that is proportional to the square of speed needs no change. a is tissue.timeScale.
 double stiffnessOf(const Unit& unit, const config::Tissue& tissue) {
     double stiffness = tissue.muscleStiffness;
     if (unit.kind == UnitKind::Normal) stiffness = tissue.stiffness;
@@ -200,6 +219,7 @@ double stiffnessOf(const Unit& unit, const config::Tissue& tissue) {
 }  // namespace
 
 BiomechanicalFish makeBiomechanicalFish(const config::Species& species) {
+    assert(species.tissue.timeScale > 0);
     BiomechanicalFish fish;
     fish.restPositions = restPositionsOf(species.skeleton);
     const int free = freeShapeChanges(fish.restPositions, anatomy().units);
@@ -223,8 +243,8 @@ BiomechanicalFish makeBiomechanicalFish(const config::Species& species) {
     }
     for (std::size_t i = 0; i < fish.faces.size(); ++i) {
         const DragFace& face = anatomy().faces.at(i);
-        // The one-sided law gives back no pressure behind the widest part, so it overrates the drag
-        // of the head.
+        // A real body recovers pressure behind its widest part. The one-sided law has no such
+        // recovery and overestimates the drag of the head, so a factor below 1 reduces it.
         const bool isHead = std::ranges::max(face.nodes) <= kLastHeadNode;
         fish.faces.at(i) = {
             face.nodes,

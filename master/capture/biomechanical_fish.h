@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The biomechanical fish's connections: 23 nodal points, 91 spring-damper units of which 12 are
-// muscles, and the faces that push water (Tu & Terzopoulos 1994; the paper's Fig. 1).
+// The biomechanical fish (Tu & Terzopoulos 1994; the paper's section 3 and Fig. 1): its connections
+// (23 nodal points, 91 spring-damper units of which 12 are muscles, the faces that push water), its
+// physical parameters, one step of its dynamics, and a test of its rigidity.
+//
+// Node numbers: 0 is the nose; ring r, 1 to 5 from head to tail, has the nodes 4 r - 3 to 4 r in
+// the order dorsal left, dorsal right, ventral right, ventral left; 21 and 22 are the dorsal and
+// the ventral tip of the tail. Everything here is plain data: no state is shared between threads.
 #pragma once
 
 #include <array>
@@ -19,7 +24,10 @@ inline constexpr int kUnits = 91;
 inline constexpr int kMuscles = 12;
 inline constexpr int kDragFaces = 78;
 
+// A normal unit lies on the surface of the body, a cross unit braces a ring or a face against
+// shear. A muscle is a unit along the body whose rest length a controller shortens.
 enum class UnitKind : std::uint8_t { Normal, Cross, FrontMuscle, MiddleMuscle, BackMuscle };
+// Of the body, for a muscle; Neither for every other unit.
 enum class Side : std::uint8_t { Neither, Left, Right };
 
 // A spring with a damper between two nodal points; first < second.
@@ -36,107 +44,122 @@ struct Unit {
 // and would drift.
 struct DragFace {
     std::array<std::uint8_t, 3> nodes{};
-    double weight = 1;
+    double weight = 1;  // 1, or 1/2 for a half of a quad
 };
 
+// Connections without any length or strength: the same for every species.
 struct Anatomy {
     std::array<Unit, kUnits> units;
     std::array<DragFace, kDragFaces> faces;
 };
+// Built on the first call, which may come from any thread; it lives as long as the program.
 [[nodiscard]] const Anatomy& anatomy();
 
-// The node that takes a node's place in a mirror.
+// The node at the mirror image of a node: in the plane z = 0 of the body frame (left and right),
+// and in the plane y = 0 (top and bottom). Both are their own inverse.
 [[nodiscard]] int mirroredLeftRight(int node);
 [[nodiscard]] int mirroredTopBottom(int node);
 
 // The biomechanical fish as plain data, and one step of its dynamics. Units: body lengths, the
 // fish's mass, seconds.
 
+// One vector for each nodal point: places, velocities or displacements.
 using NodeVectors = std::array<glm::dvec3, body::kNodalPoints>;
 
-// How far each group of muscles is contracted, 0 to 1: each group is one pair, above and below.
+// How far each group of muscles is contracted, 0 to 1; step() clamps what is outside. Each group is
+// one pair, a dorsal and a ventral muscle of one segment and side.
 struct MuscleActivation {
     double frontLeft = 0, frontRight = 0;
     double middleLeft = 0, middleRight = 0;
     double backLeft = 0, backRight = 0;
 };
 
-// A plate of which only the normal moves water (Tu & Terzopoulos 1994).
+// A flat plate; water resists only its motion along its normal (Tu & Terzopoulos 1994).
 struct PectoralFin {
-    // gamma: the normal is cos(gamma) x + sin(gamma) y of the body frame. At pi/2 the fin lies flat
-    // in the stream; above, it lifts the head of a fish that swims; at pi it stands across and
-    // brakes.
+    // gamma: the normal is cos(gamma) x + sin(gamma) y of the body frame. At pi/2 the fin is
+    // parallel to the flow. At a larger angle it lifts the head of a fish that swims forward. At pi
+    // it is perpendicular to the flow and brakes.
     double angleRadians = std::numbers::pi / 2;
-    // Of the fin against the body, forward, body lengths a second: rowing. Tu's fins do not row.
+    // Speed of the fin relative to the body, forward positive, body lengths a second: for rowing,
+    // which Tu's fins do not do.
     double sweepSpeed = 0;
 };
 
+// Both fins. They have no mass and no state of their own.
 struct PectoralFins {
     PectoralFin left, right;
 };
 
-// All that a fish can do.
+// All actuators of a fish during one step.
 struct MotorControl {
     MuscleActivation muscles;
     PectoralFins fins;
 };
 
+// A unit with the strength that a species gives it. Its damping is BiomechanicalFish::damping.
 struct Spring {
     std::uint8_t first = 0;
     std::uint8_t second = 0;  // > first
-    double stiffness = 0;
-    double restLength = 0;
+    double stiffness = 0;     // force by lengthening: fish masses / s^2
+    double restLength = 0;    // body lengths, relaxed
 };
 
-// A face with what its shape, the water and its place on the fish make of it: the force is
-// drag * area * (normal speed)^2.
+// A face with its drag coefficient, which is the water's times the weight of the face and, on the
+// head, a factor. The force is drag * area * (normal speed)^2, against the normal.
 struct WettedFace {
     std::array<std::uint8_t, 3> nodes{};
     double drag = 0;
 };
 
+// The physical parameters of one species. Constant while it is simulated.
 struct BiomechanicalFish {
+    // Nose towards +x, back towards +y, right side towards +z; the nose is at the origin.
     NodeVectors restPositions{};
     std::array<double, body::kNodalPoints> masses{};  // sum 1
     std::array<Spring, kUnits> springs{};             // as anatomy().units
     std::array<WettedFace, kDragFaces> faces{};
-    // What the water carries of each node beyond its weight. None: like Tu's, a fish of ours floats
-    // where it is and rights itself with its fins alone.
+    // Upward force on each node: buoyancy less weight. Zero in every species: like Tu's, the fish
+    // is neutrally buoyant everywhere and rights itself with its fins alone. Tests set it.
     std::array<double, body::kNodalPoints> lifts{};
-    double finDrag = 0;            // of each pectoral fin: force per normal speed
-    double damping = 0;            // of every unit
-    double muscleContraction = 0;  // share of its length lost at activation 1
-    double timeScale = 1;          // clocks of controllers run this many times faster
+    double finDrag = 0;            // of each pectoral fin: force by normal speed, fish masses / s
+    double damping = 0;            // of every unit: force by rate of lengthening, fish masses / s
+    double muscleContraction = 0;  // share of the rest length that is lost at activation 1
+    // The fish's own seconds in one second: the clocks of its controllers run this much faster.
+    double timeScale = 1;
 };
 
+// Places (body lengths) and velocities (body lengths a second) of the nodes, in the world, y up.
 struct FishState {
     NodeVectors positions{};
     NodeVectors velocities{};
 };
 
-// Throws Error when the springs do not hold the skeleton's shape.
+// Throws Error when the springs do not hold the skeleton's shape, see freeShapeChanges().
 [[nodiscard]] BiomechanicalFish makeBiomechanicalFish(const config::Species& species);
+// At the origin, straight, without motion.
 [[nodiscard]] FishState stateAtRest(const BiomechanicalFish& fish);
 
 // One step of linearised backward Euler over the 69 coupled equations of motion (the paper's
-// section 3): stable at any step, but it damps, so that a 60 Hz tick takes 8 * timeScale steps.
+// section 3): stable at any step, but it adds numerical damping, so that a 60 Hz tick takes
+// 8 * timeScale steps. stepSeconds is positive. Allocates nothing; costs one solution of the
+// EnvelopeSystem in dynamics.h.
 void step(const BiomechanicalFish& fish,
           const MotorControl& control,
           double stepSeconds,
           FishState& state);
 
-// The step at which the published speeds hold; a longer one damps more.
+// The step at which the speeds in the documents were measured; a longer one damps more.
 [[nodiscard]] inline double longestStepSeconds(const BiomechanicalFish& fish) {
     return 1 / (480 * fish.timeScale);
 }
 
 // Whether springs hold a shape.
 
-// All motions of the nodal points but moving and turning as one.
+// Degrees of freedom of the nodal points without the six of a rigid body.
 inline constexpr int kShapeChanges = 3 * body::kNodalPoints - 6;
 
-// How many changes of shape, to first order, lengthen no unit: kShapeChanges less the rank of the
-// rigidity matrix. A fish with one or more would fold up there at no cost.
+// How many independent changes of shape, to first order, lengthen no unit: kShapeChanges minus the
+// rank of the rigidity matrix. No spring resists these; a fish with one or more would collapse.
 [[nodiscard]] int freeShapeChanges(const NodeVectors& positions, std::span<const Unit> units);
 
 }  // namespace aquarama::capture

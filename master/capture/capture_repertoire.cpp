@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/capture_repertoire.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <exception>
 #include <iostream>
 #include <mutex>
@@ -25,8 +25,10 @@ namespace aquarama::capture {
 
 namespace {
 
-constexpr int kCells = 40;
-constexpr const char* kEraseRest = "\033[K";  // of the line
+// Progress bar.
+
+constexpr int kCells = 40;                    // characters between the brackets
+constexpr const char* kEraseRest = "\033[K";  // ANSI: erases the rest of the line
 
 }  // namespace
 
@@ -34,10 +36,13 @@ ProgressBar::ProgressBar(std::string what)
     : what_(std::move(what)), isTerminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
-    if (shown_ >= 0 && shown_ < 100) std::cerr << '\n';  // it was broken off
+    // A job that did not end leaves its bar; the next message begins on a line of its own.
+    if (shown_ >= 0 && shown_ < 100) std::cerr << '\n';
 }
 
 void ProgressBar::show(double share, const std::string& note) {
+    assert(share >= 0 && share <= 1);
+    // The small term keeps rounding from showing 99 % for a share of 1.
     const int percent = static_cast<int>(share * 100 + 1e-6);
     if (!isTerminal_ || (percent == shown_ && note == note_)) return;
     const bool isLast = percent == 100 && shown_ < 100;
@@ -53,11 +58,14 @@ void ProgressBar::show(double share, const std::string& note) {
 
 namespace {
 
+// Capture. A species has six jobs in two groups of three. Jobs 0 to 2 simulate its gaits; jobs 3 to
+// 5, the gradual turn, the sharp turn and the speed response, start from those gaits. Within a
+// group the jobs are independent of one another, so they run in parallel.
+
 constexpr std::size_t kGaits = 3;  // slow, medium, fast
 constexpr std::size_t kJobs = 2 * kGaits;
 
-// What one species' jobs leave behind. The first three swim its gaits and do not need one another;
-// nor do the last three, but they set out from those gaits.
+// The results of one species' jobs. Each job writes its own member only, so no lock is needed.
 struct Swum {
     std::array<std::optional<SteadySwimming>, kGaits> forward;
     std::array<RecordedCycle, 2> leftTurn;  // gradual, sharp
@@ -65,7 +73,10 @@ struct Swum {
     std::array<std::string, kJobs> errors;  // of each job
 };
 
+// Throws Error where the simulation fails. A job of the second group does nothing when a gait is
+// missing; the error of that gait is reported instead.
 void runJob(const config::Species& species, std::size_t job, Swum& swum) {
+    assert(job < kJobs);
     const auto& [slow, medium, fast] = swum.forward;
     const config::Swim& swim = species.swim;
     const std::array gaits{&swim.slow, &swim.medium, &swim.fast};
@@ -81,7 +92,10 @@ void runJob(const config::Species& species, std::size_t job, Swum& swum) {
         swum.response = fitResponse(swimTransitions(species, {&*slow, &*medium, &*fast}));
 }
 
+// From recordings to a repertoire; right turns are the mirror images of the left ones, the glide is
+// derived from the captured segments. All jobs of the species must have succeeded.
 motion::Repertoire compile(const config::Species& species, const Swum& swum) {
+    assert(swum.forward[0] && swum.forward[1] && swum.forward[2]);
     const body::FishBody body = body::makeBody(species);
     motion::Repertoire repertoire;
     repertoire.species = species.name;
@@ -104,6 +118,7 @@ motion::Repertoire compile(const config::Species& species, const Swum& swum) {
     return repertoire;
 }
 
+// The first error of its jobs, in their order, else what compile() gives.
 CaptureOutcome outcomeOf(const config::Species& species, const Swum& swum) {
     const auto error = std::ranges::find_if_not(swum.errors, &std::string::empty);
     if (error != swum.errors.end()) return {.repertoire = {}, .error = *error};
@@ -118,8 +133,9 @@ CaptureOutcome outcomeOf(const config::Species& species, const Swum& swum) {
 
 std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species>& species,
                                                const CaptureRun& run) {
+    assert(run.progress && run.isStopped);
     std::vector<Swum> swum(species.size());
-    std::mutex telling;
+    std::mutex telling;  // guards `done` and the calls of run.progress
     std::size_t done = 0;
     const auto runOne = [&](std::size_t job, std::size_t fish) {
         std::string& error = swum[fish].errors.at(job);
@@ -135,6 +151,8 @@ std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species
         const std::lock_guard lock(telling);
         run.progress(static_cast<double>(++done) / static_cast<double>(kJobs * species.size()));
     };
+    // The pool's jobs may not throw: runOne() keeps each error. The second group starts when all
+    // jobs of the first have ended, of every species.
     WorkerPool pool(run.threads);
     for (const std::size_t first : {std::size_t{0}, kGaits})
         pool.run(kGaits * species.size(),
@@ -156,8 +174,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Species files.
+
 constexpr const char* kExtension = ".txtpb";
 
+// Sorted by path, so that the order does not depend on the file system. Throws Error for none.
 std::vector<fs::path> allSpeciesIn(const fs::path& folder) {
     std::vector<fs::path> files;
     if (fs::is_directory(folder))
@@ -171,6 +192,7 @@ std::vector<fs::path> allSpeciesIn(const fs::path& folder) {
 
 }  // namespace
 
+// Goes from the program's folder upwards, to the root.
 fs::path findConfigFolder() {
     const fs::path program = fs::read_symlink("/proc/self/exe");
     for (fs::path folder = program.parent_path();; folder = folder.parent_path()) {
@@ -199,15 +221,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Part of every key: raise it when the simulation or its compilation changes what comes out.
+// Cache.
+
+// Part of every key: raise it when a change of the simulation or of the compilation changes the
+// repertoires.
 constexpr const char* kCaptureVersion = "aquarama capture 4\n";
 constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
 
+// SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:
+// a change of colours or habits does not capture again.
 fs::path cachedPath(const config::Species& species, const fs::path& folder) {
     const std::string key = toHex(digestOf(kCaptureVersion + species.motion));
     return folder / (species.name + "-" + key + ".aqrep");
 }
 
+// The bytes of a file that decodes without error; nothing when it is absent or damaged.
 std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
     if (!fs::exists(path)) return std::nullopt;
     try {
@@ -215,10 +243,13 @@ std::optional<std::vector<std::byte>> findIntact(const fs::path& path) {
         static_cast<void>(motion::decodeRepertoire(bytes, path.string()));
         return bytes;
     } catch (const Error&) {
-        return std::nullopt;  // damaged, or of another version of the format
+        // Damaged, or of another version of the format.
+        return std::nullopt;
     }
 }
 
+// Writes a captured repertoire to the cache and puts its bytes, or its error, into `file`. A cache
+// that cannot be written is an error too.
 void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& file) {
     file.error = outcome.error;
     if (!outcome.repertoire) return;
@@ -241,6 +272,7 @@ std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& a
                                            const fs::path& cacheFolder,
                                            const CaptureRun& run) {
     std::vector<RepertoireFile> files(all.size());
+    // The species that the cache lacks, and the index of each in `all`.
     std::vector<config::Species> missing;
     std::vector<std::size_t> missingAt;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -253,6 +285,7 @@ std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& a
         missingAt.push_back(i);
     }
     const std::vector<CaptureOutcome> outcomes = captureRepertoires(missing, run);
+    assert(outcomes.size() == missing.size());
     for (std::size_t k = 0; k < missing.size(); ++k)
         keep(outcomes[k], cachedPath(missing[k], cacheFolder), files[missingAt[k]]);
     return files;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the progress of one job as a bar on a terminal. Elsewhere nothing: stderr is for errors.
+// Captures the repertoires of species (the paper's section 3), finds the species files, and keeps
+// captured repertoires in a cache; and shows the progress of that.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +17,8 @@
 
 namespace aquarama::capture {
 
+// Shows the progress of one job as a bar on stderr where that is a terminal. Elsewhere it shows
+// nothing: stderr is for errors. Not synchronised: one thread at a time calls it.
 class ProgressBar {
   public:
     explicit ProgressBar(std::string what);
@@ -24,67 +27,72 @@ class ProgressBar {
     ProgressBar& operator=(const ProgressBar&) = delete;
     ProgressBar(ProgressBar&&) = delete;
     ProgressBar& operator=(ProgressBar&&) = delete;
-    // 0 to 1, and on a terminal a note behind the bar.
+    // `share` is 0 to 1; the note stands behind the bar. Writes only when something has changed.
     void show(double share, const std::string& note = "");
 
   private:
     std::string what_;
     bool isTerminal_;
-    int shown_ = -1;  // per cent
+    int shown_ = -1;  // per cent; -1 before the first
     std::string note_;
 };
 
-// Captures species: simulates their actions and compiles their repertoires (the paper's section 3).
+// Capture: simulates the actions of species and compiles their repertoires.
 
-// Told the share that is done, from 0 to 1; from several threads, but from one at a time.
+// Called with the share that is done, from 0 to 1, by several threads, but never by two at once.
 using Progress = std::function<void(double share)>;
 
+// How to run a capture. The functions are not empty.
 struct CaptureRun {
     unsigned threads = std::thread::hardware_concurrency();
     Progress progress = [](double) {};
-    std::function<bool()> isStopped = [] { return false; };  // then it begins nothing more
+    // Asked by any thread before each job. When it says true, no further job begins.
+    std::function<bool()> isStopped = [] { return false; };
 };
 
-// A repertoire, or why there is none.
+// A repertoire, or the error message that says why there is none.
 struct CaptureOutcome {
     std::optional<motion::Repertoire> repertoire;
     std::string error;
 };
 
-// Of each species, in their order. A species that fails leaves the others alone. The same bytes
-// each time on one machine, on any number of threads; another machine's sine may differ in the last
-// bit, which is why only the master captures.
+// One outcome for each species, in their order. A species that fails does not affect the others.
+// The result is the same, bit by bit, each time on one machine and on any number of threads. The
+// sine of another machine may differ in the last bit, which is why only the master captures.
 [[nodiscard]] std::vector<CaptureOutcome> captureRepertoires(
     const std::vector<config::Species>& species, const CaptureRun& run);
 
-// Of one; throws Error.
+// The repertoire of one species; throws Error when it cannot be captured.
 [[nodiscard]] motion::Repertoire captureRepertoire(const config::Species& species,
                                                    const Progress& progress);
 
 // Where the species files are.
 
-// The folder `config` of the source tree, or share/aquarama/config of an installation, that is
-// nearest above the running program. Throws Error where there is none.
+// The folder `config` of the source tree, or share/aquarama/config of an installation: the nearest
+// above the running program that holds a folder `species`. Throws Error where there is none.
 [[nodiscard]] std::filesystem::path findConfigFolder();
 
-// Files of the species that are asked for by name or by path; all there are when none is.
+// The files of the species that are given by name or by path; of all species, sorted, when the list
+// is empty. Throws Error for one that does not exist.
 [[nodiscard]] std::vector<std::filesystem::path> speciesFiles(
     const std::vector<std::string>& namesOrFiles, const std::filesystem::path& configFolder);
 
-// Repertoires as files: written whole or not at all, and cached by what they were captured from.
+// Repertoires as files: written completely or not at all, and cached under a digest of the data
+// that they were captured from.
 
-// The bytes of a file that may be a repertoire. Throws Error.
+// The bytes of a file, not yet checked to be a repertoire. Throws Error where it cannot be read or
+// is far too large.
 [[nodiscard]] std::vector<std::byte> readRepertoireFile(const std::filesystem::path& path);
 
-// The encoded repertoire of a species, or why there is none.
+// The encoded repertoire of a species, or the error message that says why there is none.
 struct RepertoireFile {
     std::string species;
     std::vector<std::byte> bytes;
     std::string error;
 };
 
-// Of each species, in their order: from the folder where it was captured before, else captured now
-// and kept there. A damaged file is captured anew.
+// One for each species, in their order: read from the cache folder where it was captured before,
+// else captured now and written there. A damaged file is captured again.
 [[nodiscard]] std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& all,
                                                          const std::filesystem::path& cacheFolder,
                                                          const CaptureRun& run);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/compile_segment.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/gtc/quaternion.hpp>
@@ -16,22 +16,24 @@ namespace aquarama::capture {
 namespace {
 
 constexpr std::size_t kCount = motion::kPhases;
-// Share of a turn in which its first pose, a swimming one, is faded out.
+// The swimming pose at the start of a turn is faded out over this share of the turn.
 constexpr double kEntryShare = 0.2;
 
-// A fish and its muscles are their own mirror images top to bottom, so it moves in a plane: its
-// frame only yaws. What the simulation shows beside that is rounding, and left out it cannot add up
-// over hours to a roll or a climb.
+// The fish and its muscles are symmetric top to bottom, so the exact motion lies in a plane and the
+// body frame only yaws. Pitch, roll and climb in a recording are rounding errors. They are removed
+// here; else they would add up over hours of repetition.
 struct PlanarMotion {
     double periodSeconds = 0;
     bool playsToEnd = false;
     double yawOffCourse = 0;           // of the first pose, left positive, radians
     std::array<double, kCount> yaw{};  // from phase k to k + 1, left positive, radians
+    // From phase k to k + 1, in the body frame at phase k, body lengths; y is zero.
     std::array<glm::dvec3, kCount> translation{};
-    std::array<NodeVectors, kCount + 1> poses{};  // body frame
+    std::array<NodeVectors, kCount + 1> poses{};  // in the body frame, body lengths
 };
 
-// In a mirror: nodes change places and one coordinate its sign.
+// The mirror image of a pose: `partner` gives the node that takes a node's place, `signs` is -1 for
+// the coordinate that is reversed and 1 for the others.
 NodeVectors mirrored(const NodeVectors& pose, int (*partner)(int), const glm::dvec3& signs) {
     NodeVectors image{};
     for (int i = 0; i < body::kNodalPoints; ++i)
@@ -55,6 +57,7 @@ NodeVectors blended(const NodeVectors& a, const NodeVectors& b, double shareOfB)
 // Eq. 6-8, with the rotation in the body frame: R' = R * dR (the paper's eq. 6 is in world axes,
 // which is right only for a fish that swims level).
 PlanarMotion planarMotionOf(const RecordedCycle& recording) {
+    assert(recording.poses.size() == kCount + 1);
     PlanarMotion motion{.periodSeconds = recording.periodSeconds,
                         .playsToEnd = recording.playsToEnd,
                         .yawOffCourse = yawRadians(
@@ -74,8 +77,9 @@ PlanarMotion planarMotionOf(const RecordedCycle& recording) {
     return motion;
 }
 
-// Swimming straight, the second half of a beat is the mirror image of the first: the mean of both
-// neither turns nor drifts.
+// In straight swimming the second half of a beat is the mirror image of the first. The mean of each
+// phase and of the mirror image half a beat later has this symmetry exactly, so that a cycle
+// neither turns nor drifts to a side.
 PlanarMotion straightened(const PlanarMotion& motion) {
     PlanarMotion straight = motion;
     for (std::size_t k = 0; k < kCount; ++k) {
@@ -90,15 +94,17 @@ PlanarMotion straightened(const PlanarMotion& motion) {
     return straight;
 }
 
-// How much of the entry is replaced at a phase: all of it at first, nothing from kEntryShare on.
+// The weight of the correction at a phase: 1 at phase 0, falling smoothly to 0 at kEntryShare of
+// the cycle.
 double fadeAt(std::size_t k) {
     const double left = std::max(0.0, 1 - static_cast<double>(k) / kCount / kEntryShare);
     return left * left * (3 - 2 * left);
 }
 
-// A turn begins in a swimming pose, at whatever angle to its course the beat has there, and ends
-// straight. So that its last pose is its first one again and the whole of it is the change of
-// course, it fades in from a straight fish on course.
+// A recorded turn begins in a swimming pose, with the body frame at some angle to the course, and
+// ends straight. The correction makes the first pose equal to the last one and the first heading
+// equal to the course. It fades out over kEntryShare. So the segment is closed, and its total yaw
+// is the change of course.
 PlanarMotion fadedIn(const PlanarMotion& motion) {
     PlanarMotion result = motion;
     for (std::size_t k = 0; k <= kCount; ++k) {
@@ -114,6 +120,7 @@ PlanarMotion fadedIn(const PlanarMotion& motion) {
     return result;
 }
 
+// Left and right exchanged: a left turn becomes a right one.
 PlanarMotion mirrored(const PlanarMotion& motion) {
     PlanarMotion mirror = motion;
     for (double& yaw : mirror.yaw) yaw = -yaw;
@@ -122,6 +129,7 @@ PlanarMotion mirrored(const PlanarMotion& motion) {
     return mirror;
 }
 
+// To units of kPoseUnit. The comparison is written so that NaN throws too.
 std::array<std::int16_t, 3> quantised(const glm::vec3& point) {
     std::array<std::int16_t, 3> integers{};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -134,6 +142,8 @@ std::array<std::int16_t, 3> quantised(const glm::vec3& point) {
     return integers;
 }
 
+// Back to body lengths. Control points are computed from the quantised nodes, since these are what
+// a reader of the repertoire has.
 body::NodalPoints nodesOf(const motion::NodalPose& pose) {
     body::NodalPoints nodes{};
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -169,6 +179,7 @@ motion::ActionSegment compileRightTurn(const RecordedCycle& leftTurn) {
 }
 
 void addControlPoints(const body::FishBody& body, motion::ActionSegment& segment) {
+    assert(body.cage.vertices.size() == body::kControlPoints);
     std::vector<glm::vec3> cage(body.cage.vertices.size());
     segment.controlPoints.resize(motion::kPhases);
     for (std::size_t k = 0; k < kCount; ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An action as the simulation swam it: nodal points in the world at each phase.
+// From a recording of the simulation to an action segment of a repertoire (the paper's eq. 6-9).
 #pragma once
 
 #include <cmath>
@@ -13,28 +13,31 @@
 
 namespace aquarama::capture {
 
+// One cycle of an action as the simulation swam it: nodal points in the world at each phase.
 struct RecordedCycle {
     double periodSeconds = 0;
-    bool playsToEnd = false;
-    glm::dvec3 course{1, 0, 0};  // where it swam: over the beat, or over the last one before a turn
-    std::vector<NodeVectors>
-        poses;  // at phases 0 .. kPhases, in body lengths: one more than kPhases
+    bool playsToEnd = false;  // a turn, see motion::ActionSegment
+    // Unit vector in the world: the direction of travel over the beat, or over the last beat before
+    // a turn.
+    glm::dvec3 course{1, 0, 0};
+    // In body lengths, at the phases 0 to kPhases, both included: kPhases + 1 of them.
+    std::vector<NodeVectors> poses;
 };
 
-// About the vertical, left positive.
+// The angle from one horizontal vector to the other, about the vertical, left positive, -pi .. pi.
 [[nodiscard]] inline double yawRadians(const glm::dvec3& from, const glm::dvec3& to) {
     return std::atan2(glm::cross(from, to).y, glm::dot(from, to));
 }
 
-// From a recording to an action segment: body-frame increments, deformations and control points
-// (the paper's eq. 6-9), closed so that it can be repeated for ever.
-
-// Without control points. All throw Error where a fish reaches further than its own length.
+// The segment of a recording: body-frame increments (eq. 6, 7) and deformations (eq. 8), without
+// control points. It is closed: repeated any number of times it neither jumps nor drifts. A right
+// turn is compiled from a recorded left one. All throw Error where a nodal point is farther from
+// the body frame's origin, along an axis, than a body length, which 16 bits cannot hold.
 [[nodiscard]] motion::ActionSegment compileForward(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compileLeftTurn(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compileRightTurn(const RecordedCycle& leftTurn);
 
-// Eq. 9: those of each phase's nodal points.
+// Adds the control points that belong to the nodal points of each phase (eq. 9).
 void addControlPoints(const body::FishBody& body, motion::ActionSegment& segment);
 
 }  // namespace aquarama::capture

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/dynamics.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -13,9 +13,12 @@
 
 namespace aquarama::capture {
 
-// The paper takes origin and lateral axis from one diagonal and one edge of ring 2, which show the
-// ring's own shear as a bob and a roll of some degrees; the means of both diagonals and both edges
-// do not. And y is made a unit vector, since x is not quite square to that axis.
+// Body frame.
+
+// The paper takes the origin from one diagonal of ring 2 and the lateral axis from one edge. Shear
+// of that ring then moves the frame up and down and rolls it by some degrees. The means over both
+// diagonals and both edges do not move with the shear. y is normalised, since x is not quite
+// perpendicular to the lateral axis.
 PoseFrame frameOf(const NodeVectors& pose) {
     const glm::dvec3 origin = (pose[5] + pose[6] + pose[7] + pose[8]) / 4.0;
     const glm::dvec3 right = (pose[6] - pose[5]) + (pose[7] - pose[8]);
@@ -35,16 +38,19 @@ NodeVectors inBodyFrame(const NodeVectors& pose) {
 
 namespace {
 
+// The linear system.
+
 constexpr auto kUnknowns = static_cast<std::size_t>(EnvelopeSystem::kUnknowns);
 
-// The last node that a node shares an equation with once those before it are eliminated: the end of
-// the next ring.
+// The last node that shares an equation with `node` after the elimination of all nodes before it
+// (fill-in included): the last node of the next ring.
 constexpr std::size_t lastNeighbour(std::size_t node) {
     const std::size_t nextRingsEnd = node == 0 ? 4 : 4 * ((node - 1) / 4 + 2);
     return nextRingsEnd < body::kNodalPoints ? nextRingsEnd : body::kNodalPoints - 1;
 }
 
-// Number of elements of each row right of the diagonal.
+// Number of elements of each row to the right of the diagonal; the three rows of a node end at the
+// same column.
 constexpr auto kWidths = [] {
     std::array<std::size_t, kUnknowns> widths{};
     for (std::size_t row = 0; row < kUnknowns; ++row)
@@ -64,6 +70,7 @@ void EnvelopeSystem::addToDiagonal(int node, double value) {
 }
 
 void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
+    assert(node >= 0 && node < body::kNodalPoints);
     const std::size_t row = 3 * static_cast<std::size_t>(node);
     for (std::size_t p = 0; p < 3; ++p)
         for (std::size_t q = p; q < 3; ++q)
@@ -71,6 +78,8 @@ void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
 }
 
 void EnvelopeSystem::addOffDiagonalBlock(int first, int second, const glm::dmat3& block) {
+    assert(first >= 0 && first < second);
+    assert(static_cast<std::size_t>(second) <= lastNeighbour(static_cast<std::size_t>(first)));
     const std::size_t row = 3 * static_cast<std::size_t>(first);
     const std::size_t offset = 3 * static_cast<std::size_t>(second - first);
     for (std::size_t p = 0; p < 3; ++p)
@@ -83,13 +92,15 @@ void EnvelopeSystem::addToRightSide(int node, const glm::dvec3& value) {
         right_[3 * static_cast<std::size_t>(node) + p] += value[static_cast<int>(p)];
 }
 
+// LDL^T: about 12 thousand multiplications, where a dense solver needs 55 thousand.
 void EnvelopeSystem::solve() {
     eliminate();
     substituteBack();
 }
 
-// Node by node: its three rows end at the same column, so that one pass takes them out of each row
-// behind. Afterwards each row holds the inverse of its pivot and, right of it, its row of D L^T.
+// Node by node: its three rows end at the same column, so that one pass subtracts all three from
+// each later row. Afterwards each row holds the inverse of its pivot and, right of it, its row of
+// D L^T. The right side is reduced in the same pass.
 void EnvelopeSystem::eliminate() {
     for (std::size_t row = 0; row < kUnknowns; row += 3) {
         const std::size_t end = row + kWidths[row] + 1;
@@ -106,7 +117,8 @@ void EnvelopeSystem::invertPivot(std::size_t row) {
     rows_[row][0] = 1 / rows_[row][0];
 }
 
-// Takes the first `count` unknowns from `row` on, whose pivots are inverted, out of a row behind.
+// Eliminates the unknowns row to row + count - 1, whose pivots are inverted, from the row `target`.
+// `end` is one past the last column of the rows.
 template <std::size_t count>
 void EnvelopeSystem::subtract(std::size_t row, std::size_t target, std::size_t end) {
     std::array<double, count> factors;
@@ -121,6 +133,8 @@ void EnvelopeSystem::subtract(std::size_t row, std::size_t target, std::size_t e
         for (std::size_t i = 0; i < count; ++i) elements[k] -= factors[i] * sources[i][k];
 }
 
+// Solves D L^T x = right from the last node to the first; the three unknowns of a node first take
+// what later nodes contribute, then each other's share.
 void EnvelopeSystem::substituteBack() {
     for (std::size_t row = kUnknowns; row > 0;) {
         row -= 3;
@@ -143,10 +157,14 @@ glm::dvec3 EnvelopeSystem::solution(int node) const {
 
 namespace {
 
+// Forces. Each function adds one force to the system of a step: in the matrix minus the derivative
+// of the force by the velocities at the end of the step, in the right side the rest.
+
+// The left and right nodes of rings 1 and 2, ascending.
 constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
 constexpr std::array<int, 4> kRightFinRoot{2, 3, 6, 7};
 
-// Shares of rest length left, by UnitKind and Side.
+// The current share of the relaxed rest length, by UnitKind and Side.
 using RestShares = std::array<std::array<double, 3>, 5>;
 
 RestShares restShares(const MuscleActivation& muscles, double contraction) {
@@ -160,9 +178,11 @@ RestShares restShares(const MuscleActivation& muscles, double contraction) {
              {1, left(muscles.backLeft), left(muscles.backRight)}}};
 }
 
-// A Voigt unit: spring and damper side by side, pulling along r / |r|. Its force is linearised in
-// the velocities at the end of the step; in compression the geometric stiffness would be negative
-// and is left out, which keeps the system positive definite at any step.
+// A Voigt unit: spring and damper in parallel, acting along u = r / |r|. Its force is linearised in
+// the velocities at the end of the step, so that the step is implicit:
+//     f(t + h) = f(t) + h (k u u^T + g (1 - u u^T)) dv + damping u u^T dv,  g = max(0, f / |r|).
+// In compression the geometric stiffness g would be negative; it is left out there, which keeps the
+// system positive definite at any step. `length` is the rest length now, with any contraction.
 void addSpring(const Spring& spring,
                double length,
                double damping,
@@ -183,9 +203,10 @@ void addSpring(const Spring& spring,
     system.addToRightSide(spring.second, -force * u);
 }
 
-// Only a face that advances into the water is pushed back (Tu & Terzopoulos 1994), here by the
-// square of its normal speed: -drag A (n.v)^2 n, a third on each node, one factor (n.v) taken at
-// the end of the step.
+// Drag acts only on a face that advances into the water (Tu & Terzopoulos 1994), here with the
+// square of its normal speed: -drag A (n.v)^2 n, where A is the area, n the outward normal and v
+// the mean velocity of the three nodes. A third of it acts on each node. One factor (n.v) is taken
+// at the end of the step, which makes the term implicit and linear; the other at its beginning.
 void addDrag(const WettedFace& face, const FishState& state, EnvelopeSystem& system) {
     const auto [a, b, c] = face.nodes;
     const glm::dvec3 areaVector = glm::cross(state.positions[b] - state.positions[a],
@@ -206,9 +227,10 @@ void addDrag(const WettedFace& face, const FishState& state, EnvelopeSystem& sys
     }
 }
 
-// -A (n.v) n, linear as Tu's, spread over the nodes at its root, of which v is the mean at the end
-// of the step. Tu spreads it over rings 1 to 3; over the first two it pitches the fish twice as
-// much.
+// -drag (n.v) n, linear in speed as Tu's law. v is the mean velocity of the four nodes at the fin's
+// root at the end of the step, plus the sweep of the fin along the body's x axis; a quarter of the
+// force acts on each of those nodes. Tu distributes it over rings 1 to 3; over the first two rings
+// alone it pitches the fish twice as much.
 void addFin(const PectoralFin& fin,
             const std::array<int, 4>& root,
             double drag,
@@ -231,7 +253,10 @@ void step(const BiomechanicalFish& fish,
           const MotorControl& control,
           double stepSeconds,
           FishState& state) {
+    assert(stepSeconds > 0);
     EnvelopeSystem system;
+    // Inertia and lift: m / h on the diagonal, m v / h + lift on the right. The unknowns are the
+    // velocities at the end of the step.
     for (int i = 0; i < body::kNodalPoints; ++i) {
         const auto node = static_cast<std::size_t>(i);
         const double inertia = fish.masses[node] / stepSeconds;
@@ -239,6 +264,7 @@ void step(const BiomechanicalFish& fish,
         system.addToRightSide(
             i, inertia * state.velocities[node] + glm::dvec3(0, fish.lifts[node], 0));
     }
+    // Internal and hydrodynamic forces.
     const RestShares shares = restShares(control.muscles, fish.muscleContraction);
     const auto& units = anatomy().units;
     for (std::size_t i = 0; i < kUnits; ++i) {
@@ -252,6 +278,7 @@ void step(const BiomechanicalFish& fish,
     const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
     addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, system);
     addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, system);
+    // Backward Euler: the places move with the new velocities.
     system.solve();
     for (int i = 0; i < body::kNodalPoints; ++i) {
         const auto node = static_cast<std::size_t>(i);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/gait_trial.h"
 
 #include <algorithm>
@@ -22,8 +21,11 @@ namespace aquarama::capture {
 
 namespace {
 
-constexpr int kHalvings = 8;
+// Strengths of bends.
 
+constexpr int kHalvings = 8;  // the strength to 1/256
+
+// The mean angle of left turns begun at kOnsets phases of the beat.
 double meanDegrees(const config::Species& species,
                    const SteadySwimming& entry,
                    const config::Bend& bend) {
@@ -34,7 +36,7 @@ double meanDegrees(const config::Species& species,
     return sum / kOnsets * 180 / std::numbers::pi;
 }
 
-// The harder the bend the further the turn, so halving finds it.
+// The angle grows with the strength, so bisection over 0 to 1 finds the strength.
 config::Bend fitting(const config::Species& species,
                      const SteadySwimming& entry,
                      config::Bend bend,
@@ -58,8 +60,9 @@ config::Turn withFittingStrengths(const config::Species& species) {
 
 namespace {
 
-// Speed takes dozens of beats to settle, the wave only a few.
-constexpr double kFlyingStart = 0.62;  // body lengths a beat, as most fish go
+// Figures. From rest the speed takes dozens of beats to settle, the body wave only a few. So the
+// quick trial starts near the final speed and waits only for the wave.
+constexpr double kFlyingStart = 0.62;  // body lengths a beat, near the stride of most fish
 constexpr int kWarmUpBeats = 12;
 
 GaitFigures figuresOf(const config::Gait& gait, const RecordedCycle& beat) {
@@ -67,6 +70,7 @@ GaitFigures figuresOf(const config::Gait& gait, const RecordedCycle& beat) {
     return {gait.beatHertz, measure(segment), bodyWave(segment)};
 }
 
+// One beat after the warm-up. It need not repeat exactly: compileForward() closes it.
 RecordedCycle quickBeat(const config::Species& species, const config::Gait& gait) {
     const BiomechanicalFish fish = makeBiomechanicalFish(species);
     const double period = 1 / gait.beatHertz;
@@ -112,29 +116,33 @@ ForwardFigures quickFigures(const config::Species& species) {
 
 namespace {
 
+// The objective of the search.
+
+// The range of a figure in living fish.
 struct Band {
     double least, most;
-    double tolerance;  // outside by this much counts 1
+    double tolerance;  // a value outside of the range by this much counts 1
 };
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
 // Swimming animals keep a Strouhal number of 0.2 to 0.4, efficient ones of 0.25 to 0.35 (Taylor,
 // Nudds & Thomas 2003; Triantafyllou et al. 1993).
 constexpr Band kStrouhal{0.24, 0.35, 0.02};
-// Fish go 0.5 to 0.7 of their length in a beat (Videler & Wardle 1991), ...
+// Stride: fish travel 0.5 to 0.7 body lengths in a beat (Videler & Wardle 1991).
 constexpr Band kStride{0.53, 0.67, 0.02};
-// ... the same at any speed, so that speed goes with the beat.
+// Greatest less least stride of the three gaits, body lengths: the stride is nearly the same at any
+// speed, so that speed is proportional to the beat frequency.
 constexpr Band kStrideSpread{0, 0.06, 0.02};
-// The tail swings through 0.2 of the length (Bainbridge 1958), in slow swimming through less.
+// Tail, peak to peak: 0.2 body lengths (Bainbridge 1958), less in slow swimming.
 constexpr Band kTail{0.15, 0.22, 0.01};
-// The nose swings through 0.01 to 0.04 of it (Jayne & Lauder 1995; Videler & Hess 1984); a body of
-// three muscle segments recoils a little more.
+// Nose, peak to peak: 0.01 to 0.04 body lengths (Jayne & Lauder 1995; Videler & Hess 1984). A body
+// with three muscle segments recoils a little more.
 constexpr Band kNose{0, 0.05, 0.008};
-// A carangiform body carries about one wave (Videler & Hess 1984), ...
+// Length of the body wave: about one body length in carangiform fish (Videler & Hess 1984).
 constexpr Band kWavelength{0.85, 1.3, 0.1};
-// ... which travels tailwards all the way ...
+// Fall of the phase from station to station, radians: the wave travels towards the tail everywhere.
 constexpr Band kPhaseFall{0.2, kAny, 0.1};
-// ... and grows towards the tail.
+// Ratio of the amplitudes of neighbouring stations near the tail: the wave grows towards the tail.
 constexpr Band kGrowth{1.05, kAny, 0.05};
 
 double squaredMiss(double value, const Band& band) {
@@ -142,6 +150,7 @@ double squaredMiss(double value, const Band& band) {
     return miss * miss;
 }
 
+// The sum over the figures of one gait. Stations 4, 5 and 6 are rings 4 and 5 and the tail tips.
 double missOf(const GaitFigures& gait) {
     const auto& swing = gait.wave.amplitudes;
     return squaredMiss(gait.swum.strouhal, kStrouhal) +
@@ -165,7 +174,9 @@ double missOf(const ForwardFigures& gaits) {
 
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+// Tables.
+
+constexpr double kDegrees = 180 / std::numbers::pi;  // in a radian
 constexpr std::array kGaits{"slow", "medium", "fast"};
 
 std::string plainName(const config::Species& species) {

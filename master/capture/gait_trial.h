@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How hard a species must bend to turn as far as a turn is to go.
+// Trials of the gaits and turns of a species in the simulation: the strengths of its bends, the
+// figures of its swimming, how far those are from living fish, and tables of them.
 #pragma once
 
 #include <array>
@@ -10,18 +11,19 @@
 
 namespace aquarama::capture {
 
-// Well inside what a gradual turn (20 to 40 degrees) and a sharp one (40 to 80) may be, whatever
-// the point of the beat where it begins.
+// The mean angles to aim at. A gradual turn must be 20 to 40 degrees and a sharp one 40 to 80;
+// these leave room for the variation with the phase of the beat at which the turn begins.
 inline constexpr double kGradualDegrees = 30;
 inline constexpr double kSharpDegrees = 58;
 
-// Strengths with which left turns out of medium swimming go as far as that on the average over the
-// beat, or as near as the fish can; at the tempos that the species has. Throws Error when it does
-// not become straight after them.
+// The bends of the species with strengths such that left turns out of medium swimming have those
+// angles, averaged over the phases of onset, or the nearest that the fish can reach. The tempos
+// stay those of the species. Throws Error when the fish does not become straight after a turn.
 [[nodiscard]] config::Turn withFittingStrengths(const config::Species& species);
 
-// How a species swims straight on, in figures.
+// The figures of straight swimming.
 
+// Of one gait.
 struct GaitFigures {
     double beatHertz = 0;
     SegmentMeasures swum;
@@ -29,27 +31,28 @@ struct GaitFigures {
 };
 using ForwardFigures = std::array<GaitFigures, 3>;  // slow, medium, fast
 
-// As it is captured: when the beat repeats itself. Throws Error when it does not.
+// Measured on the beat that would be captured, when swimming is steady. Throws Error when it does
+// not become steady.
 [[nodiscard]] GaitFigures steadyFigures(const config::Species& species, const config::Gait& gait);
 
-// The same three gaits at a fraction of the cost and within 1 %: from a flying start, after a few
-// beats, side by side on threads of their own.
+// All three gaits at a fraction of the cost and within 1 %: the fish starts at an estimated speed
+// and is measured after a few beats. Each gait runs on a thread of its own; returns when all are
+// done.
 [[nodiscard]] ForwardFigures quickFigures(const config::Species& species);
 
-// How far a species' swimming is from that of living fish.
-
-// 0 when every figure of every gait lies where living fish have it; else the sum of the squares of
-// what they miss by, each in units of its own tolerance.
+// How far the swimming of a species is from that of living fish: 0 when every figure of every gait
+// is in the range of living fish; else the sum of the squares of the distances from the ranges,
+// each in units of its own tolerance.
 [[nodiscard]] double missOf(const ForwardFigures& gaits);
 
-// The gaits of species in the figures by which fish are compared, as a table in Markdown.
+// Tables in Markdown.
 
+// The gaits of a species: a row each for slow, medium and fast. The rows are simulated in the call.
 [[nodiscard]] std::string gaitTableHead();
-[[nodiscard]] std::string gaitTableRows(
-    const config::Species& species);  // slow, medium, fast: simulated now
+[[nodiscard]] std::string gaitTableRows(const config::Species& species);
 
-// How far its turns go, in degrees, when they are begun at any point of a slow, medium or fast
-// beat.
+// The least and the greatest angle of its turns in degrees, over all phases of onset, out of slow,
+// medium and fast swimming.
 [[nodiscard]] std::string turnTableHead();
 [[nodiscard]] std::string turnTableRow(const config::Species& species);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/measure.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -15,6 +15,7 @@
 
 namespace aquarama::capture {
 
+// The mean frame of motion::pathOf() is the body frame averaged over a cycle.
 std::vector<ReplayedPhase> replayAlongX(const motion::ActionSegment& segment, int cycles) {
     const glm::dquat meanFromBody = glm::conjugate(motion::pathOf(segment).bodyFromMean[0]);
     std::vector<ReplayedPhase> phases = replay(segment, cycles);
@@ -28,9 +29,12 @@ std::vector<ReplayedPhase> replayAlongX(const motion::ActionSegment& segment, in
 
 namespace {
 
-constexpr std::size_t kRing2 = 2;  // among the stations
+// Body wave.
+
+constexpr std::size_t kRing2 = 2;  // indices of stations; 0 is the nose
 constexpr std::size_t kRing3 = 3;
 
+// The middle of the nodes of a station, in the frame of `nodes`.
 glm::dvec3 stationOf(const NodeVectors& nodes, std::size_t station) {
     if (station == 0) return nodes[0];
     if (station + 1 == kWaveStations) return (nodes[21] + nodes[22]) / 2.0;
@@ -39,7 +43,8 @@ glm::dvec3 stationOf(const NodeVectors& nodes, std::size_t station) {
     return sum / 4.0;
 }
 
-// Of the least-squares line through the phases from ring 3 on.
+// Radians by body length: the slope of the least-squares line through the phases from ring 3 to the
+// tail.
 double slopeBehindRing2(const BodyWave& wave) {
     constexpr double kCount = kWaveStations - kRing3;
     double s = 0, p = 0, ss = 0, sp = 0;
@@ -63,6 +68,8 @@ double BodyWave::leastPhaseFall() const {
     return least;
 }
 
+// A discrete Fourier transform of each station at the frequency of the beat. The phases are
+// unwrapped from the nose on: neighbouring stations differ by less than half a turn.
 BodyWave bodyWave(const motion::ActionSegment& segment) {
     constexpr double kTurn = 2 * std::numbers::pi;
     const std::vector<ReplayedPhase> cycle = replay(segment, 1);
@@ -90,6 +97,9 @@ BodyWave bodyWave(const motion::ActionSegment& segment) {
 
 namespace {
 
+// Figures of a segment.
+
+// The motion from phase to phase, scaled to a tick.
 double largestStepOf(const motion::ActionSegment& segment) {
     const double phasesInTick =
         motion::kPhases / (static_cast<double>(segment.periodSeconds) * kTicksPerSecond);
@@ -103,11 +113,13 @@ double largestStepOf(const motion::ActionSegment& segment) {
     return largest;
 }
 
-// The way of a cycle without the sway of the beat: straight on, or along the arc about the point
-// that a turning cycle goes round, at the origin's mean distance from it. A sharp turn has no beat.
+// The path of a cycle without the sway of the beat. For a straight cycle it is the chord. For a
+// cycle that turns it is an arc: the centre is the fixed point of the cycle's rotation, the radius
+// the mean distance of the origin from it. `isSharp` marks a turn that plays to its end: it has no
+// beat, so the path is summed phase by phase.
 double strideOf(const std::vector<ReplayedPhase>& phases, double turn, bool isSharp) {
     const glm::dvec3 chord = phases.back().origin - phases.front().origin;
-    constexpr double kStraight = 1e-4;
+    constexpr double kStraight = 1e-4;  // radians a cycle; below it the centre is too far off
     if (!isSharp && std::abs(turn) < kStraight) return glm::length(chord);
     const glm::dvec3 toTheLeft = glm::cross(glm::dvec3(0, 1, 0), chord);
     const glm::dvec3 centre =
@@ -119,6 +131,7 @@ double strideOf(const std::vector<ReplayedPhase>& phases, double turn, bool isSh
     return way;
 }
 
+// The extent of a point's path along the unit vector `across`; pointOf takes the nodes of a phase.
 double peakToPeak(const std::vector<ReplayedPhase>& phases,
                   const glm::dvec3& across,
                   const auto& pointOf) {
@@ -144,7 +157,10 @@ NodeVectors poseAt(const motion::ActionSegment& segment, std::size_t phase) {
     return pose;
 }
 
+// Composes the increments in the body frame, B' = B * increment; the rotation is normalised at each
+// phase, so that rounding does not add up over many cycles.
 std::vector<ReplayedPhase> replay(const motion::ActionSegment& segment, int cycles) {
+    assert(cycles >= 1);
     std::vector<ReplayedPhase> phases;
     glm::dvec3 origin{};
     glm::dquat rotation{1, 0, 0, 0};
@@ -175,6 +191,7 @@ SegmentMeasures measure(const motion::ActionSegment& segment) {
     m.climb = end.origin.y;
     m.largestStep = largestStepOf(segment);
 
+    // Amplitudes are taken across the chord from the start to the end of the cycle.
     const glm::dvec3 across = glm::normalize(glm::cross(end.origin, up));
     m.tailAmplitude = peakToPeak(
         phases, across, [](const NodeVectors& nodes) { return (nodes[21] + nodes[22]) / 2.0; });

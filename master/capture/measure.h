@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a segment does when it is replayed, in the numbers by which fish are compared.
+// Replays an action segment and measures it in the figures by which fish are compared. Lengths are
+// body lengths. Pure functions.
 #pragma once
 
 #include <array>
@@ -13,61 +14,62 @@
 
 namespace aquarama::capture {
 
-// A phase in the frame of the fish's body at the start of the first cycle; body lengths.
+// The fish at one phase. The world is the body frame at the start of the first cycle.
 struct ReplayedPhase {
-    glm::dvec3 origin{};
-    glm::dquat worldFromBody{1, 0, 0, 0};
-    NodeVectors nodes{};
+    glm::dvec3 origin{};                   // of the body frame
+    glm::dquat worldFromBody{1, 0, 0, 0};  // rotation of the body frame
+    NodeVectors nodes{};                   // in the world
 };
 
-// Nodal points in the body frame at a phase of any cycle; body lengths.
+// Nodal points in the body frame at a phase, which is taken modulo kPhases.
 [[nodiscard]] NodeVectors poseAt(const motion::ActionSegment& segment, std::size_t phase);
 
-// kPhases phases a cycle and the end of the last one.
+// `cycles` >= 1. The result has cycles * kPhases + 1 phases; the last is the end of the last cycle.
 [[nodiscard]] std::vector<ReplayedPhase> replay(const motion::ActionSegment& segment, int cycles);
 
+// The figures of one cycle.
 struct SegmentMeasures {
     double periodSeconds = 0;
-    double strideBodyLengths = 0;  // way of the body frame's origin in a cycle, without its sway
+    double strideBodyLengths = 0;  // path of the body frame's origin in a cycle, without its sway
     double speedBodyLengths = 0;   // a second
     double turnRadians = 0;        // in a cycle, left positive
     double turnRate = 0;           // radians a second
     double tailAmplitude = 0;      // peak to peak, across the course, body lengths
-    double noseAmplitude = 0;
-    double strouhal = 0;     // beat frequency * tail amplitude / speed
-    double leanRadians = 0;  // what a cycle adds to roll and pitch together
-    double climb = 0;        // body lengths in a cycle
-    double largestStep =
-        0;  // of any nodal point in the body frame, body lengths in a tick of 1/60 s
+    double noseAmplitude = 0;      // the same of the nose
+    double strouhal = 0;           // beat frequency * tail amplitude / speed
+    double leanRadians = 0;        // roll and pitch together that one cycle adds
+    double climb = 0;              // body lengths in a cycle
+    // The greatest motion of any nodal point in the body frame in a tick of 1/60 s, body lengths.
+    double largestStep = 0;
 };
 [[nodiscard]] SegmentMeasures measure(const motion::ActionSegment& segment);
 
-// A segment replayed in a world that a reader can use.
-
-// As replay(), turned about its origin so that the fish heads along +x and is level: what beats on,
-// in the mean over a cycle, since the tail sways the body frame; a turn that plays to its end, at
-// its start. y is up, z to the right.
+// As replay(), but in a world whose +x is the course; y is up, z to the right. The course of a
+// cyclic segment is the mean over a cycle, since the tail beat makes the body frame sway. That of a
+// turn that plays to its end is the heading at its start.
 [[nodiscard]] std::vector<ReplayedPhase> replayAlongX(const motion::ActionSegment& segment,
                                                       int cycles);
 
-// The wave that runs down a swimming fish: how far and when each part of its body swings.
+// The wave that travels down a swimming fish: amplitude and phase of the lateral motion of each
+// part of its body.
 
-// The nose, the five rings, the tips of the tail.
+// The nose, the five rings, the middle of the tips of the tail.
 inline constexpr std::size_t kWaveStations = 7;
 
-// First harmonic of the swing across the course. Stations in body lengths from the nose.
+// First harmonic of the motion across the course.
 struct BodyWave {
-    std::array<double, kWaveStations> stations{};
+    std::array<double, kWaveStations> stations{};    // mean distance from the nose, body lengths
     std::array<double, kWaveStations> amplitudes{};  // peak to peak, body lengths
     std::array<double, kWaveStations> phases{};      // radians, unwrapped from nose to tail
-    double wavelength = 0;  // body lengths, of the straight line through the phases behind ring 2
+    // Body lengths, from the slope of the straight line through the phases behind ring 2.
+    double wavelength = 0;
 
-    // The least fall of the phase from one station to the next, from ring 2 to the tail: positive
-    // in a wave that travels tailwards all the way.
+    // The least fall of the phase from one station to the next, from ring 2 to the tail, radians:
+    // positive where the wave travels towards the tail everywhere.
     [[nodiscard]] double leastPhaseFall() const;
 };
 
-// Of a cycle of straight swimming.
+// Of one cycle of straight swimming; the fish must move forward.
 [[nodiscard]] BodyWave bodyWave(const motion::ActionSegment& segment);
 
 }  // namespace aquarama::capture

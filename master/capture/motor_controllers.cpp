@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/motor_controllers.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -10,22 +10,27 @@ namespace aquarama::capture {
 
 namespace {
 
-// Of the fish's own seconds (Tissue::timeScale of them in one of ours).
+// Muscles.
+
+// One contraction of a muscle group in a bend: it starts after `delay`, rises, holds and falls.
+// Times are the fish's own seconds (Tissue::timeScale of them in one second) at a tempo of 1.
 struct Pull {
     double delay, rise, hold, fall;
-    double strength;  // activation at a bend of 1
+    double strength;  // activation where the strength of the bend is 1
 };
-// Found by a search over manoeuvres: with these the heading changes by 35 to 70 degrees as the bend
-// goes from 0.2 to 1.
+// Found by a search over manoeuvres: with these values the heading changes by 35 to 70 degrees as
+// the strength of the bend goes from 0.2 to 1.
 constexpr Pull kFront{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.10};
 constexpr Pull kMiddle{.delay = 0, .rise = 0.15, .hold = 0.5, .fall = 0.8, .strength = 0.55};
 constexpr Pull kBack{.delay = 0.04, .rise = 0.10, .hold = 0.40, .fall = 0.45, .strength = 1.0};
 
+// 0 for t <= 0, 1 for t >= 1, with zero slope at both ends, so that the force has no kink.
 double smoothStep(double t) {
     const double u = std::clamp(t, 0.0, 1.0);
     return u * u * (3 - 2 * u);
 }
 
+// The activation at a time since the order; `strength` is that of the bend, 0 to 1.
 double pullAt(const Pull& pull, double strength, double ownSeconds) {
     const double since = ownSeconds - pull.delay;
     const double up = smoothStep(since / pull.rise);
@@ -36,6 +41,7 @@ double pullAt(const Pull& pull, double strength, double ownSeconds) {
 }  // namespace
 
 MuscleActivation mix(const MuscleActivation& from, const MuscleActivation& to, double share) {
+    assert(share >= 0 && share <= 1);
     return {.frontLeft = std::lerp(from.frontLeft, to.frontLeft, share),
             .frontRight = std::lerp(from.frontRight, to.frontRight, share),
             .middleLeft = std::lerp(from.middleLeft, to.middleLeft, share),
@@ -53,6 +59,7 @@ MuscleActivation mirrored(const MuscleActivation& muscles) {
             .backRight = muscles.backLeft};
 }
 
+// Left and right of a segment always add up to the drive: one side relaxes as the other contracts.
 MuscleActivation beatAt(const config::Swim& swim, double gain, double beat) {
     const double phase = 2 * std::numbers::pi * beat;
     const double middle = (1 + std::sin(phase)) / 2;
@@ -78,6 +85,7 @@ MuscleActivation swim(const config::Species& species, const config::Gait& gait, 
 }
 
 double secondsOf(const config::Bend& bend, const config::Species& species) {
+    assert(bend.tempo > 0);
     constexpr double kOwnSeconds =
         std::max({kFront.delay + kFront.rise + kFront.hold + kFront.fall,
                   kMiddle.delay + kMiddle.rise + kMiddle.hold + kMiddle.fall,
@@ -87,23 +95,28 @@ double secondsOf(const config::Bend& bend, const config::Species& species) {
 
 namespace {
 
-constexpr double kFlat = std::numbers::pi / 2;
-constexpr double kAcross = std::numbers::pi;
+// Fins. Angles are PectoralFin::angleRadians.
+
+constexpr double kFlat = std::numbers::pi / 2;  // parallel to the flow: no force
+constexpr double kAcross = std::numbers::pi;    // perpendicular to it: the most drag
 // Tu's fins turn between a quarter of pi and pi.
 constexpr double kLeastAngle = std::numbers::pi / 4;
 
+// Fin angle by error of attitude, radians by radian.
 constexpr double kPitchGain = 1.5;
 constexpr double kRollGain = 1;
-constexpr double kMostCorrection = 0.8;  // radians, of each
+constexpr double kMostCorrection = 0.8;  // of each correction: radians of fin angle, or its share
 
-// A fin of a fifth of a body length that sweeps through 90 degrees moves its middle so far.
+// The travel of the middle of a fin that is a fifth of a body length long and sweeps through 90
+// degrees.
 constexpr double kStrokeBodyLengths = 0.15;
-constexpr double kHeadingGain = 2;  // share of the stroke by radian
+constexpr double kHeadingGain = 2;  // share of the stroke by radian of heading error
 
 double bounded(double correction) {
     return std::clamp(correction, -kMostCorrection, kMostCorrection);
 }
 
+// A fin that does not sweep, at the angle or at the nearest that it can have.
 PectoralFin at(double angleRadians) {
     return {.angleRadians = std::clamp(angleRadians, kLeastAngle, kAcross)};
 }
@@ -124,10 +137,12 @@ PectoralFins row(const config::Gait& gait,
                  double stroke,
                  const BodyAngles& attitude,
                  double headingRadians) {
+    // The derivative of a sinusoidal sweep whose travel from end to end is the stroke times the
+    // gain.
     const double speed = std::numbers::pi * kStrokeBodyLengths * gait.gain * gait.beatHertz *
                          std::sin(2 * std::numbers::pi * stroke);
     const bool isPower = speed > 0;
-    // The water comes from behind, so that the corrections of a fish that moves forward change
+    // The flow comes from behind, so hold()'s corrections, which assume forward motion, change
     // sign.
     PectoralFins fins = isPower ? brake()
                                 : hold({.headingRadians = 0,

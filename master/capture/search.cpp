@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/search.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <exception>
@@ -23,11 +23,14 @@ namespace aquarama::capture {
 
 namespace {
 
-// Contraction is none of them: swimming knows only its product with the drives, and turns need it.
-// Stiffness counts all three kinds together, whose ratios a species keeps; its frequencies and time
-// scale are its own, and gains are relative to medium swimming.
+// The parameters.
+
+// What the search may change. Not among them: the contraction of muscles, since swimming depends
+// only on its product with the drives and turns need its value; the beat frequencies and the time
+// scale, which belong to the species; the gain of medium swimming, to which the other gains are
+// relative. One parameter scales the three kinds of stiffness together and keeps their ratios.
 struct Parameter {
-    double least, most;
+    double least, most;  // the range, in the units of config::Species; least > 0
     double (*get)(const config::Species&);
     void (*set)(config::Species&, double);
 };
@@ -39,7 +42,8 @@ void setStiffness(config::Species& s, double stiffness) {
     s.tissue.muscleStiffness *= factor;
 }
 
-constexpr double kHalfBeat = std::numbers::pi;
+// The order is part of the journal's format: a line lists the coordinates in it.
+constexpr double kHalfBeat = std::numbers::pi;  // radians of the phase of the beat
 constexpr std::array kParameters{
     Parameter{150, 1500, [](const config::Species& s) { return s.tissue.stiffness; }, setStiffness},
     Parameter{0.8,
@@ -91,6 +95,7 @@ SearchPoint pointOf(const config::Species& species) {
 }
 
 config::Species speciesAt(const SearchPoint& point, const config::Species& species) {
+    assert(point.size() == kParameters.size());
     config::Species changed = species;
     for (std::size_t i = 0; i < kParameters.size(); ++i) {
         const Parameter& p = kParameters.at(i);
@@ -103,17 +108,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kFigures = 5;  // of a trial, before its point
+// The journal.
+
+constexpr std::size_t kFigures = 5;  // numbers in a line before the coordinates of the point
 
 std::string lineOf(const SearchTrial& trial) {
     std::ostringstream line;
-    line.precision(17);  // each double comes back as it was
+    line.precision(17);  // enough for each double to be read back exactly
     line << trial.miss << ' ' << trial.leastStrouhal << ' ' << trial.mostStrouhal << ' '
          << trial.leastStride << ' ' << trial.mostStride;
     for (const double coordinate : trial.point) line << ' ' << coordinate;
     return line.str();
 }
 
+// Nothing unless lineOf() writes exactly this line for the trial: so any damage is found.
 std::optional<SearchTrial> parseTrial(const std::string& line) {
     std::istringstream numbers(line);
     const std::vector<double> values{std::istream_iterator<double>(numbers), {}};
@@ -127,13 +135,15 @@ std::optional<SearchTrial> parseTrial(const std::string& line) {
     return lineOf(trial) == line ? std::optional(std::move(trial)) : std::nullopt;
 }
 
-// What is there up to the last line that was finished.
+// The text up to the last line end; empty when the file does not exist.
 std::string wholeLinesOf(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     return text.substr(0, text.rfind('\n') + 1);
 }
 
+// The trials of a journal; `path` is for error messages. Throws Error, with the number of the line,
+// when the first line is not `search` or a line is not a trial.
 std::vector<SearchTrial> parseTrials(const std::string& text,
                                      const std::string& search,
                                      const fs::path& path) {
@@ -157,6 +167,7 @@ std::vector<SearchTrial> parseTrials(const std::string& text,
 }  // namespace
 
 SearchJournal::SearchJournal(fs::path path, const std::string& search) : path_(std::move(path)) {
+    assert(search.find('\n') == std::string::npos);
     const std::string before = wholeLinesOf(path_);
     if (!before.empty()) {
         trials_ = parseTrials(before, search, path_);
@@ -177,12 +188,15 @@ void SearchJournal::add(const SearchTrial& trial) {
 
 namespace {
 
-// Raise it when simulation, objective or parameters change what comes out.
+// The optimisation.
+
+// Raise it when a change of the simulation, the objective or the parameters changes the trials.
 constexpr const char* kSearchVersion = "aquarama search 1";
-constexpr double kSwims = 0.01;       // a miss by a tenth of one tolerance
+constexpr double kSwims = 0.01;       // the goal: a miss by a tenth of one tolerance
 constexpr double kFirstStep = 0.1;    // of the range of each parameter
 constexpr double kDoesNotSwim = 1e6;  // the miss of a fish that finds no steady beat
 
+// One trial. A fish that cannot be simulated there is a very bad trial, not an error.
 SearchTrial tryAt(const SearchPoint& point, const config::Species& species) {
     SearchTrial trial{.point = point, .miss = kDoesNotSwim};
     try {
@@ -199,13 +213,16 @@ SearchTrial tryAt(const SearchPoint& point, const config::Species& species) {
     return trial;
 }
 
-// Makes trials in the optimiser's order; those that the journal holds it only recalls.
+// Makes trials in the order in which the optimiser asks for them; those that the journal holds are
+// read from it. The optimiser is deterministic, so it asks for the same points again. Keeps
+// references: the arguments must outlive it.
 class TrialRun {
   public:
     TrialRun(const config::Species& species, SearchJournal& journal, const SearchProgress& progress)
         : species_(species), journal_(journal), progress_(progress) {}
 
     double missAt(const SearchPoint& point) {
+        assert(made_ <= journal_.trials().size());
         if (made_ == journal_.trials().size()) journal_.add(tryAt(point, species_));
         const SearchTrial& trial = journal_.trials()[made_++];
         if (trial.point != point)
@@ -236,8 +253,10 @@ SearchTrial searchGaits(const config::Species& species,
                         std::size_t mostTrials,
                         SearchJournal& journal,
                         const SearchProgress& progress) {
+    assert(mostTrials >= 1 && progress);
     TrialRun run(species, journal, progress);
     SearchPoint point = pointOf(species);
+    // Subplex, a variant of the Nelder-Mead method: it needs no gradient.
     nlopt::opt optimiser(nlopt::LN_SBPLX, static_cast<unsigned>(point.size()));
     optimiser.set_lower_bounds(0.0);
     optimiser.set_upper_bounds(1.0);
@@ -245,7 +264,7 @@ SearchTrial searchGaits(const config::Species& species,
     optimiser.set_maxeval(static_cast<int>(mostTrials));
     optimiser.set_stopval(kSwims);
 
-    // NLopt hands on none but its own exceptions.
+    // NLopt lets only its own exceptions through. Any other is kept here and thrown again below.
     struct Evaluation {
         TrialRun& run;
         std::exception_ptr failure;
@@ -266,7 +285,7 @@ SearchTrial searchGaits(const config::Species& species,
     } catch (const nlopt::forced_stop&) {
         std::rethrow_exception(evaluation.failure);
     } catch (const nlopt::roundoff_limited&) {
-        // it can come no closer
+        // Rounding stopped the optimiser: the best trial so far is the result.
     }
     return run.best();
 }

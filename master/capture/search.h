@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters that the search may change, as a unit cube.
+// The search for muscles, tissue and water with which a species swims as living fish do: its
+// parameters as a unit cube, its journal, and the optimisation.
 #pragma once
 
 #include <filesystem>
@@ -12,35 +13,38 @@
 
 namespace aquarama::capture {
 
-// A point of the cube: each coordinate goes from a parameter's least value at 0 to its most at 1 by
-// equal factors.
+// A point of the cube. Each coordinate, 0 to 1, is a parameter on a logarithmic scale from its
+// least value to its greatest.
 using SearchPoint = std::vector<double>;
 
-// Parameters outside their range come out on its edge.
+// The point of a species; parameters outside of their range are moved to its edge.
 [[nodiscard]] SearchPoint pointOf(const config::Species& species);
+// The species with the parameters of a point. Coordinates are clamped to 0 .. 1.
 [[nodiscard]] config::Species speciesAt(const SearchPoint& point, const config::Species& species);
 
-// A search's evaluations, kept line by line as they are made: what makes it go on where it was
-// interrupted.
+// The journal: the evaluations of a search, written line by line as they are made, so that an
+// interrupted search can continue.
 
+// One evaluation. The extremes are over the three gaits.
 struct SearchTrial {
     SearchPoint point;
-    double miss = 0;  // of gait_objective.h
+    double miss = 0;  // missOf() in gait_trial.h
     double leastStrouhal = 0, mostStrouhal = 0;
     double leastStride = 0, mostStride = 0;  // body lengths a beat
     friend bool operator==(const SearchTrial&, const SearchTrial&) = default;
 };
 
-// A text file: a first line that says of which search, then a line for each trial. A last line that
-// was not finished, as an interruption leaves it, is cut off.
+// A text file: the first line names the search, then there is a line for each trial. A last line
+// that was not finished, as an interruption leaves it, is cut off. One process writes it at a time.
 class SearchJournal {
   public:
-    // Opens or begins it. Throws Error when the file is of another search, is damaged, or cannot be
-    // written.
+    // Opens the file or creates it. `search` is the first line, see searchName(). Throws Error when
+    // the file is of another search, is damaged, or cannot be written.
     SearchJournal(std::filesystem::path path, const std::string& search);
 
     [[nodiscard]] const std::vector<SearchTrial>& trials() const { return trials_; }
-    void add(const SearchTrial& trial);  // is in the file when this returns
+    // The trial has been handed to the file when this returns. Throws Error when that fails.
+    void add(const SearchTrial& trial);
 
   private:
     std::filesystem::path path_;
@@ -48,21 +52,22 @@ class SearchJournal {
     std::ofstream file_;
 };
 
-// Finds muscles, tissue and water with which a species swims as living fish do.
+// The optimisation.
 
-// Told after each trial: how many there were, and the best of them.
+// Called after each trial, on the thread of the search: how many there were, and the best of them.
 using SearchProgress = std::function<void(std::size_t trials, const SearchTrial& best)>;
 
-// From the species as it is, until every gait swims like a fish or so many trials were made; the
-// best of them. Deterministic: trials that the journal holds are not simulated again, so that an
-// interrupted search goes on to the end that it would have had. Throws Error when the journal holds
-// the trials of another program.
+// Starts from the species as it is. Ends when every gait swims like a living fish or after
+// mostTrials trials, at least 1; returns the best of them. Deterministic: trials that the journal
+// holds are not simulated again, so an interrupted search ends as it would have without the
+// interruption. Throws Error when the trials of the journal are not those that this program would
+// make. What `progress` throws ends the search and is passed on.
 [[nodiscard]] SearchTrial searchGaits(const config::Species& species,
                                       std::size_t mostTrials,
                                       SearchJournal& journal,
                                       const SearchProgress& progress);
 
-// What a journal of this search begins with.
+// The first line of a journal: the version of the search and the digest of the species file.
 [[nodiscard]] std::string searchName(const std::string& speciesText);
 
 }  // namespace aquarama::capture

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/capture/species_text.h"
 
+#include <cassert>
 #include <cctype>
 #include <cstddef>
 #include <numbers>
@@ -17,12 +18,15 @@ namespace {
 
 constexpr std::size_t kEnd = std::string_view::npos;
 
+// Whether a character is part of a name or a number.
 bool isWord(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-' ||
            c == '+';
 }
 
-// Walks over protobuf's text format: words, braces, and what separates them.
+// Reads the tokens of protobuf's text format that matter here: words (names and numbers) and
+// braces. It skips comments, strings and all other characters. Strings have no escapes in species
+// files.
 class TextWalk {
   public:
     explicit TextWalk(std::string_view text) : text_(text) {}
@@ -43,7 +47,8 @@ class TextWalk {
         }
         return {};
     }
-    [[nodiscard]] std::size_t position() const { return at_; }  // behind what came last
+    // The place in the text just after the last token.
+    [[nodiscard]] std::size_t position() const { return at_; }
 
   private:
     void skipTo(char end) {
@@ -56,7 +61,7 @@ class TextWalk {
         return text_.substr(begin, at_ - begin);
     }
 
-    std::string_view text_;
+    std::string_view text_;  // must outlive the walk
     std::size_t at_ = 0;
 };
 
@@ -72,8 +77,11 @@ std::string written(double value) {
 std::string withNumber(const std::string& text,
                        const std::vector<std::string>& field,
                        double value) {
+    assert(!field.empty());
     TextWalk walk(text);
-    std::vector<std::string> path{""};  // names of the messages that are open, and the last word
+    // The names of the open messages, and at the end the last word read: where it equals `field`,
+    // the next token is the value.
+    std::vector<std::string> path{""};
     for (std::string_view token = walk.next(); !token.empty(); token = walk.next()) {
         if (token == "{")
             path.emplace_back();

@@ -9,13 +9,15 @@
 
 namespace aquarama::capture {
 
-// The value of the first field that is reached by these names, as in {"swim", "slow", "gain"}, with
-// four significant digits. Throws Error when the text holds no such field.
+// The text with the value of one field replaced, in four significant digits. `field` is the path to
+// it, as in {"swim", "slow", "gain"}; the first field with this path is changed. Throws Error when
+// the text has none.
 [[nodiscard]] std::string withNumber(const std::string& text,
                                      const std::vector<std::string>& field,
                                      double value);
 
-// With all that the search may change as `species` has it.
+// The text with all parameters that the search may change, and the strengths of the turns, set to
+// those of `species`. Throws Error when a field is missing.
 [[nodiscard]] std::string withGaitsOf(const config::Species& species, std::string text);
 
 }  // namespace aquarama::capture

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/speed_response.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <sstream>
 
@@ -17,11 +17,16 @@ namespace aquarama::capture {
 
 namespace {
 
+// Steady swimming.
+
+// The fewest whole steps in a phase that are no longer than longestStepSeconds(). The small term
+// keeps rounding from adding a step.
 int stepsPerPhaseOf(const config::Species& species, double periodSeconds) {
     const double longest = longestStepSeconds(makeBiomechanicalFish(species));
     return static_cast<int>(std::ceil(periodSeconds / motion::kPhases / longest - 1e-9));
 }
 
+// Advances the swimmer by one beat and records it.
 RecordedCycle recordBeat(Swimmer& swimmer, double periodSeconds, int stepsPerPhase) {
     RecordedCycle beat{.periodSeconds = periodSeconds, .poses = {swimmer.state().positions}};
     for (int phase = 0; phase < motion::kPhases; ++phase) {
@@ -33,7 +38,7 @@ RecordedCycle recordBeat(Swimmer& swimmer, double periodSeconds, int stepsPerPha
     return beat;
 }
 
-// Where the body frame has gone since the first pose, in the body frame then.
+// The displacement of the body frame's origin since the first pose, in the body frame of that pose.
 glm::dvec3 wayOf(const RecordedCycle& beat, std::size_t phase) {
     const PoseFrame first = frameOf(beat.poses.front());
     return glm::transpose(first.worldFromBody) *
@@ -52,7 +57,9 @@ glm::dvec3 wayOf(const RecordedCycle& beat, std::size_t phase) {
 }  // namespace
 
 double differenceOf(const RecordedCycle& beat, const RecordedCycle& next) {
+    assert(beat.poses.size() == next.poses.size());
     double most = 0;
+    // std::max would lose a NaN.
     const auto note = [&](const glm::dvec3& a, const glm::dvec3& b) {
         const double difference = glm::distance(a, b);
         if (difference > most || std::isnan(difference)) most = difference;
@@ -66,7 +73,9 @@ double differenceOf(const RecordedCycle& beat, const RecordedCycle& next) {
     return most;
 }
 
+// The step divides the beat exactly, so that poses of the same phase can be compared.
 SteadySwimming swimUntilSteady(const config::Species& species, const config::Gait& gait) {
+    assert(gait.beatHertz > 0);
     const double periodSeconds = 1 / gait.beatHertz;
     const int steps = stepsPerPhaseOf(species, periodSeconds);
     SteadySwimming steady{.swimmer = Swimmer(species, periodSeconds / (motion::kPhases * steps)),
@@ -86,14 +95,18 @@ SteadySwimming swimUntilSteady(const config::Species& species, const config::Gai
 
 namespace {
 
-// In beats of the gait that is swum, or was. By then a fish that changes gait has come within a few
-// per cent of its new speed, and one that brakes stands.
+// Transitions.
+
+// How long a transition is recorded, in beats of the new gait, or for glide and brake of the old
+// one. By then a fish that changes gait is within a few per cent of its new speed, and one that
+// brakes is nearly at rest.
 constexpr int kSwumBeats = 12;
 constexpr int kGlidedBeats = 8;
 constexpr int kBrakedBeats = 2;
 
 using Masses = std::array<double, body::kNodalPoints>;  // sum 1
 
+// Weighted by mass: of places the centre of mass, of velocities its velocity.
 glm::dvec3 meanOf(const NodeVectors& vectors, const Masses& masses) {
     glm::dvec3 mean{};
     for (std::size_t i = 0; i < vectors.size(); ++i) mean += masses.at(i) * vectors.at(i);
@@ -105,6 +118,8 @@ glm::dvec3 meanVelocityOf(const RecordedCycle& beat) {
            beat.periodSeconds;
 }
 
+// A glide or a brake out of steady swimming. The tail does not beat, so no mean over a beat is
+// taken: a sample a phase, of the instantaneous speed.
 Transition coast(const SteadySwimming& from,
                  Controller controller,
                  int beats,
@@ -119,7 +134,9 @@ Transition coast(const SteadySwimming& from,
     return transition;
 }
 
-// A sample is the mean over the beat of `to` around it; before the change the fish went steadily.
+// From one gait to another, a sample a step. A sample is the mean speed over a beat of `to` around
+// it: the distance of the places half a beat before and after, by time. For the first samples the
+// half beat before the order is extrapolated from the steady speed of `from`.
 Transition changeGait(const SteadySwimming& from,
                       const SteadySwimming& to,
                       const config::Gait& gait,
@@ -130,6 +147,7 @@ Transition changeGait(const SteadySwimming& from,
     const auto halfBeat = static_cast<std::size_t>(std::lround(to.beat.periodSeconds / step / 2));
     const glm::dvec3 course = meanVelocityOf(from.beat);
     const glm::dvec3 start = meanOf(swimmer.state().positions, masses);
+    // Centres of mass, from half a beat before the order on.
     std::vector<glm::dvec3> places;
     for (std::size_t back = halfBeat; back > 0; --back)
         places.push_back(start - course * (step * static_cast<double>(back)));
@@ -149,6 +167,7 @@ Transition changeGait(const SteadySwimming& from,
 }  // namespace
 
 Transitions swimTransitions(const config::Species& species, const SteadyGaits& gaits) {
+    assert(std::ranges::none_of(gaits, [](const SteadySwimming* gait) { return !gait; }));
     const Masses masses = makeBiomechanicalFish(species).masses;
     const std::array orders{&species.swim.slow, &species.swim.medium, &species.swim.fast};
     const SteadySwimming& medium = *gaits[static_cast<std::size_t>(motion::Action::ForwardMedium)];
@@ -171,14 +190,15 @@ double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
 double fitTerm(const std::vector<Transition>& transitions,
                double SpeedLaw::*term,
                const SpeedLaw& known) {
+    assert(term != nullptr && known.*term == 0);
     SpeedLaw unit;
     unit.*term = 1;
     double products = 0;
     double squares = 0;
     for (const Transition& transition : transitions) {
         const std::vector<double>& v = transition.speeds;
-        double explained = 0;
-        double integral = 0;
+        double explained = 0;  // K of the header's formula, by the trapezoidal rule
+        double integral = 0;   // X
         for (std::size_t i = 1; i < v.size(); ++i) {
             const auto gained = [&](const SpeedLaw& law) {
                 return transition.sampleSeconds *

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Swimming until the beat repeats itself: only then is one period of the drive a cycle of the fish.
+// Steady swimming, where one period of the drive is a cycle of the fish; and how the speed of a
+// fish follows a change of what it does, measured on the dynamics. Speeds are body lengths a
+// second.
 #pragma once
 
 #include <array>
@@ -12,12 +14,13 @@
 
 namespace aquarama::capture {
 
-// The criterion. A beat repeats the one before when no nodal point differs by more than this, in
-// the body frame, at any phase, nor does the way of the body frame: the finest that a repertoire
-// can tell.
+// The criterion. A beat repeats the one before when, at each phase, no nodal point in the body
+// frame differs by more than this, and neither does the path of the body frame. It is the
+// resolution of a repertoire.
 inline constexpr double kRepeatsBodyLengths = static_cast<double>(motion::kPoseUnit);
 inline constexpr int kMostBeats = 200;
 
+// A fish that swims steadily, and the beat that is captured.
 struct SteadySwimming {
     Swimmer swimmer;        // at the end of that beat
     RecordedCycle beat;     // the first that repeats the one before
@@ -25,53 +28,59 @@ struct SteadySwimming {
     int beats = 0;          // from rest to the end of that beat
 };
 
-// From rest, with a whole number of steps to a phase, none longer than the longest that swims well.
-// Throws Error, naming species and gait, when kMostBeats do not bring two that are alike.
+// Starts from rest. A phase has a whole number of steps, none longer than longestStepSeconds().
+// Throws Error, naming species and gait, when no beat of the first kMostBeats repeats the one
+// before.
 [[nodiscard]] SteadySwimming swimUntilSteady(const config::Species& species,
                                              const config::Gait& gait);
 
-// The criterion's measure for two beats of one gait, in body lengths; NaN where a fish flew apart.
+// The measure of that criterion for two beats of one gait, in body lengths; NaN where the
+// simulation diverged.
 [[nodiscard]] double differenceOf(const RecordedCycle& beat, const RecordedCycle& next);
 
-// How a fish's speed follows what it plays, measured on the dynamics.
+// How the speed of a fish follows what it does.
 
-// A change of speed as the dynamics swam it, from the tick at which it was told to. Speeds in body
-// lengths a second: of the centre of mass along its course; while the tail beats, the mean over the
-// beat around.
+// A change of speed in the dynamics, from the moment of the order on. A speed is that of the centre
+// of mass along its course; while the tail beats, it is the mean over one beat around the sample.
 struct Transition {
-    double sampleSeconds = 0;
-    double segmentSpeed = 0;  // what it goes to
+    double sampleSeconds = 0;  // from sample to sample
+    double segmentSpeed = 0;   // the steady speed that it leads to; 0 for a glide and a brake
     std::vector<double> speeds;
 };
 
+// The transitions of one species that fitResponse() needs.
 struct Transitions {
-    std::array<std::vector<Transition>, motion::kForwardGaits>
-        swim;                 // to each gait from the other two
+    // To each gait from the other two.
+    std::array<std::vector<Transition>, motion::kForwardGaits> swim;
     Transition glide, brake;  // out of medium swimming
 };
+// Slow, medium and fast, none of them null; not owned.
 using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
 [[nodiscard]] Transitions swimTransitions(const config::Species& species, const SteadyGaits& gaits);
 
-// The law of SpeedResponse while one segment plays, p being its speed:
+// The law of motion::SpeedResponse while one segment plays, where v is the fish's speed and p the
+// segment's:
 //     dv/dt = swimDrag |p| (p - v) - glideDrag v |v| - brakeRate v,
-// where glideDrag is 0 while the fish swims.
+// where glideDrag is 0 while the fish swims. Drags are 1 / body length, brakeRate is 1 / s.
 struct SpeedLaw {
     double swimDrag = 0;
     double glideDrag = 0;
     double brakeRate = 0;
 };
+// dv/dt of that law, body lengths / s^2.
 [[nodiscard]] double acceleration(const SpeedLaw& law, double segmentSpeed, double speed);
 
-// The coefficient k of a law's term that explains best what the known terms leave. The law is
-// linear in k. Integrated over time, v(t) - v(0) - K(t) = k X(t), with K the integral of the known
-// terms along the measured speeds and X that of the term: a straight line through the origin,
-// fitted by least squares over all samples, k = sum(X (v - v(0) - K)) / sum(X^2). Never negative.
+// Fits the coefficient k of one term of the law, `term`, where the others are known. The law is
+// linear in k. Integrated over time it is v(t) - v(0) - K(t) = k X(t), where K is the integral of
+// the known terms along the measured speeds and X that of the term for k = 1. This is a straight
+// line through the origin, fitted by least squares over all samples: k = sum(X (v - v(0) - K)) /
+// sum(X^2). Never negative; 0 where the term has no effect.
 [[nodiscard]] double fitTerm(const std::vector<Transition>& transitions,
                              double SpeedLaw::*term,
                              const SpeedLaw& known);
 
-// swimDrag of a gait from the changes to it, whether they gather speed or lose it; glideDrag from
-// the glide, and with it brakeRate from the brake.
+// swimDrag of a gait is fitted to the changes to that gait, from slower and from faster ones;
+// glideDrag to the glide; brakeRate, with that glideDrag, to the brake.
 [[nodiscard]] motion::SpeedResponse fitResponse(const Transitions& transitions);
 
 }  // namespace aquarama::capture

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/swimmer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -13,12 +13,15 @@ namespace aquarama::capture {
 
 namespace {
 
+// Linear, the short way round the circle.
 double mixAngles(double from, double to, double share) {
     return from + share * std::remainder(to - from, 2 * std::numbers::pi);
 }
 
 }  // namespace
 
+// Body x is the nose's direction. Left is -z, so the heading is positive there. The roll compares
+// the heights of the z and the y axis; it is defined unless the fish stands on its nose or tail.
 BodyAngles bodyAnglesOf(const FishState& state) {
     const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
     const glm::dvec3& x = worldFromBody[0];
@@ -28,6 +31,7 @@ BodyAngles bodyAnglesOf(const FishState& state) {
 }
 
 BodyAngles sense(const BodyAngles& before, const FishState& state, double share) {
+    assert(share >= 0 && share <= 1);
     const BodyAngles now = bodyAnglesOf(state);
     return {.headingRadians = mixAngles(before.headingRadians, now.headingRadians, share),
             .pitchRadians = std::lerp(before.pitchRadians, now.pitchRadians, share),
@@ -36,16 +40,20 @@ BodyAngles sense(const BodyAngles& before, const FishState& state, double share)
 
 namespace {
 
-// A tail that stopped at once would leave the fish with what that beat had turned it.
+// The tail beat fades out over this many beats. If it stopped at once, the fish would keep the yaw
+// that the unfinished beat gave it.
 constexpr double kLastBeats = 0.5;
 
-// Of the fish's own seconds.
-constexpr double kHandover = 0.04;  // from one order's muscles to the next one's
+// The change-over from one order's muscle activations to the next one's, in the fish's own seconds.
+// A jump would kick the body.
+constexpr double kHandover = 0.04;
 
 }  // namespace
 
 Swimmer::Swimmer(const BiomechanicalFish& fish, const config::Swim& swim, double stepSeconds)
-    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {}
+    : fish_(fish), swim_(swim), stepSeconds_(stepSeconds), state_(stateAtRest(fish_)) {
+    assert(stepSeconds > 0);
+}
 
 Swimmer::Swimmer(const config::Species& species, double stepSeconds)
     : Swimmer(makeBiomechanicalFish(species), species.swim, stepSeconds) {}
@@ -54,6 +62,8 @@ Swimmer::Swimmer(const config::Species& species)
     : Swimmer(species, longestStepSeconds(makeBiomechanicalFish(species))) {}
 
 void Swimmer::give(const Order& order) {
+    assert(order.bend.tempo > 0);
+    // After an order without a tail beat no beat is left that a glide or a brake could fade out.
     if (!swims()) beating_.gain = 0;
     order_ = order;
     if (swims() || order.controller == Controller::Retreat) beating_ = order.gait;
@@ -63,14 +73,18 @@ void Swimmer::give(const Order& order) {
 }
 
 void Swimmer::advance(int steps) {
+    assert(steps >= 0);
     for (int i = 0; i < steps; ++i) advanceOne();
 }
 
+// Controllers act on what was sensed after the step before; then the dynamics move, then the fish
+// senses and the clocks advance.
 void Swimmer::advanceOne() {
     const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
     control_ = {.muscles = mix(musclesBefore_, muscleProgram(), handedOver), .fins = finProgram()};
     step(fish_, control_, stepSeconds_, state_);
     ++steps_;
+    // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
     attitude_ =
         sense(attitude_, state_, stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
     const double ownSeconds = stepSeconds_ * fish_.timeScale;
@@ -107,6 +121,8 @@ MuscleActivation Swimmer::muscleProgram() const {
     return {};
 }
 
+// `share` scales the beat: 1 while the fish swims, less while the beat fades out. From rest the
+// beat grows over kRampOwnSeconds.
 MuscleActivation Swimmer::tailBeat(double share) const {
     const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
     return beatAt(swim_, share * beating_.gain * grown, beat_);

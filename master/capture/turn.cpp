@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/turn.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -16,8 +16,10 @@ namespace aquarama::capture {
 
 namespace {
 
-constexpr double kLongestTurn = 4;  // the fish's own seconds
+constexpr double kLongestTurn = 4;  // the fish's own seconds; a bend takes 1.45 at a tempo of 1
 
+// The greatest distance of a nodal point from its place in the straight fish, body lengths. `pose`
+// is in the world, `straight` in the body frame.
 double bendOf(const NodeVectors& pose, const NodeVectors& straight) {
     const NodeVectors bent = inBodyFrame(pose);
     double most = 0;
@@ -26,6 +28,7 @@ double bendOf(const NodeVectors& pose, const NodeVectors& straight) {
     return most;
 }
 
+// The turn begun at phase i * kPhases / kOnsets is at index i.
 std::array<RecordedCycle, kOnsets> recordLeftTurns(const config::Species& species,
                                                    const SteadySwimming& entry,
                                                    const config::Bend& bend) {
@@ -61,10 +64,14 @@ RecordedCycle recordTurn(const config::Species& species,
                          Controller leftOrRight,
                          const config::Bend& bend,
                          int onsetPhase) {
+    assert(leftOrRight == Controller::LeftTurn || leftOrRight == Controller::RightTurn);
+    assert(onsetPhase >= 0 && onsetPhase < motion::kPhases);
     Swimmer swimmer = entry.swimmer;
     swimmer.advance(onsetPhase * entry.stepsPerPhase);
     swimmer.give({.controller = leftOrRight, .bend = bend});
 
+    // Every step is recorded until the turn is over and the number of steps is a multiple of
+    // kPhases.
     const BiomechanicalFish fish = makeBiomechanicalFish(species);
     const NodeVectors straight = inBodyFrame(fish.restPositions);
     const double muscleSteps = secondsOf(bend, species) / swimmer.stepSeconds();
@@ -81,6 +88,7 @@ RecordedCycle recordTurn(const config::Species& species,
         poses.push_back(swimmer.state().positions);
     }
 
+    // Of these, kPhases + 1 evenly spaced poses are kept.
     const std::size_t stride = (poses.size() - 1) / motion::kPhases;
     RecordedCycle turn{
         .periodSeconds = swimmer.stepSeconds() * static_cast<double>(poses.size() - 1),

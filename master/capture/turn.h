@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns as the simulation swims them, from their onset in steady swimming until the fish is
-// straight again, and how far they go.
+// Turns in the simulation, from their onset in steady swimming until the fish is straight again,
+// and by how much they change the course. Angles are radians, left positive.
 #pragma once
 
 #include <array>
@@ -10,24 +10,26 @@
 
 namespace aquarama::capture {
 
-// A turn is over when its muscles are relaxed and no nodal point is further than this from where
-// it is in a straight fish, in the body frame.
+// A turn is over when its muscles are relaxed and no nodal point is farther than this from its
+// place in the straight fish, in the body frame.
 inline constexpr double kStraightBodyLengths = 0.03;
 
-// Left or right, begun at a phase (0 to kPhases - 1) of the beat. Throws Error, naming the species,
-// when the fish does not become straight within four of its own seconds.
+// A left or right turn out of the steady swimming `entry`, begun at a phase (0 to kPhases - 1) of
+// the beat. Throws Error, naming the species, when the fish does not become straight within four of
+// its own seconds.
 [[nodiscard]] RecordedCycle recordTurn(const config::Species& species,
                                        const SteadySwimming& entry,
                                        Controller leftOrRight,
                                        const config::Bend& bend,
                                        int onsetPhase);
 
-// From the course before to the heading after; left positive.
+// The angle from the course before the turn to the heading of the body frame at its end.
 [[nodiscard]] double turnRadians(const RecordedCycle& turn);
 
-inline constexpr int kOnsets = 8;  // evenly over the beat
+// Phases of the beat, evenly spaced, at which a turn is tried. It divides kPhases.
+inline constexpr int kOnsets = 8;
 
-// Left turns of one bend out of one gait.
+// Left turns with one bend out of one gait, begun at each of the kOnsets phases.
 struct TurnSpread {
     motion::Action turn = motion::Action::TurnLeftGradual;
     motion::Action entry = motion::Action::ForwardMedium;
@@ -37,11 +39,12 @@ struct TurnSpread {
     [[nodiscard]] double most() const;
 };
 
-// Gradual and sharp, each entered from slow, medium and fast swimming.
+// Gradual and sharp left turns, each entered from slow, medium and fast swimming: 48 simulations.
+// Throws as recordTurn() and swimUntilSteady() do.
 [[nodiscard]] std::vector<TurnSpread> surveyTurns(const config::Species& species);
 
-// The one to capture, entered from medium swimming: of the turns begun at kOnsets phases, that
-// which goes nearest to their mean.
+// The turn to capture, entered from medium swimming: of the turns begun at kOnsets phases, the one
+// whose angle is nearest to their mean.
 [[nodiscard]] RecordedCycle recordTypicalLeftTurn(const config::Species& species,
                                                   const SteadySwimming& medium,
                                                   const config::Bend& bend);

@@ -2,7 +2,7 @@
 """Prints the tables of docs/adaptation.md and draws the figure: draw_study.py adaptation DIR [figure], or
 draw_study.py chronicle DIR HOURS.
 
-DIR holds the files of CSV that `aquarama study` or `aquarama study chronicle` writes (see study_csv.h).
+DIR holds the files of CSV that `aquarama study` or `aquarama study chronicle` writes (see study.h).
 """
 
 import sys
@@ -15,7 +15,8 @@ from scipy import stats
 sys.path.append(str(Path(__file__).resolve().parents[1] / "capture/report"))
 from figures import PX, QUIET, markdown_table, plt, read_csv, save
 
-# Words with the unit, digits after the point, what was published.
+# The quantities of the tables, by the column of the CSV: words with the unit, digits after the point, published
+# values of living fish.
 QUANTITIES = {
     "touches_per_fish_minute": ("overlaps that begin, a fish and minute", 3, ""),
     "deep_touches_per_fish_minute": ("of them deeper than a quarter of a body", 4, ""),
@@ -34,20 +35,24 @@ QUANTITIES = {
     "rotation": ("rotation", 2, "> 0.65 milling (Tunstrom 2013)"),
     "intention_changes_per_minute": ("changes of intention, a fish and minute", 2, ""),
 }
-# Of the figure: an adaptation and what it is there for.
+# The panels of the figure: an adaptation, the condition without it, the scenario where it is measured, and the
+# quantity that it is meant to improve.
 PANELS = [("recommendations", "no recommendations", "school", "same_segment_percent"),
           ("recommendations", "no recommendations", "school", "in_step_percent"),
           ("enlarged regions", "regions not enlarged", "crowded tank", "touches_per_fish_minute"),
           ("enlarged regions", "regions not enlarged", "reef", "touches_per_fish_minute"),
           ("earlier pursuit", "late pursuit", "feeding", "half_pinch_seconds"),
           ("earlier pursuit", "late pursuit", "feeding", "meals_per_try")]
+# Colours of runs without and with the adaptation.
 WITHOUT, WITH = "#b4472f", "#1f6f8b"
 
 
 def is_clear(without, with_all):
     """Whether runs differ, seed by seed, by more than chance would do in 95 of 100 studies."""
+    # Student's paired t-test, two-sided, at a significance level of 5 %. NaN marks a seed without a value.
     differences = with_all - without
     differences = differences[~np.isnan(differences)]
+    # One difference has no standard error.
     if len(differences) < 2:
         return False
     return abs(differences.mean()) > stats.t.ppf(0.975, len(differences) - 1) * stats.sem(differences)
@@ -59,6 +64,7 @@ def runs_of(rows):
     for row in rows:
         for quantity in QUANTITIES:
             runs[row["scenario"]][row["condition"]][quantity].append(np.nan if row[quantity] is None else row[quantity])
+    # Lists become arrays; all have the seeds in the same order, so that they can be compared in pairs.
     return {scenario: {condition: {quantity: np.array(values) for quantity, values in quantities.items()}
                        for condition, quantities in conditions.items()} for scenario, conditions in runs.items()}
 
@@ -75,10 +81,13 @@ def cell(values, digits, is_bold):
 
 def print_adaptation(runs):
     """For each scenario a row a quantity and a column a condition; bold differs clearly from the first, "all"."""
+    # A table for each scenario.
     for scenario, conditions in runs.items():
+        # The first condition in the file is "all": with every adaptation.
         with_all = next(iter(conditions.values()))
         rows = []
         for quantity, (words, digits, published) in QUANTITIES.items():
+            # A quantity that no run of the scenario has is left out.
             if all(np.isnan(of[quantity]).all() for of in conditions.values()):
                 continue
             cells = [cell(of[quantity], digits, of is not with_all and is_clear(of[quantity], with_all[quantity]))
@@ -95,6 +104,7 @@ def draw_adaptation(runs):
         if scenario not in runs:
             axes.set_visible(False)
             continue
+        # One line for each seed, a point for each run, a bar for the mean.
         without, with_all = runs[scenario][condition][quantity], runs[scenario]["all"][quantity]
         axes.plot([1, 2], [without, with_all], color="#c3cdd4", linewidth=0.8)
         for place, values, colour in [(1, without, WITHOUT), (2, with_all, WITH)]:
@@ -110,9 +120,11 @@ def draw_adaptation(runs):
     return figure
 
 
+# A row for each hour of a chronicle. The shares of time in each routine stand in one column, separated by slashes.
 def print_hours(hours):
     routines = [key for key in hours[0] if key.endswith(" share")]
     shares = " / ".join(key.removesuffix(" share") for key in routines) + ", %"
+    # Columns of routines are recognised by their names, so that a new routine needs no change here.
     head = ["hour", "fewest fish", "meals", "catches", "returns", "spawnings", shares,
             "changes of intention, a fish and minute", "overlaps, a fish and minute", "in another fish, %",
             "into terrain", "shortest way, m", "longest stay, s (fish)", "farthest out, m", "spread, m",
@@ -130,9 +142,11 @@ def print_overlaps(overlaps, key, words, hours):
     """By the pair of what `key` names; those that lasted longest together first."""
     groups = defaultdict(list)
     for row in overlaps:
+        # The pair is unordered.
         groups[", ".join(sorted([row[f"{key}_a"], row[f"{key}_b"]]))].append(row)
     head = [words, "overlaps an hour", "seconds an hour", "longest, s", "longest over a quarter of a body, s",
             "deepest, % of the shorter body"]
+    # Seconds of overlap of each pair, which give the order of the rows.
     totals = {pair: sum(row["seconds"] for row in rows) for pair, rows in groups.items()}
     print(markdown_table(head, [[
         pair, f"{len(groups[pair]) / hours:.1f}", f"{totals[pair] / hours:.1f}",
@@ -141,10 +155,12 @@ def print_overlaps(overlaps, key, words, hours):
         for pair in sorted(totals, key=lambda pair: (-totals[pair], pair))]))
 
 
+# `more` is "figure" or empty for an adaptation study, and the hours simulated for a chronicle.
 def main(what, folder, more):
     if what == "adaptation":
         runs = runs_of(read_csv(folder / "adaptation.csv"))
         print_adaptation(runs)
+        # The table goes to standard output; the name of the figure must not be mixed into it.
         if more == "figure":
             print(save(draw_adaptation(runs), folder / "adaptation.svg"), file=sys.stderr)
     else:

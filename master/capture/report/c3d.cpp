@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/c3d.h"
 
 #include <algorithm>
@@ -15,8 +14,11 @@ namespace aquarama::report {
 
 namespace {
 
-constexpr std::size_t kDorsalTip = 21;  // behind the nose and five rings of four
+// Names of markers.
 
+constexpr std::size_t kDorsalTip = 21;  // after the nose and five rings of four
+
+// A corner of a ring, in the order of the nodal points.
 struct Corner {
     const char* label;
     const char* description;
@@ -26,10 +28,12 @@ constexpr std::array kCorners{Corner{"DL", "dorsal left"},
                               Corner{"VR", "ventral right"},
                               Corner{"VL", "ventral left"}};
 
+// The number of a node's ring, 1 to 5. Not for nose and tail.
 std::string ringOf(std::size_t node) {
     return std::to_string(1 + (node - 1) / kCorners.size());
 }
 
+// Of a node of a ring.
 const Corner& cornerOf(std::size_t node) {
     return kCorners.at((node - 1) % kCorners.size());
 }
@@ -37,6 +41,7 @@ const Corner& cornerOf(std::size_t node) {
 }  // namespace
 
 std::string markerLabel(std::size_t node) {
+    assert(node < body::kNodalPoints);
     if (node == 0) return "NOSE";
     if (node >= kDorsalTip) return node == kDorsalTip ? "TAIL_D" : "TAIL_V";
     return "R" + ringOf(node) + "_" + cornerOf(node).label;
@@ -52,6 +57,9 @@ std::string markerDescription(std::size_t node) {
 
 namespace {
 
+// CSV.
+
+// std::to_chars does not depend on the locale. 32 characters hold any float.
 void append(std::string& text, double value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.begin(), digits.end(), static_cast<float>(value)).ptr;
@@ -77,27 +85,31 @@ std::string csvOf(const Take& take) {
 
 namespace {
 
+// C3D. The file has three sections, each of whole blocks: the header (one block), the parameters,
+// and the data. Numbers are little-endian.
+
 constexpr std::size_t kBlockBytes = 512;
-constexpr std::uint8_t kParameterBlock = 2;  // blocks count from 1; the header is the first
-constexpr std::uint8_t kSignature = 0x50;
-constexpr std::uint8_t kIntel = 84;
-// Negative: coordinates are floats and need no factor.
+constexpr std::uint8_t kParameterBlock = 2;  // blocks count from 1; the header is block 1
+constexpr std::uint8_t kSignature = 0x50;    // in the second byte of header and parameters
+constexpr std::uint8_t kIntel = 84;          // little-endian, IEEE floats
+// POINT:SCALE. Negative: the coordinates are floats in the file's unit and need no factor.
 constexpr float kScale = -1.0F;
 
+// Appends zeros up to a size.
 void pad(motion::ByteWriter& out, std::size_t bytes) {
     while (out.written().size() < bytes) out.unsignedNumber(std::uint8_t{0});
 }
 
+// The number of blocks that hold so many bytes.
 std::size_t blocksFor(std::size_t bytes) {
     return (bytes + kBlockBytes - 1) / kBlockBytes;
 }
 
-// A group of parameters, or one of them with its data: name and number, how far on the next
-// begins, what it is.
+// A record of the parameter section: a group of parameters, or one parameter with its data.
 struct Record {
     std::string name;
-    int group = 0;  // negative: this is the group itself
-    std::vector<std::byte> data;
+    int group = 0;                // number of the group; negative: this record is the group itself
+    std::vector<std::byte> data;  // empty for a group
     std::string description;
 };
 
@@ -105,19 +117,25 @@ Record group(int number, const std::string& name, const std::string& description
     return {.name = name, .group = -number, .data = {}, .description = description};
 }
 
+// Types of elements: the number of bytes, but -1 for characters.
 constexpr int kCharacter = -1;
 constexpr int kInteger = 2;
 constexpr int kReal = 4;
 
-// The type of the elements and the array's dimensions, before the elements.
+// The head of a parameter's data: the type of the elements, the number of dimensions and each of
+// them, in a byte each. No dimensions mean a scalar. The elements follow.
 motion::ByteWriter dataOf(int type, const std::vector<std::size_t>& dimensions) {
     motion::ByteWriter data;
     data.unsignedNumber(static_cast<std::uint8_t>(type));
     data.unsignedNumber(static_cast<std::uint8_t>(dimensions.size()));
-    for (const std::size_t size : dimensions) data.unsignedNumber(static_cast<std::uint8_t>(size));
+    for (const std::size_t size : dimensions) {
+        assert(size <= 255);
+        data.unsignedNumber(static_cast<std::uint8_t>(size));
+    }
     return data;
 }
 
+// An unsigned 16-bit parameter.
 Record integer(int groupNumber, const std::string& name, std::size_t value) {
     motion::ByteWriter data = dataOf(kInteger, {});
     data.unsignedNumber(static_cast<std::uint16_t>(value));
@@ -136,7 +154,7 @@ Record text(int groupNumber, const std::string& name, const std::string& value) 
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
 
-// Filled up with blanks to one length.
+// An array of strings, each padded with blanks to the length of the longest, as the format demands.
 Record texts(int groupNumber, const std::string& name, std::vector<std::string> values) {
     std::size_t length = 0;
     for (const std::string& value : values) length = std::max(length, value.size());
@@ -148,6 +166,7 @@ Record texts(int groupNumber, const std::string& name, std::vector<std::string> 
     return {.name = name, .group = groupNumber, .data = std::move(data).take(), .description = ""};
 }
 
+// All groups and parameters; `dataBlock` is the number of the first block of the data section.
 std::vector<Record> recordsOf(const Take& take, std::size_t dataBlock) {
     std::vector<std::string> labels;
     std::vector<std::string> descriptions;
@@ -177,11 +196,13 @@ std::vector<Record> recordsOf(const Take& take, std::size_t dataBlock) {
             real(kOwn, "BODY_LENGTH", static_cast<float>(take.lengthMetres))};
 }
 
+// Length of the name, number of the group, name, offset of the next record, data, description.
 void write(motion::ByteWriter& out, const Record& record, bool isLast) {
+    assert(record.name.size() <= 127);
     out.unsignedNumber(static_cast<std::uint8_t>(record.name.size()));
     out.unsignedNumber(static_cast<std::uint8_t>(record.group));
     out.characters(record.name);
-    // From here to the next record; 0 ends the section.
+    // The offset counts from its own first byte; 0 marks the last record.
     const std::size_t next = 2 + record.data.size() + 1 + record.description.size();
     out.unsignedNumber(static_cast<std::uint16_t>(isLast ? 0 : next));
     for (const std::byte byte : record.data)
@@ -190,10 +211,11 @@ void write(motion::ByteWriter& out, const Record& record, bool isLast) {
     out.characters(record.description);
 }
 
-// Filled up to whole blocks.
+// Padded to `blocks` blocks. With 0 blocks it is not padded: so c3dOf() finds its size.
 std::vector<std::byte> parameterSection(const Take& take, std::size_t blocks) {
+    assert(blocks <= 255);
     motion::ByteWriter out;
-    out.unsignedNumber(std::uint8_t{1});  // where the first record is, by custom
+    out.unsignedNumber(std::uint8_t{1});  // reserved; 1 by convention
     out.unsignedNumber(kSignature);
     out.unsignedNumber(static_cast<std::uint8_t>(blocks));
     out.unsignedNumber(kIntel);
@@ -218,8 +240,10 @@ void writeHeader(motion::ByteWriter& out, const Take& take, std::size_t dataBloc
     pad(out, kBlockBytes);
 }
 
+// Four floats for each marker: x, y, z and a word about how it was measured.
 void writeFrame(motion::ByteWriter& out, const TakeFrame& frame) {
-    constexpr float kSeenByNoCamera = 0.0F;  // and no residual: a modelled point
+    // The fourth word holds the cameras that saw the point and its residual: here none.
+    constexpr float kSeenByNoCamera = 0.0F;
     for (const glm::dvec3& node : frame.nodes) {
         for (const double metres : {node.x, node.y, node.z})
             out.float32(static_cast<float>(metres));
@@ -231,6 +255,8 @@ void writeFrame(motion::ByteWriter& out, const TakeFrame& frame) {
 
 std::vector<std::byte> c3dOf(const Take& take) {
     assert(take.frames.size() <= kMostFrames);
+    // The size of the parameter section does not depend on the numbers in it, which say where the
+    // data section begins: so it is built once to measure it and once to write it.
     const std::size_t blocks = blocksFor(parameterSection(take, 0).size());
     const std::size_t dataBlock = kParameterBlock + blocks;
     motion::ByteWriter out;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/compare.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -15,24 +15,29 @@ namespace aquarama::report {
 
 namespace {
 
-constexpr double kShapeGoal = 0.01;  // body lengths
-constexpr double kLagStep = 0.25;    // ticks
+// Errors of one command.
 
-// In its first beat a command is on its way from the one before; of a short one in its first half.
+constexpr double kShapeGoal = 0.01;  // body lengths: shapes that differ by less agree
+constexpr double kLagStep = 0.25;    // ticks: the resolution of the search for the lag
+
+// The transition is the first beat of a command, but at most the first half of it.
 int transitionTicksOf(const ScriptCommand& command) {
     return std::min(static_cast<int>(std::lround(command.beatTicks)), command.ticks / 2);
 }
 
-// One command in both traces.
+// One command in both traces; indices of the traces.
 struct Passage {
     const Trace& fish;
     const Trace& replica;
-    std::size_t first = 0;  // the tick before its first
-    std::size_t last = 0;
+    std::size_t first = 0;  // the point before the command's first tick
+    std::size_t last = 0;   // its last tick
     std::size_t transitionEnd = 0;
     double beatTicks = 1;
 };
 
+// The pose at a fractional tick, linearly interpolated. Returns a reference into the trace at a
+// whole tick, else `mixed`, which it fills: copying every pose would dominate the search for the
+// lag.
 const capture::NodeVectors& mixedPose(const Trace& trace,
                                       double tick,
                                       capture::NodeVectors& mixed) {
@@ -44,7 +49,8 @@ const capture::NodeVectors& mixedPose(const Trace& trace,
     return mixed;
 }
 
-// Mean over the nodal points, body lengths squared.
+// The mean squared distance of the nodal points, body lengths squared: the fish at a tick against
+// the replica `lag` ticks later.
 double squaredShapeError(const Passage& passage, std::size_t tick, double lag) {
     const capture::NodeVectors& pose = passage.fish[tick].pose;
     capture::NodeVectors mixed;
@@ -58,11 +64,13 @@ double squaredShapeError(const Passage& passage, std::size_t tick, double lag) {
     return sum / body::kNodalPoints;
 }
 
+// Whether a fractional tick lies within the command.
 bool has(const Passage& passage, double tick) {
     return tick >= static_cast<double>(passage.first) && tick <= static_cast<double>(passage.last);
 }
 
-// Root mean square over the ticks (from, to], as far as the command has them at that lag.
+// Root mean square over the ticks from + 1 to `to`. Ticks at which the lag leaves the command are
+// left out; 0 when none remains.
 double shapeError(const Passage& passage, std::size_t from, std::size_t to, double lag) {
     double sum = 0;
     int ticks = 0;
@@ -74,8 +82,10 @@ double shapeError(const Passage& passage, std::size_t from, std::size_t to, doub
     return std::sqrt(sum / std::max(ticks, 1));
 }
 
-// That with which the shapes agree best after the transition; of equally good ones the smallest.
+// The lag of at most half a beat, either way, at which the shapes agree best after the transition.
+// It tries 0, -1, +1, -2, ... steps, so that of equally good lags the smallest wins.
 double bestLag(const Passage& passage) {
+    // Steps to either side: half a beat.
     const int steps = static_cast<int>(passage.beatTicks / 2 / kLagStep);
     double best = 0;
     double least = shapeError(passage, passage.transitionEnd, passage.last, 0);
@@ -90,6 +100,7 @@ double bestLag(const Passage& passage) {
     return best;
 }
 
+// The first tick of the command from which on the shapes agree over a beat, at that lag.
 std::optional<int> agreementOf(const Passage& passage, double lag) {
     const auto beat = static_cast<std::size_t>(std::ceil(passage.beatTicks));
     for (std::size_t from = passage.first; from + beat <= passage.last; ++from)
@@ -98,6 +109,8 @@ std::optional<int> agreementOf(const Passage& passage, double lag) {
     return std::nullopt;
 }
 
+// `beatBefore` is the length of a beat in ticks before the command: its heading is averaged over
+// it.
 CommandErrors errorsOf(const ScriptCommand& command, const Passage& passage, double beatBefore) {
     const auto& [fish, replica, first, last, transitionEnd, beat] = passage;
     CommandErrors errors{.command = command, .firstTick = static_cast<int>(first)};
@@ -107,6 +120,7 @@ CommandErrors errorsOf(const ScriptCommand& command, const Passage& passage, dou
     errors.shapeAsPlayed = shapeError(passage, first, last, 0);
     errors.agreesAfterTicks = agreementOf(passage, errors.lagTicks);
 
+    // The path, and the parts of its error along and across the chord of the fish's path.
     const Overlay overlay(fish, replica, first, beatBefore);
     errors.path = pathLength(fish, first, last);
     errors.pathErrorAtEnd = overlay.distanceAt(last) / errors.path;
@@ -122,6 +136,8 @@ CommandErrors errorsOf(const ScriptCommand& command, const Passage& passage, dou
     return errors;
 }
 
+// From the index `start` to the end of the traces. The beats, in ticks, are those over which the
+// headings at the start and at the end are averaged.
 OpenLoopErrors openLoopOf(
     const Trace& fish, const Trace& replica, std::size_t start, double firstBeat, double lastBeat) {
     const std::size_t end = fish.size() - 1;
@@ -133,6 +149,9 @@ OpenLoopErrors openLoopOf(
             .replicaWay = overlay.wayTo(end)};
 }
 
+// Statistics.
+
+// Of weighted values; 0 of none.
 class RootMeanSquare {
   public:
     void add(double value, double weight) {
@@ -146,14 +165,16 @@ class RootMeanSquare {
     double weight_ = 0;
 };
 
-// So large that this share of the values is not larger; 0 of none.
+// The least of the values such that at least this share of them is not greater; 0 of none.
 double quantile(std::vector<double> values, double share) {
+    assert(share >= 0 && share <= 1);
     if (values.empty()) return 0;
     std::ranges::sort(values);
     const double rank = std::ceil(share * static_cast<double>(values.size()));
     return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
+// Appends the errors of one command's ticks to the two series.
 void addShapes(const Passage& passage, double lag, Comparison& comparison) {
     for (std::size_t tick = passage.first + 1; tick <= passage.last; ++tick) {
         const bool isThere = has(passage, static_cast<double>(tick) + lag);
@@ -167,10 +188,14 @@ void addShapes(const Passage& passage, double lag, Comparison& comparison) {
 
 Comparison compare(const Script& script, const Traces& traces) {
     const auto& [fish, replica, loose] = traces;
+    assert(!script.empty());
+    assert(fish.size() == static_cast<std::size_t>(script.front().ticks + ticksOf(script)) + 1);
+    assert(replica.size() == fish.size() && loose.size() == fish.size());
     Comparison comparison;
     auto first = static_cast<std::size_t>(script.front().ticks);
     comparison.openLoop =
         openLoopOf(fish, loose, first, script.front().beatTicks, script.back().beatTicks);
+    // Command 0 is the run-in; each command begins where the one before ends.
     for (std::size_t i = 1; i < script.size(); ++i) {
         const std::size_t last = first + static_cast<std::size_t>(script[i].ticks);
         const auto transition = static_cast<std::size_t>(transitionTicksOf(script[i]));
@@ -187,6 +212,7 @@ Summary summarise(std::span<const CommandErrors> commands) {
     RootMeanSquare within, transition, asPlayed, heading;
     std::vector<double> paths, along, across;
     std::vector<double> agreements;
+    // Shapes are weighted by the ticks to which they belong.
     for (const CommandErrors& errors : commands) {
         const int transitionTicks = transitionTicksOf(errors.command);
         within.add(errors.shapeWithin, errors.command.ticks - transitionTicks);
@@ -215,7 +241,9 @@ Summary summarise(std::span<const CommandErrors> commands) {
 }
 
 double headingAt(const Trace& trace, std::size_t tick, double beatTicks) {
+    assert(tick < trace.size() && beatTicks > 0);
     glm::dvec3 sum{};
+    // Backwards from the tick; the last summand may be a fraction of a tick.
     double left = beatTicks;
     for (std::size_t at = tick; left > 0; --at, left -= 1) {
         sum += std::min(left, 1.0) * trace[at].frame.worldFromBody[0];
@@ -224,11 +252,13 @@ double headingAt(const Trace& trace, std::size_t tick, double beatTicks) {
     return std::atan2(-sum.z, sum.x);
 }
 
+// std::remainder rounds to the nearest whole turn.
 double wrapped(double radians) {
     return std::remainder(radians, 2 * std::numbers::pi);
 }
 
 double pathLength(const Trace& trace, std::size_t from, std::size_t to) {
+    assert(from <= to && to < trace.size());
     double length = 0;
     for (std::size_t tick = from; tick < to; ++tick)
         length += glm::distance(trace[tick].frame.origin, trace[tick + 1].frame.origin);
@@ -241,7 +271,10 @@ Overlay::Overlay(const Trace& fish, const Trace& replica, std::size_t start, dou
       start_(start),
       turn_(headingAt(fish, start, beatTicks) - headingAt(replica, start, beatTicks)) {}
 
+// In the world of the fish.
 glm::dvec3 Overlay::at(std::size_t tick) const {
+    assert(tick < replica_.size());
+    // Only the heading is corrected, about the vertical: climb and pitch remain errors.
     const glm::dvec3 way = replica_[tick].frame.origin - replica_[start_].frame.origin;
     return fish_[start_].frame.origin + glm::angleAxis(turn_, glm::dvec3(0, 1, 0)) * way;
 }

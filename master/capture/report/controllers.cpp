@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/controllers.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -20,7 +20,10 @@ namespace aquarama::report {
 
 namespace {
 
-// Along the body's axis: backward is negative.
+// Trials.
+
+// Advances the swimmer and returns its mean speed along the body axis at the end, body lengths a
+// second; negative is backward.
 double speedOver(capture::Swimmer& swimmer, double seconds) {
     const glm::dvec3 from = middleOf(swimmer.state().positions);
     const double start = swimmer.seconds();
@@ -29,14 +32,17 @@ double speedOver(capture::Swimmer& swimmer, double seconds) {
     return glm::dot(frame.origin - from, frame.worldFromBody[0]) / (swimmer.seconds() - start);
 }
 
+// Gives the order and records. The moments are at the simulation steps nearest to even times.
 ControllerTrial record(capture::Swimmer swimmer,
                        const capture::Order& order,
                        double seconds,
                        double speedBefore) {
+    assert(seconds > 0);
     ControllerTrial trial{.moments = {}, .speedBefore = speedBefore};
     const glm::dvec3 start = middleOf(swimmer.state().positions);
     const double begin = swimmer.seconds();
     swimmer.give(order);
+    // Each time is computed from the start, so that the rounding to whole steps does not add up.
     for (int i = 0; i <= kMoments; ++i) {
         const double until = begin + seconds * i / kMoments;
         swimmer.advance(
@@ -47,6 +53,7 @@ ControllerTrial record(capture::Swimmer swimmer,
         for (glm::dvec3& node : moment.nodes) node -= start;
         trial.moments.push_back(moment);
     }
+    // Over one beat, or at most a third of a second.
     trial.speedAfter = speedOver(swimmer, 1 / std::max(order.gait.beatHertz, 3.0));
     return trial;
 }
@@ -91,22 +98,27 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kRunUpBeats = 20;
+// Data of the figure.
+
+constexpr double kRunUpBeats = 20;                        // until medium swimming is nearly steady
 constexpr double kRoll = 40 * kRadiansPerDegree<double>;  // from which balance rights the fish
 constexpr double kPitch = 20 * kRadiansPerDegree<double>;
 
+// A list of lists of points.
 json listOfPolygons(const std::vector<Polygon>& polygons) {
     json list = json::array();
     for (const Polygon& polygon : polygons) list.push_back(listOf(polygon));
     return list;
 }
 
-// Where the fish is at each moment and how it lies; its silhouettes at `fish` of them, evenly.
+// Place and attitude of the fish at each moment, and its silhouette at `fish` >= 2 of them, evenly
+// spaced.
 json trialData(const std::string& controller,
                const ControllerTrial& trial,
                const body::FishBody& body,
                ViewSide view,
                int fish) {
+    assert(fish >= 2);
     json data{{"controller", controller},
               {"view", view == ViewSide::Above ? "above" : "side"},
               {"speed_before", trial.speedBefore},
@@ -134,6 +146,8 @@ json trialData(const std::string& controller,
 
 }  // namespace
 
+// One trial for each controller, with its length in seconds, its view and the number of
+// silhouettes.
 std::string controllersData(const config::Species& species) {
     const body::FishBody body = body::makeBody(species);
     json trials = json::array();
@@ -158,7 +172,7 @@ std::string controllersData(const config::Species& species) {
     using enum ViewSide;
     addSwimming("forward swim", ForwardSwim, 1.5, Above, 4);
     addSwimming("left turn", LeftTurn, 1, Above, 5);
-    // From the other half of the beat, so that it is the left one's mirror image.
+    // Half a beat later, so that it is the mirror image of the left turn.
     addSwimming("right turn", RightTurn, 1, Above, 5, kRunUpBeats + 0.5);
     addSwimming("glide", Glide, 1.5, Above, 4);
     addSwimming("ascend", Ascend, 1.5, ViewSide::Side, 4);

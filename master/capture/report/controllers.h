@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the dynamic fish does after an order, as the sheet of controllers shows it.
+// Trials of the motor controllers: the biomechanical fish after an order, as the figure of the nine
+// controllers shows it.
 #pragma once
 
 #include <vector>
@@ -10,24 +11,29 @@
 
 namespace aquarama::report {
 
-// What is kept of a fish at an instant.
+// The fish at one instant.
 struct Moment {
-    double seconds = 0;
-    capture::NodeVectors nodes{};
+    double seconds = 0;            // since the order
+    capture::NodeVectors nodes{};  // body lengths; the origin is where the fish was at the order
     capture::PectoralFins fins;
 };
 
-// From the order on, evenly in time; seen from where the fish was when it came.
+// What a fish does after an order.
 struct ControllerTrial {
-    std::vector<Moment> moments;             // kMoments + 1
-    double speedBefore = 0, speedAfter = 0;  // along the body, backward is negative
+    std::vector<Moment> moments;  // kMoments + 1, evenly in time, the first at the order
+    // Mean speeds along the body axis before the order and after the last moment, body lengths a
+    // second; negative is backward.
+    double speedBefore = 0, speedAfter = 0;
 };
 
-inline constexpr int kMoments = 240;
+inline constexpr int kMoments = 240;  // intervals between the moments
 
+// The origin of the body frame.
 [[nodiscard]] glm::dvec3 middleOf(const capture::NodeVectors& nodes);
 
-// After so many beats of medium swimming; from rest, rolled to its left; from rest.
+// Trials of `seconds` after the order. Each simulates a fish of its own. swimmingThen(): after
+// runUpBeats beats of medium swimming; rolledThen(): from rest, rolled about the body axis, the
+// right side up for a positive angle; restingThen(): from rest.
 [[nodiscard]] ControllerTrial swimmingThen(const config::Species& species,
                                            const capture::Order& order,
                                            double seconds,

@@ -11,12 +11,15 @@ from matplotlib.ticker import MultipleLocator
 
 from figures import INK, PX, QUIET, plt, save
 
-WIDE, HIGH = 370, 190  # of a panel, px
-BODY, SECTION = 84, 130  # a body length, px: on the way, and where the fish is seen from behind
+WIDE, HIGH = 370, 190  # size of a panel, px
+# A body length in px: in panels from above or the side, and in the panel where the fish is seen from behind.
+BODY, SECTION = 84, 130
 FIN = {"color": "#bf4a24", "linewidth": 1.8, "solid_capstyle": "round"}
-LEAST = {"left turn": -0.7, "right turn": -1.55, "ascend": -0.7, "descend": -1.55}  # of the y axis, where it is a way
+# The controllers that change the course are drawn as maps; the least value of their y axis, body lengths.
+LEAST = {"left turn": -0.7, "right turn": -1.55, "ascend": -0.7, "descend": -1.55}
 
 
+# The style of the fish number i of `count`: from light, early, to dark, late.
 def shade(i, count):
     return {"facecolor": "#5b7280", "alpha": 0.25 + 0.75 * i / (count - 1), "linewidth": 0}
 
@@ -32,6 +35,7 @@ def draw_fish(axes, trial, place):
 
 def draw_straight(axes, trial, name):
     """Where the fish is, up the paper as time goes."""
+    # The y axis is time. Outlines are scaled so that a body length has the same size across and along the paper.
     seconds = np.array(trial["seconds"])
     span = 1.32 * seconds[-1]
     axes.set(xlim=np.array([0, WIDE / BODY]) - (3 if name == "retreat" else 1), xlabel="ahead, BL",
@@ -46,6 +50,7 @@ def draw_straight(axes, trial, name):
 
 def draw_map(axes, trial, name):
     """The way itself."""
+    # The title names the change of heading, or the mean pitch over the last quarter of the trial.
     heading, pitch = trial["heading_degrees"], trial["pitch_degrees"]
     is_above = trial["view"] == "above"
     last = np.mean(pitch[-(len(pitch) // 4):])
@@ -62,11 +67,14 @@ def draw_map(axes, trial, name):
 def draw_roll(axes, trial, name):
     """Roll over time, with the fish from behind: a section of its body, the fin on its back and those at its sides."""
     seconds, roll = np.array(trial["seconds"]), np.array(trial["roll_degrees"])
+    # The first moment within 5 degrees of upright: argmax gives the first True.
     level = seconds[np.argmax(np.abs(roll) < 5)]
     axes.set(xlim=(-0.3, seconds[-1] + 0.3), xlabel="time, s", ylim=(-25, 75), ylabel="roll, degrees",
              title=f"{name.capitalize()}, from behind: upright within 5° after {level:.1f} s")
     axes.plot(seconds, roll, color="#2f77b4", linewidth=1.3)
+    # From body lengths to the units of the axes.
     scale = SECTION / np.array([WIDE / (seconds[-1] + 0.6), HIGH / 100])
+    # The section of the body is an ellipse of 0.14 by 0.24 body lengths: a symbol, not the species' shape.
     angles = np.linspace(0, 2 * np.pi, 41)
     for i, fish in enumerate(trial["fish"]):
         moment = fish["moment"]
@@ -90,6 +98,7 @@ def main(path):
                 "medium speed, then so ordered", fontsize=13.5)
     figure.text(62 / wide, 1 - 56 / high, "Dark is late; pectoral fins in red; lengths in body lengths (BL). Balance "
                 "begins rolled by 40°, retreat at rest.", color=QUIET)
+    # Three rows of three panels; positions in px from the top left, as shares of the figure for matplotlib.
     for i, trial in enumerate(data["trials"]):
         left, top = 62 + i % 3 * (WIDE + 76), 96 + i // 3 * (HIGH + 94)
         axes = figure.add_axes([left / wide, 1 - (top + HIGH) / high, WIDE / wide, HIGH / high])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the page fidelity.html with its pictures and prints the tables of docs/fidelity.md: draw_fidelity.py DIR SEED.
 
-DIR holds the files of CSV that `aquarama fidelity` writes (fidelity_csv.h says what is in them).
+DIR holds the files of CSV that `aquarama fidelity` writes (fidelity.h says what is in them).
 """
 
 import sys
@@ -15,8 +15,10 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "report"))
 from figures import (INK, PX, from_above, hide_axes, html_table, markdown_table, picture, plt, read_csv, save,
                      write_page)
 
+# Colours of the kinds of commands: gaits in blues, turns in orange.
 KINDS = {"slow": "#9fc9e8", "medium": "#5b9fd0", "fast": "#1f6aa5", "gradual turn": "#f2b35c", "sharp turn": "#e0702c",
          "glide": "#9bbf7a", "up, down, level": "#b59ad6", "brake, retreat": "#8a969e"}
+# Colours: the uncorrected replica, one of several species, the goal, the number of segments that repertoires have.
 ALONE, SPECIES, GOAL, OURS = "#7b3f00", "#b9c6cd", "#c0392b", "#e0702c"
 INTRODUCTION = """<p>The biomechanical fish and its kinematic replica obey the same commands. Shape: root mean square
 distance of the 23 nodal points in the body frame, in per cent of a body length (BL); within a segment, after the
@@ -24,9 +26,11 @@ first beat, at the lag of its beat; and in the transition, the first beat as it 
 of a command, in per cent of the way, laid over each other at its start by place and heading; along the way it is the
 speed's, across it the heading's (medians). <span class="over">Over the goal</span>: shape 1 % within a segment, path
 5 %.</p>"""
+# Body lengths; share of the path. The same goals as in compare.cpp and fidelity.cpp.
 SHAPE_GOAL, PATH_GOAL = 0.01, 0.05
 
 
+# The colour of a command's kind. What is no gait here is a forward gait or a turn: its last word names the kind.
 def colour_of(command):
     gaits = {"ascend": "up, down, level", "descend": "up, down, level", "balance": "up, down, level", "glide": "glide",
              "brake": "brake, retreat", "retreat": "brake, retreat"}
@@ -34,10 +38,12 @@ def colour_of(command):
     return KINDS[kind]
 
 
+# An array with a row for each of the rows and a column for each key; NaN where a value is empty.
 def column(rows, *keys):
     return np.array([[row[key] if row[key] is not None else np.nan for key in keys] for row in rows])
 
 
+# The ticks of each command. A number instead of the name: two commands in a row may have the same name.
 def commands_of(ticks):
     return [list(rows) for _, rows in groupby(ticks, key=lambda row: row["number"])]
 
@@ -53,6 +59,7 @@ def draw_ways(axes, ticks, width, every):
     seen = np.concatenate([from_above(column(ticks, f"{who}_x", f"{who}_z")) for who in ["fish", "alone"]])
     is_turned = np.ptp(seen[:, 1]) > np.ptp(seen[:, 0])
 
+    # Draws one of the three paths; the last point is always drawn, so that commands meet.
     def plot(rows, who, **style):
         points = from_above(column(rows[:-1:every] + rows[-1:], f"{who}_x", f"{who}_z"))
         return axes.plot(*(points[:, ::-1] * (-1, 1) if is_turned else points).T, **style)
@@ -66,6 +73,7 @@ def draw_ways(axes, ticks, width, every):
     hide_axes(axes)
 
 
+# `height` is a share of the axes; it may lie outside of them.
 def draw_scale(axes, height):
     """Ten body lengths, at the left; when the limits are known."""
     length = 10 / np.ptp(axes.get_xlim())
@@ -74,12 +82,14 @@ def draw_scale(axes, height):
 
 
 def draw_ways_of_one(ticks):
+    # The height in px follows the shape of the path, within limits.
     seen = np.ptp(column(ticks, "fish_x", "fish_z"), axis=0)
     high = min(600, max(200, 1080 * min(seen) / max(seen)) + 90)
     figure, axes = plt.subplots(figsize=(1080 * PX, high * PX), gridspec_kw={
         "left": 0.01, "right": 0.99, "bottom": 30 / high, "top": 1 - 30 / high})
     draw_ways(axes, ticks, 5, 2)
     axes.margins(0.03, 0.08)
+    # The limits of the axes are known only after a drawing, and the scale needs them.
     figure.canvas.draw()
     draw_scale(axes, -15 / (high - 60))
     figure.legend(handles=kind_marks(), loc="upper left", ncols=len(KINDS), handlelength=1.6, borderaxespad=0.3)
@@ -91,6 +101,7 @@ def draw_ways_of_one(ticks):
 
 
 def draw_ways_of_all(by_species):
+    # A panel for each species, four in a row; panels that remain are hidden.
     columns = 4
     rows = -(-len(by_species) // columns)
     high = 215 * rows + 32
@@ -114,6 +125,7 @@ def draw_times(ticks):
     figure, (shape, commands, speed) = plt.subplots(
         3, 1, sharex=True, figsize=(1080 * PX, 480 * PX), layout="constrained", height_ratios=[19, 1, 15])
     seconds = column(ticks, "seconds")
+    # Logarithmic: the errors range over three decades.
     for key, colour, label in [("shape_as_played_bl", SPECIES, "as played"),
                                ("shape_in_phase_bl", INK, "in the fish's phase")]:
         shape.semilogy(seconds, 100 * column(ticks, key), color=colour, linewidth=0.9, label=label)
@@ -121,6 +133,7 @@ def draw_times(ticks):
     shape.set(ylim=(0.01, 10), yticks=[0.01, 0.1, 1, 10], yticklabels=["0.01", "0.1", "1", "10"],
               title="error of the shape, root mean square over 23 nodal points, % of a body length")
     shape.legend(loc="upper right", ncols=3, bbox_to_anchor=(1, 1.13), borderaxespad=0)
+    # A narrow band that shows which command is in force.
     for rows in commands_of(ticks):
         commands.axvspan(rows[0]["seconds"], rows[-1]["seconds"], color=colour_of(rows[0]["command"]), linewidth=0)
     hide_axes(commands)
@@ -138,11 +151,13 @@ def draw_vocabularies(vocabularies):
     by_species = [list(rows) for _, rows in groupby(vocabularies, key=lambda row: row["species"])]
     figure, panels = plt.subplots(1, 3, figsize=(1080 * PX, 310 * PX), layout="constrained")
     known = by_species[0]
+    # The numbers of segments are evenly spaced on the x axis, not to scale.
     places = np.arange(len(known))
     for axes, key, scale, title in [(panels[0], "shape_within_bl", 100, "shape within a segment, % BL"),
                                     (panels[1], "path_median", 100, "path of a command, median, %"),
                                     (panels[2], "turn_heading_rms_deg", 1, "heading after a turn, rms, deg")]:
         values = scale * np.array([[row[key] for row in rows] for rows in by_species])
+        # The upper median where the number of species is even, so that it is the value of a species.
         median = np.sort(values, axis=0)[len(values) // 2]
         axes.plot(places, values.T, color=SPECIES, linewidth=1, label="one species")
         axes.plot(places, median, color=INK, linewidth=2, marker="o", markersize=5, label="their median")
@@ -158,11 +173,13 @@ def draw_vocabularies(vocabularies):
     return figure
 
 
+# A share as a percentage; in HTML, marked, where it misses the goal.
 def percent(share, goal=None):
     text = f"{100 * share:.2f}"
     return f'<span class="over">{text}</span>' if goal is not None and share > goal else text
 
 
+# `name` is the column that names the rows: the species or the command.
 def summary_table(rows, name):
     head = ["command", "count", "shape within, %", "in transition, %", "agrees after, s", "path, median, %",
             "9 of 10 within, %", "worst, %", "along, %", "across, %", "heading, rms, deg"]
@@ -174,6 +191,7 @@ def summary_table(rows, name):
         percent(row["path_along"]), percent(row["path_across"]), f"{row['heading_rms_deg']:.1f}"] for row in rows])
 
 
+# One row for each command, folded away on the page.
 def command_table(rows):
     head = ["command", "start, s", "lasts, s", "lag of the beat, s", "shape within, %", "in transition, %", "path, BL",
             "error at the end, %", "most, %", "turn, deg", "heading error, deg"]
@@ -184,6 +202,7 @@ def command_table(rows):
         f"{row['heading_error_deg']:.1f}"] for row in rows]) + "</details>\n"
 
 
+# `alone` holds the row of the whole script by species.
 def print_tables(summaries, alone):
     """The tables of docs/fidelity.md: species by species, and command by command over all of them."""
     def tenths(number, factor=1):
@@ -211,6 +230,7 @@ def print_tables(summaries, alone):
 def main(folder, seed):
     commands, summaries, ticks, vocabularies = (
         read_csv(folder / f"fidelity{name}.csv") for name in ["", "_summaries", "_ticks", "_vocabularies"])
+    # The rows of a species stand together, so groupby finds each species once.
     by_species = {species: list(rows) for species, rows in groupby(ticks, key=lambda row: row["species"])}
     alone = {row["species"]: row for row in commands if row["command"] == "open_loop"}
 
@@ -225,6 +245,7 @@ def main(folder, seed):
         way = alone[species]
         length = way["path_bl"]
         own = [row for row in summaries if row["species"] == species]
+        # The summaries of a species: first "all", which goes to the end of the table, then each command.
         body += [
             f"<h2>{species}</h2>", show(f"ways_{species}", draw_ways_of_one(rows)),
             f"<p>Left alone for the whole script, the replica ends {way['path_error_end'] * length:.1f} BL from the "

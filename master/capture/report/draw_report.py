@@ -34,6 +34,7 @@ and after a hundred repetitions, from the course of a gait, or beyond so many ti
 and pitch together.</p>"""
 SEGMENTS = """<p>In each frame the body as it bends, and the body frame up to then (as in Figs. 3 and 4 of Yu &amp;
 Terzopoulos 1998).</p>"""
+# Colours of the axes of the body frame.
 X_AXIS, Z_AXIS = "#10202b", "#e08a2c"
 X_LENGTH, Z_LENGTH = 0.22, 0.16  # of the axes of the body frame, body lengths
 
@@ -42,7 +43,9 @@ def draw_body(body):
     """The straight fish from the side and from above: nodal points, springs, muscles, and its skin."""
     nodes, skin = np.array(body["nodes"]), np.array(body["skin"]).reshape(-1, 3)
     everything = np.concatenate([nodes, skin])
-    sides = [[0, 1], [0, 2]]  # x and y; x and z, down
+    # Coordinates of the panels: x and y from the side; x and z, which points down, from above.
+    sides = [[0, 1], [0, 2]]
+    # The panels share one scale: their widths are in the ratio of what they show, and the height follows.
     spans = [np.ptp(everything[:, side], axis=0) for side in sides]
     high = 940 * PX * max(span[1] for span in spans) / sum(span[0] for span in spans) + 0.4
     figure, panels = plt.subplots(1, 2, figsize=(940 * PX, high), gridspec_kw={
@@ -70,18 +73,21 @@ def draw_body(body):
 
 def draw_segment(segment):
     """Frame by frame, as the paper's Figs. 3 and 4: the bent body, and up to then the axes of the body frame."""
+    # Every second phase: with all of them the axes would cover one another.
     frames = segment["frames"][::2]
     origins = from_above([frame["origin"] for frame in frames])
     axes_of_body = [(from_above([frame["z_axis"] for frame in frames]) * Z_LENGTH, Z_AXIS),
                     (from_above([frame["x_axis"] for frame in frames]) * X_LENGTH, X_AXIS)]
     fish = [from_above(points) for view in segment["views"]
             for points in [view["outline"], view["midline"], *view["pectorals"]]]
+    # All panels have the same limits, so that the motion from one to the next can be seen.
     seen = np.concatenate([*fish, *(origins + axis for axis, _ in axes_of_body)])
     least, most = seen.min(axis=0) - 0.06, seen.max(axis=0) + 0.06
     most[1] += (most[0] - least[0]) * 26 / 262  # room for the time
     wide, high = 272 * PX, 10 * PX + 0.24 * 4 * 272 * PX * (most[1] - least[1]) / (most[0] - least[0])
     tall = 2 * high + 0.35
     figure = plt.figure(figsize=(4 * wide, tall))
+    # Two rows of four panels.
     for i, view in enumerate(segment["views"]):
         axes = figure.add_axes([i % 4 / 4 + 0.005, 1 - (i // 4 + 1) * high / tall, 0.24, (high - 10 * PX) / tall],
                                xlim=(least[0], most[0]), ylim=(least[1], most[1]))
@@ -92,12 +98,14 @@ def draw_segment(segment):
         midline = from_above(view["midline"])
         axes.plot(*midline.T, color="#6d8794", linewidth=0.6)
         axes.plot(*midline[0], "o", color=X_AXIS, markersize=3)
+        # The body frames from the start up to this view.
         count = view["phase"] // 2 + 1
         for axis, colour in axes_of_body:
             axes.quiver(*origins[:count].T, *axis[:count].T, color=colour, angles="xy", scale_units="xy", scale=1,
                         width=0.9, units="dots", headwidth=4.5, headlength=5, headaxislength=4.5, zorder=3)
         seconds = segment["period_seconds"] * view["phase"] / (len(segment["frames"]) - 1)
         axes.annotate(f"{seconds:.3f} s", (0, 1), (5, -5), "axes fraction", "offset points", va="top")
+    # The bar at the lower right is a body length.
     length = 0.24 / (most[0] - least[0])  # of a body, as a share of the figure's width
     figure.legend(handles=[
         Line2D([], [], color=colour, marker=">", markevery=[1], markersize=4, linewidth=1, label=label)
@@ -120,6 +128,7 @@ def draw_turns(turns):
         axes.plot(*tip, ".", color="none")  # within the limits
         axes.annotate("", tip, way[-1], arrowprops={"arrowstyle": "-|>", "color": COLOURS[turn["name"]], "shrinkA": 0,
                                                     "shrinkB": 0})
+    # Left and right turns have equal room.
     side = max(abs(limit) for limit in axes.get_ylim())
     axes.set(xlim=(0, None), ylim=(-side, side), aspect="equal", xlabel="ahead, BL", ylabel="to the left, BL")
     axes.legend(loc="upper left")
@@ -130,6 +139,7 @@ def draw_headings(turns):
     """The heading over each turn."""
     figure, axes = plt.subplots(figsize=(500 * PX, 460 * PX), layout="constrained")
     for turn in turns:
+        # The x axis of the body frame at each phase; its angle is the heading.
         ahead = from_above([frame["x_axis"] for frame in turn["frames"]])
         seconds = np.linspace(0, turn["period_seconds"], len(ahead))
         axes.plot(seconds, np.degrees(np.arctan2(ahead[:, 1], ahead[:, 0])), color=COLOURS[turn["name"]], linewidth=2,
@@ -142,10 +152,12 @@ def draw_headings(turns):
 def draw_midlines(gait):
     """The midlines of one beat over each other, how far each point of them swings, and a saithe's does."""
     figure, axes = plt.subplots(figsize=(372 * PX, 143 * PX), layout="constrained")
+    # 16 of the 64 phases.
     lines = gait["midlines"]["lines"][::4]
     for i, line in enumerate(lines):  # from dark to light through the beat, so that the wave's way can be seen
         axes.plot(line["station"], line["left"], color=plt.cm.Blues_r(0.15 + 0.55 * i / len(lines)), linewidth=0.9)
     swing, station = gait["midlines"]["swing"], np.linspace(0, 1, 41)
+    # Half the amplitude in body lengths against the distance from the nose.
     saithe = 0.02 - 0.0825 * station + 0.1625 * station**2  # Videler & Hess 1984
     for side in [-1, 1]:
         axes.plot(swing["station"], side * np.array(swing["half"]), color=COLOURS[gait["name"]], linewidth=1.8)
@@ -159,8 +171,10 @@ def draw_speed(gaits, line):
     """Speed against beat frequency with the line through the gaits, and Bainbridge's (1958)."""
     beats, speeds = [gait["beat_hertz"] for gait in gaits], [gait["speed"] for gait in gaits]
     figure, axes = plt.subplots(figsize=(520 * PX, 380 * PX), layout="constrained")
+    # Bainbridge gives the speed in lengths a second as (3 f - 4) / 4 for a beat frequency f.
     hertz = np.linspace(0, 1.12 * max(beats), 200)
     sign = "−" if line["intercept"] < 0 else "+"
+    # The line through the gaits, and the published one.
     for speed, style in [(line["slope"] * hertz + line["intercept"], {
             "color": QUIET, "linewidth": 1.3,
             "label": f"speed = {line['slope']:.2f} f {sign} {abs(line['intercept']):.2f}, "
@@ -179,6 +193,7 @@ def draw_speed(gaits, line):
 def draw_strouhal_and_stride(gaits):
     """Both against beat frequency, over the ranges of living fish."""
     figure, panels = plt.subplots(2, 1, figsize=(460 * PX, 380 * PX), sharex=True, layout="constrained")
+    # The band is the range of living fish.
     for axes, key, label, band, source in [
             (panels[0], "strouhal", "Strouhal number", (0.2, 0.4), "0.2 to 0.4: Taylor, Nudds & Thomas 2003"),
             (panels[1], "stride", "stride, BL", (0.5, 0.7), "0.5 to 0.7: Videler & Wardle 1991")]:
@@ -193,7 +208,9 @@ def draw_strouhal_and_stride(gaits):
     return figure
 
 
+# What the repertoire's file holds. A speed response of zeros means that none was measured.
 def file_table(file):
+    # One value for each gait: slow, medium, fast.
     drag = ", ".join(f"{value:.3f}" for value in file["swim_drag"])
     control = (f" and {file['control_points']} control points" if file["control_points"]
                else "; control points are computed from them, not recorded")
@@ -208,11 +225,13 @@ def file_table(file):
         ["SHA-256", f"<code>{file['sha256']}</code>"]], words=True)
 
 
+# The name of a segment after a square in its colour, as HTML.
 def swatch(segment):
     return f'<span style="color:{COLOURS[segment["name"]]}">■</span> {segment["name"]}'
 
 
 def gait_table(gaits):
+    # Words, key in the data, digits after the point, the range of living fish, its source.
     quantities = [
         ("tail beat, Hz", "beat_hertz", 2, "", ""),
         ("speed, BL/s", "speed", 2, "linear in the beat, see below", "Bainbridge 1958"),
@@ -226,6 +245,7 @@ def gait_table(gaits):
                        for words, key, digits, living, source in quantities])
 
 
+# Angles and rates are positive to the left.
 def turn_table(turns):
     head = ["segment", "lasts, s", "turns, deg", "mean radius, BL", "mean rate, deg/s", "peak rate, deg/s",
             "mean speed, BL/s"]
@@ -249,6 +269,7 @@ def closure_table(segments):
 def report(path):
     """Draws what one file of data tells and writes the page."""
     data = json.loads(path.read_text(encoding="utf-8"))
+    # The order is that of motion::Action: three gaits, then four turns.
     segments = data["segments"]
     gaits, turns = segments[:3], segments[3:]
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/fidelity.h"
 
 #include <algorithm>
@@ -16,12 +15,14 @@ namespace aquarama::report {
 
 namespace {
 
-constexpr double kPathGoal = 0.05;
+constexpr double kPathGoal = 0.05;  // error at the end of a command, share of the path
 
+// Angles are radians in the errors and degrees in the files.
 double degrees(double radians) {
     return radians / kRadiansPerDegree<double>;
 }
 
+// Ticks as seconds; empty for nothing.
 std::string secondsIfAny(const std::optional<int>& ticks) {
     if (!ticks) return "";
     std::ostringstream text;
@@ -29,6 +30,7 @@ std::string secondsIfAny(const std::optional<int>& ticks) {
     return text.str();
 }
 
+// One row of summariesCsv().
 void addSummary(std::ostream& csv,
                 const std::string& species,
                 const std::string& command,
@@ -53,23 +55,30 @@ void addSummary(std::ostream& csv,
            degrees(s.headingErrorRms));
 }
 
-// The way of a beat, body lengths a second.
+// The mean speed over the beat that ends at a tick, body lengths a second: the distance of the
+// places at its ends. `tick` is at least 1; a beat longer than that is cut.
 double speedAt(const Trace& trace, std::size_t tick, double beatTicks) {
     const auto beat = std::min(static_cast<std::size_t>(std::lround(beatTicks)), tick);
     return glm::distance(trace[tick].frame.origin, trace[tick - beat].frame.origin) *
            kTicksPerSecond / static_cast<double>(beat);
 }
 
+// The rows of ticksCsv() for one species. Traces count ticks from the start of the run-in; the
+// series of the comparison and the CSV count from its end, `start`.
 void addTicks(std::ostream& csv, const Fidelity& fidelity) {
     const auto& [fish, replica, loose] = fidelity.traces;
     const Comparison& comparison = fidelity.comparison;
     const auto start = static_cast<std::size_t>(fidelity.script.front().ticks);
     const double beat = fidelity.script.front().beatTicks;
+    // A command's replicaWay has one place more than the command has ticks: the first is that of
+    // the tick before it, so the last tick of a command appears again as the first row of the next
+    // one.
     for (std::size_t i = 0; i < comparison.commands.size(); ++i) {
         const CommandErrors& errors = comparison.commands[i];
         const auto first = static_cast<std::size_t>(errors.firstTick);
         for (std::size_t at = 0; at < errors.replicaWay.size(); ++at) {
-            const std::size_t tick = first + at - start;  // since the run-in
+            const std::size_t tick = first + at - start;  // since the end of the run-in
+            // The series of shapes begin with the first tick of the first command, tick 1.
             const glm::dvec3& place = fish[first + at].frame.origin;
             const glm::dvec3& laidOver = errors.replicaWay[at];
             const glm::dvec3& alone = comparison.openLoop.replicaWay[tick];
@@ -112,6 +121,7 @@ std::string commandsCsv(std::span<const Fidelity> species) {
                    errors.pathErrorAcross,
                    degrees(errors.turn),
                    degrees(errors.headingError));
+        // The whole script: columns that have no meaning for it are empty.
         const OpenLoopErrors& loose = fidelity.comparison.openLoop;
         csv << fidelity.species << ",open_loop,0," << ticksOf(fidelity.script) / kTicksPerSecond
             << ",,,,,," << loose.path << ',' << loose.distanceAtEnd / loose.path << ','
@@ -127,6 +137,7 @@ std::string summariesCsv(std::span<const Fidelity> species) {
            "heading_rms_deg\n";
     for (const Fidelity& fidelity : species)
         addSummary(csv, fidelity.species, "all", fidelity.comparison.commands);
+    // A manoeuvre that no script contains has no row.
     for (int i = 0; i < kManoeuvres; ++i) {
         const auto manoeuvre = static_cast<Manoeuvre>(i);
         std::vector<CommandErrors> all;

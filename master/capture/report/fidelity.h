@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is found when one species and its replica are given the same script.
+// Fidelity: the errors of a species' replica against the biomechanical fish under the same script,
+// and the files of CSV that hold them.
 #pragma once
 
 #include <span>
@@ -10,6 +11,7 @@
 
 namespace aquarama::report {
 
+// Script, traces and errors of one species.
 struct Fidelity {
     std::string species;
     Script script;
@@ -17,6 +19,8 @@ struct Fidelity {
     Comparison comparison;
 };
 
+// Simulates both fish under makeScript(repertoire, seed, seconds). The repertoire is that of the
+// species. Runs on the calling thread.
 [[nodiscard]] inline Fidelity measureFidelity(const config::Species& species,
                                               const motion::Repertoire& repertoire,
                                               std::uint64_t seed,
@@ -27,7 +31,7 @@ struct Fidelity {
     return {species.name, std::move(script), std::move(traces), std::move(comparison)};
 }
 
-// Of one manoeuvre, in the order of the script.
+// The errors of the commands with one manoeuvre, in the order of the script.
 [[nodiscard]] inline std::vector<CommandErrors> errorsOf(const Fidelity& fidelity,
                                                          Manoeuvre manoeuvre) {
     std::vector<CommandErrors> errors;
@@ -36,22 +40,24 @@ struct Fidelity {
     return errors;
 }
 
-// What the fidelity command writes as CSV; draw_fidelity.py makes the page, its pictures and the
-// tables of it. Shares are of 1, lengths in body lengths (BL), places in the world from above.
+// The CSV that the command `fidelity` writes and draw_fidelity.py reads. Shares are of 1, lengths
+// are body lengths (BL), places are x and z of the world; the first line names the columns. A value
+// that does not exist is empty.
 
-// A line for each command, and for each species one of the whole script, "open_loop".
+// A row for each command, and for each species one for the whole script with the uncorrected
+// replica, "open_loop".
 [[nodiscard]] std::string commandsCsv(std::span<const Fidelity> species);
 
-// Errors over several commands: of each species, "all" and each manoeuvre; of "all" species, each
-// manoeuvre.
+// A row for each summary of several commands: first, for each species, "all" its commands; then,
+// for each manoeuvre, each species and "all" species together.
 [[nodiscard]] std::string summariesCsv(std::span<const Fidelity> species);
 
-// Tick by tick where the fish is, where the replica is that was laid over it at the start of the
-// command and the one that was left alone, how far their shapes differ and how fast they are. A
-// command's first line is the tick before it, without shapes and speeds.
+// A row for each tick: the places of the fish, of the replica (moved and turned to the fish at the
+// start of the command) and of the uncorrected replica; the errors of the shape; both speeds. A
+// command's first row is the tick before it, without shapes and speeds.
 [[nodiscard]] std::string ticksCsv(std::span<const Fidelity> species);
 
-// A line for each species and number of segments.
+// A row for each species and number of segments.
 [[nodiscard]] std::string vocabulariesCsv(std::span<const SpeciesVocabularies> species);
 
 }  // namespace aquarama::report

@@ -12,10 +12,12 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+# Colours: text and main lines, secondary text, grid, notes on published ranges.
 INK, QUIET, GRID, AMBER = "#1d2b36", "#5b7280", "#e6ecef", "#a9641a"
 PUBLISHED = {"color": "#e08a2c", "linewidth": 1.4, "dashes": (4, 2.5)}  # lines of living fish
-PX = 1 / 96  # inches
+PX = 1 / 96  # inches in a px of CSS
 
+# One style for all figures. The salt makes the ids in a file of SVG the same in each run.
 plt.rcParams.update({
     "svg.hashsalt": "aquarama",  # the same names in each file
     "font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "legend.frameon": False,
@@ -25,6 +27,7 @@ plt.rcParams.update({
     "figure.constrained_layout.h_pad": 0.06, "figure.constrained_layout.w_pad": 0.06,
 })
 
+# The style sheet of the pages; .over marks what misses a goal, table.words aligns text to the left.
 STYLE = """
 body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #1d2b36;
        max-width: 1120px; margin: 2em auto; padding: 0 1em; }
@@ -40,6 +43,7 @@ img { max-width: 100%; height: auto; } summary { cursor: pointer; margin: 1em 0;
 
 def save(figure, path):
     """Writes a figure as SVG, the same bytes for the same data, and closes it."""
+    # Without date and version of matplotlib, which would differ between runs.
     figure.savefig(path, metadata={"Date": None, "Creator": None})
     plt.close(figure)
     return Path(path)
@@ -54,6 +58,7 @@ def hide_axes(axes):
 
 def read_csv(path):
     """The rows by their columns; numbers as floats, what is empty as None."""
+    # Text that is not a number, as a name, stays text.
     def value(text):
         try:
             return float(text) if text else None
@@ -65,6 +70,7 @@ def read_csv(path):
 
 def picture(path, caption=""):
     """A file of SVG as part of a page that fetches nothing."""
+    # Embedded as a data URI.
     data = base64.b64encode(Path(path).read_bytes()).decode()
     return (f'<figure id="{Path(path).stem}"><img alt="{html.escape(caption)}" src="data:image/svg+xml;base64,{data}">'
             f"<figcaption>{caption}</figcaption></figure>\n")
@@ -78,6 +84,7 @@ def html_table(head, rows, words=False):
             "".join(row(cells, "td") for cells in rows) + "</table>\n")
 
 
+# `head` and `rows` hold strings; the result ends with a line end.
 def markdown_table(head, rows):
     lines = [head, ["---"] * len(head), *rows]
     rule = "|" + "---|" * len(head)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/gltf.h"
 
 #include <algorithm>
@@ -19,8 +18,12 @@ namespace aquarama::report {
 
 namespace {
 
-constexpr int kSurfaceLevel = 1;  // 1698 vertices; its normals are the limit surface's
+// Skin.
 
+// Level of subdivision: 1698 vertices. Positions and normals are those of the limit surface.
+constexpr int kSurfaceLevel = 1;
+
+// Nodal points in the body frame, body lengths, as poseCage() takes them.
 body::NodalPoints nodesAt(const motion::ActionSegment& segment, std::size_t phase) {
     body::NodalPoints nodes{};
     std::ranges::transform(capture::poseAt(segment, phase),
@@ -29,6 +32,7 @@ body::NodalPoints nodesAt(const motion::ActionSegment& segment, std::size_t phas
     return nodes;
 }
 
+// Poses the cage by the nodal points, then evaluates the limit surface at each vertex.
 SkinShape shapeOf(const body::FishBody& body,
                   const skin::LimitTable& table,
                   const body::NodalPoints& nodes,
@@ -50,7 +54,7 @@ SwimmingSkin skinOf(const body::FishBody& body,
                     const motion::ActionSegment& segment,
                     double lengthMetres,
                     int shapes) {
-    assert(motion::kPhases % shapes == 0);
+    assert(shapes >= 1 && motion::kPhases % shapes == 0);
     const skin::LimitTable table = skin::makeLimitTable(body, kSurfaceLevel);
     SwimmingSkin skin{.triangles = table.indices, .shapes = {}};
     for (int phase = 0; phase < motion::kPhases; phase += motion::kPhases / shapes)
@@ -63,10 +67,15 @@ SwimmingSkin skinOf(const body::FishBody& body,
 
 namespace {
 
+// Accessors.
+
 static_assert(std::endian::native == std::endian::little, "glTF's buffers are little-endian");
 
+// For a buffer view that is not for a GPU buffer, as of an animation.
 constexpr int kNoTarget = 0;
 
+// `type` is the number of components (TINYGLTF_TYPE_...), `component` the type of each. All element
+// types here are multiples of four bytes, so that every view is aligned as glTF demands.
 template <class T>
 int addAccessor(
     tinygltf::Model& model, std::span<const T> values, int target, int type, int component) {
@@ -88,6 +97,7 @@ int addAccessor(
     accessor.count = values.size();
     accessor.type = type;
     model.accessors.push_back(accessor);
+    assert(data.size() % 4 == 0);
     return static_cast<int>(model.accessors.size()) - 1;
 }
 
@@ -98,6 +108,7 @@ int addFloats(tinygltf::Model& model, std::span<const T> values, int target, int
 
 }  // namespace
 
+// Indices go to an element array buffer, vertices to an array buffer; keys have no target.
 int addTriangles(tinygltf::Model& model, std::span<const std::uint32_t> corners) {
     return addAccessor(model,
                        corners,
@@ -107,6 +118,7 @@ int addTriangles(tinygltf::Model& model, std::span<const std::uint32_t> corners)
 }
 
 int addVertices(tinygltf::Model& model, std::span<const glm::vec3> vectors) {
+    assert(!vectors.empty());
     const int accessor =
         addFloats(model, vectors, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_TYPE_VEC3);
     glm::vec3 least = vectors.front();
@@ -115,6 +127,7 @@ int addVertices(tinygltf::Model& model, std::span<const glm::vec3> vectors) {
         least = glm::min(least, vector);
         most = glm::max(most, vector);
     }
+    // tinygltf holds bounds as doubles; the conversion from float is exact.
     const auto numbers = [](const glm::dvec3& v) { return std::vector<double>{v.x, v.y, v.z}; };
     model.accessors.back().minValues = numbers(glm::dvec3(least));
     model.accessors.back().maxValues = numbers(glm::dvec3(most));
@@ -122,6 +135,7 @@ int addVertices(tinygltf::Model& model, std::span<const glm::vec3> vectors) {
 }
 
 int addTimes(tinygltf::Model& model, std::span<const float> seconds) {
+    assert(!seconds.empty());
     const int accessor = addKeys(model, seconds);
     model.accessors.back().minValues = {static_cast<double>(seconds.front())};
     model.accessors.back().maxValues = {static_cast<double>(seconds.back())};
@@ -142,12 +156,17 @@ int addKeys(tinygltf::Model& model, std::span<const glm::vec4> quaternions) {
 
 namespace {
 
+// The model. Each add... function appends one object to the model; where it returns an int, that is
+// the object's index.
+
+// Element by element; of equal sizes.
 std::vector<glm::vec3> minus(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
     std::vector<glm::vec3> difference = a;
     for (std::size_t i = 0; i < a.size(); ++i) difference[i] -= b[i];
     return difference;
 }
 
+// A plain grey-blue: the skin shaders of the show have no counterpart in glTF.
 int addMaterial(tinygltf::Model& model) {
     tinygltf::Material material;
     material.name = "skin";
@@ -158,7 +177,8 @@ int addMaterial(tinygltf::Model& model) {
     return 0;
 }
 
-// The shape at phase 0, and what takes it to each of the others.
+// The mesh is the shape at phase 0. The morph targets are the differences from it to each of the
+// other shapes, as glTF defines them.
 int addMesh(tinygltf::Model& model, const SwimmingSkin& skin) {
     const SkinShape& first = skin.shapes.front();
     tinygltf::Primitive primitive;
@@ -186,7 +206,8 @@ int addMesh(tinygltf::Model& model, const SwimmingSkin& skin) {
     return 0;
 }
 
-// At frame i of the take shape i of the cycle has all the weight.
+// The keys of the weights, frame by frame. At frame i of the take the shape i modulo `shapes` has
+// the whole weight; shape 0 is the mesh itself, where all weights are 0.
 std::vector<float> weightsOf(const Take& take, std::size_t shapes) {
     const std::size_t targets = shapes - 1;
     std::vector<float> weights(take.frames.size() * targets, 0.0F);
@@ -197,6 +218,7 @@ std::vector<float> weightsOf(const Take& take, std::size_t shapes) {
     return weights;
 }
 
+// Three channels on one time axis: translation, rotation (x, y, z, w) and weights of the node.
 void addAnimation(tinygltf::Model& model, const Take& take, std::size_t shapes, int node) {
     std::vector<float> times;
     std::vector<glm::vec3> translations;
@@ -209,6 +231,7 @@ void addAnimation(tinygltf::Model& model, const Take& take, std::size_t shapes, 
     }
     tinygltf::Animation animation;
     animation.name = take.segment;
+    // The channels share the accessor of the times.
     const int input = addTimes(model, times);
     const auto animate = [&](const char* path, int keys) {
         tinygltf::AnimationSampler sampler;
@@ -227,6 +250,7 @@ void addAnimation(tinygltf::Model& model, const Take& take, std::size_t shapes, 
     model.animations.push_back(animation);
 }
 
+// The only node, and the scene that shows it.
 int addFish(tinygltf::Model& model, const std::string& species, int mesh) {
     tinygltf::Node node;
     node.name = species;
@@ -239,6 +263,7 @@ int addFish(tinygltf::Model& model, const std::string& species, int mesh) {
     return 0;
 }
 
+// Encodes the model in memory; no file is touched.
 std::vector<std::byte> written(const tinygltf::Model& model, GltfContainer container) {
     std::ostringstream stream;
     const bool isBinary = container == GltfContainer::Binary;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/replica.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -16,8 +16,11 @@ namespace aquarama::report {
 
 namespace {
 
+// The replica.
+
 constexpr std::array kTraits{motion::FishTraits{.id = 0, .lengthMillimetres = 1000}};
 
+// The segment that the replica plays for a manoeuvre.
 motion::Action actionOf(Manoeuvre manoeuvre) {
     switch (manoeuvre) {
         case Manoeuvre::Ascend:
@@ -27,18 +30,21 @@ motion::Action actionOf(Manoeuvre manoeuvre) {
         case Manoeuvre::Brake:
             return motion::Action::Glide;
         case Manoeuvre::Retreat:
-            return motion::Action::ForwardSlow;  // backwards
+            return motion::Action::ForwardSlow;  // played backwards
         default:
             return static_cast<motion::Action>(manoeuvre);
     }
 }
 
+// Radians, up positive; 0 where the fish keeps level.
 double pitchOf(Manoeuvre manoeuvre) {
     return manoeuvre == Manoeuvre::Ascend    ? kScriptPitchRadians
            : manoeuvre == Manoeuvre::Descend ? -kScriptPitchRadians
                                              : 0;
 }
 
+// The phase, in units of 1/65536 of a cycle, whose pose has the least sum of squared distances of
+// the nodal points. It tries kFiner phases for each recorded one.
 std::uint16_t nearestPhase(const motion::ActionSegment& segment, const capture::NodeVectors& pose) {
     constexpr int kFiner = 4;
     std::uint16_t nearest = 0;
@@ -69,6 +75,7 @@ std::uint16_t nearestPhase(const motion::ActionSegment& segment, const capture::
 
 Replica::Replica(const motion::Repertoire& repertoire)
     : repertoire_(repertoire), tables_(motion::makeMotorTables(repertoire)) {
+    // One fish, in steady medium swimming.
     states_.resize(1);
     commands_.resize(1);
     motion::setBodyFrame(states_, 0, {});
@@ -77,6 +84,7 @@ Replica::Replica(const motion::Repertoire& repertoire)
         states_, 0, motion::recordedSpeedBodyLengths(*tables_, motion::Action::ForwardMedium));
 }
 
+// The motor takes the brake as 0 to 255 and the pitch as its sine in units of 1/32768.
 void Replica::command(Manoeuvre manoeuvre) {
     play(actionOf(manoeuvre), manoeuvre == Manoeuvre::Retreat ? -1 : 1);
     commands_.brake[0] = manoeuvre == Manoeuvre::Brake ? 255 : 0;
@@ -86,8 +94,10 @@ void Replica::command(Manoeuvre manoeuvre) {
 
 void Replica::play(motion::Action action, double tempo) {
     commands_.segment[0] = static_cast<std::uint8_t>(action);
-    commands_.phaseRate[0] =
-        static_cast<std::int16_t>(std::lround(tempo * motion::recordedPhaseRate(*tables_, action)));
+    const auto rate = std::lround(tempo * motion::recordedPhaseRate(*tables_, action));
+    assert(rate >= std::numeric_limits<std::int16_t>::min() &&
+           rate <= std::numeric_limits<std::int16_t>::max());
+    commands_.phaseRate[0] = static_cast<std::int16_t>(rate);
 }
 
 void Replica::tick() {
@@ -101,6 +111,7 @@ void Replica::tick() {
 }
 
 void Replica::learn(motion::Action action, const motion::ActionSegment& segment) {
+    assert(action != playing());
     repertoire_.segments.at(static_cast<std::size_t>(action)) = segment;
     tables_ = motion::makeMotorTables(repertoire_);
 }
@@ -109,6 +120,8 @@ void Replica::bringToPhaseOf(const capture::NodeVectors& pose) {
     const motion::ActionSegment& segment = repertoire_.segments.at(states_.segment[0]);
     const bool warps = states_.warpFrame[0] != states_.warpLength[0];
     if (warps || segment.playsToEnd || playing() == motion::Action::Glide) return;
+    // A jump of the phase would turn the mean frame by the sway between the two phases; the body
+    // frame is turned back by as much.
     const glm::quat course = motion::meanRotation(*tables_, states_, 0);
     states_.phase[0] = nearestPhase(segment, pose);
     const glm::quat shifted = motion::meanRotation(*tables_, states_, 0);
@@ -117,6 +130,8 @@ void Replica::bringToPhaseOf(const capture::NodeVectors& pose) {
     motion::setBodyFrame(states_, 0, frame);
 }
 
+// Through the record and the reconstruction that a render node uses, so that the error of both is
+// part of what is measured.
 TracePoint Replica::point() const {
     const motion::FishRecord record = motion::recordOf(states_, 0);
     body::NodalPoints nodes;
@@ -130,10 +145,13 @@ TracePoint Replica::point() const {
 
 namespace {
 
-constexpr double kSecondsToSteady = 24;  // the fish's own
+// The biomechanical fish.
 
-// Who swims also keeps level and upright, as the replica always does (the paper's section 4.2); a
-// fish that is both needs no fins for it.
+// The fish's own seconds from rest until it swims steadily at medium speed.
+constexpr double kSecondsToSteady = 24;
+
+// A swimming fish balances, since the replica always does (the paper's section 4.2). The fins have
+// no effect on a fish that is level and upright already.
 capture::Order orderFor(const config::Species& species, Manoeuvre manoeuvre) {
     const config::Swim& swim = species.swim;
     switch (manoeuvre) {
@@ -170,12 +188,14 @@ capture::Order orderFor(const config::Species& species, Manoeuvre manoeuvre) {
     return {};
 }
 
+// A point of a trace from places in the world.
 TracePoint pointOf(const capture::NodeVectors& pose) {
     return {capture::frameOf(pose), capture::inBodyFrame(pose)};
 }
 
 }  // namespace
 
+// A tick has a whole number of steps, none longer than longestStepSeconds().
 Trace traceFish(const config::Species& species, std::span<const TimedOrder> orders) {
     const double longest = capture::longestStepSeconds(capture::makeBiomechanicalFish(species));
     const int stepsPerTick = static_cast<int>(std::ceil(1 / (kTicksPerSecond * longest) - 1e-9));
@@ -197,6 +217,7 @@ Trace traceFish(const config::Species& species, std::span<const TimedOrder> orde
     return trace;
 }
 
+// The orders of a script, its run-in included.
 Trace traceFish(const config::Species& species, const Script& script) {
     std::vector<TimedOrder> orders;
     for (const ScriptCommand& command : script)
@@ -206,6 +227,8 @@ Trace traceFish(const config::Species& species, const Script& script) {
 
 namespace {
 
+// Runs a replica through the script and calls beforeCommand(replica, tick) before each command,
+// where `tick` is the index of the last point.
 template <class Before>
 Trace traceOf(const motion::Repertoire& repertoire, const Script& script, Before beforeCommand) {
     Replica replica(repertoire);

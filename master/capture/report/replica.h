@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One kinematic fish under the motor of the show.
+// The kinematic replica: one fish moved by the motor of the show (motion::MotorStep).
 #pragma once
 
 #include <array>
@@ -10,32 +10,35 @@
 
 namespace aquarama::report {
 
-// Swims forward_medium from phase 0, at its speed, until it is told otherwise. It is one metre
-// long: what it does is in body lengths.
+// Starts at the origin with forward_medium at phase 0, at that gait's speed. It is one metre long,
+// so that metres are body lengths. Owns a copy of the repertoire; for one thread at a time.
 class Replica {
   public:
     explicit Replica(const motion::Repertoire& repertoire);
 
+    // Sets segment, tempo, pitch and brake for a manoeuvre; in force from the next tick on.
     void command(Manoeuvre manoeuvre);
-    // A segment at so many times its recorded tempo; backwards when that is negative.
+    // A segment at `tempo` times its recorded phase rate; backwards when that is negative. The
+    // phase rate must fit into 16 bits.
     void play(motion::Action action, double tempo);
-    void tick();
+    void tick();  // 1/60 s
 
-    // Exchanges a segment that is not playing.
+    // Replaces a segment of the repertoire that is not playing.
     void learn(motion::Action action, const motion::ActionSegment& segment);
     [[nodiscard]] motion::Action playing() const {
         return static_cast<motion::Action>(states_.segment[0]);
     }
 
-    // Where a cyclic segment plays, changes its phase to that whose pose is nearest; the mean frame
-    // stays where it is.
+    // While a cyclic segment plays, sets its phase to the one whose pose is nearest to `pose` (in
+    // the body frame, body lengths) and keeps the direction of the mean frame. Does nothing during
+    // a motion warp, a turn or a glide.
     void bringToPhaseOf(const capture::NodeVectors& pose);
 
-    [[nodiscard]] TracePoint point() const;
+    [[nodiscard]] TracePoint point() const;  // where it is now
 
   private:
     motion::Repertoire repertoire_;
-    std::shared_ptr<const motion::MotorTables> tables_;
+    std::shared_ptr<const motion::MotorTables> tables_;  // of repertoire_
     motion::MotionStates states_;
     motion::MotorCommands commands_;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/report_data.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <span>
@@ -28,12 +28,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kViews = 8;  // of each segment, evenly from its start to its end
+// The report.
 
+constexpr std::size_t kViews = 8;  // of each segment, evenly spaced from its start to its end
+
+// The report gives angles in degrees.
 double degrees(double radians) {
     return radians / kRadiansPerDegree<double>;
 }
 
+// The file: its size and digest are those of the repertoire encoded anew.
 json fileData(const motion::Repertoire& repertoire) {
     const std::vector<std::byte> bytes = motion::encodeRepertoire(repertoire);
     return {
@@ -54,6 +58,7 @@ json fileData(const motion::Repertoire& repertoire) {
 json bodyData(const motion::Repertoire& repertoire) {
     const motion::ActionSegment& straight =
         repertoire.segments.at(static_cast<std::size_t>(motion::Action::Glide));
+    // The glide is the straight fish. All kinds from FrontMuscle on are muscles.
     const bool hasSkin = !straight.controlPoints.empty();
     json springs = json::array();
     json muscles = json::array();
@@ -67,6 +72,7 @@ json bodyData(const motion::Repertoire& repertoire) {
             {"faces", hasSkin ? json(body::makeCageTopology().faces) : json::array()}};
 }
 
+// See Drift.
 json driftData(const motion::ActionSegment& segment, int repetitions) {
     const Drift drift = driftAfter(segment, repetitions);
     return {{"heading_degrees", degrees(drift.headingRadians)},
@@ -74,6 +80,7 @@ json driftData(const motion::ActionSegment& segment, int repetitions) {
             {"climb", drift.climb}};
 }
 
+// The figures of a segment: some for all segments, some for gaits or turns only.
 json measuresData(const motion::ActionSegment& segment, bool isGait) {
     const capture::SegmentMeasures m = capture::measure(segment);
     const Seam seam = seamOf(segment);
@@ -99,7 +106,7 @@ json measuresData(const motion::ActionSegment& segment, bool isGait) {
     return data;
 }
 
-// Midlines of one beat, and how far each of their points swings.
+// The midlines of one beat, and half the lateral amplitude of each of their points.
 json midlinesData(const motion::ActionSegment& gait) {
     const std::vector<Midline> lines = midlinesOf(gait);
     const Swing swing = swingOf(lines);
@@ -110,7 +117,8 @@ json midlinesData(const motion::ActionSegment& gait) {
             {"swing", {{"station", listOf(swing.station)}, {"half", listOf(swing.half)}}}};
 }
 
-// From above: the body frame at each phase, and the fish at some of them.
+// The segment from above: the body frame at each of kPhases + 1 phases, and the outline of the fish
+// at kViews of them.
 void addViews(const motion::ActionSegment& segment, json& data) {
     const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, 1);
     for (const capture::ReplayedPhase& phase : phases)
@@ -119,6 +127,7 @@ void addViews(const motion::ActionSegment& segment, json& data) {
              {"x_axis", pointOf(fromAbove(phase.worldFromBody * glm::dvec3(1, 0, 0)))},
              {"z_axis", pointOf(fromAbove(phase.worldFromBody * glm::dvec3(0, 0, 1)))}});
     for (std::size_t i = 0; i < kViews; ++i) {
+        // The last view is phase kPhases, the end of the cycle.
         const std::size_t phase = i * motion::kPhases / (kViews - 1);
         const FishOutline view = viewFromAbove(segment, phases.at(phase), phase);
         json pectorals = json::array();
@@ -130,6 +139,7 @@ void addViews(const motion::ActionSegment& segment, json& data) {
     }
 }
 
+// Writes a file completely or not at all; returns its path. Throws Error.
 fs::path written(const std::string& text, fs::path path) {
     files::writeWhole(path, std::as_bytes(std::span(text)));
     return path;
@@ -145,6 +155,7 @@ std::string reportData(const motion::Repertoire& repertoire) {
         {"body", bodyData(repertoire)},
         {"speed_line",
          {{"slope", line.slope}, {"intercept", line.intercept}, {"r_squared", line.rSquared}}}};
+    // The glide is derived from the others and has no figures of its own.
     for (std::size_t i = 0; i < motion::kCapturedActions; ++i) {
         const motion::ActionSegment& segment = repertoire.segments.at(i);
         const bool isGait = i < kGaits;
@@ -167,7 +178,9 @@ fs::path writeControllers(const config::Species& species, const fs::path& folder
 
 namespace {
 
-// printf into a string: the tables here are all columns of figures.
+// The table of text.
+
+// printf into a string, which suits columns of numbers; at most 255 characters.
 template <class... Values>
 std::string line(const char* format, Values... values) {
     std::array<char, 256> text{};
@@ -175,11 +188,12 @@ std::string line(const char* format, Values... values) {
     return text.data();
 }
 
-// No "-0.00" for what is zero but for rounding.
+// Zero for what is zero except for rounding, so that no "-0.00" appears.
 double cleaned(double value) {
     return std::abs(value) < 1e-5 ? 0 : value;
 }
 
+// One row; "-" where a figure has no meaning for the segment.
 std::string rowOf(motion::Action action, const motion::ActionSegment& segment) {
     const capture::SegmentMeasures m = capture::measure(segment);
     const bool isForward = action <= motion::Action::ForwardFast;
@@ -188,7 +202,7 @@ std::string rowOf(motion::Action action, const motion::ActionSegment& segment) {
                            m.periodSeconds,
                            m.speedBodyLengths,
                            m.strideBodyLengths);
-    // Amplitude is across a straight course, which a turn does not have.
+    // The amplitude is measured across a straight course, so a turn has none.
     row += isForward ? line(" %7s %8s %8s", "-", "-", "-")
                      : line(" %7.1f %8.1f %8.2f",
                             m.turnRadians / kRadiansPerDegree<double>,
@@ -205,8 +219,9 @@ std::string rowOf(motion::Action action, const motion::ActionSegment& segment) {
 
 }  // namespace
 
-// Little-endian, behind the five bytes "AQREP".
+// Two bytes, little-endian, after the five bytes "AQREP".
 int formatVersionOf(std::span<const std::byte> intactRepertoire) {
+    assert(intactRepertoire.size() > 6);
     return std::to_integer<int>(intactRepertoire[5]) | std::to_integer<int>(intactRepertoire[6])
                                                            << 8;
 }
@@ -224,6 +239,7 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
                  motion::kPhases,
                  body::kNodalPoints,
                  hasCage ? "426 control points recorded" : "control points not recorded");
+    // Drag is 1 / body length, the rate of the brake 1 / s: see motion::SpeedResponse.
     const auto& [swim, glide, brake] = repertoire.response;
     text += line(
         "speed response: drag %.3f, %.3f, %.3f swimming, %.3f gliding, per BL;"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line of comma separated values.
+// Data of the pages and figures: rows of CSV, points in JSON, the report about a repertoire, the
+// trials of the motor controllers; and a repertoire as a table of text.
 #pragma once
 
 #include <cmath>
@@ -19,7 +20,7 @@
 
 namespace aquarama::report {
 
-// None of the values may have a comma in it.
+// Writes one row of CSV. No value may contain a comma, a quote or a line end.
 template <class... Values>
 void addRow(std::ostream& csv, const Values&... values) {
     const char* comma = "";
@@ -27,8 +28,7 @@ void addRow(std::ostream& csv, const Values&... values) {
     csv << '\n';
 }
 
-// Points and lists of them in JSON, to a hundred thousandth of a body length.
-
+// Numbers and points in JSON, rounded to five decimals: to 1e-5 body lengths.
 [[nodiscard]] inline nlohmann::json pointOf(double value) {
     return std::round(value * 1e5) / 1e5;
 }
@@ -39,7 +39,7 @@ void addRow(std::ostream& csv, const Values&... values) {
     return {pointOf(point.x), pointOf(point.y), pointOf(point.z)};
 }
 
-// Of whatever holds numbers or points.
+// A JSON list of any range of numbers or points.
 template <class Points>
 [[nodiscard]] nlohmann::json listOf(const Points& points) {
     nlohmann::json list = nlohmann::json::array();
@@ -47,31 +47,30 @@ template <class Points>
     return list;
 }
 
-// What the report is drawn from, as JSON: master/capture/report/draw_report.py and
-// draw_controllers.py make the page and the pictures of it.
+// The data of the figures as JSON text, which draw_report.py and draw_controllers.py beside this
+// file read.
 
-// Of a repertoire: its file, body, gaits, turns, closure and each segment seen from above. Lengths
-// are in body lengths.
+// A repertoire: its file, body, gaits, turns, closure and each segment seen from above. Lengths are
+// body lengths.
 [[nodiscard]] std::string reportData(const motion::Repertoire& repertoire);
 
-// What the dynamic fish does under each of the nine motor controllers. It is simulated for that: in
-// its stride at medium speed, then so ordered.
+// The biomechanical fish under each of the nine motor controllers, simulated in this call: most
+// trials start in medium swimming; balance starts rolled by 40 degrees and retreat at rest.
 [[nodiscard]] std::string controllersData(const config::Species& species);
 
-// Write them as SPECIES.json and controllers.json; return the path. Throw Error where the folder
-// cannot be written.
+// Write reportData() as SPECIES.json and controllersData() as controllers.json into the folder and
+// return the path. Throw Error where that cannot be written.
 std::filesystem::path writeReport(const motion::Repertoire& repertoire,
                                   const std::filesystem::path& folder);
 std::filesystem::path writeControllers(const config::Species& species,
                                        const std::filesystem::path& folder);
 
-// What a repertoire holds, as a table of text.
-
-// Throws Error, naming `source`, when the bytes are no intact repertoire.
+// The contents of a repertoire file as a table of text. Throws Error, naming `source`, when the
+// bytes are not an intact repertoire.
 [[nodiscard]] std::string inspectRepertoire(std::span<const std::byte> bytes,
                                             const std::string& source);
 
-// Of the file format.
+// The version of the file format, from the head of a repertoire file.
 [[nodiscard]] int formatVersionOf(std::span<const std::byte> intactRepertoire);
 
 }  // namespace aquarama::report

@@ -2,6 +2,7 @@
 #include "master/capture/report/script.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <random>
 #include <span>
@@ -14,11 +15,12 @@ namespace {
 
 constexpr int kRunInBeats = 6;
 
+// What may follow a command: a Markov chain. Weights are relative within a table.
 struct Choice {
     Manoeuvre manoeuvre;
     std::uint64_t weight;
 };
-// After medium swimming more than half of what comes are turns.
+// After medium swimming more than half of the commands are turns.
 constexpr std::array kAfterMedium{Choice{Manoeuvre::ForwardSlow, 12},
                                   Choice{Manoeuvre::ForwardFast, 12},
                                   Choice{Manoeuvre::TurnLeftGradual, 15},
@@ -41,6 +43,7 @@ constexpr std::array kAfterOthers{Choice{Manoeuvre::ForwardMedium, 8},
                                   Choice{Manoeuvre::ForwardSlow, 1},
                                   Choice{Manoeuvre::ForwardFast, 1}};
 
+// Every other command, turns included, is followed by one of the gaits.
 std::span<const Choice> choicesAfter(Manoeuvre manoeuvre) {
     switch (manoeuvre) {
         case Manoeuvre::ForwardMedium:
@@ -59,9 +62,12 @@ std::span<const Choice> choicesAfter(Manoeuvre manoeuvre) {
 
 using Random = std::mt19937_64;
 
+// A random choice by weight. The remainder instead of a library distribution: the same script with
+// every standard library.
 Manoeuvre choose(std::span<const Choice> choices, Random& random) {
     std::uint64_t sum = 0;
     for (const Choice& choice : choices) sum += choice.weight;
+    assert(sum > 0);
     std::uint64_t left = random() % sum;
     for (const Choice& choice : choices) {
         if (left < choice.weight) return choice.manoeuvre;
@@ -70,17 +76,22 @@ Manoeuvre choose(std::span<const Choice> choices, Random& random) {
     return choices.back().manoeuvre;
 }
 
+// Only for the first eight manoeuvres, which are actions.
 const motion::ActionSegment& segmentOf(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
+    assert(static_cast<int>(manoeuvre) < motion::kActions);
     return repertoire.segments.at(static_cast<std::size_t>(manoeuvre));
 }
 
+// One cycle, in ticks, with its fraction.
 double ticksOf(const motion::ActionSegment& segment) {
     return static_cast<double>(segment.periodSeconds) * kTicksPerSecond;
 }
 
+// How long a command lasts, in beats: a random length between the two.
 struct Beats {
     double least, most;
 };
+// A balance is long enough for the fish to become level; a brake ends when it is nearly at rest.
 Beats beatsOf(Manoeuvre manoeuvre) {
     switch (manoeuvre) {
         case Manoeuvre::Brake:
@@ -100,15 +111,17 @@ double beatTicks(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
     return ticksOf(segmentOf(repertoire, hasItsOwn ? manoeuvre : Manoeuvre::ForwardMedium));
 }
 
+// Draws one random number unless the manoeuvre is a turn.
 ScriptCommand commandFor(const motion::Repertoire& repertoire,
                          Manoeuvre manoeuvre,
                          Random& random) {
     ScriptCommand command{.manoeuvre = manoeuvre, .beatTicks = beatTicks(repertoire, manoeuvre)};
+    // A turn lasts its recorded segment, rounded to ticks.
     if (isTurn(manoeuvre)) {
         command.ticks = static_cast<int>(std::lround(ticksOf(segmentOf(repertoire, manoeuvre))));
         return command;
     }
-    constexpr double kUnit = 1.0 / 4294967296.0;
+    constexpr double kUnit = 1.0 / 4294967296.0;  // 2^-32: the share is in [0, 1)
     const double share = static_cast<double>(random() >> 32U) * kUnit;
     const auto [least, most] = beatsOf(manoeuvre);
     command.ticks =
@@ -138,6 +151,8 @@ const char* nameOf(Manoeuvre manoeuvre) {
 Script makeScript(const motion::Repertoire& repertoire, std::uint64_t seed, double seconds) {
     Random random(seed);
     const double beat = beatTicks(repertoire, Manoeuvre::ForwardMedium);
+    assert(beat > 0);  // else the script would never be long enough
+    // The run-in, then each command by what came before it.
     Script script{
         {Manoeuvre::ForwardMedium, static_cast<int>(std::ceil(kRunInBeats * beat)), beat}};
     while (ticksOf(script) < seconds * kTicksPerSecond)

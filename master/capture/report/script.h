@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mind might command for a minute: the same for the biomechanical fish and for its replica.
+// A script of random commands, such as a mind gives within a minute, and the traces of the fish
+// that follow it: the biomechanical fish and its kinematic replica.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@
 
 namespace aquarama::report {
 
-// The first eight are the actions of a repertoire, in their order; the others are made of them.
+// What can be commanded. The first eight are the actions of a repertoire, in their order; the
+// replica plays the others by means of these.
 enum class Manoeuvre : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -30,65 +32,70 @@ enum class Manoeuvre : std::uint8_t {
     Retreat,
 };
 inline constexpr int kManoeuvres = 13;
+// "forward_slow", ..., "ascend", ...; the string is static.
 [[nodiscard]] const char* nameOf(Manoeuvre manoeuvre);
 [[nodiscard]] constexpr bool isTurn(Manoeuvre m) {
     return m >= Manoeuvre::TurnLeftGradual && m <= Manoeuvre::TurnRightSharp;
 }
 
-// How steeply Ascend and Descend swim.
+// The pitch of Ascend and, downwards, of Descend: 20 degrees.
 inline constexpr double kScriptPitchRadians = 0.35;
 
 struct ScriptCommand {
     Manoeuvre manoeuvre = Manoeuvre::ForwardMedium;
-    int ticks = 0;
-    double beatTicks = 0;  // of the gait, or else of medium swimming
+    int ticks = 0;         // how long it lasts
+    double beatTicks = 0;  // period of a beat of the gait, or else of medium swimming
 };
+// The first command is the run-in, which is not measured.
 using Script = std::vector<ScriptCommand>;
 
-// A run-in of steady swimming at medium speed, then commands until `seconds` of them are full; the
-// last one ends as late as it must. Gaits last some of their beats, turns come out of medium
-// swimming and last their segment, who has risen or sunk levels out, and the rest is rare. A pure
-// function of its arguments.
+// A run-in of steady swimming at medium speed, then random commands until they last `seconds` or
+// more; the last one is not cut. A gait lasts some of its beats. A turn follows medium swimming and
+// lasts its segment. After an ascent or a descent the fish balances. Brakes and retreats are rare.
+// A pure function of its arguments.
 [[nodiscard]] Script makeScript(const motion::Repertoire& repertoire,
                                 std::uint64_t seed,
                                 double seconds);
 
-// Of the script without its run-in.
+// The length of the script without its run-in.
 [[nodiscard]] int ticksOf(const Script& script);
 
-// What a fish did, tick by tick: the common ground on which the biomechanical fish and its replica
-// are compared.
+// Traces: what a fish did, tick by tick, in the same form for the biomechanical fish and its
+// replica.
 
 struct TracePoint {
-    capture::PoseFrame frame;     // in the world, body lengths
+    capture::PoseFrame frame;     // body frame in the world, body lengths
     capture::NodeVectors pose{};  // nodal points in the body frame, body lengths (eq. 8)
 };
 
-// One more than the ticks: the first is before the first command.
+// The first point is before the first command, so there is one more than ticks.
 using Trace = std::vector<TracePoint>;
 
+// A command to the biomechanical fish and how long it holds.
 struct TimedOrder {
     capture::Order order;
     int ticks = 0;
 };
 
-// The biomechanical fish follows the script, after it has swum from rest at medium speed until it
-// swims steadily and its beat begins anew.
+// The biomechanical fish follows the orders. Before the first point it has swum from rest at medium
+// speed until it swims steadily, for a whole number of beats.
 [[nodiscard]] Trace traceFish(const config::Species& species, std::span<const TimedOrder> orders);
 [[nodiscard]] Trace traceFish(const config::Species& species, const Script& script);
 
-// The replica follows the script, from phase 0 of forward_medium and at its speed.
+// The replica follows the script. It starts at phase 0 of forward_medium, at that gait's speed.
 [[nodiscard]] Trace traceReplica(const motion::Repertoire& repertoire, const Script& script);
-// The same, but where a command finds it swimming, its beat is first brought to the phase of the
-// fish's, its course kept: so that each command begins alike for both.
+// The same, but before each command the phase of a cyclic segment is set to the one whose pose is
+// nearest to that of `fish`, with the course unchanged: so each command begins alike for both.
+// `fish` is the trace of the biomechanical fish under the same script.
 [[nodiscard]] Trace traceReplicaInPhase(const motion::Repertoire& repertoire,
                                         const Script& script,
                                         const Trace& fish);
 
+// Traces of one script, all of the same length.
 struct Traces {
     Trace fish;
-    Trace replica;       // brought into phase at each command
-    Trace looseReplica;  // left alone from the first command to the last
+    Trace replica;       // traceReplicaInPhase()
+    Trace looseReplica;  // traceReplica(): not corrected at any command
 };
 [[nodiscard]] Traces traceBoth(const config::Species& species,
                                const motion::Repertoire& repertoire,

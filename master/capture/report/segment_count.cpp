@@ -2,6 +2,7 @@
 #include "master/capture/report/segment_count.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -17,6 +18,9 @@ namespace aquarama::report {
 
 namespace {
 
+// Grades.
+
+// The vocabularies that are compared, from the smallest to the largest.
 const std::vector<Vocabulary>& vocabularies() {
     static const std::vector<Vocabulary> all{
         {{0.5}, {}},
@@ -31,6 +35,7 @@ const std::vector<Vocabulary>& vocabularies() {
 
 enum class Way : std::uint8_t { Ahead, Left, Right };
 
+// A segment or a command: a speed (Ahead) or a turn, with its grade.
 struct Grade {
     Way way = Way::Ahead;
     double value = 0.5;
@@ -41,27 +46,35 @@ double between(double a, double b, double share) {
     return a + share * (b - a);
 }
 
+// Piecewise linear between the three gaits, in frequency and in gain.
 config::Gait gaitAt(const config::Swim& swim, double grade) {
+    assert(grade >= 0 && grade <= 1);
     const config::Gait& from = grade < 0.5 ? swim.slow : swim.medium;
     const config::Gait& to = grade < 0.5 ? swim.medium : swim.fast;
     const double share = grade < 0.5 ? 2 * grade : 2 * grade - 1;
     return {between(from.beatHertz, to.beatHertz, share), between(from.gain, to.gain, share)};
 }
 
+// Piecewise linear between no bend (at the tempo of the gradual one), gradual and sharp.
 config::Bend bendAt(const config::Turn& turn, double grade) {
+    assert(grade >= 0 && grade <= 1);
     if (grade < 0.5) return {2 * grade * turn.gradual.strength, turn.gradual.tempo};
     const double share = 2 * grade - 1;
     return {between(turn.gradual.strength, turn.sharp.strength, share),
             between(turn.gradual.tempo, turn.sharp.tempo, share)};
 }
 
+// A command in three forms: its grade, for the replica; its length, for compare(), where the
+// manoeuvre only says whether it is a turn; and the order to the biomechanical fish.
 struct GradedCommand {
     Grade grade;
     ScriptCommand command;
     capture::Order order;
 };
 
-// Speed and turn from anywhere in their ranges; each turn comes out of medium swimming.
+// Random speeds and turns, uniform over their ranges (turns from a grade of 0.2). After a run-in it
+// repeats: a random speed for 3 to 6 beats, medium swimming for 3, a turn. Keeps references to its
+// arguments.
 class GradedScript {
   public:
     GradedScript(const config::Species& species,
@@ -80,8 +93,10 @@ class GradedScript {
     [[nodiscard]] const std::vector<GradedCommand>& commands() const { return commands_; }
 
   private:
+    // Uniform in [0, 1); the same with every standard library.
     double share() { return static_cast<double>(random_() >> 32U) / 4294967296.0; }
 
+    // `beats` is for swimming only: a turn lasts as long as its segment.
     void add(const Grade& grade, double beats) {
         GradedCommand graded;
         graded.grade = grade;
@@ -102,6 +117,8 @@ class GradedScript {
         ticks_ += graded.command.ticks;
         commands_.push_back(graded);
     }
+    // Interpolated between the lengths of the recorded turns; below gradual, that of the gradual
+    // one.
     [[nodiscard]] int turnTicks(double grade) const {
         const auto seconds = [&](motion::Action action) {
             const auto index = static_cast<std::size_t>(action);
@@ -121,7 +138,8 @@ class GradedScript {
     int ticks_ = 0;
 };
 
-// Segments of all grades, captured when they are first asked for.
+// Segments by grade. Each is captured when it is first needed and kept: the vocabularies share
+// many. References to segments stay valid. Keeps a reference to the species.
 class Library {
   public:
     explicit Library(const config::Species& species) : species_(species) {}
@@ -147,11 +165,13 @@ class Library {
     }
 
     const config::Species& species_;
+    // A map never moves its elements.
     std::map<Grade, motion::ActionSegment> segments_;
 };
 
-// A replica that knows what it needs next: the motor holds seven segments, and two of its places
-// serve for all of a vocabulary, by turns.
+// A replica with any vocabulary. The motor's repertoire has a fixed number of segments, so the next
+// segment is loaded just before it is played, in turn into one of two places: the other place holds
+// the segment that is still playing. Keeps references to the species and the library.
 class Polyglot {
   public:
     Polyglot(const config::Species& species, const motion::Repertoire& repertoire, Library& library)
@@ -167,6 +187,7 @@ class Polyglot {
             replica_.learn(place_, library_.segment(nearest));
             playing_ = nearest;
         }
+        // Straight swimming is played at the commanded beat frequency, a turn as recorded.
         const double tempo = nearest.way == Way::Ahead && graded.grade.way == Way::Ahead
                                  ? gaitAt(swim_, graded.grade.value).beatHertz /
                                        gaitAt(swim_, nearest.value).beatHertz
@@ -176,8 +197,10 @@ class Polyglot {
     Replica& replica() { return replica_; }
 
   private:
-    // Who knows no turn swims straight on.
+    // The segment of the vocabulary that is nearest to a command. Without any turn in the
+    // vocabulary a turn is played as medium swimming.
     static Grade nearestTo(const Grade& grade, const Vocabulary& vocabulary) {
+        assert(!vocabulary.speeds.empty());
         const bool turns = grade.way != Way::Ahead && !vocabulary.turns.empty();
         const std::vector<double>& known = turns ? vocabulary.turns : vocabulary.speeds;
         const double wanted = turns || grade.way == Way::Ahead ? grade.value : 0.5;
@@ -189,10 +212,14 @@ class Polyglot {
     const config::Swim& swim_;
     Library& library_;
     Replica replica_;
+    // The place that was loaded last, and what it holds. The first to be loaded is ForwardSlow,
+    // since a replica starts with ForwardMedium.
     motion::Action place_ = motion::Action::TurnLeftGradual;
     std::optional<Grade> playing_;
 };
 
+// The trace of a replica under the commands; before each of them its phase is set to that of the
+// fish.
 Trace traceWith(const Vocabulary& vocabulary,
                 const std::vector<GradedCommand>& commands,
                 const Trace& fish,
@@ -210,6 +237,7 @@ Trace traceWith(const Vocabulary& vocabulary,
     return trace;
 }
 
+// Of increments, nodal points and control points at all phases.
 constexpr std::size_t kBytesOfSegment =
     motion::kPhases *
     (sizeof(motion::FrameIncrement) + sizeof(motion::NodalPose) + sizeof(motion::ControlPointPose));
@@ -220,6 +248,7 @@ std::vector<VocabularyErrors> compareVocabularies(const config::Species& species
                                                   const motion::Repertoire& repertoire,
                                                   std::uint64_t seed,
                                                   double seconds) {
+    // The biomechanical fish is simulated once, for all vocabularies.
     const GradedScript graded(species, repertoire, seed, seconds);
     Script script;
     std::vector<TimedOrder> orders;
@@ -234,6 +263,7 @@ std::vector<VocabularyErrors> compareVocabularies(const config::Species& species
     for (const Vocabulary& vocabulary : vocabularies()) {
         const Trace replica =
             traceWith(vocabulary, graded.commands(), fish, Polyglot(species, repertoire, library));
+        // The third trace is for open-loop errors, which are not used here.
         const Comparison comparison = compare(script, {fish, replica, replica});
         std::vector<CommandErrors> turns;
         for (const CommandErrors& errors : comparison.commands)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/segment_figures.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +16,10 @@ namespace aquarama::report {
 
 namespace {
 
+// Closure.
+
+// The greatest distance, at phase k, of a nodal point from the cubic through its four neighbours in
+// time. The weights -1/6, 4/6, 4/6, -1/6 are Lagrange's for evenly spaced places.
 double roughnessAt(const motion::ActionSegment& segment, std::size_t k) {
     const auto ahead = [&](std::size_t phases) { return capture::poseAt(segment, k + phases); };
     const std::array poses{
@@ -29,6 +33,7 @@ double roughnessAt(const motion::ActionSegment& segment, std::size_t k) {
     return most;
 }
 
+// Left of +x positive, radians.
 double headingOf(const capture::ReplayedPhase& phase) {
     const glm::dvec3 ahead = phase.worldFromBody * glm::dvec3(1, 0, 0);
     return std::atan2(-ahead.z, ahead.x);
@@ -39,6 +44,7 @@ double headingOf(const capture::ReplayedPhase& phase) {
 Seam seamOf(const motion::ActionSegment& segment) {
     Seam seam;
     for (std::size_t k = 0; k < motion::kPhases; ++k) {
+        // At two phases on either side of the end the neighbours are from both ends of the cycle.
         const bool isAtTheJoin = k < 2 || k + 2 >= motion::kPhases;
         double& most = isAtTheJoin ? seam.atTheJoin : seam.elsewhere;
         most = std::max(most, roughnessAt(segment, k));
@@ -47,6 +53,7 @@ Seam seamOf(const motion::ActionSegment& segment) {
 }
 
 Drift driftAfter(const motion::ActionSegment& segment, int repetitions) {
+    assert(repetitions >= 1);
     const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, repetitions);
     const capture::ReplayedPhase& start = phases.front();
     const capture::ReplayedPhase& end = phases.back();
@@ -62,6 +69,10 @@ Drift driftAfter(const motion::ActionSegment& segment, int repetitions) {
 
 namespace {
 
+// Midlines.
+
+// `travelled` is how far the frame that moves with the mean speed has come. On the paper y is to
+// the right of the fish.
 Midline midlineAt(const capture::ReplayedPhase& phase, double travelled) {
     Midline line;
     for (const glm::dvec2& point : midlineFromAbove(phase)) {
@@ -75,6 +86,8 @@ Midline midlineAt(const capture::ReplayedPhase& phase, double travelled) {
 
 std::vector<Midline> midlinesOf(const motion::ActionSegment& gait) {
     const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(gait, 1);
+    // The mean over the beat of the nose's station, and of the lateral place of all points, is
+    // subtracted, so that the stations begin at 0 and the lines lie symmetrically.
     const double advance = phases.back().origin.x;
     std::vector<Midline> lines;
     double nose = 0;
@@ -94,6 +107,7 @@ std::vector<Midline> midlinesOf(const motion::ActionSegment& gait) {
 
 Swing swingOf(const std::vector<Midline>& lines) {
     Swing swing;
+    assert(!lines.empty());
     for (std::size_t j = 0; j < kMidlinePoints; ++j) {
         double least = 1;
         double most = -1;
@@ -111,7 +125,8 @@ Swing swingOf(const std::vector<Midline>& lines) {
 }
 
 SpeedLine fitSpeed(const motion::Repertoire& repertoire) {
-    std::array<glm::dvec2, kGaits> points;  // beat and speed, then their distances from the mean
+    // Beat frequency and speed; in the second loop their distances from the mean.
+    std::array<glm::dvec2, kGaits> points;
     glm::dvec2 mean{};
     for (std::size_t i = 0; i < kGaits; ++i) {
         const capture::SegmentMeasures m = capture::measure(repertoire.segments.at(i));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well a segment meets itself where it is repeated.
+// Figures of segments for the report: how well a segment closes, the midlines of a beat, speed
+// against beat frequency, radius and rate of turns. Lengths are body lengths; pure functions.
 #pragma once
 
 #include <cstddef>
@@ -9,54 +10,59 @@
 
 namespace aquarama::report {
 
-// By how much the farthest nodal point is off the smooth way of its neighbours in time (the cubic
-// through two phases before and two after), in body lengths: where the last phases meet the first,
-// and at most elsewhere in the cycle.
+// Closure of the pose: the greatest distance of a nodal point from a smooth path, the cubic through
+// its places two and one phases before and one and two after, in body lengths.
 struct Seam {
+    // At the phases whose neighbours lie on both sides of the end of the cycle; at all others.
     double atTheJoin = 0;
     double elsewhere = 0;
 };
 [[nodiscard]] Seam seamOf(const motion::ActionSegment& segment);
 
-// What repetitions add to the course that one cycle does not tell of.
+// Closure of the motion: the errors that add up over repetitions.
 struct Drift {
-    double headingRadians = 0;  // from a straight course, or beyond so many times the cycle's turn
-    double leanRadians = 0;     // roll and pitch together
-    double climb = 0;           // body lengths
+    // Change of heading. For a turn that plays to its end, beyond `repetitions` times its own
+    // angle.
+    double headingRadians = 0;
+    double leanRadians = 0;  // roll and pitch together
+    double climb = 0;        // body lengths
 };
+// `repetitions` >= 1.
 [[nodiscard]] Drift driftAfter(const motion::ActionSegment& segment, int repetitions);
 
-// The midlines of one beat, as papers on swimming fish draw them.
-
-// Body lengths, in a frame that swims along at the mean speed.
+// The midlines of one beat, as papers on swimming fish draw them, in a frame that moves with the
+// mean velocity. Each has kMidlinePoints points, from nose to tail.
 struct Midline {
-    std::vector<double> station;  // behind the mean nose
-    std::vector<double> left;     // of the mean course
+    std::vector<double> station;  // distance behind the mean place of the nose
+    std::vector<double> left;     // distance to the left of the mean course
 };
-// One a phase.
+// One midline for each phase.
 [[nodiscard]] std::vector<Midline> midlinesOf(const motion::ActionSegment& gait);
 
-// How each point of the midline swings over the beat.
+// The lateral motion of each point of the midline over the beat.
 struct Swing {
-    std::vector<double> station;  // its mean
-    std::vector<double> half;     // half of its way from side to side
+    std::vector<double> station;  // mean over the beat
+    std::vector<double> half;     // amplitude: half of the travel from side to side
 };
+// `lines` is not empty.
 [[nodiscard]] Swing swingOf(const std::vector<Midline>& lines);
 
-// What the report tells of gaits and turns beside their measures of each segment.
+// Gaits and turns.
 
 inline constexpr std::size_t kGaits = 3;  // the first three actions: slow, medium, fast
 
-// speed = slope * beat + intercept, by least squares over the three gaits.
+// speed = slope * beat frequency + intercept, by least squares over the three gaits.
 struct SpeedLine {
     double slope = 0;      // body lengths a beat
     double intercept = 0;  // body lengths a second
-    double rSquared = 0;
+    double rSquared = 0;   // coefficient of determination
 };
 [[nodiscard]] SpeedLine fitSpeed(const motion::Repertoire& repertoire);
 
-// The mean radius of a turning cycle and the fastest turn within it.
-[[nodiscard]] double turnRadius(const motion::ActionSegment& segment);    // body lengths
-[[nodiscard]] double peakTurnRate(const motion::ActionSegment& segment);  // radians a second
+// The mean radius of a turn, body lengths: path by angle. Infinite for a segment that does not
+// turn.
+[[nodiscard]] double turnRadius(const motion::ActionSegment& segment);
+// The greatest rate of turn from one phase to the next, radians a second, without sign.
+[[nodiscard]] double peakTurnRate(const motion::ActionSegment& segment);
 
 }  // namespace aquarama::report

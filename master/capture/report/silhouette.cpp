@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/capture/report/silhouette.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -14,20 +14,27 @@ namespace aquarama::report {
 
 namespace {
 
-// Columns of the cage's tube at the edge of what is seen: flanks from above, back and belly from
-// the side.
+// The biomechanical fish.
+
+// The two columns of the cage's tube that form the outline: the flanks from above, back and belly
+// from the side.
 std::pair<int, int> edgeColumns(ViewSide view) {
     return view == ViewSide::Above ? std::pair{3, 10} : std::pair{0, 6};
 }
 
-constexpr double kFinBodyLengths = 0.17;
+constexpr double kFinBodyLengths = 0.17;  // length of the line that stands for a pectoral fin
 
+// Whether a control point belongs to a dorsal or the anal fin. Those fins are flat: seen from above
+// they have no area.
 bool isOnBackOrBelly(const body::CageSite& site) {
     return site.kind == body::CageSiteKind::Flap &&
            (site.part == body::CagePart::FirstDorsal || site.part == body::CagePart::SecondDorsal ||
             site.part == body::CagePart::Anal);
 }
 
+// `outward` is the direction of the fin along the body's z axis: -1 for the left one, 1 for the
+// right. The root is a little before and beside the middle of ring 2. The fin's normal is (across,
+// flat, 0) in the body frame, and the chord is perpendicular to it.
 Polygon finLine(const capture::PectoralFin& fin,
                 double outward,
                 const capture::PoseFrame& frame,
@@ -50,20 +57,24 @@ glm::dvec2 seen(ViewSide view, const glm::dvec3& world) {
 std::vector<Polygon> silhouetteOf(const body::FishBody& body,
                                   const capture::NodeVectors& nodes,
                                   ViewSide view) {
+    // The cage in the pose of the nodal points.
     body::NodalPoints points;
     std::ranges::copy(nodes, points.begin());
+    assert(body.cage.vertices.size() == body::kControlPoints);
     std::vector<glm::vec3> cage(body.cage.vertices.size());
     body::poseCage(body, points, cage);
     const auto [one, other] = edgeColumns(view);
     const auto edge = [&](int ring, int column) {
         return seen(view, cage.at(static_cast<std::size_t>(ring * body::kTubeColumns + column)));
     };
+    // From the nose along one edge to the tail and back along the other.
     Polygon outline{seen(view, nodes[0])};
     for (int ring = 0; ring < body::kTubeRings; ++ring) outline.push_back(edge(ring, one));
     for (int ring = body::kTubeRings; ring-- > 0;) outline.push_back(edge(ring, other));
     std::vector<Polygon> polygons{std::move(outline)};
     if (view == ViewSide::Above) return polygons;
 
+    // The topology is the same for every species.
     static const body::CageTopology kTopology = body::makeCageTopology();
     for (const auto& face : kTopology.faces) {
         if (!std::ranges::any_of(
@@ -84,14 +95,20 @@ std::vector<Polygon> finLines(const capture::PectoralFins& fins,
 
 namespace {
 
-constexpr std::size_t kRings = 5;
-constexpr std::size_t kSpan = 8;  // points of a smooth curve from one knot to the next
+// A captured fish.
 
-// The column of either side that is widest (see common/body/cage.h).
+constexpr std::size_t kRings = 5;  // of nodal points
+constexpr std::size_t kSpan = 8;   // points of a smooth curve from one knot to the next
+static_assert(kMidlinePoints == (kRings + 1) * kSpan + 1);
+
+// The column of each side where the cage is widest (see common/body/cage.h).
 constexpr int kRightFlank = 3;
 constexpr int kLeftFlank = 10;
 
+// A Catmull-Rom spline through the knots. Beyond the ends it takes the mirror image of the
+// neighbour of the end.
 std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& knots) {
+    assert(knots.size() >= 2);
     std::vector<glm::dvec2> curve;
     const std::size_t last = knots.size() - 1;
     for (std::size_t i = 0; i < last; ++i) {
@@ -109,7 +126,9 @@ std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& knots) {
     return curve;
 }
 
-// One side of the nodal network, from nose to tail; `upper` and `lower` are places in a ring.
+// One side of the body from nose to tail: the curve through the middles of the upper and the lower
+// node of that side in each ring. `upper` and `lower` are 0 to 3, in the order of
+// biomechanical_fish.h.
 std::vector<glm::dvec2> sideOf(const capture::NodeVectors& nodes,
                                std::size_t upper,
                                std::size_t lower) {
@@ -122,8 +141,10 @@ std::vector<glm::dvec2> sideOf(const capture::NodeVectors& nodes,
     return smooth(knots);
 }
 
-// Convex enough: its corners sorted round their middle.
+// The convex hull, counter-clockwise in a frame with y up (Andrew's monotone chain): the points
+// sorted by x give the lower half, in reverse order the upper half.
 std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
+    assert(points.size() >= 2);
     std::ranges::sort(points, [](auto a, auto b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     const auto isRightTurn = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
         return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0;
@@ -143,7 +164,10 @@ std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
     return hull;
 }
 
+// Fills in outline and pectoral fins from the control points, as fromAbove() gives them. The
+// midline is there already: the outline begins at its nose.
 void addRecorded(FishOutline& view, const std::vector<glm::dvec2>& cage) {
+    assert(cage.size() == body::kControlPoints);
     const auto at = [&](int ring, int column) {
         return cage.at(static_cast<std::size_t>(ring) * body::kTubeColumns +
                        static_cast<std::size_t>(column));
@@ -153,13 +177,14 @@ void addRecorded(FishOutline& view, const std::vector<glm::dvec2>& cage) {
         view.outline.push_back(at(ring, kRightFlank));
     for (int ring = body::kTubeRings; ring-- > 0;) view.outline.push_back(at(ring, kLeftFlank));
     static const std::vector<body::CageSite> kSites = body::makeCageTopology().sites;
-    std::array<std::vector<glm::dvec2>, 2> fins;  // left, right
+    // Left, right. Columns of the first half of the tube are on the right side.
+    std::array<std::vector<glm::dvec2>, 2> fins;
     for (std::size_t i = 0; i < kSites.size(); ++i) {
         const body::CageSite& site = kSites[i];
         if (site.part != body::CagePart::Pectoral) continue;
         auto& fin = fins.at(site.column < body::kTubeColumns / 2 ? 1 : 0);
         fin.push_back(cage.at(i));
-        fin.push_back(at(site.ring, site.column));  // its root
+        fin.push_back(at(site.ring, site.column));  // the root, on the body
     }
     for (auto& fin : fins) view.pectorals.push_back(hullOf(std::move(fin)));
 }

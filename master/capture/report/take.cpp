@@ -2,6 +2,7 @@
 #include "master/capture/report/take.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -19,6 +20,7 @@ const motion::ActionSegment& segmentOf(const motion::Repertoire& repertoire,
     return repertoire.segments.at(static_cast<std::size_t>(action));
 }
 
+// Interpolated; `share` 0 gives a, 1 gives b. The time is left to the caller.
 TakeFrame between(const capture::ReplayedPhase& a, const capture::ReplayedPhase& b, double share) {
     TakeFrame frame{.seconds = 0,
                     .origin = glm::mix(a.origin, b.origin, share),
@@ -29,27 +31,33 @@ TakeFrame between(const capture::ReplayedPhase& a, const capture::ReplayedPhase&
     return frame;
 }
 
+// The frame at a fractional index of the phases. An index beyond the last phase, as rounding makes
+// it, gives the last phase.
 TakeFrame frameAt(const std::vector<capture::ReplayedPhase>& phases, double at) {
     const auto before = std::min(static_cast<std::size_t>(at), phases.size() - 2);
     return between(
         phases[before], phases[before + 1], std::min(at - static_cast<double>(before), 1.0));
 }
 
+// From body lengths to metres.
 void scale(TakeFrame& frame, double metres) {
     frame.origin *= metres;
     for (glm::dvec3& node : frame.nodes) node *= metres;
 }
 
+// `frames` frames from phase 0 on. They may not reach beyond the end of the last cycle.
 Take makeTake(const motion::Repertoire& repertoire,
               motion::Action action,
               int cycles,
               std::size_t frames,
               double secondsPerFrame) {
+    assert(cycles >= 1 && frames >= 1);
     const motion::ActionSegment& segment = segmentOf(repertoire, action);
     Take take{.species = repertoire.species,
               .segment = motion::nameOf(action),
               .lengthMetres = static_cast<double>(repertoire.recordedLengthMetres),
               .frames = {}};
+    // In body lengths; frames are scaled to metres below.
     const std::vector<capture::ReplayedPhase> phases = capture::replayAlongX(segment, cycles);
     for (std::size_t i = 0; i < frames; ++i) {
         const double seconds = static_cast<double>(i) * secondsPerFrame;
@@ -65,7 +73,8 @@ Take makeTake(const motion::Repertoire& repertoire,
 }  // namespace
 
 Take takeAtTicks(const motion::Repertoire& repertoire, motion::Action action, int cycles) {
-    constexpr double kRounding = 1e-6;  // of a tick
+    // A cycle that ends at a tick, but for rounding, includes the frame at that tick.
+    constexpr double kRounding = 1e-6;  // ticks
     const double ticks =
         static_cast<double>(segmentOf(repertoire, action).periodSeconds) * kTicksPerSecond * cycles;
     const std::size_t frames = static_cast<std::size_t>(std::floor(ticks + kRounding)) + 1;
@@ -80,6 +89,7 @@ Take takeAtPhases(const motion::Repertoire& repertoire,
                   motion::Action action,
                   int cycles,
                   int framesPerCycle) {
+    assert(cycles >= 1 && framesPerCycle >= 1);
     const auto frames = static_cast<std::size_t>(cycles * framesPerCycle) + 1;
     return makeTake(
         repertoire,
