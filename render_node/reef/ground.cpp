@@ -75,6 +75,7 @@ void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float s
                                        static_cast<std::size_t>(column)];
             darken(texel.r, sunOpenness(own, place));
             darken(texel.g, skyOpenness(own, place, {0.0F, 1.0F, 0.0F}));
+            // Rubble lies around rocks that stand on the sand, not under those that hang above it.
             const float away = glm::distance(xz, glm::vec2{rock.centre.x, rock.centre.z});
             const float heap = glm::smoothstep(1.9F, 0.75F, away / rock.radiusMetres) *
                                glm::smoothstep(0.5F, 0.0F, above);

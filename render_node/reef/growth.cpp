@@ -83,6 +83,7 @@ glm::vec3 stipeAt(float share) {
 // A tuft of filaments and small leaves, which covers rock where nothing else does. The leaves stand
 // on a disc in a spiral by the golden angle.
 void growTurf(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level; the leaves become broader as their number falls.
     constexpr std::array kLeaves{34, 20, 11, 6};
     constexpr std::array kRows{4, 3, 2, 2};
     const int leaves = kLeaves.at(level);
@@ -112,6 +113,7 @@ void growTurf(Mesh& mesh, std::size_t level, Dice dice) {
 // A stipe of height 1 (drawn at about 7 m) with narrow ruffled blades, each on its float. Coarse
 // levels have no floats.
 void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level: blades, rows of a blade, joints of the stipe, sides of the stipe.
     constexpr std::array kBlades{92, 64, 40, 24};
     constexpr std::array kRows{9, 6, 4, 3};
     constexpr std::array kStem{16, 10, 6, 4};
@@ -154,6 +156,7 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
 
 // A tuft of narrow leaves from one root, some of them grazed.
 void growSeagrass(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level; the leaves become broader as their number falls.
     constexpr std::array kLeaves{16, 12, 8, 5};
     constexpr std::array kRows{7, 5, 3, 3};
     const int leaves = kLeaves.at(level);

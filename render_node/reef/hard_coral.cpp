@@ -46,6 +46,7 @@ struct Branching {
 // The last generation ends in a pale tip. `way` is a unit vector.
 void branch(
     Mesh& mesh, Branching& habit, const Joint& from, glm::vec3 way, float length, int left) {
+    // 1 in the last generation; tissue is paler there.
     const float age = 1.0F - static_cast<float>(left - 1) / static_cast<float>(habit.generations);
     const glm::vec3 bent = glm::normalize(way + glm::vec3{0, 0.5F * habit.upward, 0});
     const float light = 0.62F + 0.75F * age * age;
@@ -67,6 +68,7 @@ void branch(
                   frameAbout(bent, from.centre.x * 9.0F)[0]);
         return;
     }
+    // Coarse levels omit the joint in the middle.
     if (habit.sides > 3)
         addStrand(mesh, std::array{from, middle, to}, habit.sides);
     else
@@ -88,6 +90,8 @@ void branch(
 
 // Staghorn, Acropora: slender branches from one foot, the first stem upright, the others leaning.
 void growStaghorn(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level: generations of branches, and sides of a tube (0: a ribbon). Levels with fewer
+    // generations have longer branches.
     constexpr std::array kGenerations{4, 3, 3, 2};
     constexpr std::array kSides{6, 4, 0, 0};
     const int stems = 5 + static_cast<int>(dice.unit() * 3.0F);
@@ -124,6 +128,7 @@ void growBush(Mesh& mesh, std::size_t level, Dice dice) {
     const float spread = dice.between(0.85F, 1.2F);
     const float tall = dice.between(0.30F, 0.48F);
     const int fingers = kFingers.at(level);
+    // The area that all fingers cover stays the same at each level.
     const float broader = std::sqrt(110.0F / static_cast<float>(fingers));
     addBall(mesh,
             {.centre = {0, -0.05F, 0},
@@ -202,6 +207,8 @@ void growTable(Mesh& mesh, std::size_t level, Dice dice) {
         addTurned(mesh, few, turning, tissue(1.0F));
     else
         addTurned(mesh, rings, turning, tissue(1.0F));
+    // The fingers stand on the plate: they follow its irregular rim and height, as addTurned()
+    // makes them.
     const int carpet = kCarpet.at(level);
     const float broader = carpet > 0 ? std::sqrt(560.0F / static_cast<float>(carpet)) : 0.0F;
     for (int i = 0; i < carpet; ++i) {

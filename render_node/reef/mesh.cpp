@@ -99,6 +99,7 @@ void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
                                           mesh.vertices[corner[2]].position - a);
         for (int k = 0; k < 3; ++k) sums[corner[k] - first] += area;
     }
+    // Vertices at one place add their sums.
     const std::vector<std::uint32_t> same = seamsOf(mesh, first);
     for (std::size_t i = 0; i < sums.size(); ++i)
         if (same[i] != i) sums[same[i]] += sums[i];

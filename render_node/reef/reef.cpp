@@ -133,6 +133,7 @@ ReefTables makeReefTables(const place::PlaceKey& place) {
     ReefTables tables;
     tables.instances = byCells(scatter(place, rocks));
     tables.commands.resize(kPrototypes * kLevels);
+    // The first slot of each command in the list of chosen instances.
     std::uint32_t slots = 0;
     for (std::size_t i = 0; i < kPrototypes; ++i) {
         const auto own = static_cast<std::uint32_t>(std::ranges::count_if(
@@ -213,6 +214,7 @@ void Reef::fillBuffers(const ReefTables& tables) {
 void Reef::stir(std::size_t fish, float fraction) const {
     assert(fraction >= 0.0F && fraction <= 1.0F);
     const gl::Stage stage{"place stir"};
+    // The grid stays at rest then, as the constructor has cleared it.
     if (!quality_.plantsGiveWay) return;
     constexpr std::int32_t kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);

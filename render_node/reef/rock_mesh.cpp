@@ -154,6 +154,7 @@ std::vector<float> hollowsOf(const Mesh& mesh, int steps) {
     for (int step = 0; step < steps; ++step) {
         std::ranges::fill(sums, glm::vec4{0.0F});
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            // Each edge counts in both directions; vertices of a seam share one sum.
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t from = mesh.indices[i + k];
                 const std::uint32_t to = mesh.indices[i + (k + 1) % 3];

@@ -330,12 +330,14 @@ void crownRock(std::vector<Instance>& all,
 // numbers grow with the rock.
 void coverRock(std::vector<Instance>& all, const Bed& bed) {
     const float radius = bed.rock->radiusMetres;
+    // Attempts, many of which fail.
     const auto corals = static_cast<int>(30.0F + 130.0F * std::pow(radius, 1.6F));
     Dice dice{hashOf(bed.rock->seed, 77)};
     std::vector<Planted> planted;
     for (int crown = 0; crown < (radius > 1.2F ? 2 : 1); ++crown)
         crownRock(all, bed, planted, dice);
     for (int i = 0; i < corals; ++i) {
+        // 1 for the first attempt, 0 for the last: the size falls with its cube.
         const float rank =
             1.0F - (static_cast<float>(i) + dice.unit()) / static_cast<float>(corals);
         const Spot spot = spotOn(bed, dice);
@@ -389,8 +391,10 @@ void litterFoot(std::vector<Instance>& all, const Bed& bed) {
         const Spot spot =
             onSand(*bed.place,
                    {rock.centre.x + away * std::cos(turn), rock.centre.z + away * std::sin(turn)});
+        // Below 0.72 a pebble, mostly a small one; above it a young coral.
         const float share = dice.unit();
-        if (spot.place.y < rock.centre.y - 1.2F * rock.radiusMetres) continue;  // a stone of a pile
+        // A rock that lies high on other rocks has no foot on the sand.
+        if (spot.place.y < rock.centre.y - 1.2F * rock.radiusMetres) continue;
         if (share < 0.72F) {
             addPebble(
                 all, bed, spot, dice.between(0.04F, 0.10F) + 0.16F * share * share * share, dice);
@@ -419,6 +423,7 @@ void addRock(std::vector<Instance>& all, const Bed& bed) {
 void strew(std::vector<Instance>& all,
            const place::PlaceKey& place,
            std::span<const place::Rock> rocks) {
+    // Groups in a square of 60 m about the origin, three to ten things in each.
     constexpr int kGroups = 90;
     constexpr float kReachMetres = 30.0F;
     Dice dice{hashOf(place.seed, 79)};
@@ -486,6 +491,7 @@ std::vector<Instance> scatter(const place::PlaceKey& place,
     }
     strew(all, place, rocks);
     sow(all, place, rocks);
+    // Stable, so that the order is the same on every machine.
     std::ranges::stable_sort(all, {}, &Instance::prototype);
     return all;
 }

@@ -116,6 +116,7 @@ void growFan(Mesh& mesh, std::size_t level, Dice dice) {
                    kSides.at(level),
                    1.0F + 0.45F * static_cast<float>(level),
                    dice.between(-0.25F, 0.25F)};
+    // Levels with fewer generations have longer branches, so that the fan keeps its size.
     const float shorter = level < 2 ? 1.0F : level == 2 ? 1.2F : 2.2F;
     fanBranch(mesh,
               habit,
@@ -247,6 +248,7 @@ void growSoftTree(Mesh& mesh, std::size_t level, Dice dice) {
 
 // An anemone: a dome covered with tentacles, which sway more towards their tips.
 void growAnemone(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level; the tentacles become broader as their number falls.
     constexpr std::array kTentacles{190, 110, 56, 14};
     constexpr std::array kSides{4, 3, 0, 0};
     const int tentacles = kTentacles.at(level);

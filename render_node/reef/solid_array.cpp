@@ -189,6 +189,7 @@ Tile tileOf(float sideMetres, ReliefAt reliefAt) {
         const auto row = static_cast<std::size_t>((y + texels) % texels);
         return reliefs[row * side + column].height;
     };
+    // Metres between the two neighbours of a texel.
     const float twoTexels = 2.0F * sideMetres / static_cast<float>(texels);
     Tile tile;
     for (int y = 0; y < texels; ++y)

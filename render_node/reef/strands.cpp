@@ -172,6 +172,7 @@ void addBall(Mesh& mesh, const Ball& ball, const Surface& surface) {
     assert(ball.rings >= 1 && ball.around >= 3);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
+    // From the lower rim up to the top, as addTurned() from foot to crown.
     for (int ring = ball.rings; ring >= 0; --ring)
         for (int i = 0; i <= ball.around; ++i) {
             const float polar =
