@@ -65,7 +65,8 @@ void ScenePicture::allocate(glm::ivec2 sizePixels) {
         layer.target = makeTarget(layer.colour);
         glNamedFramebufferTexture(layer.target.name(), GL_DEPTH_ATTACHMENT, layer.depth.name(), 0);
     };
-    const int unsoftened = soften_ ? 1 : levels;  // what the tone reads has the smaller copies
+    // Only the texture that the last pass reads has mip levels.
+    const int unsoftened = soften_ ? 1 : levels;
     fill(drawn_, quality_.samples, unsoftened);
     if (quality_.samples > 1) fill(resolved_, 1, unsoftened);
     if (soften_) {

@@ -85,7 +85,9 @@ void SeaShade::setPlace(const std::function<void(const glm::mat4&)>& drawPlace) 
         glClear(GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_GEQUAL);
-        glFrontFace(GL_CW);  // the map is laid out as seen from below
+        // The map's x and y are world x and z, a view from below, which reverses the orientation of
+        // triangles.
+        glFrontFace(GL_CW);
         drawPlace(alongRays(towardsLight));
         glFrontFace(GL_CCW);
         glDisable(GL_DEPTH_TEST);

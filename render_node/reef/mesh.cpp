@@ -105,7 +105,8 @@ void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
         if (same[i] != i) sums[same[i]] += sums[i];
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const glm::vec3 sum = sums[same[i]];
-        if (glm::dot(sum, sum) == 0.0F) continue;  // a pole, which keeps its own
+        // The triangles at a pole have no area: it keeps the normal that it was made with.
+        if (glm::dot(sum, sum) == 0.0F) continue;
         SolidVertex& vertex = mesh.vertices[first + i];
         vertex.normal = glm::i8vec4(packedNormal(glm::normalize(sum)), vertex.normal.w);
     }

@@ -182,7 +182,8 @@ Reef::Reef(const ReefTables& tables, const Quality& quality)
       stir_{gl::makeProgram({"wake.comp"})},
       detail_{makeTexture(rockTile())} {
     wake_ = gl::makeBuffer(kWakeBytes, "wake");
-    constexpr GLint kStill = 0;  // also for who draws before any fish has passed: the shadows' maps
+    // At rest, also for the shadow maps, which are drawn before the first call of stir().
+    constexpr GLint kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
     fillBuffers(tables);
 }
@@ -197,11 +198,13 @@ void Reef::fillBuffers(const ReefTables& tables) {
     instances_ = gl::makeBuffer(tables.instances, "reef instances");
     prototypes_ = gl::makeBuffer(tables.prototypes, "reef prototypes");
     groups_ = gl::makeBuffer(tables.groups, "reef groups");
-    const std::vector<std::uint32_t> seen(3 + groupCount_);  // a dispatch, and the groups of it
+    // The size of a dispatch (3 numbers), then the groups that it visits.
+    const std::vector<std::uint32_t> seen(3 + groupCount_);
     seenGroups_ = gl::makeBuffer(seen, "reef groups seen");
     none_ = gl::makeBuffer(tables.commands, "reef commands, none drawn");
     commands_ = gl::makeBuffer(tables.commands, "reef commands");
-    const std::size_t slots = kLevels * tables.instances.size();  // each at every level
+    // Each instance has a slot at every level.
+    const std::size_t slots = kLevels * tables.instances.size();
     chosen_ = gl::makeBuffer(slots * sizeof(std::uint32_t), "reef chosen");
     constexpr unsigned kChosen = shaders::kChosenAttribute;
     glVertexArrayVertexBuffer(array_.name(), kChosen, chosen_.name(), 0, sizeof(std::uint32_t));
@@ -282,17 +285,20 @@ void Reef::bind() const {
 void Reef::draw() const {
     bind();
     glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
-    constexpr unsigned kFine = 3;  // levels that are lit at each pixel
+    // Number of levels that are lit at each pixel, where the tier does so.
+    constexpr unsigned kFine = 3;
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
         glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
         glUniform1i(shaders::kStirredLocation, quality_.plantsGiveWay ? 1 : 0);
         drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
     }
+    // The other levels are lit at their vertices. They are too far away for a visible reaction to
+    // fish.
     const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
     glUseProgram(farGrowth_.name());
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
-    glUniform1i(shaders::kStirredLocation, 0);  // too far off to be seen to give way
+    glUniform1i(shaders::kStirredLocation, 0);
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
     // Rock comes last: what grows on it is cheaper and hides much of it.
     glEnable(GL_CULL_FACE);
@@ -308,11 +314,12 @@ Reef::DepthPrograms Reef::depthPrograms() const {
             gl::makeProgram({"rock.vert"})};
 }
 
+// All levels with the program for near ones; in the maps nothing moves with the fish.
 void Reef::drawDepths(const DepthPrograms& programs) const {
     bind();
     glUseProgram(programs.growth.name());
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
-    glUniform1i(shaders::kStirredLocation, 0);  // nothing gives way
+    glUniform1i(shaders::kStirredLocation, 0);
     drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kLevels));
     glEnable(GL_CULL_FACE);
     glUseProgram(programs.stone.name());

@@ -81,7 +81,8 @@ glm::vec3 pointTowards(const Habit& habit, glm::vec3 direction) {
     const float body = 0.70F + 0.26F * billows(habit.seed, direction * 1.3F, 2);
     glm::vec3 place = direction * body * habit.stretch;
     const float beds = bedAt(habit, place);
-    const float level = 1.0F - 0.8F * direction.y * direction.y;  // the top has no ledges
+    // Ledges fade towards top and bottom, where the surface is level.
+    const float level = 1.0F - 0.8F * direction.y * direction.y;
     const float foot = glm::smoothstep(0.25F, -0.55F, place.y);
     const float wide = 1.0F + habit.beds * (beds - 0.4F) * 2.0F * level - habit.undercut * foot;
     place *= glm::vec3{wide, 1.0F, wide};

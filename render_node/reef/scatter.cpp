@@ -245,7 +245,8 @@ float coverAt(const place::PlaceKey& place, const Spot& spot) {
 // 10 times their weight; the second is always a hard coral.
 const Way& wayFor(float up, std::uint32_t patch, Dice& dice) {
     const std::size_t first = patch % kWays.size();
-    const std::size_t second = hashOf(patch) % 8;  // a hard coral
+    // One of the first eight forms, the hard corals.
+    const std::size_t second = hashOf(patch) % 8;
     const auto weightOf = [&](std::size_t i) {
         const Way& way = kWays.at(i);
         const float weight = up > 0.45F ? way.above : up > -0.25F ? way.aside : way.below;
@@ -369,7 +370,8 @@ void addPebble(
     const glm::quat turn = glm::quat_cast(
         frameAbout(glm::normalize(glm::vec3{dice.between(-1, 1), 0.8F, dice.between(-1, 1)}),
                    kTwoPi * dice.unit()));
-    const float light = dice.between(1.3F, 2.1F);  // bleached
+    // Lighter than living rock: bleached.
+    const float light = dice.between(1.3F, 2.1F);
     const glm::vec3 above = spot.place + glm::vec3{0, 0.1F, 0};
     all.push_back({glm::vec4(spot.place + glm::vec3{0, 0.15F * size, 0}, size),
                    packed(turn),

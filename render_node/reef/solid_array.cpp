@@ -111,7 +111,8 @@ float tiled(std::uint32_t seed, glm::vec2 uv, int cells) {
 
 // The relief at a point of a tile. albedo: 1 is the mean; crest: 0 hollow to 1 crest.
 struct Relief {
-    float height = 0.0F;  // metres
+    // Metres.
+    float height = 0.0F;
     float albedo = 1.0F;
     float crest = 0.5F;
 };

@@ -146,7 +146,8 @@ class Pointing {
     config::Screen screen_;
     config::Channel channel_;
     config::StereoMode mode_;
-    glm::dvec3 sweetSpot_;  // wall frame
+    // Wall frame, metres.
+    glm::dvec3 sweetSpot_;
 };
 
 }  // namespace aquarama::show

@@ -235,7 +235,8 @@ class Maker {
              {body::CagePart::FirstDorsal, body::CagePart::SecondDorsal, body::CagePart::Anal})
             if (const auto sheet = midlineSheet(part, sites)) addSheet(*sheet);
         for (Corner i = 0; i < mesh_.vertices.size(); ++i) {
-            if (i >= points_.size()) {  // an eye's or a whip's, which shrink into the body
+            // A vertex of an eye or of a whip, which shrinks into the body.
+            if (i >= points_.size()) {
                 const glm::vec4 rest = mesh_.vertices[i].rest;
                 few_.cage.push_back(
                     placeOn(body::CagePart::Body, body, i, {-rest.x, rest.y, rest.z}));

@@ -179,7 +179,8 @@ struct SchoolSurface::Parts {
 
     SurfaceOptions options;
     DetailLimits limits;
-    std::future<FishArrays> arrays;  // made while this thread compiles shaders
+    // Computed while this thread compiles programs.
+    std::future<FishArrays> arrays;
     std::shared_ptr<const SkinPrograms> programs;
     std::vector<SkinShader> skinShaders;  // one a species
     FishTables tables;
@@ -297,7 +298,8 @@ void SchoolSurface::Parts::sort() const {
     bindStorage(shaders::kCountsStorage, counts);
     bindStorage(shaders::kPlanStorage, plan);
     bindStorage(shaders::kSchoolStorage, school);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // an earlier view has drawn from these
+    // An earlier view has drawn from these buffers.
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(cull.name());
     glDispatchCompute(groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -325,7 +327,8 @@ void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) 
     glUseProgram(programs->surface.name());
     glUniform1ui(shaders::kTurnLocation, static_cast<GLuint>(turn));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan.name());
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // earlier draws have read what is overwritten
+    // Earlier draws have read what is now overwritten.
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(FishPlan, turns) +
                                                     turn * sizeof(FishPlan::Turn) + groupsOffset));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
