@@ -63,8 +63,8 @@ void FoodSpecks::draw() const {
     glDepthMask(GL_TRUE);
 }
 
-// The vertex shader enlarges a pellet of less than three pixels to that size and makes it fainter in
-// proportion to its area.
+// The vertex shader enlarges a pellet of less than three pixels to that size, and makes it fainter
+// in proportion to its area.
 void FoodSpecks::drawPellets() const {
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(pellets_.name());
