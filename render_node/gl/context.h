@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a visitor's hands hold at one moment: keys, the mouse that drags, a gamepad.
+// The OpenGL context that a render node draws with, in a window or without a display, and what a
+// visitor enters there: keys, mouse, gamepad.
 #pragma once
 
 #include <bitset>
+#include <cassert>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +19,8 @@
 
 namespace aquarama::gl {
 
+// Keys that steer for as long as they are held down. All other keys are events: see
+// Context::nextKey(). kCount is the number of keys and is not a key itself.
 enum class HeldKey : std::uint8_t {
     W,
     A,
@@ -33,7 +37,7 @@ enum class HeldKey : std::uint8_t {
     kCount
 };
 
-// Sticks, -1 to 1, right and up positive; triggers 0 to 1.
+// A gamepad's axes. Sticks: -1 to 1, right and up positive; triggers: 0 released to 1 pressed.
 struct Pad {
     glm::vec2 leftStick{};
     glm::vec2 rightStick{};
@@ -41,88 +45,111 @@ struct Pad {
     float rightTrigger = 0;
 };
 
+// All that a visitor holds at one moment. A plain value: copied from the main thread to wherever it
+// is used.
 struct Hands {
+    // One bit for each HeldKey; read with holds().
     std::bitset<static_cast<std::size_t>(HeldKey::kCount)> keys;
-    // From where the right mouse button was pressed to where it is: right and up, in heights of
-    // the window; nothing while it is not pressed.
+    // Vector from where the right mouse button was pressed to the pointer, in window heights: x
+    // right, y up. Empty while the button is not pressed.
     std::optional<glm::vec2> drag;
-    Pad pad;  // of several the one that is moved farthest
+    // Of several gamepads, the one that is deflected most.
+    Pad pad;
 
-    [[nodiscard]] bool holds(HeldKey key) const { return keys[static_cast<std::size_t>(key)]; }
-    void hold(HeldKey key) { keys.set(static_cast<std::size_t>(key)); }
+    [[nodiscard]] bool holds(HeldKey key) const {
+        assert(key < HeldKey::kCount);
+        return keys[static_cast<std::size_t>(key)];
+    }
+    void hold(HeldKey key) {
+        assert(key < HeldKey::kCount);
+        keys.set(static_cast<std::size_t>(key));
+    }
 };
 
-// Where a node draws: a GLFW window, or EGL without any display. One interface for both.
+// The context: a GLFW window, or EGL without a display, behind one interface.
 
-// Made, pumped and destroyed by the main thread; current on the thread that draws, which releases
-// it before the main thread destroys it.
+// Thread rules: the main thread creates the context, calls pumpEvents() and the functions for
+// input, and destroys it. The drawing thread makes it current, draws, and releases it before the
+// main thread destroys it.
 class Context {
   public:
     virtual ~Context() = default;
+    // Makes the context current on the calling thread. Throws Error where the driver refuses.
     virtual void makeCurrent() = 0;
+    // Ends that; the context is then current on no thread.
     virtual void release() = 0;
-    // Puts the finished default framebuffer on the display; does nothing without one.
+    // Shows the finished default framebuffer on the display; does nothing without one. A window
+    // swaps at the vertical blank.
     virtual void swap() = 0;
+    // Width and height of framebuffer 0, in pixels; may be read by any thread.
     [[nodiscard]] virtual glm::ivec2 framebufferPixels() const = 0;
     // True where framebuffer 0 is a window's; false where there is none.
     [[nodiscard]] virtual bool hasWindow() const = 0;
     // True where framebuffer 0 has a left and a right back buffer.
     [[nodiscard]] virtual bool quadBuffered() const { return false; }
-    [[nodiscard]] virtual std::string description() const = 0;  // renderer and version, for the log
-    // Why all that was made in it is gone, on the thread where it is current; nothing while it is
-    // not.
+    // Renderer, version and kind of window, for the log. Needs the context to be current.
+    [[nodiscard]] virtual std::string description() const = 0;
+    // The reason why the driver has lost the context and every object in it; empty while it has
+    // not. Needs the context to be current on the calling thread.
     [[nodiscard]] virtual std::optional<std::string> loss() const = 0;
 
-    // On the main thread: waits for window events no longer than this, and handles them.
+    // Waits for window events for at most this long and handles them. Main thread only.
     virtual void pumpEvents(std::chrono::milliseconds atMost) = 0;
-    // Keys that were pressed, oldest first: a lower-case letter, ' ' or kEscapeKey. Closing the
-    // window is kEscapeKey.
+    // The next key that was pressed, oldest first: a lower-case letter, ' ' or kEscapeKey. Closing
+    // the window counts as kEscapeKey. Empty when there is none. Main thread only.
     [[nodiscard]] virtual std::optional<char> nextKey() = 0;
-    // Where the left mouse button was pressed, oldest first, in the framebuffer's pixels from the
-    // window's top left corner.
+    // The place of the next click of the left mouse button, oldest first: pixels of the framebuffer
+    // from the window's top left corner. Main thread only.
     [[nodiscard]] virtual std::optional<glm::vec2> nextClick() = 0;
-    // Where the mouse points, as above; nothing while it is outside the window.
+    // The place of the pointer, in the same coordinates; empty while it is outside the window.
     [[nodiscard]] virtual std::optional<glm::vec2> pointer() const = 0;
-    // What is held now; keys and mouse of this window only, gamepads of this machine.
+    // What is held at this moment: keys and mouse of this window, gamepads of this machine.
     [[nodiscard]] virtual Hands hands() const = 0;
 };
 
+// Escape as nextKey() returns it: ASCII ESC.
 inline constexpr char kEscapeKey = '\x1b';
-inline constexpr char kFullscreenKey = 'f';  // handled by the window itself
+// Switches full screen on and off. The window handles it itself: nextKey() never returns it.
+inline constexpr char kFullscreenKey = 'f';
 
-// OpenGL 4.5 core, current on this thread. device: auto | nvidia | mesa | surfaceless | device:N.
-// Throws Error: no EGL, no such device, no GL 4.5.
+// Creates an OpenGL 4.5 core context without a window, current on the calling thread. device: auto
+// | nvidia | mesa | surfaceless | device:N (rig format). sizePixels is what framebufferPixels()
+// returns: there is no framebuffer 0. Throws Error: no EGL, no such device, no GL 4.5.
 [[nodiscard]] std::unique_ptr<Context> makeOffscreenContext(const std::string& device,
                                                             glm::ivec2 sizePixels);
 
-// OpenGL 4.5 core in a window, current on no thread; the display's own GPU draws, whatever device
-// the channel names. Throws Error: no display, no such monitor, a framebuffer or refresh rate that
-// is not the channel's, no GL 4.5, no left and right buffers where they are asked for.
+// Creates an OpenGL 4.5 core context in a window, current on no thread. The display's own GPU
+// draws, whatever device the channel names. Throws Error: no display, no such monitor, a
+// framebuffer size or refresh rate that differs from the channel's, no GL 4.5, no left and right
+// buffers where they are requested.
 [[nodiscard]] std::unique_ptr<Context> makeWindowContext(const config::Display& display,
                                                          const std::string& title,
                                                          glm::ivec2 sizePixels,
                                                          bool quadBuffered = false);
 
-// What the current context turned out to be; a driver may give less than it was asked for, and may
-// lose what it gave.
+// Checks of the current context: a driver may give less than was requested, and may lose the
+// context later.
 
 // Throws Error, naming `where` and the driver, unless the current context is OpenGL 4.5 or later
-// with all that our shaders take.
+// and its limits are large enough for our shaders.
 void requireDriver(const std::string& where);
 
-// What is lacking of what we need, as "8 storage blocks in vertex shaders, it has 0"; nothing where
-// nothing is. `limitOf` answers as glGetIntegerv does.
+// The first limit that is too low for our shaders, as "8 storage blocks in vertex shaders, it has
+// 0"; empty where all suffice. `limitOf` returns the value of a GL_MAX_... limit, as glGetIntegerv
+// does.
 [[nodiscard]] std::optional<std::string> lackOf(const std::function<int(unsigned limit)>& limitOf);
 
+// GL_RENDERER and GL_VERSION of the current context, for messages.
 [[nodiscard]] std::string rendererAndVersion();
 
-// Why the current context is lost; nothing while it is not.
+// The reason why the current context is lost, from glGetGraphicsResetStatus(); empty while it is
+// not.
 [[nodiscard]] std::optional<std::string> lossOfContext();
 
-// The gamepads of this machine, by GLFW: they may come and go at any time.
+// Gamepads of this machine, read by GLFW. They may be plugged in or removed at any time.
 
-// Of all that are there the one that is moved farthest from rest; at rest where there is none. On
-// the main thread, after GLFW was begun.
+// The state of the gamepad that is deflected most; all axes at rest where there is none. Main
+// thread only, after GLFW was initialised.
 [[nodiscard]] Pad movedPad();
 
 }  // namespace aquarama::gl

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/gl/handle.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/units/log.h"
 
@@ -11,6 +11,7 @@ namespace aquarama::gl {
 namespace {
 
 template <class Sample>
+// The GL type of a sample, for glReadPixels.
 constexpr GLenum kTypeOf = GL_NONE;
 template <>
 constexpr GLenum kTypeOf<std::uint8_t> = GL_UNSIGNED_BYTE;
@@ -22,6 +23,7 @@ constexpr GLenum kTypeOf<float> = GL_FLOAT;
 }  // namespace
 
 Target::Target(GLenum format, glm::ivec2 sizePixels) : size_{sizePixels}, colour_{GL_TEXTURE_2D} {
+    assert(size_.x > 0 && size_.y > 0);
     glTextureStorage2D(colour_.name(), 1, format, size_.x, size_.y);
     glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
     if (glCheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER) !=
@@ -34,13 +36,16 @@ Target::Target(GLenum format, glm::ivec2 sizePixels) : size_{sizePixels}, colour
 
 template <class Sample>
 std::vector<Sample> readRgb(const Target& target) {
+    static_assert(kTypeOf<Sample> != GL_NONE);
     const auto rowSamples = static_cast<std::size_t>(target.sizePixels().x) * 3;
     const auto rows = static_cast<std::size_t>(target.sizePixels().y);
     std::vector<Sample> pixels(rowSamples * rows);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer());
+    // Rows of three samples are not multiples of four bytes, GL's default.
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(
         0, 0, target.sizePixels().x, target.sizePixels().y, GL_RGB, kTypeOf<Sample>, pixels.data());
+    // OpenGL delivers the bottom row first: swap the rows from the outside inwards.
     const auto row = [&](std::size_t index) {
         return pixels.begin() + static_cast<std::ptrdiff_t>(index * rowSamples);
     };

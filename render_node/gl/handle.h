@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owners of OpenGL names.
+// RAII owners of OpenGL objects: names, labelled buffers, a picture to draw into.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,8 +15,9 @@
 
 namespace aquarama::gl {
 
-// Sole owner of one OpenGL name. Traits supply create() or create(kind), and destroy(name).
-// Must be destroyed while its context is current.
+// Sole owner of one OpenGL name. Traits supply create() or create(kind), and destroy(name). Create
+// and destroy it on the thread where its context is current. A moved-from handle may only be
+// assigned or destroyed.
 template <class Traits>
 class Handle {
   public:
@@ -38,6 +40,8 @@ class Handle {
     unsigned name_;
 };
 
+// Traits of each kind of object. They use direct state access (OpenGL 4.5): create() makes an
+// object, not a mere name, so that it can be used without being bound.
 struct BufferTraits {
     static unsigned create() {
         unsigned name = 0;
@@ -90,10 +94,12 @@ using Framebuffer = Handle<FramebufferTraits>;
 using VertexArray = Handle<VertexArrayTraits>;
 using ProgramHandle = Handle<ProgramTraits>;
 
-// Buffers of GL, labelled for debuggers. Their size never changes.
+// Buffers of fixed size with a label, which debuggers show.
 
-// Uninitialised. A buffer of nothing is an error in GL: it has 16 bytes at least.
+// A buffer of so many bytes, not initialised. OpenGL refuses an empty buffer: it has at least 16
+// bytes. flags: as glNamedBufferStorage takes them, 0 for what only the GPU writes.
 [[nodiscard]] inline Buffer makeBuffer(std::size_t bytes, const char* label, GLbitfield flags = 0) {
+    assert(label != nullptr);
     Buffer buffer;
     const auto size = static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16));
     glNamedBufferStorage(buffer.name(), size, nullptr, flags);
@@ -101,7 +107,7 @@ using ProgramHandle = Handle<ProgramTraits>;
     return buffer;
 }
 
-// With the values.
+// A buffer that holds the values, as they lie in memory.
 template <class T>
 [[nodiscard]] Buffer makeBuffer(std::span<const T> values,
                                 const char* label,
@@ -120,8 +126,10 @@ template <class T>
     return makeBuffer(std::span<const T>{values}, label, flags);
 }
 
-// A picture that can be drawn into, bound as a texture and read back.
+// A colour texture with a framebuffer.
 
+// A picture that can be drawn into, used as a texture and read back. Throws Error where the driver
+// cannot draw into that format and size. It has no depth buffer.
 class Target {
   public:
     Target(GLenum format, glm::ivec2 sizePixels);
@@ -135,7 +143,8 @@ class Target {
     Framebuffer framebuffer_;
 };
 
-// Red, green and blue of every pixel, top row first, in the sample's range.
+// Reads back red, green and blue of every pixel, top row first, in the range of the sample type: 0
+// to 255, 0 to 65535, or as stored. Waits for the GPU.
 template <class Sample>  // std::uint8_t, std::uint16_t or float
 [[nodiscard]] std::vector<Sample> readRgb(const Target& target);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -18,6 +18,8 @@ namespace aquarama::gl {
 
 namespace {
 
+// Whether a list of extensions, separated by blanks, has exactly this name. A search for a
+// substring would also find longer names.
 bool lists(const char* extensions, std::string_view name) {
     if (extensions == nullptr) return false;
     std::string_view rest{extensions};
@@ -29,6 +31,8 @@ bool lists(const char* extensions, std::string_view name) {
     return false;
 }
 
+// The devices that EGL enumerates, at most 32, in the storage that is passed; none where EGL cannot
+// enumerate.
 std::span<EGLDeviceEXT> devices(std::array<EGLDeviceEXT, 32>& storage) {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!lists(extensions, "EGL_EXT_device_base") &&
@@ -45,7 +49,8 @@ bool deviceHas(EGLDeviceEXT device, std::string_view extension) {
     return lists(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), extension);
 }
 
-// The device that was asked for; none means Mesa's surfaceless platform.
+// The device for a rig's `device`; empty means Mesa's surfaceless platform. auto prefers NVIDIA,
+// then other hardware, then software. Throws Error where an explicit choice does not exist.
 std::optional<EGLDeviceEXT> choose(std::span<EGLDeviceEXT> all, const std::string& wanted) {
     const auto first = [&](auto suits) -> std::optional<EGLDeviceEXT> {
         const auto found = std::ranges::find_if(all, suits);
@@ -83,6 +88,7 @@ std::optional<EGLDeviceEXT> choose(std::span<EGLDeviceEXT> all, const std::strin
     throw Error("device \"" + wanted + "\" is none of auto, nvidia, mesa, surfaceless, device:N");
 }
 
+// Throws Error unless EGL has one of the two platforms that need no display.
 void requireEgl() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!lists(extensions, "EGL_EXT_platform_device") &&
@@ -90,7 +96,8 @@ void requireEgl() {
         throw Error("EGL offers no device without a display; install a driver (libegl-mesa0)");
 }
 
-// OpenGL 4.5 core; where the driver can, one that tells when a reset of the card has taken it away.
+// An OpenGL 4.5 core context. With toldOfReset, glGetGraphicsResetStatus() will report a reset of
+// the graphics card; some drivers refuse such a context.
 EGLContext makeContext(EGLDisplay display, bool toldOfReset) {
     const std::array attributes{
         EGL_CONTEXT_MAJOR_VERSION,
@@ -105,9 +112,11 @@ EGLContext makeContext(EGLDisplay display, bool toldOfReset) {
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
 }
 
+// A context without a surface. Everything is drawn into framebuffer objects; there is no input.
 class OffscreenContext final : public Context {
   public:
     OffscreenContext(const std::string& device, glm::ivec2 sizePixels) : sizePixels_{sizePixels} {
+        assert(sizePixels_.x > 0 && sizePixels_.y > 0);
         std::array<EGLDeviceEXT, 32> storage{};
         requireEgl();
         const auto chosen = choose(devices(storage), device);
@@ -129,6 +138,7 @@ class OffscreenContext final : public Context {
         makeCurrent();
         requireDriver("device \"" + device + "\"");
     }
+    // The display is not terminated: EGL shares it among all contexts of the process.
     ~OffscreenContext() override {
         release();
         eglDestroyContext(display_, context_);
@@ -153,6 +163,7 @@ class OffscreenContext final : public Context {
     }
     [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     void pumpEvents(std::chrono::milliseconds atMost) override {
+        // There are no events: wait out the time, so that the main loop does not spin.
         std::this_thread::sleep_for(atMost);
     }
     [[nodiscard]] std::optional<char> nextKey() override { return std::nullopt; }
@@ -174,13 +185,15 @@ std::unique_ptr<Context> makeOffscreenContext(const std::string& device, glm::iv
 
 namespace {
 
+// A limit of the driver, and the least value that our shaders need.
 struct Need {
     const char* what;
     GLenum limit;
     int least;
 };
 
-// OpenGL 4.5 leaves these to the driver, some down to none.
+// Limits for which OpenGL 4.5 guarantees less than we need, some of them 0. When a shader needs
+// more, raise its line here.
 constexpr std::array kNeeds{
     Need{"storage blocks in vertex shaders", GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 4},
     Need{"storage blocks in compute shaders", GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, 8},
@@ -190,6 +203,7 @@ constexpr std::array kNeeds{
     Need{"pixels along a texture", GL_MAX_TEXTURE_SIZE, 8192},
 };
 
+// A string of the driver; it returns null without a current context.
 std::string driverText(GLenum name) {
     const auto* text = reinterpret_cast<const char*>(glGetString(name));
     return text != nullptr ? text : "unknown";
@@ -213,6 +227,7 @@ void requireDriver(const std::string& where) {
 }
 
 std::optional<std::string> lackOf(const std::function<int(unsigned limit)>& limitOf) {
+    assert(limitOf != nullptr);
     for (const Need& need : kNeeds)
         if (const int has = limitOf(need.limit); has < need.least)
             return std::to_string(need.least) + " " + need.what + ", it has " + std::to_string(has);

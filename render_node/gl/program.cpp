@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/gl/program.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <optional>
 #include <regex>
@@ -18,6 +18,8 @@ namespace aquarama::gl {
 
 namespace {
 
+// Called by the driver on the thread that made the OpenGL call. Notifications and messages of low
+// severity are dropped.
 void APIENTRY onMessage(GLenum /*source*/,
                         GLenum type,
                         GLuint /*id*/,
@@ -41,6 +43,7 @@ void logMessages() {
 }
 
 Stage::Stage(const char* name) {
+    assert(name != nullptr);
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
 }
 
@@ -50,17 +53,21 @@ Stage::~Stage() {
 
 namespace {
 
+// Appends a line and its origin; keeps the invariant that text has sources.size() lines.
 void addLine(ShaderText& shader, std::string_view line, std::string_view file, int number) {
     shader.text += line;
     if (!line.ends_with('\n')) shader.text += '\n';
     shader.sources.push_back({std::string(file), number});
 }
 
+// The file to include instead of `file`, or the file itself.
 std::string_view replaced(std::string_view file, const Replacements& replacements) {
     const auto found = std::ranges::find(replacements, file, &Replacement::file);
     return found == replacements.end() ? file : found->by;
 }
 
+// Appends a file line by line and calls itself for each line that begins with #include. The files
+// must not include one another in a cycle: guards are not evaluated here.
 void addFile(ShaderText& shader,
              std::string_view name,
              const ReadShader& read,
@@ -85,6 +92,7 @@ void addFile(ShaderText& shader,
 }  // namespace
 
 ShaderText expand(std::string_view name, const ReadShader& read, const Replacements& replacements) {
+    assert(read != nullptr);
     ShaderText shader;
     addLine(shader, "#version 450 core", name, 0);
     addFile(shader, name, read, replacements);
@@ -92,6 +100,8 @@ ShaderText expand(std::string_view name, const ReadShader& read, const Replaceme
 }
 
 std::string withFiles(const std::string& log, const ShaderText& shader) {
+    // At the start of a line: "0:12" or "0(12)", after an optional "ERROR: " or "WARNING: ". 0 is
+    // the number of the source string; we pass one. Places outside the text stay as they are.
     static const std::regex kPlace(R"((^|\n)((?:ERROR: |WARNING: )?)0(?::(\d+)|\((\d+)\)))");
     std::string mapped;
     auto from = log.cbegin();
@@ -110,6 +120,7 @@ std::string withFiles(const std::string& log, const ShaderText& shader) {
 
 namespace {
 
+// A linear search: there are about 90 files, looked up only when programs are made.
 const EmbeddedShader& embedded(std::string_view name) {
     const auto shaders = embeddedShaders();
     const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
@@ -136,6 +147,8 @@ std::string trimmed(std::string log) {
     return log;
 }
 
+// Compiles the expanded text. A log that is longer than 4096 bytes is cut: its first errors are the
+// ones that matter.
 ShaderHandle compiled(const std::string& file, const ShaderText& source) {
     const char* text = source.text.c_str();
     ShaderHandle shader{stageOf(file)};
@@ -152,12 +165,16 @@ ShaderHandle compiled(const std::string& file, const ShaderText& source) {
     return shader;
 }
 
+// A shader of a program before it is compiled; the text is also part of the key of the cache.
 struct ShaderStage {
     std::string file;
     ShaderText source;
 };
 
+// Compiles and links without the cache. The shader objects are deleted at once; the program keeps
+// what it needs. The hint makes the driver keep a binary that can be read back.
 ProgramHandle linked(std::span<const ShaderStage> stages) {
+    assert(!stages.empty());
     ProgramHandle program;
     glProgramParameteri(program.name(), GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
     for (const ShaderStage& stage : stages) {
@@ -179,7 +196,8 @@ bool driverHasBinaries() {
     return formats > 0;
 }
 
-// A driver reads only what it wrote itself.
+// Key of a binary in the cache: driver, version and all text, because a driver accepts only
+// binaries that it wrote itself.
 files::DerivedKey binaryKey(std::span<const ShaderStage> stages) {
     files::DerivedKey key("program");
     for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION})
@@ -188,7 +206,7 @@ files::DerivedKey binaryKey(std::span<const ShaderStage> stages) {
     return key;
 }
 
-// The driver's format, then the binary.
+// The cached file: the driver's format number (4 bytes), then the binary.
 std::vector<std::byte> binaryOf(const ProgramHandle& program) {
     int length = 0;
     glGetProgramiv(program.name(), GL_PROGRAM_BINARY_LENGTH, &length);
@@ -199,7 +217,8 @@ std::vector<std::byte> binaryOf(const ProgramHandle& program) {
     return bytes;
 }
 
-// Nothing where the driver does not take it.
+// A program from a cached file; empty where the file is too short or the driver rejects it, as it
+// may after an update.
 std::optional<ProgramHandle> loaded(std::span<const std::byte> bytes) {
     GLenum format = 0;
     if (bytes.size() <= sizeof(format)) return std::nullopt;
@@ -211,7 +230,8 @@ std::optional<ProgramHandle> loaded(std::span<const std::byte> bytes) {
     return program;
 }
 
-// Compiled once on a machine where the driver gives its binaries: derived data.
+// Takes the program from the cache of derived data. Where the cache had to make it, the program is
+// already linked; where a cached binary is rejected, it is linked anew and not cached again.
 ProgramHandle linkedOrLoaded(std::span<const ShaderStage> stages) {
     if (!driverHasBinaries()) return linked(stages);
     std::optional<ProgramHandle> program;
@@ -243,6 +263,7 @@ std::vector<std::string_view> shaderNames() {
 
 ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                           const Replacements& replacements) {
+    assert(!shaderFiles.empty());
     std::vector<ShaderStage> stages;
     for (const std::string& file : shaderFiles)
         stages.push_back({file, expand(file, shaderSource, replacements)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the driver has to say about our mistakes, and what we tell those who look into a frame.
+// Diagnostics of OpenGL, and programs from the shader files that are embedded in the node.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,12 @@
 
 namespace aquarama::gl {
 
-// Writes the driver's errors and warnings to the log from now on, for the current context.
+// Writes the driver's errors and warnings to the log from now on, for the current context, at the
+// call that causes them (synchronous output). For development: it costs time.
 void logMessages();
 
-// A stage of the frame, to the end of the scope: debuggers and profilers of graphics show it by its
-// name, and tests/bench/gpu takes its time.
+// Names a stage of the frame until the end of the scope. Graphics debuggers and profilers show the
+// name, and tests/bench/gpu measures the time between. Stages nest.
 class Stage {
   public:
     explicit Stage(const char* name);
@@ -25,40 +26,48 @@ class Stage {
     Stage& operator=(const Stage&) = delete;
 };
 
-// A shader's text with the files that it includes, and its errors as places in those files.
+// Text of a shader with its includes expanded, and its errors mapped back to the files.
 
+// The expanded text. sources has one entry for each line of text, in order.
 struct ShaderText {
+    // A line of a shader file.
     struct Place {
         std::string file;
         int line = 0;  // from 1
     };
-    std::string text;            // with its #version
-    std::vector<Place> sources;  // of each line, from the first
+    // Starts with the #version line.
+    std::string text;
+    // Origin of each line of text, from the first.
+    std::vector<Place> sources;
 };
 
-// The text of a file of this name; throws Error where there is none.
+// Returns the text of the shader file of this name; throws Error where there is none. The text must
+// outlive the expansion.
 using ReadShader = std::function<std::string_view(std::string_view name)>;
 
-// Includes `by` wherever a file says #include "file": so one shader serves several species and
-// tiers.
+// Includes file `by` wherever a shader says #include "file". In this way one shader serves several
+// species and quality tiers.
 struct Replacement {
     std::string file, by;
 };
 using Replacements = std::vector<Replacement>;
 
-// "#version 450 core" and the file, its #include "name" lines expanded.
+// "#version 450 core" and the text of the file, its #include "name" lines expanded recursively.
+// There are no include guards but those in the files themselves; #include lines are expanded even
+// inside #if blocks that are false.
 [[nodiscard]] ShaderText expand(std::string_view name,
                                 const ReadShader& read,
                                 const Replacements& replacements = {});
 
-// A driver's log with places in files, "water.glsl:12", for the lines of the text that drivers
-// write as 0:40, NVIDIA's as 0(40). The text has no #line for them: Mesa loses its file where an
+// Replaces the places in a driver's log by places in the files, as "water.glsl:12". Drivers write a
+// line of the text as 0:40, NVIDIA as 0(40). We do not use #line: Mesa loses the file name where an
 // error is found after parsing.
 [[nodiscard]] std::string withFiles(const std::string& log, const ShaderText& shader);
 
-// The files of render_node/shaders as strings; the definition is generated at build time
-// (cmake/EmbedShaders.cmake).
+// The files of render_node/shaders as strings. The array is generated at build time
+// (cmake/EmbedShaders.cmake) and lives as long as the program.
 
+// One file: its name without folder, and its text.
 struct EmbeddedShader {
     std::string_view name;
     std::string_view text;
@@ -66,26 +75,28 @@ struct EmbeddedShader {
 
 [[nodiscard]] std::span<const EmbeddedShader> embeddedShaders();
 
-// Shader programs from the files of render_node/shaders, which are embedded at build time.
+// Programs from the embedded files.
 
 // The text of a file of render_node/shaders. Throws Error for an unknown name.
 [[nodiscard]] std::string_view shaderSource(std::string_view name);
-[[nodiscard]] std::vector<std::string_view> shaderNames();  // every embedded file
+// The names of all embedded files.
+[[nodiscard]] std::vector<std::string_view> shaderNames();
 
+// For Handle: a shader object of one stage.
 struct ShaderTraits {
     static unsigned create(GLenum stage) { return glCreateShader(stage); }
     static void destroy(unsigned name) { glDeleteShader(name); }
 };
 using ShaderHandle = Handle<ShaderTraits>;
 
-// The stage follows from the ending: .vert .frag .comp. Throws Error with the driver's log, which
-// names file and line of each mistake, also in an included file.
+// Compiles one shader. Its stage follows from the ending of the name: .vert .frag .comp. Throws
+// Error with the driver's log, which names file and line of each mistake, also in an included file.
 [[nodiscard]] ShaderHandle compileShader(const std::string& file,
                                          const Replacements& replacements = {},
                                          const ReadShader& read = shaderSource);
 
-// Compiles and links, or takes the driver's binary of an earlier time from this user's cache; the
-// first name labels the program. Throws Error as above.
+// Compiles and links the shaders, or loads the driver's binary that an earlier run of this user has
+// cached. The first name labels the program. Needs a current context. Throws Error as above.
 [[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                                         const Replacements& replacements = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <deque>
@@ -23,13 +23,14 @@ namespace aquarama::gl {
 
 namespace {
 
-// GLFW knows whole hertz only: 59.94 is told as 59 or 60.
+// GLFW reports whole hertz only: 59.94 appears as 59 or 60.
 constexpr double kRefreshToleranceHertz = 1.0;
 
 std::string text(glm::ivec2 size) {
     return std::to_string(size.x) + " x " + std::to_string(size.y);
 }
 
+// The reason for the last failure, for our message; reading it clears it.
 std::string lastGlfwError() {
     const char* description = nullptr;
     glfwGetError(&description);
@@ -38,7 +39,8 @@ std::string lastGlfwError() {
 
 // Before 3.4 GLFW is built for X11 alone, and knows no other platform.
 #ifdef GLFW_PLATFORM
-// X11 where there is a choice: the windows of a wall have their places, and Wayland gives none.
+// Prefers X11 where both exist: the windows of a wall need exact positions, and Wayland does not
+// let a program choose them.
 void choosePlatform() {
     const bool hasX = std::getenv("DISPLAY") != nullptr;  // NOLINT(concurrency-mt-unsafe)
     glfwInitHint(GLFW_PLATFORM, hasX ? GLFW_PLATFORM_X11 : GLFW_ANY_PLATFORM);
@@ -55,7 +57,8 @@ bool placesWindows() {
 }
 #endif
 
-// GLFW is one for the process; it ends with the last who uses it.
+// Initialises GLFW for the life of the object. GLFW has one state for the process: only one window
+// context may exist at a time.
 class GlfwLibrary {
   public:
     GlfwLibrary() {
@@ -70,6 +73,7 @@ class GlfwLibrary {
     GlfwLibrary& operator=(const GlfwLibrary&) = delete;
 };
 
+// The monitor with the rig's index, from 0, in GLFW's order. Throws Error where there is none.
 GLFWmonitor* monitorAt(int index) {
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
@@ -89,7 +93,8 @@ std::string described(const GLFWvidmode& mode) {
     return text({mode.width, mode.height}) + " at " + std::to_string(mode.refreshRate) + " Hz";
 }
 
-// The monitor's mode that is the channel's, to the pixel.
+// The video mode of the monitor that has exactly the channel's size, and its refresh rate where one
+// is given. Throws Error: a scaled picture would have a wrong warp.
 GLFWvidmode modeFor(const config::Display& display, glm::ivec2 size, GLFWmonitor* monitor) {
     int count = 0;
     const GLFWvidmode* modes = glfwGetVideoModes(monitor, &count);
@@ -106,7 +111,7 @@ GLFWvidmode modeFor(const config::Display& display, glm::ivec2 size, GLFWmonitor
                 "; correct the channel's size or refresh rate, or the cable's monitor");
 }
 
-// The monitor on which a window at this place begins; the first where it is on none.
+// Index of the monitor that contains this point of the desktop; the first one where none does.
 int monitorUnder(glm::ivec2 place) {
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
@@ -121,10 +126,13 @@ int monitorUnder(glm::ivec2 place) {
     return 0;
 }
 
+// Deleter of std::unique_ptr<GLFWwindow>.
 struct DestroyWindow {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 
+// The window of one channel. GLFW calls the callbacks from pumpEvents(), hence on the main thread;
+// only framebuffer_ is also read by the drawing thread.
 class WindowContext : public Context {
   public:
     WindowContext(const config::Display& display,
@@ -132,8 +140,10 @@ class WindowContext : public Context {
                   glm::ivec2 sizePixels,
                   bool quadBuffered)
         : display_{display}, size_{sizePixels}, quadBuffered_{quadBuffered} {
+        assert(size_.x > 0 && size_.y > 0);
         open(title);
         GLFWwindow* window = window_.get();
+        // The callbacks find this object by the user pointer, so it must not move.
         glfwSetWindowUserPointer(window, this);
         glfwSetKeyCallback(window, [](GLFWwindow* source, int key, int, int action, int) {
             if (action == GLFW_PRESS) of(source).onKey(key);
@@ -151,6 +161,7 @@ class WindowContext : public Context {
     }
     void makeCurrent() override {
         glfwMakeContextCurrent(window_.get());
+        // One swap for each vertical blank: no tearing.
         glfwSwapInterval(1);
         requireDriver("window");
     }
@@ -165,6 +176,7 @@ class WindowContext : public Context {
     }
     [[nodiscard]] std::optional<std::string> loss() const override { return lossOfContext(); }
     void pumpEvents(std::chrono::milliseconds atMost) override {
+        assert(atMost.count() >= 0);
         glfwWaitEventsTimeout(std::chrono::duration<double>(atMost).count());
     }
     [[nodiscard]] std::optional<char> nextKey() override {
@@ -190,25 +202,33 @@ class WindowContext : public Context {
     static WindowContext& of(GLFWwindow* source) {
         return *static_cast<WindowContext*>(glfwGetWindowUserPointer(source));
     }
+    // Creates and places the window.
     void open(const std::string& title);
+    // Throws Error unless size and refresh rate are the channel's.
     void check();
     void onKey(int key);
     void onClick();
     void onDrag(bool begins);
+    // Place of the pointer in pixels of the framebuffer, from the top left corner.
     [[nodiscard]] glm::vec2 cursor() const;
     void toggleFullscreen();
 
+    // First, so that GLFW ends after the window.
     GlfwLibrary library_;
     config::Display display_;
     glm::ivec2 size_;
     bool quadBuffered_;
     std::unique_ptr<GLFWwindow, DestroyWindow> window_;
     std::atomic<glm::ivec2> framebuffer_{glm::ivec2(0)};
+    // Pressed, not yet taken by nextKey().
     std::deque<char> keys_;
     std::deque<glm::vec2> clicks_;
+    // Where the right button was pressed, as cursor(); empty while it is up.
     std::optional<glm::vec2> dragFrom_;
 };
 
+// The hints must be set before the window is created. The window stays hidden until it is at its
+// place.
 void WindowContext::open(const std::string& title) {
     constexpr std::array<std::array<int, 2>, 10> kHints{{
         {GLFW_CONTEXT_VERSION_MAJOR, 4},
@@ -245,8 +265,8 @@ void WindowContext::open(const std::string& title) {
     glfwPollEvents();
 }
 
-// A wall whose pixels are not the projector's own has a wrong warp: better no picture than that
-// one.
+// A window whose pixels are not the projector's pixels would show a wrong warp, so the node refuses
+// to start.
 void WindowContext::check() {
     glm::ivec2 actual{};
     glfwGetFramebufferSize(window_.get(), &actual.x, &actual.y);
@@ -277,7 +297,8 @@ void WindowContext::onKey(int key) {
         keys_.push_back(static_cast<char>('a' + (key - GLFW_KEY_A)));
 }
 
-// A click that nobody asks for is forgotten: a window that draws nothing yet has no place for it.
+// Keeps at most so many clicks and drops later ones: while a window draws nothing yet, nobody takes
+// them.
 void WindowContext::onClick() {
     constexpr std::size_t kMostClicks = 16;
     if (clicks_.size() < kMostClicks) clicks_.push_back(cursor());
@@ -287,7 +308,7 @@ void WindowContext::onDrag(bool begins) {
     dragFrom_ = begins ? std::optional(cursor()) : std::nullopt;
 }
 
-// A window that is left by the keyboard holds no key any more: GLFW lets go of all.
+// When the window loses the keyboard focus, GLFW reports all keys as released.
 Hands WindowContext::hands() const {
     constexpr std::array<std::pair<int, HeldKey>, static_cast<std::size_t>(HeldKey::kCount)> kKeys{{
         {GLFW_KEY_W, HeldKey::W},
@@ -315,7 +336,8 @@ Hands WindowContext::hands() const {
     return hands;
 }
 
-// GLFW tells it in the units of the desktop, of which a scaled one has fewer than pixels.
+// GLFW reports the cursor in screen coordinates, which on a scaled desktop are larger than pixels:
+// convert by the ratio of the two sizes.
 glm::vec2 WindowContext::cursor() const {
     glm::dvec2 place{};
     glm::ivec2 size{};
@@ -324,6 +346,8 @@ glm::vec2 WindowContext::cursor() const {
     return {place * glm::dvec2(framebuffer_.load()) / glm::dvec2(glm::max(size, 1))};
 }
 
+// Between the rig's place on the desktop and the whole monitor under it. The size of the
+// framebuffer may change; channel_show.cpp then fits the picture into it.
 void WindowContext::toggleFullscreen() {
     if (glfwGetWindowMonitor(window_.get()) != nullptr) {
         const glm::ivec2 place = display_.windowPosition;
@@ -349,7 +373,7 @@ std::unique_ptr<Context> makeWindowContext(const config::Display& display,
 
 namespace {
 
-// GLFW's axes: down is positive; triggers are -1 at rest.
+// Converts GLFW's axes, where down is positive and a released trigger is -1.
 Pad padOf(const GLFWgamepadstate& state) {
     const auto& axes = state.axes;
     const auto trigger = [&](int axis) { return (axes[axis] + 1) / 2; };
@@ -359,6 +383,7 @@ Pad padOf(const GLFWgamepadstate& state) {
             trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER)};
 }
 
+// The largest deflection of any axis, 0 to 1.
 float deflectionOf(const Pad& pad) {
     return std::max({std::abs(pad.leftStick.x),
                      std::abs(pad.leftStick.y),

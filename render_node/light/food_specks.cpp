@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/light/food_specks.h"
 
+#include <cassert>
+
 #include <glm/geometric.hpp>
 
 #include "render_node/gl/program.h"
@@ -11,10 +13,13 @@ namespace aquarama::scene {
 
 namespace {
 
-// Farther they are smaller than a pixel; the shaders fade them out before.
-constexpr float kMarginMetres = 0.05F;  // for what is drawn larger than it is
-constexpr int kPelletVertices = 24;     // an octahedron, each face with corners of its own
+// The margin for particles that are drawn larger than they are, metres. Beyond kPelletMetres and
+// kPlanktonMetres particles are smaller than a pixel; the shaders fade them out before.
+constexpr float kMarginMetres = 0.05F;
+// Vertices of an octahedron whose eight faces share no corners, so that each has its own normal.
+constexpr int kPelletVertices = 24;
 
+// Near enough and inside the frustum.
 bool isSeen(const FoodParticle& particle, const Viewpoint& viewpoint) {
     const float farthest = particle.isPellet ? shaders::kPelletMetres : shaders::kPlanktonMetres;
     const glm::vec3 way = particle.positionMetres - viewpoint.eyeMetres;
@@ -30,6 +35,7 @@ FoodSpecks::FoodSpecks(const gl::Replacements& replacements)
 
 void FoodSpecks::update(std::span<const FoodParticle> food, const Viewpoint& viewpoint) {
     seen_.clear();
+    // Two passes over the particles, so that each kind is contiguous in the buffer.
     for (const bool pellets : {true, false}) {
         for (const FoodParticle& particle : food)
             if (particle.isPellet == pellets && isSeen(particle, viewpoint))
@@ -44,6 +50,7 @@ void FoodSpecks::update(std::span<const FoodParticle> food, const Viewpoint& vie
 }
 
 void FoodSpecks::draw() const {
+    assert(pelletCount_ >= 0 && static_cast<std::size_t>(pelletCount_) <= seen_.size());
     const gl::Stage stage{"food"};
     if (seen_.empty()) return;
     glBindVertexArray(empty_.name());
@@ -56,13 +63,16 @@ void FoodSpecks::draw() const {
     glDepthMask(GL_TRUE);
 }
 
-// A far pellet is less than a pixel: it is drawn as large as one, and as faint as it is small.
+// The vertex shader enlarges a pellet of less than three pixels to that size, and makes it fainter
+// in proportion to its area.
 void FoodSpecks::drawPellets() const {
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(pellets_.name());
     glDrawArraysInstanced(GL_TRIANGLES, 0, kPelletVertices, pelletCount_);
 }
 
+// Points of light, added: plankton is clear and hides nothing. The uniform skips the pellets at the
+// front of the buffer.
 void FoodSpecks::drawPlankton() const {
     glBlendFunc(GL_ONE, GL_ONE);
     glEnable(GL_PROGRAM_POINT_SIZE);

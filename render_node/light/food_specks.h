@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Food in the water: plankton that glints, and pellets that tumble.
+// Draws food in the water: plankton that glints, and pellets that tumble.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,28 @@ namespace aquarama::scene {
 
 struct Viewpoint;
 
+// One particle of food at the frame's moment, world frame.
 struct FoodParticle {
     glm::vec3 positionMetres{};
-    std::uint32_t seed = 0;  // of its look and its tumbling; its own for as long as it is there
-    bool isPellet = false;   // else it is plankton
+    // Seed of its look and of its tumbling; the same for as long as the particle exists.
+    std::uint32_t seed = 0;
+    // A pellet, else plankton.
+    bool isPellet = false;
 };
 
 // Owns its GL objects; construct, use and destroy with the same context current.
 class FoodSpecks {
   public:
     explicit FoodSpecks(const gl::Replacements& replacements);
-    // Takes what this view can see: the rest costs a test each.
+    // Selects the particles that this view can see and uploads them. Costs one test for each
+    // particle. Call it for each view, before draw().
     void update(std::span<const FoodParticle> food, const Viewpoint& viewpoint);
-    // Over all that is solid. Expects the frame's uniform block and the sea's light to be bound.
+    // Blends them over what is drawn: call it after all solid things. Expects the frame's uniform
+    // block and the sea's light to be bound.
     void draw() const;
 
   private:
-    // As food_particle.glsl has it.
+    // Layout of Speck in food_particle.glsl, std430.
     struct Speck {
         glm::vec3 positionMetres{};
         std::uint32_t seed = 0;
@@ -42,7 +47,8 @@ class FoodSpecks {
     gl::ProgramHandle plankton_, pellets_;
     gl::Buffer specks_;
     gl::VertexArray empty_;
-    std::vector<Speck> seen_;  // pellets first
+    // What the last update() selected: pellets first, then plankton.
+    std::vector<Speck> seen_;
     int pelletCount_ = 0;
 };
 

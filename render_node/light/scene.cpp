@@ -2,6 +2,7 @@
 #include "render_node/light/scene.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <future>
 #include <optional>
@@ -26,18 +27,19 @@ namespace aquarama::scene {
 
 namespace {
 
-// The share of noon's light that the water gets from the sun and, by colour, from the sky. A low
-// sun is mirrored away; what is left then comes from above, and is bluer. Never nothing: a wall
-// that is dark is broken. Exactly 1 at noon.
+// The share of noon's light that reaches the water: of the sun (x), and of the sky's red, green and
+// blue (yzw). When the sun is low the surface reflects its light away; what remains is bluer and
+// comes from above. Never 0, so that the wall is not dark at night. Exactly 1 at noon.
 glm::vec4 daylightOf(float daylight) {
     const glm::vec4 night{0.02F, 0.16F, 0.24F, 0.36F};
     const float sun = daylight * daylight;
     return glm::mix(night, glm::vec4{1.0F}, glm::vec4{sun, glm::vec3{daylight}});
 }
 
-// Over the submarine's bow. Weak by day near the surface, where it would only flatten what the sun
-// models; stronger where the sun does not reach. In the deep the exposure has risen for what is
-// left of the sun, so the lamp needs as much less power; at night it has not.
+// The floodlight 1 m above the shared eye: position in the world, and power (w). By day it is weak
+// near the surface, where it would flatten the shading by the sun, and stronger where the sun does
+// not reach. In the deep the exposure is higher, so the power is divided by it; at night the
+// exposure is the same as by day, so power is added.
 glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
     const glm::vec3 above{0.0F, 1.0F, 0.0F};
     const float deep = glm::smoothstep(9.0F, 24.0F, -frame.eyePositionMetres.y);
@@ -45,11 +47,12 @@ glm::vec4 lampOf(const SceneFrame& frame, float exposure) {
     return {frame.eyePositionMetres + above, power};
 }
 
-// Shaders count time in 32-bit floats, which months of show would make coarse: they begin anew
-// after so long, in which snow drifts whole boxes, clouds whole tiles, and fins beat whole times.
+// Shaders count time in 32-bit floats, which would become coarse after months. The clock therefore
+// restarts after this many seconds, a whole number of periods of all that the shaders derive from
+// it: drifting snow, clouds and fins.
 constexpr double kClockSeconds = 9000;
 
-// What is the same for all views of a frame.
+// The uniforms that all views of a frame share; the rest is left to setView().
 shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
                                      const SeaLight& light,
                                      float pixelRadians) {
@@ -65,6 +68,7 @@ shaders::FrameUniforms frameUniforms(const SceneFrame& frame,
     return uniforms;
 }
 
+// Fills in what depends on the view: matrices, the position of this eye, the size of the picture.
 void setView(shaders::FrameUniforms& uniforms, const View& view) {
     uniforms.clipFromWorld = view.clipFromCamera * view.cameraFromWorld;
     uniforms.worldFromClip = glm::inverse(uniforms.clipFromWorld);
@@ -74,13 +78,15 @@ void setView(shaders::FrameUniforms& uniforms, const View& view) {
     uniforms.viewport = glm::vec4(size, 1.0F / size);
 }
 
-// All that stands on the sea floor. In the open sea it lies too deep to be seen.
+// The sea floor and what stands on it. In the open sea there is none: the floor is too deep to be
+// seen.
 struct Bottom {
     Ground ground;
     Reef reef;
 };
 
-// Made while this thread compiles shaders.
+// Tables of the sea floor, made by two threads while this one compiles shaders. The futures stay
+// invalid in the open sea.
 struct BottomTables {
     explicit BottomTables(const SceneOptions& options) {
         if (options.place != config::PlaceKind::Reef) return;
@@ -94,6 +100,8 @@ struct BottomTables {
 
 }  // namespace
 
+// The members in the order in which they are made: the tables start first, programs and textures
+// follow, and the body of the constructor waits for the tables.
 struct SceneRenderer::Parts {
     Parts(const SceneOptions& chosen, std::span<const surface::SchoolSpecies> cast)
         : options{chosen},
@@ -119,7 +127,9 @@ struct SceneRenderer::Parts {
         if (bottom && quality.light.isFine) bakeShadows();
     }
 
+    // Uploads the uniforms and binds them.
     void setUniforms() const;
+    // Draws the shadow maps of the place, once.
     void bakeShadows();
     void drawSolids(const Viewpoint& viewpoint);
     void drawWater() const;
@@ -127,9 +137,11 @@ struct SceneRenderer::Parts {
 
     SceneOptions options;
     Quality quality;
-    gl::Replacements shaders;  // of the tier
+    // Includes that the tier of quality replaces.
+    gl::Replacements shaders;
     BottomTables bottomTables;
     shaders::FrameUniforms uniforms{};
+    // The frame's food, kept for its views.
     std::vector<FoodParticle> specks;
     gl::Buffer frameBlock{
         gl::makeBuffer(sizeof(shaders::FrameUniforms), "frame", GL_DYNAMIC_STORAGE_BIT)};
@@ -147,7 +159,8 @@ void SceneRenderer::Parts::setUniforms() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, shaders::kFrameBlock, frameBlock.name());
 }
 
-// Of the place as it stands, as rays of light see it; as fine as the maps' texels.
+// Draws the static place into the shadow maps. Levels of detail are chosen for an eye far above
+// with coarse pixels, 2 mrad, so that the meshes are about as fine as the texels of the maps.
 void SceneRenderer::Parts::bakeShadows() {
     constexpr glm::vec4 kFarAboveWithCoarsePixels{0.0F, 30.0F, 0.0F, 0.002F};
     const Reef::DepthPrograms reefPrograms = bottom->reef.depthPrograms();
@@ -168,7 +181,7 @@ void SceneRenderer::Parts::bakeShadows() {
     });
 }
 
-// Near things first, so that what they hide is never shaded.
+// The reef before the sand, so that the depth test saves shading sand that the reef hides.
 void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
     const gl::Stage stage{"place"};
     if (!bottom) return;
@@ -176,6 +189,8 @@ void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
     bottom->ground.draw(viewpoint);
 }
 
+// The surface as a square of four vertices, then open water on the far plane: it passes the depth
+// test only where nothing else was drawn.
 void SceneRenderer::Parts::drawWater() const {
     const gl::Stage stage{"water"};
     glBindVertexArray(empty.name());
@@ -185,6 +200,7 @@ void SceneRenderer::Parts::drawWater() const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+// Marine snow: points of light, added over everything and hidden by what is nearer.
 void SceneRenderer::Parts::drawSnow() const {
     const gl::Stage stage{"snow"};
     glBindVertexArray(empty.name());
@@ -205,6 +221,7 @@ SceneRenderer::SceneRenderer(const SceneOptions& options,
 SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::update(const SceneFrame& frame) {
+    assert(std::isfinite(frame.timeSeconds));
     Parts& parts = *parts_;
     parts.uniforms = frameUniforms(frame, parts.light, parts.options.pixelRadians);
     parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
@@ -218,7 +235,10 @@ void SceneRenderer::update(const SceneFrame& frame) {
     parts.light.shade().updateFish(parts.school);
 }
 
+// The order of a view: computation, opaque bodies and place, water, then all that is blended, in a
+// fixed order, then the passes over the picture.
 unsigned SceneRenderer::draw(const View& view) {
+    assert(view.sizePixels.x > 0 && view.sizePixels.y > 0);
     Parts& parts = *parts_;
     setView(parts.uniforms, view);
     parts.setUniforms();
@@ -228,7 +248,8 @@ unsigned SceneRenderer::draw(const View& view) {
     parts.light.drawShafts(eye, parts.uniforms.worldFromClip);
     parts.school.look(parts.uniforms.clipFromWorld,
                       {glm::vec3(parts.uniforms.sharedEyeAndPixel), parts.options.pixelRadians});
-    // All that is computed before all that is drawn: between the two a driver may have to wait.
+    // All compute passes run before anything is drawn: a driver may have to wait when it switches
+    // between the two.
     if (parts.bottom)
         parts.bottom->reef.cull({parts.options.culling, parts.options.levelsOfDetail});
     parts.picture.begin(view.sizePixels);

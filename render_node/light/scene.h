@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The undersea world as one channel sees it, in linear light.
+// Draws the undersea world as one channel sees it.
 #pragma once
 
 #include <cstdint>
@@ -17,40 +17,50 @@
 
 namespace aquarama::scene {
 
-// One camera: at the sweet spot, or one of two eyes beside it. Column vectors; reversed depth, zero
-// to one.
+// One camera: at the sweet spot, or one of two eyes beside it. Matrices are for column vectors;
+// depth is reversed, zero to one.
 struct View {
     glm::mat4 clipFromCamera{1.0F};
     glm::mat4 cameraFromWorld{1.0F};
     glm::ivec2 sizePixels{};
 };
 
-// Everything that a frame shows, the same on every node: a pure function of the shared eye, the
-// tick and the fish.
+// Everything that a frame shows, the same on every node. A picture is a pure function of this, the
+// options and the view.
 struct SceneFrame {
+    // Time since tick 0.
     double timeSeconds = 0;
-    glm::vec3 eyePositionMetres{};    // the shared eye: of the submarine, for levels of detail
-    surface::SchoolMoment fish = {};  // of each species in turn, as many as it has
+    // The shared eye, in the submarine. Levels of detail follow from it, whatever the view.
+    glm::vec3 eyePositionMetres{};
+    // Fish of each species in turn, as many as the cast says.
+    surface::SchoolMoment fish = {};
     std::span<const FoodParticle> food = {};
-    float daylight = 1.0F;  // of the sky: 1 at noon, towards 0 at night
+    // Light of the sky: 1 at noon, towards 0 at night.
+    float daylight = 1.0F;
 };
 
+// What a scene is made for. A change needs a new SceneRenderer.
 struct SceneOptions {
     std::uint32_t seed = 1;
     config::PlaceKind place = config::PlaceKind::Reef;
     config::WaterType water = config::WaterType::IA;
     config::QualityTier quality = config::QualityTier::Low;
-    float pixelRadians = 0.0016F;  // the finest pixel of the whole wall, seen from the sweet spot
-    bool culling = true;           // off only to measure what it saves
+    // The angle of the finest pixel of the whole wall, seen from the sweet spot; the same on every
+    // node.
+    float pixelRadians = 0.0016F;
+    // Switched off only to measure what culling saves.
+    bool culling = true;
     bool levelsOfDetail = true;
 
     bool operator==(const SceneOptions&) const = default;
 };
 
-// Owns its GL objects; construct, use and destroy with the same context current.
+// The renderer of one channel: update() once for each frame, then draw() for each view. Owns its GL
+// objects; construct, use and destroy it with the same context current.
 class SceneRenderer {
   public:
-    // Without a cast it is a sea without fish.
+    // The place is made on other threads while this one compiles shaders. With an empty cast the
+    // sea has no fish. Throws Error: too many species, a driver that cannot compile a shader.
     SceneRenderer(const SceneOptions& options, std::span<const surface::SchoolSpecies> cast);
     ~SceneRenderer();
     SceneRenderer(const SceneRenderer&) = delete;
@@ -58,8 +68,8 @@ class SceneRenderer {
     SceneRenderer(SceneRenderer&&) = delete;
     SceneRenderer& operator=(SceneRenderer&&) = delete;
 
-    // Once a frame, before it is drawn for each view: the state of the sea, what its light does,
-    // and the fish.
+    // Uploads and computes what all views of a frame share: the waves and their light, the fish and
+    // the shadows that they throw. Call it once for each frame, before draw().
     void update(const SceneFrame& frame);
 
     // Draws the updated frame into a texture of view.sizePixels, RGBA16F, linear Rec. 709, already

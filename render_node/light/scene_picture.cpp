@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "render_node/gl/program.h"
 #include "render_node/reef/solid_array.h"
@@ -12,16 +13,18 @@ namespace aquarama::scene {
 
 namespace {
 
-// Of the smaller copies, the last that the widest ring of the bloom reads (bloom.glsl) on a wall of
-// 4 000 pixels a radian.
+// Mip levels of the picture that bloom reads. The last is the one that the widest ring of
+// bloom.glsl needs on a wall of 4 000 pixels in a radian.
 constexpr int kBloomLevels = 6;
 
+// The number of samples, limited to what the driver has; 1 to GL_MAX_SAMPLES.
 int supported(int samples) {
     int most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     return std::clamp(samples, 1, std::max(most, 1));
 }
 
+// A texture for a layer: with several samples it has one level and cannot be filtered.
 gl::Texture makeLayer(GLenum format, glm::ivec2 size, int samples, int levels = 1) {
     if (samples == 1) return makeTexture(format, size, levels, Edge::Clamp);
     gl::Texture texture{static_cast<GLenum>(GL_TEXTURE_2D_MULTISAMPLE)};
@@ -29,12 +32,14 @@ gl::Texture makeLayer(GLenum format, glm::ivec2 size, int samples, int levels = 
     return texture;
 }
 
+// kBloomLevels, or fewer for a small picture.
 int bloomLevels(glm::ivec2 size) {
     int levels = 1;
     while (levels < kBloomLevels && std::min(size.x, size.y) >> levels > 0) ++levels;
     return levels;
 }
 
+// Bloom is an include of the last pass, so that it costs no pass of its own.
 gl::ProgramHandle makeTone(bool bloom) {
     if (!bloom) return gl::makeProgram({"quad.vert", "tone.frag"});
     return gl::makeProgram({"quad.vert", "tone.frag"}, {{"scene_light.glsl", "bloom.glsl"}});
@@ -60,7 +65,8 @@ void ScenePicture::allocate(glm::ivec2 sizePixels) {
         layer.target = makeTarget(layer.colour);
         glNamedFramebufferTexture(layer.target.name(), GL_DEPTH_ATTACHMENT, layer.depth.name(), 0);
     };
-    const int unsoftened = soften_ ? 1 : levels;  // what the tone reads has the smaller copies
+    // Only the texture that the last pass reads has mip levels.
+    const int unsoftened = soften_ ? 1 : levels;
     fill(drawn_, quality_.samples, unsoftened);
     if (quality_.samples > 1) fill(resolved_, 1, unsoftened);
     if (soften_) {
@@ -72,6 +78,7 @@ void ScenePicture::allocate(glm::ivec2 sizePixels) {
 }
 
 void ScenePicture::begin(glm::ivec2 sizePixels) {
+    assert(sizePixels.x > 0 && sizePixels.y > 0);
     if (sizePixels != size_) allocate(sizePixels);
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.target.name());
     glViewport(0, 0, size_.x, size_.y);
@@ -83,7 +90,8 @@ void ScenePicture::begin(glm::ivec2 sizePixels) {
     glDepthFunc(GL_GEQUAL);
 }
 
-// Light is a mean over the samples; of the depths one is taken.
+// The resolved colour is the mean over the samples. Depth is copied only where the softening reads
+// it: the driver takes one of the samples.
 void ScenePicture::resolve() const {
     const gl::Stage stage{"resolve"};
     const GLbitfield layers =
@@ -110,6 +118,8 @@ void ScenePicture::pass(unsigned framebuffer, unsigned program) const {
 }
 
 unsigned ScenePicture::finish() {
+    // begin() comes first.
+    assert(size_.x > 0 && size_.y > 0);
     glDisable(GL_DEPTH_TEST);
     if (quality_.samples > 1) resolve();
     const Layer& light = quality_.samples > 1 ? resolved_ : drawn_;

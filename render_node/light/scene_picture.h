@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a channel is drawn on: multisampled light of the scene, then what water and lens do to the
-// picture of it, then display light.
+// The buffers that a channel is drawn into, and the passes over the picture: multisampled light of
+// the scene, scattering and bloom, then display light.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,31 @@
 
 namespace aquarama::scene {
 
+// One picture: begin(), draw, finish(). Owns its GL objects; construct, use and destroy it with the
+// same context current.
 class ScenePicture {
   public:
     explicit ScenePicture(const Quality& quality);
-    void begin(glm::ivec2 sizePixels);  // binds and clears; a new size is a new set of buffers
-    // Resolves, softens, tones; the texture that holds the display light. Expects the frame's
-    // uniform block of the view.
+    // Binds and clears the buffers; a new size allocates new ones.
+    void begin(glm::ivec2 sizePixels);
+    // Resolves the samples, softens, adds bloom and tones. Returns the GL name of the texture that
+    // holds the display light (RGBA16F), valid until the next picture. Expects the frame's uniform
+    // block of the view to be bound.
     unsigned finish();
 
   private:
-    // Light and its depth; without samples of its own to read from.
+    // Light and depth of one layer. A multisampled layer is only drawn into; shaders read a layer
+    // that has one sample.
     struct Layer {
         gl::Texture colour{static_cast<GLenum>(GL_TEXTURE_2D)};
         gl::Texture depth{static_cast<GLenum>(GL_TEXTURE_2D)};
         gl::Framebuffer target;
     };
 
+    // Makes the buffers of the layers that this quality needs.
     void allocate(glm::ivec2 sizePixels);
     void resolve() const;
+    // Draws one triangle that covers the picture.
     void pass(unsigned framebuffer, unsigned program) const;
 
     Quality quality_;
@@ -37,7 +44,8 @@ class ScenePicture {
     gl::ProgramHandle tone_;
     std::optional<gl::ProgramHandle> soften_;
     gl::VertexArray empty_;
-    Layer drawn_, resolved_;  // resolved: only where several samples are drawn
+    // resolved_ is empty where drawn_ has one sample.
+    Layer drawn_, resolved_;
     gl::Texture softenedColour_, display_;
     gl::Framebuffer softened_, toned_;
 };

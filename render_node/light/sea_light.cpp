@@ -2,6 +2,7 @@
 #include "render_node/light/sea_light.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -21,14 +22,19 @@ namespace aquarama::scene {
 
 namespace {
 
+// Mip levels of the tiles and of the caustic layers.
 constexpr int kTileLevels = 6;
+// Side of the cloud tile.
 constexpr int kCloudTexels = 256;
-// Each layer of caustics is so much deeper than the one above it; one lies on the sand of the reef.
+// The ratio of the depths of two consecutive layers of caustics. One layer lies on the sand of the
+// reef.
 constexpr float kLayerRatio = 2.15F;
+// The share of the dispersion of water that is shown: all of it would look exaggerated.
 constexpr float kDispersion = 0.6F;
 
-// Two triangles a cell.
+// Two triangles for each cell of a square grid of (cells + 1)^2 vertices, as 16-bit indices.
 std::vector<std::uint16_t> gridIndices(int cells) {
+    assert(cells > 0 && (cells + 1) * (cells + 1) <= 65536);
     std::vector<std::uint16_t> indices;
     for (int row = 0; row < cells; ++row)
         for (int column = 0; column < cells; ++column) {
@@ -40,12 +46,16 @@ std::vector<std::uint16_t> gridIndices(int cells) {
     return indices;
 }
 
+// Depth at which the sunlight of a layer is computed, metres. The layer on the sand is the last but
+// one, so that one lies below it; with one or two layers it is the last.
 float layerDepth(int layer, int layers) {
+    assert(layer >= 0 && layer < layers);
     const int onTheSand = layers > 2 ? layers - 2 : layers - 1;
     return place::kMeanFloorDepthMetres *
            std::pow(kLayerRatio, static_cast<float>(layer - onTheSand));
 }
 
+// One layer of light for each depth, 16-bit floats, mean 1; repeats, as the waves do.
 gl::Texture makeLayers(int texels, int layers) {
     gl::Texture texture{static_cast<GLenum>(GL_TEXTURE_2D_ARRAY)};
     glTextureStorage3D(texture.name(), kTileLevels, GL_R16F, texels, texels, layers);
@@ -53,7 +63,9 @@ gl::Texture makeLayers(int texels, int layers) {
     return texture;
 }
 
-// Fractal noise that repeats on the tile.
+// Cloud cover 0 to 1: value noise in five octaves, from 6 cells across the tile. Each octave has a
+// whole number of cells, so that the tile repeats without a seam. The division makes the sum of the
+// weights 1.
 gl::Texture makeClouds(std::uint32_t seed) {
     constexpr int kCells = 6;
     const auto at = [&](glm::vec2 place, int cells) {
@@ -91,7 +103,8 @@ gl::Texture makeClouds(std::uint32_t seed) {
     return texture;
 }
 
-// As in water.glsl.
+// The texel of the octahedral map that holds a direction: the inverse of directionOf() in
+// shaft.frag, with its border of one texel.
 glm::vec2 shaftTexel(glm::vec3 direction, float texels) {
     const glm::vec3 size = glm::abs(direction);
     glm::vec2 p = glm::vec2(direction.x, direction.z) / (size.x + size.y + size.z);
@@ -101,12 +114,13 @@ glm::vec2 shaftTexel(glm::vec3 direction, float texels) {
     return 0.5F * (texels + p * (texels - 2.0F));
 }
 
+// A rectangle of texels, high excluded.
 struct Box {
     glm::ivec2 low{}, high{};
 };
 
-// The texels of the map that a view reads: its rays are probed on a grid fine enough for one
-// texel of margin to cover what lies between.
+// The texels of the shaft map that a view reads. The rays of the picture are sampled on a grid of
+// 25 x 25; a margin of a twentieth of the map covers what lies between the samples and the filter.
 Box texelsInView(glm::vec3 eye, const glm::mat4& worldFromClip, int texels) {
     constexpr int kProbes = 24;
     glm::vec2 low{1.0e9F};
@@ -162,6 +176,7 @@ SeaLight::SeaLight(const SeaLightOptions& options, WaterTables tables)
 }
 
 void SeaLight::update(double timeSeconds, glm::vec3 sharedEyeMetres) {
+    // Mixed and uploaded anew only when the eye has moved up or down.
     if (tableDepthMetres_ != -sharedEyeMetres.y) {
         tableDepthMetres_ = -sharedEyeMetres.y;
         inscatter_.mixAtDepth(double{tableDepthMetres_}, atEye_);
@@ -188,6 +203,7 @@ glm::vec4 SeaLight::kdAndExposure(glm::vec3 sharedEyeMetres) const {
     return {primariesKd_, inscatter_.exposureAt(-double{sharedEyeMetres.y})};
 }
 
+// Evaluates the sums of sines on both tiles, and their mip levels for coarser views.
 void SeaLight::drawWaves() {
     const gl::Stage stage{"waves"};
     glUseProgram(waveProgram_.name());
@@ -206,7 +222,8 @@ void SeaLight::drawWaves() {
     glGenerateTextureMipmap(rippleTile_.name());
 }
 
-// A front of light refracted at the surface: where its triangles shrink, light gathers.
+// A grid of light on the surface is refracted and projected to the depth of each layer: where its
+// triangles shrink, light gathers. The triangles are added, as the front folds over itself.
 void SeaLight::drawCaustics() {
     const gl::Stage stage{"caustics"};
     glBindFramebuffer(GL_FRAMEBUFFER, causticTarget_.name());

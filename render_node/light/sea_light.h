@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light in the sea at one instant: the tables of the water, the waves, their caustics on the
-// sand and the shafts in the water. The same textures on every node.
+// sand and the shafts of light in the water. Every node computes the same textures.
 #pragma once
 
 #include <cstdint>
@@ -17,29 +17,39 @@
 
 namespace aquarama::scene {
 
+// What the light is computed for; fixed for the life of a SeaLight.
 struct SeaLightOptions {
     std::uint32_t seed = 1;
     config::WaterType water = config::WaterType::IB;
     LightQuality quality;
-    bool calm = false;  // a surface without waves
+    // A flat surface without waves, for tests.
+    bool calm = false;
 };
 
+// Owns its GL objects; construct, use and destroy it with the same context current. Call update()
+// once for each frame, then drawShafts() and bind() for each view.
 class SeaLight {
   public:
     explicit SeaLight(const SeaLightOptions& options)
         : SeaLight(options, waterTables(options.water)) {}
-    SeaLight(const SeaLightOptions& options, WaterTables tables);  // of options.water
+    // tables: those of options.water.
+    SeaLight(const SeaLightOptions& options, WaterTables tables);
 
-    // For the frame's uniforms: Kd of the primaries, and the exposure of an eye there.
+    // For the frame's uniforms: Kd of the three primaries (xyz, 1/m), and the exposure at this eye
+    // (w).
     [[nodiscard]] glm::vec4 kdAndExposure(glm::vec3 sharedEyeMetres) const;
 
-    // What is the same for all views. Expects the frame's uniform block to be bound.
+    // Draws waves and caustics, which all views share, and mixes the water tables for the eye's
+    // depth. Expects the frame's uniform block to be bound. Switches the depth test off.
     void update(double timeSeconds, glm::vec3 sharedEyeMetres);
-    // Only where the view looks.
+    // Draws the map of shafts, but only the directions that this view reads. Expects the sea's
+    // light to be updated.
     void drawShafts(glm::vec3 eyeMetres, const glm::mat4& worldFromClip);
-    void bind() const;  // to the units that water.glsl names
+    // Binds block and textures to the units that water.glsl and what it includes name.
+    void bind() const;
 
     [[nodiscard]] SeaShade& shade() { return shade_; }
+    // For tests: sunlight by depth (array layers) and by direction.
     [[nodiscard]] const gl::Texture& causticLayers() const { return causticLayers_; }
     [[nodiscard]] const gl::Texture& shaftMap() const { return shaftMap_; }
 
@@ -50,6 +60,7 @@ class SeaLight {
     LightQuality quality_;
     Sea sea_;
     Inscatter inscatter_;
+    // Depth of the eye that atEye_ and inscatterTable_ were mixed for, metres.
     float tableDepthMetres_;
     Table atEye_;
     glm::vec3 primariesKd_;

@@ -2,6 +2,7 @@
 #include "render_node/light/sea_shade.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -16,12 +17,17 @@ namespace aquarama::scene {
 
 namespace {
 
-constexpr float kFishMetres = 32.0F;  // side of the map of fish
+// Side of the map of fish, metres on the surface.
+constexpr float kFishMetres = 32.0F;
+// Mip levels of the maps. Coarser ones serve wider, softer shadows; of the fish map only the finest
+// is used where quality is not fine.
 constexpr int kPlaceLevels = 7;
-constexpr int kFishLevels = 6;  // the finest alone where nobody reads the others
+constexpr int kFishLevels = 6;
 
-// Parallel to the rays: a place goes to where its ray meets the surface; depth is its height.
+// A parallel projection along the rays: a place is mapped to where its ray meets the surface. Depth
+// is its height, 1 at the surface and 0 at kMapDepthMetres below. towardsLight must point upwards.
 glm::mat4 alongRays(glm::vec3 towardsLight) {
+    assert(towardsLight.y > 0.0F);
     constexpr float kScale = 2.0F / shaders::kPlaceMetres;
     glm::mat4 clip{0.0F};
     clip[0][0] = kScale;
@@ -50,10 +56,12 @@ SeaShade::SeaShade(const LightQuality& quality)
       moments_{gl::makeProgram({"quad.vert", "moments.frag"})},
       fishProgram_{
           gl::makeProgram({"fish_shadow.vert", "fish_shadow.frag"}, replacementsOf(quality))} {
+    assert(quality_.fishShadowTexels >> (kFishLevels - 1) > 0);
     clear();
 }
 
 void SeaShade::clear() {
+    // A height below everything, and its square.
     const glm::vec2 nothing{-shaders::kMapDepthMetres,
                             shaders::kMapDepthMetres * shaders::kMapDepthMetres};
     for (int level = 0; level < kPlaceLevels; ++level)
@@ -64,6 +72,7 @@ void SeaShade::clear() {
 }
 
 void SeaShade::setPlace(const std::function<void(const glm::mat4&)>& drawPlace) {
+    assert(drawPlace != nullptr);
     const glm::ivec2 size{quality_.shadowTexels};
     const gl::Texture depth = makeTexture(GL_DEPTH_COMPONENT32F, size, 1, Edge::Clamp);
     const gl::Framebuffer target;
@@ -76,7 +85,9 @@ void SeaShade::setPlace(const std::function<void(const glm::mat4&)>& drawPlace) 
         glClear(GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_GEQUAL);
-        glFrontFace(GL_CW);  // the map is laid out as seen from below
+        // The map's x and y are world x and z, a view from below, which reverses the orientation of
+        // triangles.
+        glFrontFace(GL_CW);
         drawPlace(alongRays(towardsLight));
         glFrontFace(GL_CCW);
         glDisable(GL_DEPTH_TEST);
@@ -96,6 +107,8 @@ void SeaShade::takeMoments(const gl::Texture& depth, const gl::Framebuffer& heig
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+// The middle is where the sun's ray to the eye meets the surface, rounded to texels of the coarsest
+// level so that all levels stay aligned.
 glm::vec4 SeaShade::fishWindow(glm::vec3 sharedEyeMetres) const {
     const glm::vec3 sun = sunInWater();
     const glm::vec2 middle = glm::vec2{sharedEyeMetres.x, sharedEyeMetres.z} -
@@ -123,6 +136,7 @@ void SeaShade::updateFish(const surface::SchoolSurface& school) {
             GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(school.fishInRecords()));
         glDisable(GL_BLEND);
     }
+    // Coarse tiers read level 0 alone.
     if (quality_.isFine) glGenerateTextureMipmap(fishOnTheWay_.name());
 }
 

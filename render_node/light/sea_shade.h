@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands between the sea and the light from above: maps of the place, drawn once, and of the
-// fish, drawn each frame. See shadow.glsl for how they are read.
+// Shadow maps of the place, drawn once, and of the fish, drawn each frame. shadow.glsl says how
+// they are read.
 #pragma once
 
 #include <functional>
@@ -15,23 +15,29 @@
 
 namespace aquarama::scene {
 
+// Owns its GL objects; construct, use and destroy it with the same context current.
 class SeaShade {
   public:
     explicit SeaShade(const LightQuality& quality);
 
-    // Draws the place straight from above and along the sun's rays. drawPlace draws all of it with
-    // the matrix it is given as clipFromWorld, into the depth buffer that is bound. Never called:
-    // nothing stands in the way.
+    // Draws the place as seen from straight above and along the sun's rays. drawPlace draws all of
+    // it with the matrix that it is given as clipFromWorld, into the depth buffer that is bound.
+    // Without this call nothing throws a shadow.
     void setPlace(const std::function<void(const glm::mat4&)>& drawPlace);
 
-    // Expects the frame's uniform block to be bound, and the sea's with fishWindow(): so the map of
-    // fish lies about the shared eye, in whole texels of the world.
+    // Draws the shadows of the fish. Expects the frame's uniform block to be bound, and the sea's
+    // block with the current fishWindow().
     void updateFish(const surface::SchoolSurface& school);
-    [[nodiscard]] glm::vec4 fishWindow(glm::vec3 sharedEyeMetres) const;  // of SeaNow
-    void bind() const;  // to the units that shadow.glsl names
+    // The window of the fish map for SeaNow: its middle on the surface, x and z in metres, and 1 /
+    // its side. It follows the shared eye in steps of whole texels, so that shadows do not shimmer.
+    [[nodiscard]] glm::vec4 fishWindow(glm::vec3 sharedEyeMetres) const;
+    // Binds the maps to the units that shadow.glsl names.
+    void bind() const;
 
   private:
+    // Fills the maps with what they hold where nothing throws a shadow.
     void clear();
+    // Turns a depth map into heights and their squares (moments.frag).
     void takeMoments(const gl::Texture& depth, const gl::Framebuffer& heights);
 
     LightQuality quality_;

@@ -2,6 +2,7 @@
 #include "render_node/reef/ground.h"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include <glm/common.hpp>
@@ -18,13 +19,18 @@ namespace aquarama::scene {
 
 namespace {
 
+// The sand is a square of 14 x 14 patches about the origin.
 constexpr float kPatchMetres = 10.0F;
 constexpr int kPatchesASide = 14;
+// Cells along a side of a patch at each level, and the distances at which the coarser levels begin.
 constexpr std::array<int, 3> kCells{24, 10, 4};
 constexpr std::array<float, 2> kLevelMetres{13.0F, 26.0F};
+// How far the rim of a patch hangs down.
 constexpr float kRimMetres = 0.35F;
+// Side of the map of shade, texels.
 constexpr int kShadeTexels = 360;
 
+// Normal of the sand by forward differences over 5 cm.
 glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     constexpr float kStep = 0.05F;
     const float here = place::floorHeight({seed}, xz);
@@ -33,8 +39,10 @@ glm::vec3 sandNormal(std::uint32_t seed, glm::vec2 xz) {
     return glm::normalize(glm::vec3{-slopeX, 1.0F, -slopeZ});
 }
 
-using ShadeTexel = glm::u8vec4;  // openness to the sun and from above, rubble
+// As GroundTables::shade.
+using ShadeTexel = glm::u8vec4;
 
+// World x and z of a texel's middle, and the texel that holds a coordinate.
 glm::vec2 middleOfTexel(int column, int row) {
     return (glm::vec2{column, row} + 0.5F) * (shaders::kFloorShadeMetres / kShadeTexels) -
            shaders::kFloorShadeMetres / 2.0F;
@@ -46,13 +54,15 @@ int texelAt(float metres) {
     return std::clamp(static_cast<int>(texel), 0, kShadeTexels - 1);
 }
 
+// Multiplies a stored share by another.
 void darken(glm::u8& value, float share) {
     value = static_cast<glm::u8>(static_cast<float>(value) * share);
 }
 
-// One rock's part in the shade and the rubble round it; a shadow reaches as far as the rock is
-// high.
+// Adds the shade and the rubble of one rock to the map. A shadow reaches further where the rock
+// stands higher above the sand: only the texels within reach are visited.
 void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float sand) {
+    assert(texels.size() == static_cast<std::size_t>(kShadeTexels) * kShadeTexels);
     const float reach = 4.0F * rock.radiusMetres + std::max(rock.centre.y - sand, 0.0F);
     const std::span<const place::Rock> own{&rock, 1};
     const float above = std::max(rock.centre.y - rock.radiusMetres - sand, 0.0F);
@@ -65,6 +75,7 @@ void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float s
                                        static_cast<std::size_t>(column)];
             darken(texel.r, sunOpenness(own, place));
             darken(texel.g, skyOpenness(own, place, {0.0F, 1.0F, 0.0F}));
+            // Rubble lies around rocks that stand on the sand, not under those that hang above it.
             const float away = glm::distance(xz, glm::vec2{rock.centre.x, rock.centre.z});
             const float heap = glm::smoothstep(1.9F, 0.75F, away / rock.radiusMetres) *
                                glm::smoothstep(0.5F, 0.0F, above);
@@ -72,6 +83,7 @@ void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float s
         }
 }
 
+// The map of all rocks; starts fully open and without rubble.
 std::vector<ShadeTexel> bakeShade(std::uint32_t seed) {
     std::vector<ShadeTexel> texels(static_cast<std::size_t>(kShadeTexels) * kShadeTexels,
                                    {255, 255, 0, 255});
@@ -80,7 +92,9 @@ std::vector<ShadeTexel> bakeShade(std::uint32_t seed) {
     return texels;
 }
 
+// Uploads the map.
 gl::Texture makeShade(const std::vector<ShadeTexel>& texels) {
+    assert(texels.size() == static_cast<std::size_t>(kShadeTexels) * kShadeTexels);
     gl::Texture texture = makeTexture(GL_RGBA8, glm::ivec2{kShadeTexels}, 1, Edge::Clamp);
     glTextureSubImage2D(texture.name(),
                         0,
@@ -97,8 +111,10 @@ gl::Texture makeShade(const std::vector<ShadeTexel>& texels) {
 }  // namespace
 
 Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells) {
+    assert(sideMetres > 0.0F && cells > 0);
     Mesh mesh;
-    const int width = cells + 3;  // corners, and the rim on both sides
+    // The corners of the cells, and the rim on both sides.
+    const int width = cells + 3;
     for (int row = 0; row < width; ++row)
         for (int column = 0; column < width; ++column) {
             const glm::ivec2 inside = glm::clamp(glm::ivec2{column, row} - 1, 0, cells);
@@ -177,6 +193,7 @@ void Ground::drawDepths(const gl::ProgramHandle& program, const Viewpoint& viewp
 
 void Ground::drawPatches(const Viewpoint& viewpoint) const {
     glBindVertexArray(array_.name());
+    // Half the diagonal of a patch is 0.71 of its side; the rest is for its height.
     constexpr float kPatchRadius = kPatchMetres * 0.75F;
     for (const GroundTables::Patch& patch : patches_) {
         if (!viewpoint.sees(patch.centre, kPatchRadius)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sand: squares of it at three levels of detail, with the shade that boulders cast on it.
+// The sand: square patches at three levels of detail, and the shade that boulders cast on it.
 #pragma once
 
 #include <array>
@@ -17,37 +17,46 @@
 
 namespace aquarama::scene {
 
-// A square of sand with so many cells a side, its rim hanging down a little so that no gap shows
-// where two levels meet.
+// A square patch of sand with so many cells along a side, in world metres; `corner` is its least x
+// and z. A rim hangs down around it, so that no gap shows where two levels meet.
 [[nodiscard]] Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells);
 
-// What the GPU keeps of the sand.
+// What the GPU keeps of the sand, before it is uploaded.
 struct GroundTables {
+    // A patch: its middle on the sand, world metres, and for each level the index of its first
+    // vertex.
     struct Patch {
         glm::vec3 centre{};
         std::array<int, 3> firstVertices{};
     };
+    // The triangles of a level, which all patches share: a range of indices.
     struct Level {
         std::uint32_t firstIndex = 0;
         std::int32_t count = 0;
     };
-    std::vector<SolidVertex> vertices;  // of all patches at all levels
+    // Vertices of all patches at all levels.
+    std::vector<SolidVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Patch> patches;
     std::vector<Level> levels;
-    std::vector<glm::u8vec4> shade;  // openness to the sun and from above, rubble; texels by rows
+    // A map of kFloorShadeMetres about the origin, by rows: openness to the sun (r) and from above
+    // (g), rubble (b).
+    std::vector<glm::u8vec4> shade;
 
     auto arrays() { return std::tie(vertices, indices, patches, levels, shade); }
 };
 
-// Laid once on a machine: derived data.
+// Takes the tables from the cache of derived data, or makes them once on this machine.
 [[nodiscard]] GroundTables groundTables(std::uint32_t seed);
 
+// Draws the sand. Owns its GL objects; construct, use and destroy it with the same context current.
 class Ground {
   public:
     Ground(const GroundTables& tables, const gl::Replacements& replacements);
+    // Draws the patches that the viewpoint sees. Expects the frame's uniform block and the sea's
+    // light to be bound.
     void draw(const Viewpoint& viewpoint) const;
-    // The same for a map of depths: without light.
+    // A program that writes depth only, for shadow maps, and the draw with it.
     [[nodiscard]] static gl::ProgramHandle depthProgram();
     void drawDepths(const gl::ProgramHandle& program, const Viewpoint& viewpoint) const;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/reef/growth.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -16,7 +16,7 @@ namespace aquarama::scene {
 
 namespace {
 
-// In the order of Form.
+// The functions, in the order of Form.
 constexpr std::array<void (*)(Mesh&, std::size_t, Dice), kForms> kGrow{
     growStaghorn, growBush,     growFingers, growTable, growBrain,    growLobes,   growLeaves,
     growCrust,    growFan,      growWhips,   growTubes, growBarrel,   growLeather, growSoftTree,
@@ -26,10 +26,12 @@ constexpr std::array<void (*)(Mesh&, std::size_t, Dice), kForms> kGrow{
 }  // namespace
 
 Levels grow(Form form, int shape) {
+    assert(shape >= 0 && shape < kShapesOfForm);
     const auto at = static_cast<std::size_t>(form);
     const std::uint32_t seed =
         hashOf(hashOf(static_cast<std::uint32_t>(at)), static_cast<std::uint32_t>(shape));
     Levels levels;
+    // Every level starts with the same dice, so that the levels resemble one another.
     for (std::size_t level = 0; level < kLevels; ++level)
         kGrow.at(at)(levels.at(level), level, Dice{seed});
     return levels;
@@ -38,13 +40,16 @@ Levels grow(Form form, int shape) {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
+// Radians. Steps by this angle spread parts evenly around a centre, for any number of them.
 constexpr float kGoldenAngle = 2.39996F;
 
+// The surface of a leaf. lightness: relative to the tint; sway: share of the height, see Surface.
 Surface leaf(float lightness, float sway) {
     return {.albedo = glm::vec3{0.5F * lightness}, .translucency = 0.8F, .sway = sway};
 }
 
-// Long and narrow, hanging out and up from the stipe, thinnest at its ends.
+// A blade of kelp: long and narrow, hanging out and up from the stipe, thinnest at its ends. It
+// sways with its foot.
 void addBlade(
     Mesh& mesh, glm::vec3 foot, glm::vec3 out, float length, float width, int rows, Dice& dice) {
     const glm::vec3 side = glm::normalize(glm::cross(out, glm::vec3{0, 1, 0}) +
@@ -66,7 +71,7 @@ void addBlade(
         mesh, joints, {.side = side, .ruffle = 0.55F, .waves = 22.0F, .phase = 6.0F * dice.unit()});
 }
 
-// The stipe gives way to the drift, in x.
+// The axis of the stipe at a share of its height; it leans in x, with the drift.
 glm::vec3 stipeAt(float share) {
     return {0.05F * share * share + 0.012F * std::sin(7.0F * share),
             share,
@@ -75,8 +80,10 @@ glm::vec3 stipeAt(float share) {
 
 }  // namespace
 
-// A tuft of filaments and small leaves: what covers rock where nothing else does.
+// A tuft of filaments and small leaves, which covers rock where nothing else does. The leaves stand
+// on a disc in a spiral by the golden angle.
 void growTurf(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level; the leaves become broader as their number falls.
     constexpr std::array kLeaves{34, 20, 11, 6};
     constexpr std::array kRows{4, 3, 2, 2};
     const int leaves = kLeaves.at(level);
@@ -103,8 +110,10 @@ void growTurf(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-// A stipe of height 1 (drawn at some 7 m) with narrow ruffled blades, each on its float.
+// A stipe of height 1 (drawn at about 7 m) with narrow ruffled blades, each on its float. Coarse
+// levels have no floats.
 void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level: blades, rows of a blade, joints of the stipe, sides of the stipe.
     constexpr std::array kBlades{92, 64, 40, 24};
     constexpr std::array kRows{9, 6, 4, 3};
     constexpr std::array kStem{16, 10, 6, 4};
@@ -147,6 +156,7 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
 
 // A tuft of narrow leaves from one root, some of them grazed.
 void growSeagrass(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level; the leaves become broader as their number falls.
     constexpr std::array kLeaves{16, 12, 8, 5};
     constexpr std::array kRows{7, 5, 3, 3};
     const int leaves = kLeaves.at(level);

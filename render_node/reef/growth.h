@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The forms of what grows on a reef, each in a few shapes: hard and soft corals, sponges, plants.
+// The forms of what grows on a reef: hard and soft corals, sponges, plants. Each form has a few
+// shapes, and each shape four levels of detail.
 #pragma once
 
 #include <array>
@@ -11,6 +12,8 @@
 
 namespace aquarama::scene {
 
+// The forms. Their order is that of the prototypes (scatter.h), of kGrow in growth.cpp, and of
+// ranges that are compared with < and >=.
 enum class Form : std::uint8_t {
     // Hard corals.
     Staghorn,
@@ -35,15 +38,18 @@ enum class Form : std::uint8_t {
     Kelp,
     Seagrass,
 };
+// The number of forms, and of shapes of each.
 inline constexpr std::size_t kForms = 19;
 inline constexpr int kShapesOfForm = 3;
 
-// In a frame of its own: y up, the foot at the origin, about 1 in size. Albedos are shares of half
-// the tint.
+// Grows one shape of a form, the same on every machine. In a frame of its own: y up, the foot at
+// the origin, about 1 in size. Albedos are relative: 0.5 stands for the tint of the instance.
+// shape: 0 to kShapesOfForm - 1.
 [[nodiscard]] Levels grow(Form form, int shape);
 
-// Each form at a level of detail, 0 the finest of four; coarser levels have fewer and broader
-// parts, so that a thing stays as dense. See growth.h for the frame.
+// One function for each form. Each appends the form at a level of detail, 0 the finest of four, to
+// an empty mesh; the dice choose the shape. Coarser levels have fewer and broader parts, so that
+// the form remains as dense.
 
 void growStaghorn(Mesh& mesh, std::size_t level, Dice dice);
 void growBush(Mesh& mesh, std::size_t level, Dice dice);

@@ -15,9 +15,10 @@ namespace aquarama::scene {
 namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
+// Radians. Steps by this angle spread parts evenly around a centre, for any number of them.
 constexpr float kGoldenAngle = 2.39996F;
 
-// Living tissue: dark where it is old, pale where it grows.
+// Living tissue, relative to the tint: dark where it is old, pale where it grows.
 Surface tissue(float lightness, float relief = 0.0F) {
     return {.albedo = glm::vec3{0.5F * lightness},
             .roughness = 0.45F,
@@ -26,18 +27,26 @@ Surface tissue(float lightness, float relief = 0.0F) {
             .relief = relief};
 }
 
+// How a coral branches. The dice are consumed in the order of the recursion.
 struct Branching {
     Dice dice;
     int generations;
     int sides;
-    float thin;  // of a child, of its parent's radius
-    float wide;  // least angle between children, radians
+    // Radius of a child relative to its parent's.
+    float thin;
+    // Least angle between child and parent, radians; the greatest is twice that.
+    float wide;
+    // How strongly branches bend upwards.
     float upward;
-    float broader;  // a coarse level makes up for what it leaves out
+    // Radius of a coarse level relative to the finest: it has fewer branches.
+    float broader;
 };
 
+// Grows a branch and, recursively, two or three children; `left` generations remain with this one.
+// The last generation ends in a pale tip. `way` is a unit vector.
 void branch(
     Mesh& mesh, Branching& habit, const Joint& from, glm::vec3 way, float length, int left) {
+    // 1 in the last generation; tissue is paler there.
     const float age = 1.0F - static_cast<float>(left - 1) / static_cast<float>(habit.generations);
     const glm::vec3 bent = glm::normalize(way + glm::vec3{0, 0.5F * habit.upward, 0});
     const float light = 0.62F + 0.75F * age * age;
@@ -59,6 +68,7 @@ void branch(
                   frameAbout(bent, from.centre.x * 9.0F)[0]);
         return;
     }
+    // Coarse levels omit the joint in the middle.
     if (habit.sides > 3)
         addStrand(mesh, std::array{from, middle, to}, habit.sides);
     else
@@ -78,7 +88,10 @@ void branch(
 
 }  // namespace
 
+// Staghorn, Acropora: slender branches from one foot, the first stem upright, the others leaning.
 void growStaghorn(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level: generations of branches, and sides of a tube (0: a ribbon). Levels with fewer
+    // generations have longer branches.
     constexpr std::array kGenerations{4, 3, 3, 2};
     constexpr std::array kSides{6, 4, 0, 0};
     const int stems = 5 + static_cast<int>(dice.unit() * 3.0F);
@@ -107,13 +120,15 @@ void growStaghorn(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-// A cushion of short upright fingers, as corymbose Acropora and Pocillopora make.
+// A cushion of short upright fingers, as of corymbose Acropora and Pocillopora, on a dome that
+// hides the gaps.
 void growBush(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kFingers{110, 64, 34, 14};
     constexpr std::array kSides{5, 3, 3, 0};
     const float spread = dice.between(0.85F, 1.2F);
     const float tall = dice.between(0.30F, 0.48F);
     const int fingers = kFingers.at(level);
+    // The area that all fingers cover stays the same at each level.
     const float broader = std::sqrt(110.0F / static_cast<float>(fingers));
     addBall(mesh,
             {.centre = {0, -0.05F, 0},
@@ -141,7 +156,7 @@ void growBush(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-// Thick blunt fingers that stand close.
+// Thick blunt fingers that stand close together.
 void growFingers(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kFingers{22, 18, 12, 7};
     constexpr std::array kSides{8, 5, 4, 3};
@@ -168,7 +183,7 @@ void growFingers(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-// A plate on a foot, fingers like a carpet upon it, its rim pale where it grows.
+// A table coral: a plate on a foot, covered with small fingers; its rim is pale, where it grows.
 void growTable(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kAround{64, 30, 15, 8};
     constexpr std::array kCarpet{560, 200, 40, 0};
@@ -186,11 +201,14 @@ void growTable(Mesh& mesh, std::size_t level, Dice dice) {
                            Ring{0.0F, foot + 0.03F, 0.9F, 0.75F, 0.0F}};
     const Turning turning{
         .around = kAround.at(level), .seed = seed, .wide = 0.26F, .high = 0.07F, .lobes = 1.8F};
+    // The coarsest level keeps four rings of the outline.
     const std::array few{rings[1], rings[3], rings[5], rings[8]};
     if (level == 3)
         addTurned(mesh, few, turning, tissue(1.0F));
     else
         addTurned(mesh, rings, turning, tissue(1.0F));
+    // The fingers stand on the plate: they follow its irregular rim and height, as addTurned()
+    // makes them.
     const int carpet = kCarpet.at(level);
     const float broader = carpet > 0 ? std::sqrt(560.0F / static_cast<float>(carpet)) : 0.0F;
     for (int i = 0; i < carpet; ++i) {
@@ -215,6 +233,7 @@ void growTable(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
+// A brain coral: one lumpy dome, whose meanders are painted by coral.frag (relief 1).
 void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kRings{14, 8, 5, 3};
     constexpr std::array kAround{26, 15, 9, 6};
@@ -230,7 +249,7 @@ void growBrain(Mesh& mesh, std::size_t level, Dice dice) {
             tissue(1.0F, 1.0F));
 }
 
-// Massive heads that grew together, as Porites does.
+// Massive heads that have grown together, as of Porites.
 void growLobes(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kBalls{13, 11, 8, 4};
     constexpr std::array kRings{6, 4, 3, 2};
@@ -255,7 +274,8 @@ void growLobes(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-// Whorls of thin plates, as Montipora and Turbinaria grow.
+// Whorls of thin plates, as of Montipora and Turbinaria; the plates rise in a spiral. Each is a
+// grid of rows outwards and columns across.
 void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kPlates{13, 11, 8, 6};
     constexpr std::array kAcross{11, 7, 4, 3};
@@ -301,7 +321,7 @@ void growLeaves(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-// Low mounds that run over the rock.
+// Low mounds that cover the rock; two in five have meanders.
 void growCrust(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kMounds{7, 6, 5, 3};
     constexpr std::array kRings{5, 3, 2, 2};

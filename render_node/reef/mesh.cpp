@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/reef/mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -15,6 +15,7 @@ namespace aquarama::scene {
 
 namespace {
 
+// Packs numbers into bytes, as SolidVertex has them.
 glm::i8vec3 packedNormal(glm::vec3 normal) {
     return glm::i8vec3(glm::round(normal * 127.0F));
 }
@@ -23,6 +24,7 @@ glm::u8 packedUnit(float x) {
     return static_cast<glm::u8>(glm::round(glm::clamp(x, 0.0F, 1.0F) * 255.0F));
 }
 
+// Lexicographic order of places, for sorting.
 bool isBefore(glm::vec3 a, glm::vec3 b) {
     if (a.x != b.x) return a.x < b.x;
     return a.y != b.y ? a.y < b.y : a.z < b.z;
@@ -52,6 +54,9 @@ void addQuad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std:
 }
 
 void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns) {
+    assert(rows > 0 && columns > 0);
+    assert(mesh.vertices.size() >=
+           first + static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
     const auto width = static_cast<std::uint32_t>(columns);
     for (int row = 0; row + 1 < rows; ++row)
         for (int column = 0; column + 1 < columns; ++column) {
@@ -62,11 +67,15 @@ void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns) {
 }
 
 void turnOver(Mesh& mesh, std::size_t firstIndex) {
+    assert(firstIndex % 3 == 0 && mesh.indices.size() % 3 == 0);
     for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3)
         std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
 }
 
+// Sorts by place, so that equal places are adjacent; the stable sort puts the first of them first.
+// O(n log n).
 std::vector<std::uint32_t> seamsOf(const Mesh& mesh, std::uint32_t first) {
+    assert(first <= mesh.vertices.size());
     const SolidVertex* vertices = mesh.vertices.data() + first;
     std::vector<std::uint32_t> order(mesh.vertices.size() - first);
     std::iota(order.begin(), order.end(), 0U);
@@ -81,6 +90,7 @@ std::vector<std::uint32_t> seamsOf(const Mesh& mesh, std::uint32_t first) {
 }
 
 void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
+    assert(first <= mesh.vertices.size() && firstIndex % 3 == 0);
     std::vector<glm::vec3> sums(mesh.vertices.size() - first, glm::vec3{0.0F});
     for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3) {
         const std::uint32_t* corner = &mesh.indices[i];
@@ -89,12 +99,14 @@ void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
                                           mesh.vertices[corner[2]].position - a);
         for (int k = 0; k < 3; ++k) sums[corner[k] - first] += area;
     }
+    // Vertices at one place add their sums.
     const std::vector<std::uint32_t> same = seamsOf(mesh, first);
     for (std::size_t i = 0; i < sums.size(); ++i)
         if (same[i] != i) sums[same[i]] += sums[i];
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const glm::vec3 sum = sums[same[i]];
-        if (glm::dot(sum, sum) == 0.0F) continue;  // a pole, which keeps its own
+        // The triangles at a pole have no area: it keeps the normal that it was made with.
+        if (glm::dot(sum, sum) == 0.0F) continue;
         SolidVertex& vertex = mesh.vertices[first + i];
         vertex.normal = glm::i8vec4(packedNormal(glm::normalize(sum)), vertex.normal.w);
     }
@@ -102,7 +114,9 @@ void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
 
 namespace {
 
-constexpr float kBodyShare = 0.74F;  // of a rock's radius: its mean crag
+// Radius of the ball that stands for a rock, relative to the rock's: its surface lies there on
+// average.
+constexpr float kBodyShare = 0.74F;
 
 }  // namespace
 
@@ -114,6 +128,8 @@ float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place) {
         const glm::vec3 away = rock.centre - place;
         const float along = glm::dot(away, sun);
         if (along < 0.0F) continue;
+        // Distance of the ray from the ball's centre, in radii. The edge is softer further behind
+        // the ball.
         const float miss = glm::length(away - sun * along) / radius;
         const float soft = 0.15F + 0.05F * along;
         open *= glm::smoothstep(1.0F - soft, 1.0F + soft, miss);
@@ -129,7 +145,7 @@ float skyOpenness(std::span<const place::Rock> rocks, glm::vec3 place, glm::vec3
         const float distance = glm::length(away);
         if (distance > 6.0F * radius) continue;
         const glm::vec3 direction = away / glm::max(distance, 0.01F);
-        // A ball hides about (r/d)^2 of a hemisphere, weighted by where it stands in it.
+        // A ball hides about (r/d)^2 of a hemisphere, weighted by its direction against the normal.
         const float ratio = glm::min(radius / glm::max(distance, 0.01F), 1.0F);
         const float facing = 0.5F + 0.5F * glm::dot(normal, direction);
         open *= 1.0F - 0.85F * facing * ratio * ratio;
@@ -140,6 +156,7 @@ float skyOpenness(std::span<const place::Rock> rocks, glm::vec3 place, glm::vec3
 void shade(Mesh& mesh, std::span<const place::Rock> others) {
     for (SolidVertex& vertex : mesh.vertices) {
         const glm::vec3 normal = glm::vec3(vertex.normal) / 127.0F;
+        // A little above the surface, so that it does not shade itself.
         const glm::vec3 place = vertex.position + normal * 0.05F;
         const float sky = skyOpenness(others, place, normal);
         vertex.albedo.w = static_cast<glm::u8>(static_cast<float>(vertex.albedo.w) * sky);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles of what the place is made of: rock, coral, plants, sand. Built once; prototypes in
-// their own frame (y up, the foot at the origin), sand in world metres.
+// Meshes of the place: rock, coral, plants, sand. They are built once. Prototypes have a frame of
+// their own (y up, the foot at the origin); sand is in world metres.
 #pragma once
 
 #include <array>
@@ -16,57 +16,70 @@
 
 namespace aquarama::scene {
 
-// 24 bytes, as instance.glsl and floor.vert read them.
+// A vertex as instance.glsl and floor.vert read it, 24 bytes.
 struct SolidVertex {
     glm::vec3 position{};
-    glm::i8vec4 normal{};    // w: how rough, 0 smooth to 127 bare rock
-    glm::u8vec4 albedo{};    // of half the tint; w: openness to the light from above
-    glm::u8vec4 response{};  // share of the sway, translucency, fluorescence, relief
+    // Unit normal in 127ths; w: roughness, 0 smooth to 127 bare rock.
+    glm::i8vec4 normal{};
+    // Albedo in 255ths, of which a half stands for the tint; w: openness to the light from above.
+    glm::u8vec4 albedo{};
+    // In 255ths: share of the sway, translucency, fluorescence, relief.
+    glm::u8vec4 response{};
 };
 static_assert(sizeof(SolidVertex) == 24);
 
+// Triangles, counter-clockwise as seen from outside; three indices each.
 struct Mesh {
     std::vector<SolidVertex> vertices;
     std::vector<std::uint32_t> indices;
 };
 
-// Four levels of detail, the finest first.
+// Levels of detail of one thing, the finest first.
 inline constexpr std::size_t kLevels = 4;
 using Levels = std::array<Mesh, kLevels>;
 
-struct Surface {  // what a thing is made of
+// The material at a vertex; shares are 0 to 1.
+struct Surface {
     glm::vec3 albedo{0.5F};
     float roughness = 0.0F;
-    float translucency = 0.0F;  // above a half it is a leaf, lit on the side that looks at us
+    // Share of the light that passes through. A high value marks a leaf, which is lit on the side
+    // that faces the eye.
+    float translucency = 0.0F;
     float fluorescence = 0.0F;
-    float relief = 0.0F;  // 0 polyps to 1 the meanders of a brain coral
-    float sway = 0.0F;    // the share of the height at which it hangs on a bending stem
+    // 0: polyps, to 1: the meanders of a brain coral.
+    float relief = 0.0F;
+    // Height at which it is fixed to a bending stem, as a share of the stem's height.
+    float sway = 0.0F;
 };
 
+// Appends a vertex in packed form and returns its index.
 std::uint32_t addVertex(
     Mesh& mesh, glm::vec3 position, glm::vec3 normal, const Surface& surface, float skyOpenness);
+// Appends the triangles a b c and a c d.
 void addQuad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
-// Rows of equal length, already added one after the other, become a skin.
+// Joins rows of equal length by quads. The vertices must have been added row by row, from `first`
+// on.
 void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns);
-// Turns the triangles from `firstIndex` on over.
+// Reverses the orientation of the triangles from `firstIndex` on.
 void turnOver(Mesh& mesh, std::size_t firstIndex);
-// For each vertex the first of those that lie at its place: the faces of a seam have each their
-// own.
+// For each vertex from `first` on, the index (relative to `first`) of the first vertex at exactly
+// the same place. The faces on either side of a seam have vertices of their own.
 [[nodiscard]] std::vector<std::uint32_t> seamsOf(const Mesh& mesh, std::uint32_t first = 0);
-// Area-weighted normals for all vertices from `first` on, of the triangles from `firstIndex` on.
-// Vertices at one place share their normal.
+// Sets area-weighted normals of all vertices from `first` on, by the triangles from `firstIndex`
+// on. Vertices at one place get the same normal.
 void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex);
 
-// Where the sun stands, and how much of it and of the light from above the boulders take away:
-// computed once, as neither sun nor rock moves.
+// How much of the sun and of the light from above boulders take away. Computed once, as neither the
+// sun nor the rocks move.
 
-// 0 dark to 1 open. Boulders count as balls; soft edges, as the sun's light is already spread.
+// 0 is dark, 1 is open. Boulders count as balls; edges are soft, as the sun's light is already
+// spread by the water. Cost: a step for each rock.
 [[nodiscard]] float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place);
 [[nodiscard]] float skyOpenness(std::span<const place::Rock> rocks,
                                 glm::vec3 place,
                                 glm::vec3 normal);
 
-// A boulder's own ball is left to its baked openness.
+// Darkens a rock's mesh by the other rocks; its own hollows are already in its baked openness.
 void shade(Mesh& mesh, std::span<const place::Rock> others);
 
 }  // namespace aquarama::scene

@@ -2,12 +2,14 @@
 #include "render_node/reef/quality.h"
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 
 namespace aquarama::scene {
 
 namespace {
 
+// The light of each tier but the lowest, whose values are the defaults.
 constexpr LightQuality kMediumLight{.waveTexels = 128,
                                     .rippleTexels = 128,
                                     .surfaceTaps = 2,
@@ -53,6 +55,8 @@ gl::Replacements replacementsOf(const LightQuality& light) {
 }
 
 Quality qualityOf(config::QualityTier tier) {
+    assert(static_cast<std::size_t>(tier) < config::kTierNames.size());
+    // In the order of config::QualityTier.
     static constexpr std::array<Quality, config::kTierNames.size()> kTiers{
         Quality{.pictureShare = 0.85F, .fishFineness = 0.75F, .light = {}, .placeDetail = 0.32F},
         Quality{.samples = 1,

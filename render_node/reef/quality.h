@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a frame may cost: what each tier of quality buys, in one place.
+// What each tier of quality draws, all in one place, and from where and how finely a frame is
+// drawn.
 #pragma once
 
 #include <array>
@@ -14,48 +15,68 @@
 
 namespace aquarama::scene {
 
-// Of the sunlight in the sea: waves, caustics, shafts, shadows, snow. Texels are of one side.
+// Quality of the light in the sea: waves, caustics, shafts, shadows, snow. Texels count along one
+// side of a square texture.
 struct LightQuality {
     int waveTexels = 96;
     int rippleTexels = 64;
-    int surfaceTaps = 1;    // of the surface along a pixel's long side
-    int causticLayers = 1;  // depths at which caustics are drawn
+    // Samples of the surface along the long side of a pixel's footprint.
+    int surfaceTaps = 1;
+    // Depths at which caustics are drawn.
+    int causticLayers = 1;
     int causticTexels = 256;
-    int causticCells = 72;  // of the light front, a side
-    int shaftTexels = 112;  // of the map of all directions
-    int shaftSteps = 18;    // along a direction
-    int shadowTexels = 64;  // of the place's shadows; drawn where isFine
+    // Cells along a side of the grid of refracted light; (cells + 1)^2 vertices must fit 16-bit
+    // indices.
+    int causticCells = 72;
+    // Side of the map of shafts over all directions.
+    int shaftTexels = 112;
+    // Samples along each direction.
+    int shaftSteps = 18;
+    // Side of the place's shadow maps; they are drawn only where isFine.
+    int shadowTexels = 64;
     int fishShadowTexels = 128;
-    int flakes = 6000;  // of marine snow
-    // Soft shadows, of fish too; a mirrored reef, clouds, coloured rims of caustics.
+    // Specks of marine snow.
+    int flakes = 6000;
+    // Soft shadows, also of fish; a mirrored reef, clouds, coloured rims of caustics.
     bool isFine = false;
 };
 
-// What shaders of the tier include instead: what a tier leaves out costs nothing, also where a
-// driver runs both sides of every branch.
+// Includes that shaders of the tier replace. What a tier omits is not compiled, so that it costs
+// nothing even where a driver executes both sides of a branch.
 [[nodiscard]] gl::Replacements replacementsOf(const LightQuality& light);
 
+// All that a tier of quality decides.
 struct Quality {
-    float pictureShare = 1.0F;  // of the projector's pixels along either axis that are drawn
-    int samples = 1;            // of multisampling
-    bool softening = false;     // of the distance, by forward scattering: 32 fetches a pixel
-    bool bloom = false;         // 18 fetches a pixel, and smaller copies of the picture
-    bool closeUps = false;      // fish that fill much of the picture are refined a third time
-    float fishFineness = 1.0F;  // of fishes' meshes: detailLimits() of surface/visibility.h
+    // Pixels of the scene's picture relative to the projector's, along either axis.
+    float pictureShare = 1.0F;
+    // Samples of a pixel (multisampling).
+    int samples = 1;
+    // Blurs the distance by forward scattering in water: 32 texture reads for each pixel.
+    bool softening = false;
+    // 18 texture reads for each pixel, and mip levels of the picture.
+    bool bloom = false;
+    // Fish that fill much of the picture are refined a third time.
+    bool closeUps = false;
+    // Fineness of the meshes of fish: see detailLimits() in surface/visibility.h.
+    float fishFineness = 1.0F;
     LightQuality light;
-    // How finely the place is cut: at 1 a facet of a coral fills some 7 of the wall's finest
+    // How finely the place is drawn: at 1 a facet of a coral fills about 7 of the wall's finest
     // pixels.
     float placeDetail = 1.0F;
-    int rockScales = 1;           // of the grit on rock, 1 to 3; 1 is lit at corners
-    bool plantsGiveWay = false;   // to fish that pass
-    bool growthAtPixels = false;  // near corals are lit at pixels, not at corners
+    // Scales of the relief on rock, 1 to 3; at 1 rock is lit at its vertices.
+    int rockScales = 1;
+    // Plants bend when fish pass.
+    bool plantsGiveWay = false;
+    // Near corals are lit at each pixel, not at their vertices.
+    bool growthAtPixels = false;
 };
 
 [[nodiscard]] Quality qualityOf(config::QualityTier tier);
 
-// From where a frame is seen, and how finely.
+// From where a frame is drawn, and how finely.
 
-// The first limit that a range does not reach.
+// The index of the first limit that is greater than the range; the number of limits where none is.
+// Limits must ascend.
 template <std::size_t Limits>
 [[nodiscard]] constexpr std::size_t levelAt(float range, const std::array<float, Limits>& limits) {
     std::size_t level = 0;
@@ -63,18 +84,23 @@ template <std::size_t Limits>
     return level;
 }
 
-// How a frame is drawn: the same choice on every node, as it depends on the shared eye alone.
+// The viewpoint of a frame. Levels of detail are the same on every node, as they depend on the
+// shared eye alone.
 struct Viewpoint {
     surface::Frustum frustum;
+    // The shared eye, world frame.
     glm::vec3 eyeMetres{};
     bool culling = true;
     bool levelsOfDetail = true;
-    float detail = 1.0F;  // of the tier of quality
+    // Quality::placeDetail of the tier: distances are divided by it.
+    float detail = 1.0F;
 
+    // Whether a part of the ball may be in view.
     [[nodiscard]] bool sees(glm::vec3 centre, float radius) const {
         return !culling || frustum.sees(centre, radius);
     }
-    // 0 the finest; further than limits[i] is level i + 1.
+    // The level of detail of a place: 0 is the finest, at limits[i] metres and beyond it is at
+    // least i + 1.
     template <std::size_t Limits>
     [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, Limits> limits) const {
         if (!levelsOfDetail) return 0;

@@ -2,6 +2,7 @@
 #include "render_node/reef/reef.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -22,18 +23,23 @@ namespace aquarama::scene {
 
 namespace {
 
+// Three integers for each cell of the grid of stirred water (wake.glsl).
 constexpr std::size_t kWakeBytes = sizeof(std::int32_t) * 3 * shaders::kWakeCellsAcross *
                                    shaders::kWakeCellsUp * shaders::kWakeCellsAcross;
+// Prototypes that are not rock.
 constexpr unsigned kGrowths = kPrototypes - kRockShapes;
 
-// In one run for rock and one for what grows; fine levels, which are near, before coarse ones.
+// Index of the command of a prototype at a level. Rock has one run of commands, all that grows
+// another; in each run fine levels, which are near, come before coarse ones. One call can therefore
+// draw a range of levels.
 std::uint32_t commandOf(std::size_t prototype, std::size_t level) {
     if (prototype < kRockShapes) return static_cast<std::uint32_t>(level * kRockShapes + prototype);
     return static_cast<std::uint32_t>(kLevels * kRockShapes + level * kGrowths + prototype -
                                       kRockShapes);
 }
 
-// A facet fills some 7 pixels, one of rock, which is large and smooth, some 12.
+// Least size in pixels for each level. A facet fills about 7 pixels; one of rock, which is large
+// and smooth, about 12. Plants are large, but their leaves are small.
 std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
     if (prototype < kRockShapes) return {250.0F, 90.0F, 30.0F, 4.0F};
     if (prototype >= prototypeOf(Form::Seagrass, 0)) return {150.0F, 60.0F, 24.0F, 3.0F};
@@ -42,6 +48,7 @@ std::array<float, kLevels> leastPixelsOf(std::size_t prototype) {
     return {95.0F, 36.0F, 13.0F, 2.2F};
 }
 
+// The ball about a prototype, centred on its axis; the other members are left to the caller.
 Prototype boundsOf(const Mesh& mesh) {
     float low = 1.0e9F;
     float high = -1.0e9F;
@@ -56,8 +63,8 @@ Prototype boundsOf(const Mesh& mesh) {
     return prototype;
 }
 
-// Neighbours follow each other, so that a workgroup of the culling looks at one corner of the
-// place.
+// Sorts the instances by cells of 3 m, so that a workgroup of the culling has neighbours, which are
+// culled together. Stable, hence the same on every machine.
 std::vector<Instance> byCells(std::vector<Instance> instances) {
     constexpr float kCellMetres = 3.0F;
     const auto cellOf = [](const Instance& one) {
@@ -68,7 +75,7 @@ std::vector<Instance> byCells(std::vector<Instance> instances) {
     return instances;
 }
 
-// A ball about the instances of each workgroup.
+// For each workgroup a ball about its instances, with all that the swell may move.
 std::vector<glm::vec4> groupBalls(std::span<const Instance> instances,
                                   std::span<const Prototype> prototypes) {
     std::vector<glm::vec4> balls;
@@ -95,7 +102,9 @@ GLsizei commandCount(unsigned prototypes, unsigned levels) {
     return static_cast<GLsizei>(prototypes * levels);
 }
 
+// Draws `count` commands of the indirect buffer that is bound.
 void drawFrom(std::size_t command, GLsizei count) {
+    assert(command + static_cast<std::size_t>(count) <= kPrototypes * kLevels);
     glMultiDrawElementsIndirect(
         GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(DrawCommand)), count, 0);
 }
@@ -115,6 +124,8 @@ Library growLibrary() {
 
 namespace {
 
+// Each command gets as many slots in the list of chosen instances as its prototype has instances,
+// so that the culling never runs out of room.
 ReefTables makeReefTables(const place::PlaceKey& place) {
     const Library library = growLibrary();
     std::array<Levels, kRockShapes> rocks;
@@ -122,6 +133,7 @@ ReefTables makeReefTables(const place::PlaceKey& place) {
     ReefTables tables;
     tables.instances = byCells(scatter(place, rocks));
     tables.commands.resize(kPrototypes * kLevels);
+    // The first slot of each command in the list of chosen instances.
     std::uint32_t slots = 0;
     for (std::size_t i = 0; i < kPrototypes; ++i) {
         const auto own = static_cast<std::uint32_t>(std::ranges::count_if(
@@ -170,23 +182,29 @@ Reef::Reef(const ReefTables& tables, const Quality& quality)
       stir_{gl::makeProgram({"wake.comp"})},
       detail_{makeTexture(rockTile())} {
     wake_ = gl::makeBuffer(kWakeBytes, "wake");
-    constexpr GLint kStill = 0;  // also for who draws before any fish has passed: the shadows' maps
+    // At rest, also for the shadow maps, which are drawn before the first call of stir().
+    constexpr GLint kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
     fillBuffers(tables);
 }
 
+// Uploads the tables. The vertex attribute kChosenAttribute advances once for each instance.
 void Reef::fillBuffers(const ReefTables& tables) {
+    assert(tables.prototypes.size() == kPrototypes);
+    assert(tables.commands.size() == kPrototypes * kLevels);
     instanceCount_ = static_cast<unsigned>(tables.instances.size());
     groupCount_ = static_cast<unsigned>(tables.groups.size());
     setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
     instances_ = gl::makeBuffer(tables.instances, "reef instances");
     prototypes_ = gl::makeBuffer(tables.prototypes, "reef prototypes");
     groups_ = gl::makeBuffer(tables.groups, "reef groups");
-    const std::vector<std::uint32_t> seen(3 + groupCount_);  // a dispatch, and the groups of it
+    // The size of a dispatch (3 numbers), then the groups that it visits.
+    const std::vector<std::uint32_t> seen(3 + groupCount_);
     seenGroups_ = gl::makeBuffer(seen, "reef groups seen");
     none_ = gl::makeBuffer(tables.commands, "reef commands, none drawn");
     commands_ = gl::makeBuffer(tables.commands, "reef commands");
-    const std::size_t slots = kLevels * tables.instances.size();  // each at every level
+    // Each instance has a slot at every level.
+    const std::size_t slots = kLevels * tables.instances.size();
     chosen_ = gl::makeBuffer(slots * sizeof(std::uint32_t), "reef chosen");
     constexpr unsigned kChosen = shaders::kChosenAttribute;
     glVertexArrayVertexBuffer(array_.name(), kChosen, chosen_.name(), 0, sizeof(std::uint32_t));
@@ -197,7 +215,9 @@ void Reef::fillBuffers(const ReefTables& tables) {
 }
 
 void Reef::stir(std::size_t fish, float fraction) const {
+    assert(fraction >= 0.0F && fraction <= 1.0F);
     const gl::Stage stage{"place stir"};
+    // The grid stays at rest then, as the constructor has cleared it.
     if (!quality_.plantsGiveWay) return;
     constexpr std::int32_t kStill = 0;
     glClearNamedBufferData(wake_.name(), GL_R32I, GL_RED_INTEGER, GL_INT, &kStill);
@@ -212,6 +232,8 @@ void Reef::stir(std::size_t fish, float fraction) const {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+// First step: tests the balls of the groups. It writes the number of seen groups as the size of the
+// second dispatch, which starts at 0 x 1 x 1.
 void Reef::cullGroups(const ReefRule& rule) const {
     constexpr std::array<std::uint32_t, 3> kNone{0, 1, 1};
     glClearNamedBufferSubData(seenGroups_.name(),
@@ -230,6 +252,8 @@ void Reef::cullGroups(const ReefRule& rule) const {
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+// Second step: resets the commands, then tests the instances of the seen groups. A very high detail
+// selects the finest level everywhere.
 void Reef::cull(const ReefRule& rule) const {
     const gl::Stage stage{"place cull"};
     glCopyNamedBufferSubData(none_.name(),
@@ -261,19 +285,22 @@ void Reef::bind() const {
 void Reef::draw() const {
     bind();
     glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
-    constexpr unsigned kFine = 3;  // levels that are lit at each pixel
+    // Number of levels that are lit at each pixel, where the tier does so.
+    constexpr unsigned kFine = 3;
     if (quality_.growthAtPixels) {
         glUseProgram(growth_.name());
         glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
         glUniform1i(shaders::kStirredLocation, quality_.plantsGiveWay ? 1 : 0);
         drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kFine));
     }
+    // The other levels are lit at their vertices. They are too far away for a visible reaction to
+    // fish.
     const unsigned firstFar = quality_.growthAtPixels ? kFine : 0;
     glUseProgram(farGrowth_.name());
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
-    glUniform1i(shaders::kStirredLocation, 0);  // too far off to be seen to give way
+    glUniform1i(shaders::kStirredLocation, 0);
     drawFrom(commandOf(kRockShapes, firstFar), commandCount(kGrowths, kLevels - firstFar));
-    // What grows hides much of the rock, and is cheaper.
+    // Rock comes last: what grows on it is cheaper and hides much of it.
     glEnable(GL_CULL_FACE);
     glUseProgram(stone_.name());
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
@@ -287,11 +314,12 @@ Reef::DepthPrograms Reef::depthPrograms() const {
             gl::makeProgram({"rock.vert"})};
 }
 
+// All levels with the program for near ones; in the maps nothing moves with the fish.
 void Reef::drawDepths(const DepthPrograms& programs) const {
     bind();
     glUseProgram(programs.growth.name());
     glUniform1f(shaders::kDetailLocation, quality_.placeDetail);
-    glUniform1i(shaders::kStirredLocation, 0);  // nothing gives way
+    glUniform1i(shaders::kStirredLocation, 0);
     drawFrom(commandOf(kRockShapes, 0), commandCount(kGrowths, kLevels));
     glEnable(GL_CULL_FACE);
     glUseProgram(programs.stone.name());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// All rock, coral and plants: a library of prototypes at four levels of detail, and instances that
-// one compute pass culls and sorts by level. What a frame costs the processor does not grow with
-// what stands in the sea.
+// All rock, coral and plants: a library of prototypes at four levels of detail, and instances,
+// which a compute pass culls and sorts by level. The processor's cost of a frame does not depend on
+// the number of instances.
 #pragma once
 
 #include <array>
@@ -18,11 +18,12 @@
 
 namespace aquarama::scene {
 
-// Every prototype; grown on all processors.
+// Every prototype (see prototypeOf()). growLibrary() uses all processors; the result does not
+// depend on their number.
 using Library = std::array<Levels, kPrototypes>;
 [[nodiscard]] Library growLibrary();
 
-// As glMultiDrawElementsIndirect reads it.
+// A draw, as glMultiDrawElementsIndirect reads it.
 struct DrawCommand {
     std::uint32_t count = 0;
     std::uint32_t instanceCount = 0;
@@ -32,48 +33,59 @@ struct DrawCommand {
 };
 static_assert(sizeof(DrawCommand) == 20);
 
-// As place_cull.comp reads it.
+// Layout of Prototype in place_cull.comp, std430. Lengths are for a scale of 1.
 struct Prototype {
-    float reach = 0.0F;  // about the middle of its height, for a scale of 1
+    // Radius about the middle of its height.
+    float reach = 0.0F;
+    // Height of that middle above the foot.
     float middle = 0.0F;
     std::uint32_t firstCommand = 0;
-    std::uint32_t commandStride = 0;           // from a level's command to the next level's
-    std::array<float, kLevels> leastPixels{};  // of scale, for each level; smaller is not drawn
+    // From the command of one level to that of the next.
+    std::uint32_t commandStride = 0;
+    // Least size of the scale for each level, pixels; what is smaller than the last is not drawn.
+    std::array<float, kLevels> leastPixels{};
 };
 static_assert(sizeof(Prototype) == 32);
 
-// What the GPU keeps of a reef.
+// What the GPU keeps of a reef, before it is uploaded.
 struct ReefTables {
-    std::vector<SolidVertex> vertices;  // of all prototypes at all levels
+    // Vertices of all prototypes at all levels.
+    std::vector<SolidVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Instance> instances;
     std::vector<Prototype> prototypes;
-    std::vector<DrawCommand> commands;  // of each prototype and level, with no instance yet
-    std::vector<glm::vec4> groups;      // a ball about the instances of each workgroup
+    // One for each prototype and level, with no instance yet; see commandOf() in reef.cpp.
+    std::vector<DrawCommand> commands;
+    // For each workgroup of the culling a ball about its instances: centre, radius; world metres.
+    std::vector<glm::vec4> groups;
 
     auto arrays() { return std::tie(vertices, indices, instances, prototypes, commands, groups); }
 };
 
-// Grown once on a machine: derived data.
+// Takes the tables from the cache of derived data, or makes them once on this machine.
 [[nodiscard]] ReefTables reefTables(const place::PlaceKey& place);
 
+// Both are switched off only for maps of depth and for measurements.
 struct ReefRule {
     bool culling = true;
     bool levelsOfDetail = true;
 };
 
+// Draws the reef. For each frame stir(), for each view cull() and draw(). Owns its GL objects;
+// construct, use and destroy it with the same context current.
 class Reef {
   public:
     Reef(const ReefTables& tables, const Quality& quality);
 
-    // Once a frame: what the school, whose records are bound, stirs of the water about the shared
-    // eye.
+    // Once for each frame: computes how the fish push the water about the shared eye. The records
+    // of the school must be bound (SchoolSurface::bindRecords()); `fish` of them are read,
+    // `fraction` of the way between the ticks.
     void stir(std::size_t fish, float fraction) const;
-    // For the view of the frame's uniforms, which are bound.
+    // Selects instances and levels for the view in the frame's uniform block, which must be bound.
     void cull(const ReefRule& rule) const;
-    // What the last cull has chosen, what fills most of the view first.
+    // Draws what the last cull() has selected; what fills most of the view comes first.
     void draw() const;
-    // The same for a map of depths: without light.
+    // Programs that write depth only, for shadow maps, and the draw with them.
     struct DepthPrograms {
         gl::ProgramHandle growth, stone;
     };

@@ -2,6 +2,7 @@
 #include "render_node/reef/rock_mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -16,16 +17,21 @@ namespace aquarama::scene {
 
 namespace {
 
+// The sphere is a cube whose faces are grids of this many cells along an edge.
 constexpr int kFaces = 6;
-constexpr int kFinest = 32;  // cells along an edge of the cube
+constexpr int kFinest = 32;
 
-// What makes one shape differ from the next.
+// The parameters in which the shapes differ.
 struct Habit {
     std::uint32_t seed;
     glm::vec3 stretch;
-    float beds;      // ledges, of the radius
-    float thick;     // beds over the height
-    float undercut;  // how much narrower its foot is
+    // Depth of the ledges, relative to the radius.
+    float beds;
+    // Number of beds over a height of 1.
+    float thick;
+    // How much narrower its foot is, relative to the radius.
+    float undercut;
+    // Height of the lobes.
     float crags;
 };
 
@@ -42,7 +48,7 @@ Habit habitOf(int shape) {
     return habit;
 }
 
-// A bed of limestone: it stands out at its top and falls back below.
+// Profile of the beds of limestone, 0 to 1: each stands out at its top and recedes below.
 float bedAt(const Habit& habit, glm::vec3 place) {
     const float height =
         place.y * habit.thick + 0.7F * solidNoise(habit.seed ^ 3U, place * 1.7F) + 9.0F;
@@ -50,8 +56,9 @@ float bedAt(const Habit& habit, glm::vec3 place) {
     return glm::smoothstep(0.0F, 0.55F, within) * (1.0F - glm::smoothstep(0.80F, 1.0F, within));
 }
 
-// Lobes, as heads of coral that grew together leave them: 1 less the distance to the nearest of
-// points that keep to the middle of their cells, so that eight cells are enough to look at.
+// Lobes, as of corals that have grown together: cellular noise, 1 minus the distance to the nearest
+// of jittered points. The points stay in the middle half of their cells, so that eight cells are
+// enough to search.
 float lobes(std::uint32_t seed, glm::vec3 place) {
     const glm::vec3 low = glm::floor(place - 0.5F);
     float nearest2 = 4.0F;
@@ -68,11 +75,14 @@ float lobes(std::uint32_t seed, glm::vec3 place) {
     return 1.0F - std::sqrt(nearest2);
 }
 
+// The point of the surface in a direction: body, then ledges and undercut, then crags, then a
+// limit.
 glm::vec3 pointTowards(const Habit& habit, glm::vec3 direction) {
     const float body = 0.70F + 0.26F * billows(habit.seed, direction * 1.3F, 2);
     glm::vec3 place = direction * body * habit.stretch;
     const float beds = bedAt(habit, place);
-    const float level = 1.0F - 0.8F * direction.y * direction.y;  // the top has no ledges
+    // Ledges fade towards top and bottom, where the surface is level.
+    const float level = 1.0F - 0.8F * direction.y * direction.y;
     const float foot = glm::smoothstep(0.25F, -0.55F, place.y);
     const float wide = 1.0F + habit.beds * (beds - 0.4F) * 2.0F * level - habit.undercut * foot;
     place *= glm::vec3{wide, 1.0F, wide};
@@ -82,13 +92,16 @@ glm::vec3 pointTowards(const Habit& habit, glm::vec3 direction) {
     place += direction * crag;
     constexpr float kMost = 0.985F;
     const float radius = glm::length(place);
-    // Towards the ball's face things flatten, so that nothing is cut off.
+    // Beyond a radius of 0.8 the surface is compressed smoothly, so that it stays within the ball
+    // without being cut off.
     const float held = radius < 0.8F
                            ? radius
                            : 0.8F + (kMost - 0.8F) * std::tanh((radius - 0.8F) / (kMost - 0.8F));
     return place * (held / radius);
 }
 
+// Direction of a point (u, v in -1 to 1) of a face of the cube. The tangent makes the cells nearly
+// equal in angle.
 glm::vec3 directionOn(int face, float u, float v) {
     const float x = std::tan(u * std::numbers::pi_v<float> / 4.0F);
     const float y = std::tan(v * std::numbers::pi_v<float> / 4.0F);
@@ -108,7 +121,7 @@ glm::vec3 directionOn(int face, float u, float v) {
     }
 }
 
-// The finest surface: squares on the faces of a cube, blown up.
+// The finest surface: grids on the faces of a cube, projected onto the rock.
 Mesh skinOf(const Habit& habit) {
     Mesh mesh;
     for (int face = 0; face < kFaces; ++face) {
@@ -120,7 +133,8 @@ Mesh skinOf(const Habit& habit) {
                     directionOn(face,
                                 2.0F * static_cast<float>(column) / side - 1.0F,
                                 2.0F * static_cast<float>(row) / side - 1.0F);
-                // One place to the bit where the cube's faces meet.
+                // Rounded, so that the vertices where faces meet are equal bit by bit and seamsOf()
+                // finds them.
                 const glm::vec3 rounded = glm::round(direction * 65536.0F) / 65536.0F;
                 addVertex(mesh, pointTowards(habit, rounded), rounded, {}, 1.0F);
             }
@@ -131,7 +145,8 @@ Mesh skinOf(const Habit& habit) {
     return mesh;
 }
 
-// How far each vertex lies behind the surface smoothed by so many steps, along its normal.
+// How far each vertex lies behind the surface, smoothed by this many steps, along its normal:
+// positive in hollows. Few steps find cracks, many find caves.
 std::vector<float> hollowsOf(const Mesh& mesh, int steps) {
     const std::vector<std::uint32_t> same = seamsOf(mesh);
     std::vector<glm::vec3> places;
@@ -140,6 +155,7 @@ std::vector<float> hollowsOf(const Mesh& mesh, int steps) {
     for (int step = 0; step < steps; ++step) {
         std::ranges::fill(sums, glm::vec4{0.0F});
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            // Each edge counts in both directions; vertices of a seam share one sum.
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t from = mesh.indices[i + k];
                 const std::uint32_t to = mesh.indices[i + (k + 1) % 3];
@@ -156,8 +172,8 @@ std::vector<float> hollowsOf(const Mesh& mesh, int steps) {
     return hollows;
 }
 
-// The shades of bare rock; what grows on it is the shader's business. r: lightness, g: how much
-// turf, b: how much pink crust, which likes the shade.
+// The shades of bare rock; the shader adds what grows on it. r: lightness; g: amount of turf; b:
+// amount of pink crust, which prefers the shade.
 glm::vec3 mottleAt(const Habit& habit, glm::vec3 place, glm::vec3 normal, float hollow) {
     const float patches = solidNoise(habit.seed ^ 0x91U, place * 2.6F);
     const float turf = glm::smoothstep(-0.1F, 0.75F, normal.y + 0.5F * patches);
@@ -167,6 +183,7 @@ glm::vec3 mottleAt(const Habit& habit, glm::vec3 place, glm::vec3 normal, float 
     return {light, turf, crust};
 }
 
+// Sets albedo and openness of all vertices.
 void paint(Mesh& mesh, const Habit& habit) {
     const std::vector<float> cracks = hollowsOf(mesh, 2);
     const std::vector<float> caves = hollowsOf(mesh, 24);
@@ -183,8 +200,10 @@ void paint(Mesh& mesh, const Habit& habit) {
     }
 }
 
-// Every so manieth vertex of the finest surface, with all that it knows of its own.
+// The mesh with every step-th vertex in both directions of each face; vertices keep the normals and
+// albedos of the finest mesh.
 Mesh thinned(const Mesh& finest, int step) {
+    assert(step > 0 && kFinest % step == 0);
     Mesh mesh;
     const int cells = kFinest / step;
     for (int face = 0; face < kFaces; ++face) {
@@ -202,6 +221,7 @@ Mesh thinned(const Mesh& finest, int step) {
 }  // namespace
 
 Levels growRock(int shape) {
+    assert(shape >= 0 && shape < kRockShapes);
     const Habit habit = habitOf(shape);
     Mesh finest = skinOf(habit);
     paint(finest, habit);

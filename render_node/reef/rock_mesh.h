@@ -8,11 +8,13 @@
 
 namespace aquarama::scene {
 
+// Number of shapes.
 inline constexpr int kRockShapes = 12;
 
-// Nothing stands out of the unit ball. y stays up: a rock may be turned about it, but its ledges
-// lie level. Coarser levels are every second vertex of the finer one. Albedo: lightness, how much
-// turf, how much pink crust.
+// Makes one shape at all levels, the same on every machine. It lies within the unit ball. y is up:
+// a rock may be turned about y, so that its ledges stay level. Coarser levels are every second
+// vertex of the finer one. The albedo of a vertex holds lightness, amount of turf and amount of
+// pink crust. shape: 0 to kRockShapes - 1.
 [[nodiscard]] Levels growRock(int shape);
 
 }  // namespace aquarama::scene

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/reef/scatter.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -19,9 +19,11 @@ namespace aquarama::scene {
 
 namespace {
 
+// A palette, linear Rec. 709 albedos; the first colours are chosen most often.
 using Colours = std::array<glm::vec3, 5>;
 
-// Living hard coral is brown with its algae, towards ochre, olive, cream, lavender or rose.
+// Palettes of hard coral, one for a kind of patch: brown by its algae, with ochre, olive, cream,
+// lavender or rose.
 constexpr std::array<Colours, 5> kHard{
     Colours{glm::vec3{0.66F, 0.38F, 0.10F},
             {0.72F, 0.44F, 0.10F},
@@ -49,7 +51,7 @@ constexpr std::array<Colours, 5> kHard{
             {0.62F, 0.32F, 0.28F},
             {0.40F, 0.22F, 0.09F}},
 };
-// Fans, sponges and soft corals: one hue rules a patch.
+// Palettes of fans, sponges and soft corals: one hue dominates a patch.
 constexpr std::array<Colours, 5> kSoft{
     Colours{glm::vec3{0.62F, 0.34F, 0.10F},
             {0.66F, 0.44F, 0.12F},
@@ -77,24 +79,28 @@ constexpr std::array<Colours, 5> kSoft{
             {0.62F, 0.46F, 0.38F},
             {0.46F, 0.22F, 0.36F}},
 };
+// Rare strong colours of soft corals, in any patch.
 constexpr Colours kAccents{glm::vec3{0.70F, 0.10F, 0.30F},
                            {0.80F, 0.30F, 0.05F},
                            {0.78F, 0.58F, 0.06F},
                            {0.62F, 0.06F, 0.08F},
                            {0.46F, 0.20F, 0.62F}};
+// Turf has one palette everywhere.
 constexpr Colours kTurfColours{glm::vec3{0.24F, 0.22F, 0.07F},
                                {0.30F, 0.24F, 0.10F},
                                {0.20F, 0.22F, 0.07F},
                                {0.34F, 0.20F, 0.13F},
                                {0.28F, 0.26F, 0.09F}};
 
+// Forms that take the palettes of soft corals.
 bool isSoft(Form form) {
     return form >= Form::Fan && form <= Form::Feathers && form != Form::Leather &&
            form != Form::Anemone;
 }
 
+// A random colour of a palette.
 glm::vec3 oneOf(const Colours& colours, Dice& dice) {
-    // The first two rule.
+    // Cumulated probabilities: the first two colours are two thirds.
     const float pick = dice.unit();
     constexpr std::array kUpTo{0.40F, 0.66F, 0.82F, 0.92F, 1.0F};
     std::size_t at = 0;
@@ -119,12 +125,16 @@ namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
-// Where a form likes to grow, how large it gets, and how it stands.
+// Where a form grows, how large it becomes, and how it stands.
 struct Way {
     Form form;
-    float above, aside, below;  // weights on what looks up, sideways and down
-    float least, most;          // metres
-    float upright;              // 0 along the rock's normal, 1 towards the light
+    // Weights on surfaces that face up, sideways and down.
+    float above, aside, below;
+    // Limits of its size, metres.
+    float least, most;
+    // 0: along the rock's normal, 1: towards the light.
+    float upright;
+    // Share of the swell that its top follows.
     float sway;
 };
 constexpr std::array kWays{
@@ -145,27 +155,34 @@ constexpr std::array kWays{
     Way{Form::Anemone, 0.30F, 0.10F, 0.0F, 0.20F, 0.40F, 0.4F, 0.16F},
     Way{Form::Feathers, 0.35F, 0.3F, 0.0F, 0.16F, 0.30F, 0.5F, 0.10F},
 };
+// Turf fills what is left of the rock.
 constexpr Way kTurfPatch{Form::Turf, 1.0F, 1.0F, 1.0F, 0.06F, 0.17F, 0.3F, 0.16F};
 
+// A place on a rock or on the sand, world frame, with its unit normal.
 struct Spot {
     glm::vec3 place{};
     glm::vec3 normal{};
 };
 
+// What already grows on a rock, for the test of distance.
 struct Planted {
     glm::vec3 place{};
     float size = 0.0F;
 };
 
-// All that the instances of one rock are chosen by.
+// All that is needed to choose the instances of one rock. rock and stone are null for the open
+// sand.
 struct Bed {
     const place::PlaceKey* place;
     const place::Rock* rock;
-    const Mesh* stone;  // of its prototype
+    // The mesh of the rock's prototype at level 1.
+    const Mesh* stone;
     glm::quat turn;
-    std::vector<place::Rock> others;  // near enough to touch or shade it
+    // Rocks near enough to touch or shade it.
+    std::vector<place::Rock> others;
 };
 
+// Shape and turn of a rock follow from its seed.
 std::size_t shapeOf(const place::Rock& rock) {
     return hashOf(rock.seed, 31) % kRockShapes;
 }
@@ -178,14 +195,16 @@ glm::vec4 packed(const glm::quat& turn) {
     return {turn.x, turn.y, turn.z, turn.w};
 }
 
+// A random vertex of the rock, in the world.
 Spot spotOn(const Bed& bed, Dice& dice) {
+    assert(bed.rock != nullptr && bed.stone != nullptr && !bed.stone->vertices.empty());
     const auto count = static_cast<float>(bed.stone->vertices.size());
     const SolidVertex& vertex = bed.stone->vertices[static_cast<std::size_t>(dice.unit() * count)];
     return {bed.rock->centre + bed.turn * (vertex.position * bed.rock->radiusMetres),
             glm::normalize(bed.turn * glm::vec3(vertex.normal))};
 }
 
-// Buried in the sand or in another rock.
+// Whether a place is below the sand or inside another rock.
 bool isBuried(const Bed& bed, glm::vec3 place) {
     if (place.y < place::floorHeight(*bed.place, {place.x, place.z}) + 0.04F) return true;
     return std::ranges::any_of(bed.others, [&](const place::Rock& other) {
@@ -193,13 +212,16 @@ bool isBuried(const Bed& bed, glm::vec3 place) {
     });
 }
 
+// Whether something of this size would stand too close to its neighbours. Linear in what grows on
+// the rock.
 bool isCrowded(std::span<const Planted> planted, glm::vec3 place, float size) {
     return std::ranges::any_of(planted, [&](const Planted& other) {
         return glm::distance(other.place, place) < 0.55F * (other.size + size);
     });
 }
 
-// Patches of a few metres, their borders bent, in which two forms and one harmony rule.
+// A number for the patch that holds a place. Patches are cells of so many metres with bent borders;
+// in each, two forms and one palette dominate.
 std::uint32_t patchAt(const place::PlaceKey& place, glm::vec3 at, float metres) {
     const glm::vec3 bent =
         at / metres + 0.45F * glm::vec3{solidNoise(place.seed, at / metres * 1.9F),
@@ -210,7 +232,8 @@ std::uint32_t patchAt(const place::PlaceKey& place, glm::vec3 at, float metres) 
     return hashOf(column, static_cast<std::uint32_t>(cell.z));
 }
 
-// The chance that a spot is settled: what looks at the light is, and bare patches stay bare.
+// The probability that a spot is settled: higher where it faces the light, low on patches that stay
+// bare.
 float coverAt(const place::PlaceKey& place, const Spot& spot) {
     const float light = glm::smoothstep(-0.5F, 0.7F, spot.normal.y);
     const float luck = solidNoise(place.seed ^ 0x77U, spot.place * 0.9F);
@@ -218,9 +241,12 @@ float coverAt(const place::PlaceKey& place, const Spot& spot) {
            glm::mix(0.25F, 1.0F, glm::smoothstep(-0.35F, 0.25F, luck));
 }
 
+// A form for a spot, chosen by weight. up: y of the normal. The two forms of the patch have 6 and
+// 10 times their weight; the second is always a hard coral.
 const Way& wayFor(float up, std::uint32_t patch, Dice& dice) {
     const std::size_t first = patch % kWays.size();
-    const std::size_t second = hashOf(patch) % 8;  // a hard coral
+    // One of the first eight forms, the hard corals.
+    const std::size_t second = hashOf(patch) % 8;
     const auto weightOf = [&](std::size_t i) {
         const Way& way = kWays.at(i);
         const float weight = up > 0.45F ? way.above : up > -0.25F ? way.aside : way.below;
@@ -236,7 +262,7 @@ const Way& wayFor(float up, std::uint32_t patch, Dice& dice) {
     return kWays.front();
 }
 
-// A fan stands across the swell, all others anyhow.
+// The rotation of an instance: fans stand across the swell, all others are turned at random.
 glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
     const glm::vec3 up =
         glm::normalize(glm::mix(normal, glm::vec3{0, 1, 0}, way.upright) +
@@ -247,6 +273,7 @@ glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
     return glm::quat_cast(glm::mat3{x, up, glm::cross(x, up)});
 }
 
+// Fills in an instance; its openness is that of a point just above the spot.
 Instance instanceOf(const place::PlaceKey& place,
                     std::span<const place::Rock> rocks,
                     Form form,
@@ -265,6 +292,7 @@ Instance instanceOf(const place::PlaceKey& place,
             static_cast<std::uint32_t>(prototypeOf(form, shape))};
 }
 
+// Adds an instance of a form, sunk a little into the ground.
 void plant(std::vector<Instance>& all,
            const Bed& bed,
            const Way& way,
@@ -278,7 +306,8 @@ void plant(std::vector<Instance>& all,
         *bed.place, bed.others, way.form, sunk, size, stance(way, spot.normal, dice), tint, dice));
 }
 
-// What crowns a boulder makes it a head of its own: a table, a thicket or a fan against the light.
+// Plants one large coral on top of a boulder, so that each boulder has an outline of its own: a
+// table, a thicket or a fan. The best of 25 random spots is the highest and most upright.
 void crownRock(std::vector<Instance>& all,
                const Bed& bed,
                std::vector<Planted>& planted,
@@ -298,15 +327,18 @@ void crownRock(std::vector<Instance>& all,
     plant(all, bed, way, best, size, dice);
 }
 
-// Large ones first, so that small ones fill what is left; cover is what makes rock look alive.
+// Covers a rock with corals, large ones first so that small ones fill the gaps, then with turf. The
+// numbers grow with the rock.
 void coverRock(std::vector<Instance>& all, const Bed& bed) {
     const float radius = bed.rock->radiusMetres;
+    // Attempts, many of which fail.
     const auto corals = static_cast<int>(30.0F + 130.0F * std::pow(radius, 1.6F));
     Dice dice{hashOf(bed.rock->seed, 77)};
     std::vector<Planted> planted;
     for (int crown = 0; crown < (radius > 1.2F ? 2 : 1); ++crown)
         crownRock(all, bed, planted, dice);
     for (int i = 0; i < corals; ++i) {
+        // 1 for the first attempt, 0 for the last: the size falls with its cube.
         const float rank =
             1.0F - (static_cast<float>(i) + dice.unit()) / static_cast<float>(corals);
         const Spot spot = spotOn(bed, dice);
@@ -327,16 +359,19 @@ void coverRock(std::vector<Instance>& all, const Bed& bed) {
     }
 }
 
+// The spot of the sand at world x and z.
 Spot onSand(const place::PlaceKey& place, glm::vec2 xz) {
     return {{xz.x, place::floorHeight(place, xz), xz.y}, {0, 1, 0}};
 }
 
+// Adds a small bleached stone, tilted at random.
 void addPebble(
     std::vector<Instance>& all, const Bed& bed, const Spot& spot, float size, Dice& dice) {
     const glm::quat turn = glm::quat_cast(
         frameAbout(glm::normalize(glm::vec3{dice.between(-1, 1), 0.8F, dice.between(-1, 1)}),
                    kTwoPi * dice.unit()));
-    const float light = dice.between(1.3F, 2.1F);  // bleached
+    // Lighter than living rock: bleached.
+    const float light = dice.between(1.3F, 2.1F);
     const glm::vec3 above = spot.place + glm::vec3{0, 0.1F, 0};
     all.push_back({glm::vec4(spot.place + glm::vec3{0, 0.15F * size, 0}, size),
                    packed(turn),
@@ -346,7 +381,7 @@ void addPebble(
                    static_cast<std::uint32_t>(dice.seed() % kRockShapes)});
 }
 
-// What has broken off lies at the foot, and young corals have settled on it.
+// Scatters broken pieces and young corals about the foot of a rock.
 void litterFoot(std::vector<Instance>& all, const Bed& bed) {
     const place::Rock& rock = *bed.rock;
     Dice dice{hashOf(rock.seed, 78)};
@@ -358,8 +393,10 @@ void litterFoot(std::vector<Instance>& all, const Bed& bed) {
         const Spot spot =
             onSand(*bed.place,
                    {rock.centre.x + away * std::cos(turn), rock.centre.z + away * std::sin(turn)});
+        // Below 0.72 a pebble, mostly a small one; above it a young coral.
         const float share = dice.unit();
-        if (spot.place.y < rock.centre.y - 1.2F * rock.radiusMetres) continue;  // a stone of a pile
+        // A rock that lies high on other rocks has no foot on the sand.
+        if (spot.place.y < rock.centre.y - 1.2F * rock.radiusMetres) continue;
         if (share < 0.72F) {
             addPebble(
                 all, bed, spot, dice.between(0.04F, 0.10F) + 0.16F * share * share * share, dice);
@@ -370,7 +407,9 @@ void litterFoot(std::vector<Instance>& all, const Bed& bed) {
     }
 }
 
+// Adds the rock itself, with a slight tint of its own.
 void addRock(std::vector<Instance>& all, const Bed& bed) {
+    assert(bed.rock != nullptr);
     const place::Rock& rock = *bed.rock;
     const float light = 0.9F + 0.2F * unitOf(hashOf(rock.seed, 33));
     const float warm = 0.05F * signedUnitOf(hashOf(rock.seed, 34));
@@ -382,10 +421,11 @@ void addRock(std::vector<Instance>& all, const Bed& bed) {
                    static_cast<std::uint32_t>(shapeOf(rock))});
 }
 
-// Lone heads, whips and stones on the open sand, in loose groups.
+// Scatters single corals and stones over the open sand, in loose groups.
 void strew(std::vector<Instance>& all,
            const place::PlaceKey& place,
            std::span<const place::Rock> rocks) {
+    // Groups in a square of 60 m about the origin, three to ten things in each.
     constexpr int kGroups = 90;
     constexpr float kReachMetres = 30.0F;
     Dice dice{hashOf(place.seed, 79)};
@@ -409,6 +449,7 @@ void strew(std::vector<Instance>& all,
     }
 }
 
+// Adds the plants of the place, which the simulation knows too: kelp and seagrass.
 void sow(std::vector<Instance>& all,
          const place::PlaceKey& place,
          std::span<const place::Rock> rocks) {
@@ -428,6 +469,7 @@ void sow(std::vector<Instance>& all,
     }
 }
 
+// The other rocks that are near enough to shade this one.
 std::vector<place::Rock> near(std::span<const place::Rock> rocks, const place::Rock& rock) {
     std::vector<place::Rock> others;
     for (const place::Rock& other : rocks)
@@ -451,6 +493,7 @@ std::vector<Instance> scatter(const place::PlaceKey& place,
     }
     strew(all, place, rocks);
     sow(all, place, rocks);
+    // Stable, so that the order is the same on every machine.
     std::ranges::stable_sort(all, {}, &Instance::prototype);
     return all;
 }

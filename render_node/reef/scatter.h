@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of a reef: a few hues in harmony for each patch of it, and a rare accent.
+// The instances of a reef: what stands where, and in which colours.
 #pragma once
 
 #include <array>
@@ -18,31 +18,37 @@
 
 namespace aquarama::scene {
 
-// Linear albedo for a form that grows in a patch of the reef.
+// A tint for a form in a patch of the reef: linear Rec. 709 albedo. Each patch has a few hues in
+// harmony; accents are rare.
 [[nodiscard]] glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice);
 
-// What stands where: the instances of all prototypes, from the place's rocks and a seed alone. Only
-// seen, never felt: the master knows rocks and kelp from place.h.
+// The instances of all prototypes, from the place's rocks and its seed alone. They are only drawn:
+// the simulation knows the rocks and the kelp of common/place.
 
-// Rocks first, then each form's shapes.
+// Prototypes: first the shapes of rock, then those of each form.
 inline constexpr std::size_t kPrototypes = kRockShapes + kForms * kShapesOfForm;
 [[nodiscard]] constexpr std::size_t prototypeOf(Form form, int shape) {
     return kRockShapes + static_cast<std::size_t>(form) * kShapesOfForm +
            static_cast<std::size_t>(shape);
 }
 
-// 64 bytes, as instance.glsl reads them.
+// One instance, as instance.glsl reads it: 64 bytes.
 struct Instance {
-    glm::vec4 placeAndScale{};   // world metres
-    glm::vec4 turn{0, 0, 0, 1};  // quaternion x, y, z, w
-    glm::vec4 tintAndSway{};     // linear albedo; w: share of the swell that its top follows
-    glm::vec2 openness{1, 1};    // to sun and sky
+    // Place of its foot, or of a rock's centre, in world metres; w: scale, metres.
+    glm::vec4 placeAndScale{};
+    // Rotation as a unit quaternion x, y, z, w.
+    glm::vec4 turn{0, 0, 0, 1};
+    // Linear albedo; w: share of the swell that its top follows.
+    glm::vec4 tintAndSway{};
+    // Openness to the sun and to the sky.
+    glm::vec2 openness{1, 1};
+    // Height of the sand below it.
     float sandHeightMetres = 0;
     std::uint32_t prototype = 0;
 };
 static_assert(sizeof(Instance) == 64);
 
-// Sorted by prototype.
+// All instances, sorted by prototype. rocks: the meshes of the shapes, on which corals are placed.
 [[nodiscard]] std::vector<Instance> scatter(const place::PlaceKey& place,
                                             const std::array<Levels, kRockShapes>& rocks);
 

@@ -15,8 +15,10 @@ namespace aquarama::scene {
 namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
+// Radians. Steps by this angle spread parts evenly around a centre, for any number of them.
 constexpr float kGoldenAngle = 2.39996F;
 
+// The surface of a soft coral, relative to the tint.
 Surface flesh(float lightness, float translucency, float sway) {
     return {.albedo = glm::vec3{0.5F * lightness},
             .roughness = 0.25F,
@@ -25,6 +27,8 @@ Surface flesh(float lightness, float translucency, float sway) {
             .sway = sway};
 }
 
+// How a fan branches. sides 0 means ribbons; broader: radius relative to the finest level; bow:
+// curvature of the fan's plane.
 struct FanHabit {
     Dice dice;
     int generations;
@@ -33,7 +37,8 @@ struct FanHabit {
     float bow;
 };
 
-// In the plane z = 0, bowed a little.
+// Grows a branch and its children in the plane z = 0, slightly bowed. angle: from upright, radians;
+// thin late branches are ribbons.
 void fanBranch(
     Mesh& mesh, FanHabit& habit, const Joint& from, float angle, float length, int left) {
     const glm::vec3 way{std::sin(angle), std::cos(angle), 0};
@@ -55,6 +60,7 @@ void fanBranch(
     }
 }
 
+// How a soft tree branches; members as of FanHabit.
 struct TreeHabit {
     Dice dice;
     int generations;
@@ -62,7 +68,7 @@ struct TreeHabit {
     float broader;
 };
 
-// A cluster of polyps: a ball with few faces.
+// A cluster of polyps at the end of a branch: a ball with few faces.
 void addPolyps(Mesh& mesh, TreeHabit& habit, const Joint& at) {
     const bool fine = habit.sides > 4;
     addBall(mesh,
@@ -77,6 +83,7 @@ void addPolyps(Mesh& mesh, TreeHabit& habit, const Joint& at) {
             flesh(1.25F, 0.5F, at.surface.sway));
 }
 
+// Grows a branch and three children; the last generation ends in polyps.
 void treeBranch(
     Mesh& mesh, TreeHabit& habit, const Joint& from, glm::vec3 way, float length, int left) {
     const glm::vec3 end = from.centre + way * length;
@@ -100,6 +107,7 @@ void treeBranch(
 
 }  // namespace
 
+// A sea fan: one main branch and two beside it, all in one plane.
 void growFan(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kGenerations{8, 7, 6, 4};
     constexpr std::array kSides{4, 3, 0, 0};
@@ -108,6 +116,7 @@ void growFan(Mesh& mesh, std::size_t level, Dice dice) {
                    kSides.at(level),
                    1.0F + 0.45F * static_cast<float>(level),
                    dice.between(-0.25F, 0.25F)};
+    // Levels with fewer generations have longer branches, so that the fan keeps its size.
     const float shorter = level < 2 ? 1.0F : level == 2 ? 1.2F : 2.2F;
     fanBranch(mesh,
               habit,
@@ -125,7 +134,7 @@ void growFan(Mesh& mesh, std::size_t level, Dice dice) {
                   habit.generations - 1);
 }
 
-// Gorgonian whips: long rods that stand in the current.
+// Gorgonian whips: long rods that stand in the current and bend outwards.
 void growWhips(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kWhips{15, 13, 10, 7};
     constexpr std::array kSides{5, 3, 0, 0};
@@ -149,6 +158,7 @@ void growWhips(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
+// Tube sponges: four to six bodies of revolution, open at the top; the inner wall is dark.
 void growTubes(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kAround{14, 9, 5, 3};
     const int tubes = 4 + static_cast<int>(3.0F * dice.unit());
@@ -178,6 +188,7 @@ void growTubes(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
+// A barrel sponge: one body of revolution with a ribbed wall, hollow inside.
 void growBarrel(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kAround{36, 20, 11, 6};
     const std::array rings{Ring{0.34F, -0.08F, 0.35F, 0.6F},
@@ -197,7 +208,7 @@ void growBarrel(Mesh& mesh, std::size_t level, Dice dice) {
               {.albedo = glm::vec3{0.5F}, .roughness = 0.9F, .translucency = 0.1F});
 }
 
-// A stalk and a folded cap, downy with polyps.
+// A leather coral: a stalk and a folded cap.
 void growLeather(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kAround{34, 20, 10, 5};
     const float folds = dice.between(0.10F, 0.20F);
@@ -223,6 +234,7 @@ void growLeather(Mesh& mesh, std::size_t level, Dice dice) {
                .sway = 0.15F});
 }
 
+// A soft tree coral: a translucent trunk whose branches end in clusters of polyps.
 void growSoftTree(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kGenerations{4, 4, 3, 2};
     constexpr std::array kSides{6, 3, 3, 0};
@@ -234,7 +246,9 @@ void growSoftTree(Mesh& mesh, std::size_t level, Dice dice) {
     treeBranch(mesh, habit, foot, {0, 1, 0}, length, habit.generations);
 }
 
+// An anemone: a dome covered with tentacles, which sway more towards their tips.
 void growAnemone(Mesh& mesh, std::size_t level, Dice dice) {
+    // By level; the tentacles become broader as their number falls.
     constexpr std::array kTentacles{190, 110, 56, 14};
     constexpr std::array kSides{4, 3, 0, 0};
     const int tentacles = kTentacles.at(level);
@@ -270,7 +284,7 @@ void growAnemone(Mesh& mesh, std::size_t level, Dice dice) {
     }
 }
 
-// A feather star: arms that curl upwards, fringed on both sides.
+// A feather star: arms that curl upwards, drawn as leaves with dark and light bands.
 void growFeathers(Mesh& mesh, std::size_t level, Dice dice) {
     constexpr std::array kArms{24, 20, 14, 9};
     constexpr std::array kJoints{8, 6, 4, 3};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/reef/solid_array.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -20,6 +20,7 @@ namespace aquarama::scene {
 
 namespace {
 
+// Filter and wrap of a texture.
 void setSampling(unsigned name, int levels, Edge edge) {
     const GLenum wrap = edge == Edge::Repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
     const GLenum shrink = levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR;
@@ -32,6 +33,7 @@ void setSampling(unsigned name, int levels, Edge edge) {
 }  // namespace
 
 gl::Texture makeTexture(GLenum format, glm::ivec2 size, int levels, Edge edge) {
+    assert(levels >= 1 && size.x > 0 && size.y > 0);
     gl::Texture texture{static_cast<GLenum>(GL_TEXTURE_2D)};
     glTextureStorage2D(texture.name(), levels, format, size.x, size.y);
     setSampling(texture.name(), levels, edge);
@@ -60,6 +62,9 @@ gl::Texture makeVolume(const Table& table) {
 }
 
 void refill(const gl::Texture& texture, const Table& table) {
+    assert(table.texels.size() == static_cast<std::size_t>(table.width) *
+                                      static_cast<std::size_t>(table.height) *
+                                      static_cast<std::size_t>(table.layers));
     const void* texels = table.texels.data();
     if (table.layers > 1)
         glTextureSubImage3D(texture.name(),
@@ -88,7 +93,7 @@ namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
-// Value noise with so many lattice cells on the tile; uv in tiles.
+// Value noise, -1 to 1, with so many lattice cells on the tile, so that it repeats. uv: in tiles.
 float tiled(std::uint32_t seed, glm::vec2 uv, int cells) {
     const glm::vec2 place = uv * static_cast<float>(cells);
     const glm::vec2 cell = glm::floor(place);
@@ -104,13 +109,16 @@ float tiled(std::uint32_t seed, glm::vec2 uv, int cells) {
         glm::mix(corner(0, 0), corner(1, 0), s.x), glm::mix(corner(0, 1), corner(1, 1), s.x), s.y);
 }
 
+// The relief at a point of a tile. albedo: 1 is the mean; crest: 0 hollow to 1 crest.
 struct Relief {
-    float height = 0.0F;  // metres
+    // Metres.
+    float height = 0.0F;
     float albedo = 1.0F;
     float crest = 0.5F;
 };
 
-// Ripples of the swell: 0.26 m apart, 16 mm high, sharp crests and wide troughs; grains and shells.
+// Sand: ripples of the swell (about 0.24 m apart, 16 mm high, with sharp crests and wide troughs),
+// grains and shells.
 Relief sandAt(glm::vec2 uv) {
     const float bent = 0.9F * tiled(1, uv, 3) + 0.45F * tiled(2, uv, 7) + 0.15F * tiled(3, uv, 17);
     const float crest = 0.5F + 0.5F * std::sin(kTwoPi * (10.0F * uv.x + 4.0F * uv.y) + 4.6F * bent);
@@ -126,7 +134,8 @@ Relief sandAt(glm::vec2 uv) {
     return relief;
 }
 
-// Distance to the nearest of points scattered one to a cell, in cells; uv in tiles.
+// Cellular noise: distance to the nearest of points scattered one to a cell, in cells. The nine
+// cells about a place are searched. uv: in tiles.
 float toNearest(std::uint32_t seed, glm::vec2 uv, int cells) {
     const glm::vec2 place = uv * static_cast<float>(cells);
     const glm::ivec2 cell{glm::floor(place)};
@@ -142,7 +151,7 @@ float toNearest(std::uint32_t seed, glm::vec2 uv, int cells) {
     return std::sqrt(nearest2);
 }
 
-// Limestone that corals built and worms bored: knobs with pits between them, cracks, grit.
+// Limestone built by corals and bored by worms: knobs with pits between them, cracks, grit.
 Relief rockAt(glm::vec2 uv) {
     const glm::vec2 bent = uv + 0.02F * glm::vec2{tiled(11, uv, 7), tiled(12, uv, 7)};
     const float lumps = tiled(13, bent, 5);
@@ -161,10 +170,12 @@ Relief rockAt(glm::vec2 uv) {
     return relief;
 }
 
+// A share in 255ths.
 glm::u8 packed(float x) {
     return static_cast<glm::u8>(glm::round(glm::clamp(x, 0.0F, 1.0F) * 255.0F));
 }
 
+// Evaluates the relief at each texel, then its slopes by central differences across the edges.
 template <class ReliefAt>
 Tile tileOf(float sideMetres, ReliefAt reliefAt) {
     constexpr int texels = kDetailTexels;
@@ -179,6 +190,7 @@ Tile tileOf(float sideMetres, ReliefAt reliefAt) {
         const auto row = static_cast<std::size_t>((y + texels) % texels);
         return reliefs[row * side + column].height;
     };
+    // Metres between the two neighbours of a texel.
     const float twoTexels = 2.0F * sideMetres / static_cast<float>(texels);
     Tile tile;
     for (int y = 0; y < texels; ++y)
@@ -195,6 +207,7 @@ Tile tileOf(float sideMetres, ReliefAt reliefAt) {
     return tile;
 }
 
+// The tile from the cache of derived data. The name is its key.
 template <class ReliefAt>
 Tile keptTile(const char* name, float sideMetres, ReliefAt reliefAt) {
     return files::derivedTables<Tile>(files::DerivedKey(name),
@@ -212,6 +225,7 @@ Tile rockTile() {
 
 namespace {
 
+// A float attribute of SolidVertex; bytes are normalised.
 void setAttribute(unsigned array, unsigned location, GLint size, GLenum type, std::size_t offset) {
     const bool normalised = type != GL_FLOAT;
     glEnableVertexArrayAttrib(array, location);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Immutable textures with the filters that the scene uses.
+// Textures, tiles of fine relief and vertex arrays, as the scene uses them.
 #pragma once
 
 #include <cstddef>
@@ -18,35 +18,42 @@
 
 namespace aquarama::scene {
 
+// How a texture continues beyond its edge.
 enum class Edge : std::uint8_t { Clamp, Repeat };
 
-// levels > 1: trilinear.
+// An empty immutable texture with bilinear filtering, trilinear where it has several levels.
 [[nodiscard]] gl::Texture makeTexture(GLenum format, glm::ivec2 size, int levels, Edge edge);
-// A table as RGBA16F, an array where it has layers.
+// A table as RGBA16F; a 2D array where it has several layers, which are not interpolated.
 [[nodiscard]] gl::Texture makeTexture(const Table& table);
-// One that is read smoothly between its layers, too.
+// A table as a 3D texture, which is also interpolated between its layers.
 [[nodiscard]] gl::Texture makeVolume(const Table& table);
+// Uploads a table of the same size into a texture that was made for one.
 void refill(const gl::Texture& texture, const Table& table);
+// A framebuffer that draws into level 0 of the texture.
 [[nodiscard]] gl::Framebuffer makeTarget(const gl::Texture& colour);
 
-// Fine relief of sand and rock, painted once on tiles that repeat: slopes and albedo for the
-// shaders.
+// Fine relief of sand and rock on tiles that repeat.
 
-inline constexpr int kDetailTexels = 512;  // of a tile's side
+// Side of a tile, texels.
+inline constexpr int kDetailTexels = 512;
 
+// One tile, row by row.
 struct Tile {
-    std::vector<glm::u8vec4> values;  // slope x and z (0.5 is level), albedo, hollow to crest
+    // In 255ths: slope along x and z (0.5 is level, 0 and 1 are -1 and 1), albedo (0.5 is the
+    // mean), height from hollow 0 to crest 1.
+    std::vector<glm::u8vec4> values;
 
     auto arrays() { return std::tie(values); }
 };
 
-// Painted once on a machine: derived data.
+// Take the tile from the cache of derived data, or compute it once on this machine.
 [[nodiscard]] Tile sandTile();
 [[nodiscard]] Tile rockTile();
 
-// How SolidVertex lies in a vertex array, and detail tiles in textures.
+// Vertex arrays of SolidVertex, and tiles as textures.
 
-// Fills the two buffers with a mesh and names them in the array.
+// Fills the two buffers with a mesh and attaches them to the array: attributes 0 to 3 are the
+// members of SolidVertex.
 void setSolids(const gl::VertexArray& array,
                gl::Buffer& vertices,
                gl::Buffer& indices,
@@ -54,7 +61,7 @@ void setSolids(const gl::VertexArray& array,
                const std::vector<std::uint32_t>& meshIndices);
 [[nodiscard]] gl::Texture makeTexture(const Tile& tile);
 
-// Draws take the place of their first index as a pointer.
+// GL's draw calls take an offset in a buffer as a pointer.
 [[nodiscard]] inline const void* byteOffset(std::size_t bytes) {
     return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/reef/strands.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -13,6 +13,7 @@
 
 namespace aquarama::scene {
 
+// Hashes at the corners of the lattice, blended by smoothstep.
 float solidNoise(std::uint32_t seed, glm::vec3 place) {
     const glm::vec3 cell = glm::floor(place);
     const glm::vec3 t = place - cell;
@@ -31,6 +32,8 @@ float solidNoise(std::uint32_t seed, glm::vec3 place) {
     return glm::mix(plane(0), plane(1), s.z);
 }
 
+// Each octave is about twice as fine and half as high. The odd factors and offsets keep the
+// lattices of the octaves apart.
 float billows(std::uint32_t seed, glm::vec3 place, int octaves) {
     float sum = 0.0F;
     float height = 0.5F;
@@ -66,12 +69,14 @@ namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
+// Unit tangent of the axis at a joint, by central difference.
 glm::vec3 alongAt(std::span<const Joint> joints, std::size_t i) {
     const std::size_t before = i > 0 ? i - 1 : 0;
     const std::size_t after = i + 1 < joints.size() ? i + 1 : i;
     return glm::normalize(joints[after].centre - joints[before].centre);
 }
 
+// The surface with its albedo multiplied.
 Surface shaded(Surface surface, float shade) {
     surface.albedo *= shade;
     return surface;
@@ -85,6 +90,7 @@ float waverAt(std::uint32_t seed, glm::vec3 place) {
 }
 
 void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 facing) {
+    assert(joints.size() >= 2 && (sides == 0 || sides >= 3));
     if (sides == 0) {
         const glm::vec3 across = glm::cross(joints.back().centre - joints.front().centre, facing);
         const float width = glm::length(across);
@@ -94,6 +100,7 @@ void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 f
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const glm::mat3 frame = frameAbout(alongAt(joints, i), 0.0F);
+        // The last vertex of a ring repeats the first, as joinRows() needs.
         for (int side = 0; side <= sides; ++side) {
             const float turn =
                 kTwoPi * static_cast<float>(side % sides) / static_cast<float>(sides);
@@ -109,6 +116,8 @@ void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 f
 }
 
 void addLeaf(Mesh& mesh, std::span<const Joint> joints, const Leaf& leaf) {
+    assert(joints.size() >= 2);
+    // A ruffled leaf has three vertices across, others two.
     const bool ribbed = leaf.ruffle > 0.0F;
     static constexpr std::array kEdges{-1.0F, 1.0F};
     static constexpr std::array kRibbed{-1.0F, 0.0F, 1.0F};
@@ -135,6 +144,7 @@ void addTurned(Mesh& mesh,
                std::span<const Ring> rings,
                const Turning& turning,
                const Surface& surface) {
+    assert(rings.size() >= 2 && turning.around >= 3);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
     const glm::mat3 frame = frameAbout(turning.up, 0.0F);
@@ -159,8 +169,10 @@ void addTurned(Mesh& mesh,
 }
 
 void addBall(Mesh& mesh, const Ball& ball, const Surface& surface) {
+    assert(ball.rings >= 1 && ball.around >= 3);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
+    // From the lower rim up to the top, as addTurned() from foot to crown.
     for (int ring = ball.rings; ring >= 0; --ring)
         for (int i = 0; i <= ball.around; ++i) {
             const float polar =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Noise in space for what is only drawn; a stream of random numbers for shapes.
+// Noise and random numbers for what is only drawn, and the building blocks of corals and plants.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,22 @@
 
 namespace aquarama::scene {
 
-[[nodiscard]] float solidNoise(std::uint32_t seed, glm::vec3 place);            // -1 to 1
-[[nodiscard]] float billows(std::uint32_t seed, glm::vec3 place, int octaves);  // about +-1
-[[nodiscard]] float ridges(std::uint32_t seed, glm::vec3 place, int octaves);   // crests at +1
+// Value noise, -1 to 1, with one lattice cell for each unit of `place`.
+[[nodiscard]] float solidNoise(std::uint32_t seed, glm::vec3 place);
+// Sum of octaves of solidNoise(), about -1 to 1.
+[[nodiscard]] float billows(std::uint32_t seed, glm::vec3 place, int octaves);
+// The same with sharp crests at +1.
+[[nodiscard]] float ridges(std::uint32_t seed, glm::vec3 place, int octaves);
 
+// A stream of random numbers: the n-th is a hash of seed and n, the same on every machine. Copies
+// continue independently.
 class Dice {
   public:
     explicit Dice(std::uint32_t seed) : seed_{seed} {}
+    // 0 to 1.
     float unit() { return unitOf(hashOf(seed_, count_++)); }
     float between(float low, float high) { return low + (high - low) * unit(); }
+    // A seed for another stream.
     std::uint32_t seed() { return hashOf(seed_, count_++); }
 
   private:
@@ -30,56 +37,69 @@ class Dice {
     std::uint32_t count_ = 0;
 };
 
-// Columns x, y, z with y along `up`, turned about it.
+// A right-handed frame, columns x, y, z, with y along `up` and turned about it by so many radians.
+// up: unit vector.
 [[nodiscard]] glm::mat3 frameAbout(glm::vec3 up, float turnRadians);
 
-// The building blocks of what grows: tubes, ribbons and turned bodies.
+// Tubes, ribbons, leaves and bodies of revolution. Each function appends to the mesh.
 
+// A point of a strand's axis, with radius (half the width of a ribbon), material and openness to
+// the light from above there.
 struct Joint {
     glm::vec3 centre{};
     float radius = 0.0F;
     Surface surface{};
     float openness = 1.0F;
 };
-// A tube through the joints; sides 0: a flat ribbon whose face is turned to `facing`.
+// A tube through the joints, with so many sides; 0 sides: a flat ribbon that faces `facing`. At
+// least two joints, whose places differ.
 void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 facing = {0, 0, 1});
 
-// A leaf along the joints, its width across in the direction `side`, folded at the midrib; ruffled
-// by so many waves of a share of its width.
+// How a leaf differs from a ribbon: the direction `side` of its width (unit vector), and a ruffle
+// of its edges, as a share of its width, with so many radians of waves along it. A ruffled leaf is
+// folded at its midrib.
 struct Leaf {
     glm::vec3 side{};
     float ruffle = 0.0F;
     float waves = 0.0F;
     float phase = 0.0F;
 };
+// A leaf along the joints, at least two.
 void addLeaf(Mesh& mesh, std::span<const Joint> joints, const Leaf& leaf);
 
-// A body of revolution about y, from foot to crown, made irregular: radii and heights waver with
-// the angle by noise of so many lobes.
+// A body of revolution about an axis, from foot to crown, made irregular by noise.
+// One ring of its outline: radius and height along the axis, openness to the light from above.
 struct Ring {
     float radius;
     float height;
     float openness = 1.0F;
-    float shade = 1.0F;  // of the surface's albedo
-    float waver = 1.0F;  // share of the irregularity
+    // Factor of the albedo.
+    float shade = 1.0F;
+    // Share of the irregularity that the ring takes.
+    float waver = 1.0F;
 };
+// The axis, the number of segments around it, and the irregularity.
 struct Turning {
     glm::vec3 centre{};
     glm::vec3 up{0, 1, 0};
     int around = 12;
     std::uint32_t seed = 0;
-    float wide = 0.0F;   // of the radius
-    float high = 0.0F;   // metres
-    float lobes = 2.0F;  // noise cells over the unit circle
+    // Irregularity of the radius, relative to it.
+    float wide = 0.0F;
+    // Irregularity of the height, in the units of the mesh.
+    float high = 0.0F;
+    // Noise cells over a radius of the unit circle: more make more lobes.
+    float lobes = 2.0F;
 };
-// By how much its radius wavers where, as a share of Turning::wide.
+// The irregularity of the radius at a point of the circle, about -1.8 to 1.8, in units of
+// Turning::wide.
 [[nodiscard]] float waverAt(std::uint32_t seed, glm::vec3 place);
 void addTurned(Mesh& mesh,
                std::span<const Ring> rings,
                const Turning& turning,
                const Surface& surface);
 
-// A ball of the unit sphere's cap down to so many radians, lumpy.
+// An ellipsoid with lumps, from its top down to capRadians.
 struct Ball {
     glm::vec3 centre{};
     glm::vec3 radii{1.0F};
@@ -87,6 +107,7 @@ struct Ball {
     int rings = 6;
     int around = 10;
     std::uint32_t seed = 0;
+    // Height of the lumps relative to the radii, and their noise cells over a radius.
     float lumps = 0.1F;
     float cells = 2.0F;
 };

@@ -1,12 +1,17 @@
 // A little of what is bright glows about it, as it does in an eye and in a lens: means over two rings
 // of the picture's smaller copies, sized in radians.
+// Gives sceneLight(): linear light of the scene at uv (0 to 1, origin bottom left) with a glow.
+// scene must have mip levels.
 #ifndef BLOOM_GLSL
 #define BLOOM_GLSL
 #include "look_around.glsl"
 #include "post_radii.h"
 
+// The share of the light that is spread.
 const float kBloomShare = 0.012;
 
+// Mean of eight taps on a ring of this radius (radians) and of its centre, from the mip level whose
+// texels are about as wide.
 vec3 ring(sampler2D scene, Neighbourhood here, vec2 uv, float radius) {
     float pixels = 0.5 * viewport.y * length(here.up.xy) / here.ahead.z;  // in a radian
     float lod = log2(max(0.7 * radius * pixels, 1.0));

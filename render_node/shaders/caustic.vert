@@ -1,5 +1,7 @@
 // A grid over the surface, moved to where the refracted sun carries it at one depth, less the mean
 // shift: so the tile is indexed by where the straight ray meets the surface.
+// In: the vertex number, (cells + 1)^2 vertices; the wave tile; receiverMetres, the depth of the
+// layer. Out: place on the tile in clip space, and the place before refraction, metres.
 #include "shader_interface.h"
 #include "frame_uniforms.h"
 layout(binding = kWaveTileUnit) uniform sampler2D waveTile;
@@ -7,6 +9,7 @@ layout(location = kReceiverMetresLocation) uniform float receiverMetres;
 layout(location = kCellsLocation) uniform int cells;
 layout(location = 0) out vec2 before;
 const float kMargin = 0.12;  // of the tile: light that comes in over the edge
+// Refractive index of sea water.
 const float kIndex = 1.335;
 void main() {
     ivec2 corner = ivec2(gl_VertexID % (cells + 1), gl_VertexID / (cells + 1));

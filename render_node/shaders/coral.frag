@@ -1,7 +1,9 @@
 // Coral, sponge and leaf near by: polyps as a fine relief, or the meanders of a brain coral.
+// In: world metres and unit vectors from coral.vert; the detail tile. Out: scene radiance, linear
+// Rec. 709.
 #include "shader_interface.h"
 #include "light.glsl"
-// Centroids: beyond the edge of a thin leaf there is nothing to be guessed.
+// Interpolated at centroids: outside a thin leaf the values would be extrapolated.
 layout(binding = kDetailTileUnit) uniform sampler2D relief;  // slopes, albedo, crest
 layout(location = 0) centroid in vec3 place;
 layout(location = 1) centroid in vec3 rest;
@@ -10,6 +12,7 @@ layout(location = 3) centroid in vec3 albedo;
 layout(location = 4) centroid in vec2 open;
 layout(location = 5) centroid in vec3 matter;  // translucency, fluorescence, relief
 layout(location = 0) out vec4 radiance;
+// Side of the tile of polyps, metres.
 const float kPolypTile = 0.16;
 // Height of a ridge between grooves, 0 to 1.
 float meander(vec3 p) {
@@ -19,7 +22,7 @@ float meander(vec3 p) {
 void main() {
     vec3 n = normalize(normal.xyz);
     float range = distance(place, eyeAndTime.xyz);
-    // Finer than pixels it is but grey.
+    // Relief finer than a pixel fades to its mean.
     float pixels = range / pixelsARadian() / 0.014;
     float near = 1.0 / (1.0 + pixels * pixels);
     vec3 colour = albedo;

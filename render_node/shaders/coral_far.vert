@@ -1,4 +1,5 @@
 // What grows, far off: lit at its corners, as a pixel holds several of them.
+// In: as coral.vert. Out: the light that reaches the eye, linear Rec. 709, for lit.frag.
 #include "grown.glsl"
 layout(location = 0) centroid out vec3 light;
 void main() {

@@ -1,6 +1,8 @@
 // One workgroup a fish: its control points from the recorded ones (eq. 13), kept in shared memory,
 // then each vertex of its surface by the stencils of its level. A fish that has just come near
 // enough for a level moves its vertices from where the coarser level has them.
+// In: drawn fish, recorded poses, stencils, parents, plan. Out: the surface buffer; for each vertex
+// world metres (3 floats) and a packed normal. Each thread makes every 128th vertex.
 #include "shader_interface.h"
 #include "fish_pose.glsl"
 #include "fish_detail.glsl"
@@ -29,6 +31,8 @@ struct Vertex {
     vec3 position, normal;  // body frame, body lengths
 };
 
+// Position and tangents of the limit surface are weighted sums of control points; their cross
+// product is the normal.
 Vertex evaluate(Mesh mesh, uint vertex) {
     vec3 position = vec3(0.0), tangentU = vec3(0.0), tangentV = vec3(0.0);
     uint end = firstEntry[mesh.firstEntry + vertex + 1u];

@@ -1,4 +1,6 @@
 // A vertex of the surface that fish.comp has made, with its place on the skin.
+// In: the surface buffer (world), place on the skin, slot. Out: what the fragment shaders of fish
+// take; clip space.
 #include "shader_interface.h"
 #include "frame_uniforms.h"
 #include "fish_school.glsl"

@@ -1,5 +1,6 @@
 // The skin of a near fish, lit and seen through the water. The skin shader's file takes the place of
 // the plain one where the species has a skin shader.
+// In: world place and normal, place on the skin (body lengths). Out: scene radiance, opaque.
 #include "fish_light.glsl"
 #include "skin_eye.glsl"
 #include "skin_plain.glsl"

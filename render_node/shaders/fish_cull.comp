@@ -1,5 +1,7 @@
 // Which fish a view shows, and how finely: one thread a fish, one workgroup a group. Only place and
 // length are unpacked here; the rest of what nobody sees is never looked at (paper, section 4.3).
+// In: records, cast, limits, planes. Out: choices (level and rank of each fish), counts of each
+// group and level.
 #include "shader_interface.h"
 #include "fish_record.glsl"
 #include "fish_detail.glsl"
@@ -10,14 +12,14 @@ layout(std430, binding = kChoicesStorage) writeonly buffer Choices { uint choice
 layout(std430, binding = kCountsStorage) writeonly buffer Counts { uint counts[]; };    // [group][level]
 layout(location = kFishCountLocation) uniform uint fishCount;
 
-// Who of the group is at a level, a bit each: an order of arrival could not change it.
+// The fish of the group at each level, one bit each, so that the order of arrival does not matter.
 shared uint members[kDetails][2];
 
 uint levelOf(Species species, uint i) {
     if (isAway(i)) return kUnseen;
     vec3 place = placeMetresOf(i);
     float lengthMetres = lengthMetresOf(i);
-    // Nothing that is drawn of it reaches further, be it a point that is wider than the fish.
+    // Nothing drawn of the fish reaches further; a point may be wider than the fish.
     float margin = species.area.w * lengthMetres + 3.0 * sharedEye.w * distance(sharedEye.xyz, place);
     if (culls && !reaches(place, margin)) return kUnseen;
     return detailAt(place, lengthMetres).level;

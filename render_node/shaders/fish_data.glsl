@@ -2,8 +2,8 @@
 #ifndef FISH_DATA_GLSL
 #define FISH_DATA_GLSL
 
-// DrawnFish of render_node/surface/drawn_fish.h, 80 bytes; its first 48 and the segments are those
-// of PresentedFish (common/motion/reconstruct.h).
+// DrawnFish of render_node/surface/school_surface.h, 80 bytes; its first 48 and the segments are
+// those of PresentedFish (common/motion/reconstruct.h).
 struct Fish {
     vec3 positionMetres;
     float lengthMetres;
@@ -22,6 +22,7 @@ struct Fish {
     uint padding;
 };
 
+// Rotates a vector by a unit quaternion.
 vec3 rotate(vec4 rotation, vec3 v) {
     return v + 2.0 * cross(rotation.xyz, cross(rotation.xyz, v) + rotation.w * v);
 }

@@ -1,4 +1,6 @@
 // How finely a fish is drawn; detailOf() of render_node/surface/visibility.h is the reference.
+// Uniforms of the choice, set once or for each view. Pixels are those of the wall's finest pixel at
+// the shared eye.
 #ifndef FISH_DETAIL_GLSL
 #define FISH_DETAIL_GLSL
 #include "shader_interface.h"

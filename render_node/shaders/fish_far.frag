@@ -1,4 +1,5 @@
 // The skin of a distant fish: its pattern and its flash, none of its details.
+// In: as fish_body.frag, from any vertex shader of fish. Out: scene radiance; alpha is `opacity`.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"
 
@@ -14,7 +15,7 @@ void main() {
     float pixel = max(length(dFdx(rest.xyz)), length(dFdy(rest.xyz)));
     SkinPoint at = SkinPoint(rest.x, rest.y, rest.z, rest.w, pixel, fwidth(rest.w), id);
     Skin skin = groundOf(at);
-    // Of the head's details the one that still shows: the eye.
+    // The eye is the only detail of the head that still shows.
     float d = distance(rest.xy, eyeOfSpecies.xy) / eyeOfSpecies.z, soft = 0.7 * pixel / eyeOfSpecies.z;
     float eye = falling(1.0 - soft, 1.0 + soft, d);
     float pupil = falling(kIris.pupil - soft, kIris.pupil + soft, d);

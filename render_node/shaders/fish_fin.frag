@@ -1,4 +1,5 @@
 // The fins: painted membranes between rays, growing out of the skin. Blended. The skin shader's file takes the place of the plain one where the species has a skin shader.
+// In: world place, place on skin and fin. Out: scene radiance with alpha.
 #include "fish_light.glsl"
 #include "skin_plain.glsl"
 
@@ -73,7 +74,7 @@ void main() {
         vec3 shown = around(reflect(fromEye, plate), place);
         radiance = underSilver(radiance, silvered(shown, plate, skin.albedo, place, facing), silver);
     }
-    // Behind the root of a paired fin the body is open: that part is never clear.
+    // The body is open behind the root of a paired fin: that part is always opaque.
     float clear = isPaired ? smoothstep(0.30, 0.60, fin.y) : smoothstep(0.0, 2.0 * reach, fin.y);
     colour = vec4(seen(radiance, place), opacity * mix(1.0, made.opacity, clear));
 }

@@ -1,5 +1,6 @@
 // Fins that row, flutter, ripple and fold beside the body that bears them: a pure function of time and
 // of what a node knows of a fish. common/body/fins.h is the reference.
+// Lengths in body lengths, angles in radians, times in seconds; axes tailwards, up, right.
 #ifndef FISH_FINS_GLSL
 #define FISH_FINS_GLSL
 
@@ -52,6 +53,8 @@ float beyondSpeed(float speed, float limit) {
     return smoothstep(limit - band, limit + band, abs(speed) + 1.0e-3);
 }
 
+// A pectoral fin rows with its stroke and feathers its blade; fast fish fold it. Below the speed
+// `alternateBelow` the left fin is half a cycle behind the right one.
 vec3 rowedFin(FinStyle style, FinPoint point, FinDrive drive) {
     bool isRight = point.side > 0.0;
     float apart = isRight ? 0.0 : 0.5 * (1.0 - beyondSpeed(drive.speed, style.alternateBelow));

@@ -1,10 +1,12 @@
 // What light does on and in the skin of a fish.
+// Radiances in linear Rec. 709, relative to an irradiance of 1 at the surface; vectors are unit
+// vectors in the world.
 #ifndef FISH_LIGHT_GLSL
 #define FISH_LIGHT_GLSL
 #include "light.glsl"
 #include "skin.glsl"
 
-// The palettes are those of plates in daylight, drawn for paper: under water skin is darker by this.
+// The palettes were drawn for paper, from plates in daylight: wet skin is darker by this factor.
 const float kWet = 0.78;
 vec3 wetAlbedo(vec3 albedo, uint id) { return min(kWet * albedo * tintOf(id), vec3(1.0)); }
 
@@ -37,7 +39,7 @@ vec3 plateletNormal(vec3 skinNormal, vec3 dorsal, vec3 toEye) {
     return normalize(plate - 2.0 * behind * toEye);
 }
 
-// Thin films colour the mirror faintly; more would be soap.
+// Thin films colour the mirror faintly; a stronger tint would look like soap.
 vec3 filmTint(float facing) {
     return 0.91 + 0.07 * cos(6.2831853 * (vec3(0.0, 0.33, 0.67) + 1.35 * facing));
 }
@@ -57,7 +59,7 @@ vec3 lampFlash(vec3 plate, vec3 place) {
     return lampLight(place, toLamp) * (0.04 * c * c);
 }
 
-// What the platelets let through, the flesh below swallows: the more silver, the darker it is.
+// The flesh absorbs the light that platelets let through: the more silver, the darker it is.
 vec3 underSilver(vec3 matte, vec3 mirror, float silver) {
     return mirror * silver + matte * ((1.0 - silver) * (1.0 - 0.85 * silver));
 }

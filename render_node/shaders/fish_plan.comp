@@ -1,5 +1,6 @@
 // From how many fish are in each list to the commands that draw them. One thread: a few hundred
 // steps, whatever the number of fish.
+// In: totals of each list, cast. Out: firsts, turns, pieces, commands (fish_plan.glsl).
 #include "shader_interface.h"
 #include "fish_detail.glsl"
 #include "fish_plan.glsl"

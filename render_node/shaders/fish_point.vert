@@ -2,6 +2,8 @@
 // at its rim, that covers as much as the fish does. Its skin is spread over it, so that what a pixel
 // shows is a mean of the flank's colours; and it is lit as the flank is, so that it flashes when the
 // fish turns.
+// In: five corners for each fish. Out: as fish.vert. The size follows the shared eye, not the
+// view's own, so that neighbours agree.
 #include "frame_uniforms.h"
 #include "fish_school.glsl"
 #include "fish_lists.glsl"

@@ -1,5 +1,6 @@
 // A fish's control points from the recorded ones (eq. 13), and its fins moved beside them; in its body
 // frame, body lengths. The reference is tests/render_node/surface/living_cage.h.
+// controlPointOf() is the entry. Phases are in cycles; the time is the frame's.
 #ifndef FISH_POSE_GLSL
 #define FISH_POSE_GLSL
 #include "shader_interface.h"
@@ -42,6 +43,7 @@ vec4 recordedPoint(uint species, uint segment, uint phase, uint point) {
     return vec4(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y));
 }
 
+// A control point between two recorded phases, and how it drifts sideways in between (eq. 13).
 Posed posedAt(uint species, uint segment, float phase, uint point) {
     float sampled = phase * float(kPhases);
     uint before = uint(floor(sampled)) % kPhases;

@@ -1,6 +1,8 @@
 // The school as the wire has it (FishRecord of common/motion/motion_state.h, 32 bytes): before and
 // after a tick, and where each fish is between them. present() of common/motion/reconstruct.h is the
 // reference of all this.
+// Gives place in world metres, length in metres, rotation as a quaternion from body to world,
+// phases in cycles.
 #ifndef FISH_RECORD_GLSL
 #define FISH_RECORD_GLSL
 #include "shader_interface.h"
@@ -48,6 +50,7 @@ vec4 unpackRotation(uint low, uint high) {
     return vec4(abc.yz, most, abc.x);
 }
 
+// Normalised linear interpolation by the shorter way.
 vec4 rotationOf(uint i) {
     vec4 from = unpackRotation(before[2u * i].w, before[2u * i + 1u].x);
     vec4 to = unpackRotation(after[2u * i].w, after[2u * i + 1u].x);
@@ -70,6 +73,8 @@ float phaseBetween(uint from, uint to) {
 
 float weightOf(uint motion) { return float((motion >> 16 & 255u) + 1u) / float((motion >> 24) + 1u); }
 
+// Phase, segment and warp between the ticks. A warp that has just begun fades in from the segment
+// that was left.
 Motion motionOf(uint i) {
     uvec2 from = before[2u * i + 1u].yz, to = after[2u * i + 1u].yz;
     uint segment = to.y & 255u, fromSegment = to.y >> 8 & 255u, lastSegment = from.y & 255u;

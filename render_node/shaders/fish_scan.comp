@@ -1,5 +1,6 @@
 // Where in its list each group begins: exclusive sums over a species' groups. One workgroup a list;
 // each thread sums a run of groups.
+// In: counts [group][level]. Out: the same buffer with exclusive sums, and totals of each list.
 #include "shader_interface.h"
 #include "fish_plan.glsl"
 

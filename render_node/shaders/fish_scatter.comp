@@ -1,4 +1,6 @@
 // Puts each fish that a view shows in its place, and only of those unpacks all.
+// In: choices, sums, firsts, pieces, records. Out: the drawn fish, in the order of the school
+// within each list.
 #include "shader_interface.h"
 #include "fish_data.glsl"
 #include "fish_record.glsl"

@@ -1,4 +1,5 @@
 // The fish that a view draws.
+// Written by fish_scatter.comp; bound as storage kSchoolStorage.
 #ifndef FISH_SCHOOL_GLSL
 #define FISH_SCHOOL_GLSL
 #include "shader_interface.h"

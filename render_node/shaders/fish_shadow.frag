@@ -1,4 +1,6 @@
 // Optical depth of a fish, and its first two moments over height.
+// In: place on the ellipse (-1 to 1), height (world y) and share of the area. Out: depth, depth *
+// height, depth * height^2, added up.
 layout(location = 0) in vec2 across;
 layout(location = 1) flat in vec2 heightAndShare;
 layout(location = 0) out vec4 sums;

@@ -1,4 +1,5 @@
 // A fish as the sun sees it: an ellipse along its body, where its shadow's rays meet the surface.
+// In: records by instance; four corners. Out: place in the window of the fish map, clip space.
 #include "shadow.glsl"
 #include "fish_record.glsl"
 #include "fish_data.glsl"

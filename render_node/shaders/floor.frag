@@ -1,4 +1,5 @@
 // The sand: ripples and grains; rubble about the foot of the reefs.
+// In: world place and normal; tiles of detail, map of shade. Out: scene radiance, opaque.
 #include "shader_interface.h"
 #include "light.glsl"
 layout(binding = kDetailTileUnit) uniform sampler2D detail;  // slopes, albedo, crest

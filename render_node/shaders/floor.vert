@@ -1,3 +1,4 @@
+// The sand. In: a SolidVertex in world metres. Out: world place and normal, clip space.
 #include "frame_uniforms.h"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 packedNormal;

@@ -1,4 +1,5 @@
 // One particle of food, and numbers of its own.
+// Places in world metres; unit() and axisOf() are functions of the seed alone.
 #ifndef FOOD_PARTICLE_GLSL
 #define FOOD_PARTICLE_GLSL
 #include "shader_interface.h"

@@ -1,4 +1,6 @@
 // A corner of what grows on the reef: where the swell has carried it, and how it is lit.
+// grown() reads the vertex attributes and the chosen instance, and returns place and normal in the
+// world, albedo and openness.
 #include "shader_interface.h"
 #include "instance.glsl"
 #include "plant_bend.h"
@@ -36,7 +38,7 @@ struct Grown {
 };
 Grown grown() {
     Instance one = instances[chosen];
-    // What would vanish at the next step back has shrunk before.
+    // What is about to be culled has shrunk before, so that it does not vanish at once.
     float shown = smoothstep(2.2, 4.5, detail * pixelsOf(one.placeAndScale));
     float scale = one.placeAndScale.w * shown;
     vec3 root = one.placeAndScale.xyz;
@@ -54,7 +56,7 @@ Grown grown() {
     it.albedo = min(1.75 * albedoAndSky.rgb * one.tintAndSway.rgb, vec3(0.80));
     // A leaf has two sides: the one that looks at us is lit.
     if (response.y > 0.3 && dot(it.normal, eyeAndTime.xyz - it.place) < 0.0) it.normal = -it.normal;
-    // The sand takes light from what stands close above it.
+    // Sand close below takes some of the light from above.
     float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.sandHeightMetres));
     float own = albedoAndSky.w;
     it.open = Openness(one.openness.x * mix(0.35, 1.0, own), one.openness.y * own * contact);

@@ -1,4 +1,5 @@
 // One of the things that stand in the place: a prototype, moved, turned, scaled and tinted.
+// turned() rotates from the prototype's frame to the world; quaternions are x, y, z, w.
 #ifndef INSTANCE_GLSL
 #define INSTANCE_GLSL
 #include "shader_interface.h"

@@ -1,5 +1,7 @@
 // The light that falls on things and what of theirs reaches the shared eye. Include this in a
 // fragment shader and write seen(lit(...), place).
+// Places and normals in the world; it uses derivatives, hence fragment shaders only. Result:
+// outgoing radiance of a matte surface.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 #include "shading.glsl"

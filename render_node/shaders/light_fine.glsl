@@ -1,3 +1,3 @@
-// Included instead of light_plain.glsl by tiers that can pay for it: soft shadows of several reaches, a
+// Replaces light_plain.glsl in tiers that have the time: soft shadows of several reaches, a
 // mirrored reef, clouds, dispersion.
 const bool kFine = true;

@@ -1,2 +1,2 @@
-// What the tiers up to low leave out; see light_fine.glsl.
+// Leaves out what the lowest tier has no time for; see light_fine.glsl.
 const bool kFine = false;

@@ -1,5 +1,6 @@
 // Places of the picture so many radians beside another: the same in the world whichever way the
 // channel's picture lies, so that neighbours read the same neighbourhood.
+// uv: 0 to 1, origin bottom left. Angles in radians. `clip` has x, y and w of clip space.
 #ifndef LOOK_AROUND_GLSL
 #define LOOK_AROUND_GLSL
 #include "frame_uniforms.h"

@@ -1,4 +1,6 @@
 // From the depth of the topmost things to their height and its square, over a few texels.
+// In: a depth map, 1 at the surface, 0 at kMapDepthMetres below. Out: height (metres, negative
+// below the surface) and its square.
 #include "shader_interface.h"
 layout(binding = kMomentDepthsUnit) uniform sampler2D depths;
 layout(location = 0) out vec2 heightAndSquare;

@@ -1,4 +1,6 @@
 // One glyph of a text: a box of 6 x 9 dots with its 5 x 7 dots inside.
+// In: glyphs by instance, pixels from the top left corner; four corners. Out: place in dots, clip
+// space.
 #include "shader_interface.h"
 struct Glyph {
     vec2 topLeft;  // pixels from the picture's top left corner

@@ -1,5 +1,7 @@
 // A test pattern that lies on the screen, as a function of the direction from the wall's origin: the
 // formulas of common/wall/pattern.h.
+// In: uv, 0 to 1 over the frustum's picture. Out: linear light, 1 is full white. Directions in the
+// wall's frame, angles in degrees.
 #include "shader_interface.h"
 layout(location = kWallFromCameraLocation) uniform mat3 wallFromCamera;
 layout(location = kExtentsLocation) uniform vec4 extents;  // left, bottom, right, top: tangents
@@ -10,6 +12,7 @@ layout(location = kEyeAndRadiusLocation) uniform vec4 eyeAndRadius;  // wall fra
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 light;
 
+// A Gaussian about each multiple of `spacing`, degrees.
 float lines(float at, float spacing) {
     float off = at - spacing * floor(at / spacing + 0.5);
     return exp(-off * off / (2.0 * gridLines.w * gridLines.w));

@@ -1,10 +1,13 @@
 // A crumb of fish food: an uneven octahedron that tumbles as it sinks, lit on each face.
+// In: specks by instance, world metres; 24 vertices. Out: light that reaches the eye, coverage,
+// clip space.
 #include "shader_interface.h"
 #include "food_particle.glsl"
 #include "shading.glsl"
 layout(location = 0) out vec3 light;
 layout(location = 1) out float coverage;
 const float kLeastPixels = 3.0;  // of its diameter: smaller, it would slip between the pixels
+// Albedo of a crumb.
 const vec3 kCrumb = vec3(0.66, 0.27, 0.07);
 
 // Of corner 0 to 5: right, left, above, below, towards us, away.

@@ -1,4 +1,5 @@
 // Balls against the view's frustum, and the balls about groups of instances.
+// World metres; the matrix of the view is that of the frame's uniform block.
 #ifndef PLACE_GROUPS_GLSL
 #define PLACE_GROUPS_GLSL
 #include "shader_interface.h"

@@ -1,9 +1,12 @@
 // Plankton: small clear bodies that catch the light as they turn.
+// In: specks, world metres; the sea's light. Out: point sprites in clip space with the light that
+// reaches the eye.
 #include "shader_interface.h"
 #include "water.glsl"
 #include "food_particle.glsl"
 layout(location = kFirstLocation) uniform int first;
 layout(location = 0) out vec3 light;
+// Colour of the bodies.
 const vec3 kTint = vec3(1.0, 0.96, 0.78);
 void main() {
     Speck speck = specks[first + gl_VertexID];

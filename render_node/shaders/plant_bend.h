@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the swell bends a stem, for C++ (tests) and GLSL alike.
+// Lengths in metres, y up; share: 0 at the foot, 1 at the tip; push: displacement of the tip along
+// x and z.
 #ifndef AQUARAMA_PLANT_BEND_H
 #define AQUARAMA_PLANT_BEND_H
 #ifdef __cplusplus

@@ -1,5 +1,7 @@
 // From a projector pixel's light to its code. The dither is the same for both eyes, or its grain would
 // hang in the room.
+// Pixels count from the top left corner. `light` is linear, 0 to 1; `encoded` is what the projector
+// takes.
 #include "shader_interface.h"
 layout(location = kSizeLocation) uniform ivec2 size;  // of the projector's picture
 layout(location = kSeedLocation) uniform uint seed;

@@ -1,4 +1,5 @@
 // One pixel of a display that takes the pictures of two eyes at once.
+// In: picture and map of both eyes. Out: code of the display, 0 to 1, laid out by `mode`.
 #include "shader_interface.h"
 #include "project.glsl"
 layout(binding = kSceneUnit) uniform sampler2D leftScene;
@@ -22,7 +23,8 @@ vec3 leftLight(ivec2 pixel) { return projectedLight(leftScene, leftPlaces, pixel
 vec3 rightLight(ivec2 pixel) { return projectedLight(rightScene, rightPlaces, pixel); }
 vec3 eyesLight(bool right, ivec2 pixel) { return right ? rightLight(pixel) : leftLight(pixel); }
 
-// A half has every eye pixel twice as wide or high as the projector's: the mean of the two.
+// In a half picture each pixel is the mean of two pixels of the eye's picture, which has the full
+// size.
 vec3 pairOf(bool right, ivec2 first, ivec2 step) {
     return 0.5 * (eyesLight(right, first) + eyesLight(right, first + step));
 }

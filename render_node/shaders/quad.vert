@@ -1,4 +1,6 @@
 // One triangle that covers the picture; uv has its origin at the bottom left.
+// In: the vertex number, 0 to 2. Out: uv, 0 to 1 over the picture, and clip space at depth 0, which
+// is the far plane.
 layout(location = 0) out vec2 uv;
 void main() {
     uv = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);

@@ -1,8 +1,10 @@
 // Rock: grit, pits and knobs at two or three scales, laid on from three sides; turf on what looks
 // up, pink crusts of algae in the shade, sponges in patches.
+// In: world place and normal, colours and openness from rock.vert; the rock tile. Out: scene
+// radiance, opaque.
 #include "shader_interface.h"
 #include "light.glsl"
-// Centroids: beyond the edge of a thin leaf there is nothing to be guessed.
+// Interpolated at centroids: outside a thin shape the values would be extrapolated.
 layout(binding = kDetailTileUnit) uniform sampler2D grit;  // slopes, albedo, crest
 layout(location = kRockScalesLocation) uniform int scales;        // 2 or 3
 layout(location = 0) centroid in vec3 place;

@@ -1,4 +1,6 @@
 // Rock: worn limestone, lit at each pixel.
+// In: a SolidVertex and the chosen instance. Out: world place, normal, mottle, openness, tint; clip
+// space.
 #include "shader_interface.h"
 #include "instance.glsl"
 layout(location = 0) in vec3 position;

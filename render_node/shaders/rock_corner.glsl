@@ -1,4 +1,6 @@
 // A corner of a rock: where it is, and how open to the light.
+// To be included after the attributes of a rock's vertex shader. Out: world metres; tint and
+// openness as shares.
 struct RockCorner {
     vec3 place, normal, tint;
     vec2 open;  // to the sun, to the light from above

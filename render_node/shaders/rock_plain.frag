@@ -1,4 +1,5 @@
 // As rock.frag, with two scales of grit from one side.
+// In: from rock_plain.vert, light that has already been attenuated. Out: scene radiance, opaque.
 #include "shader_interface.h"
 #include "light.glsl"
 layout(binding = kDetailTileUnit) uniform sampler2D grit;  // slopes, albedo, crest

@@ -1,5 +1,7 @@
 // Rock for those who must save: light and water at the corners, grit and the net of the waves at
 // the pixels.
+// In: as rock.vert. Out: sunlight and skylight for white stone as they reach the eye, and the light
+// of the water in between.
 #include "shader_interface.h"
 #include "instance.glsl"
 #include "shading.glsl"

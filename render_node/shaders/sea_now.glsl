@@ -1,4 +1,5 @@
 // The waves and the swell at this instant; phases are reduced on the CPU in double precision.
+// Layout of SeaNow in render_node/water/waves.h, std140. Lengths in metres, phases in radians.
 #ifndef SEA_NOW_GLSL
 #define SEA_NOW_GLSL
 #include "shader_interface.h"

@@ -14,6 +14,7 @@ using uint = std::uint32_t;
 #endif
 
 // Uniform blocks.
+// Bindings, std140: FrameUniforms of frame_uniforms.h and SeaNow of sea_now.glsl.
 AQUARAMA_CONSTANT int kFrameBlock = 0;
 AQUARAMA_CONSTANT int kSeaBlock = 1;
 

@@ -1,4 +1,6 @@
 // The light that falls on things and what of theirs reaches the shared eye, for any stage.
+// Places in world metres, unit normals; radiances in linear Rec. 709, relative to an irradiance of
+// 1 at the surface.
 #ifndef SHADING_GLSL
 #define SHADING_GLSL
 #include "water.glsl"

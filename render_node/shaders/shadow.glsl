@@ -1,6 +1,7 @@
 // What stands between a place and the light from above: the sea floor with all that stands on it,
 // and the fish. Every map is indexed by where a straight ray from the place meets the surface, and
 // holds heights, so that a shadow is soft by how far its thrower is above it.
+// In: world metres. Out: shares of light, 0 to 1.
 #ifndef SHADOW_GLSL
 #define SHADOW_GLSL
 #include "shader_interface.h"
@@ -17,6 +18,7 @@ struct Openness {
     float sky;
 };
 
+// Where the straight ray of the sun through a place meets the surface: world x and z.
 vec2 surfacePoint(vec3 place) {
     return place.xz - sunAndFilterDepth.xz / sunAndFilterDepth.y * place.y;
 }
@@ -30,6 +32,7 @@ float shareNotAbove(vec2 moments, float height) {
     return above <= 0.0 ? 1.0 : clamp((bound - 0.25) / 0.75, 0.0, 1.0);
 }
 
+// The mip level of the place's maps whose texels are as wide as the blur.
 float placeLod(float blurMetres) {
     return log2(max(blurMetres * float(textureSize(sunHeights, 0).x) / kPlaceMetres, 1.0));
 }
@@ -44,7 +47,7 @@ float sunPast(vec3 place) {
     return shareNotAbove(textureLod(sunHeights, uv, placeLod(0.05 + 0.05 * throwerMetres)).xy, height);
 }
 
-// Light from above past the same: how much of the surroundings stands higher, near and far.
+// Light from above past the place: how much of the surroundings stands higher, at three distances.
 float skyPast(vec3 place, vec3 normal) {
     if (!kFine) {
         vec2 moments = textureLod(topHeights, place.xz / kPlaceMetres + 0.5, 3.0).xy;
@@ -84,7 +87,8 @@ Openness pastFish(vec3 place) {
     return Openness(sun, sky);
 }
 
-// For what stands in the place, past all of it and the fish; of its own hollows it knows itself.
+// The openness of what stands in the place, past the place and the fish; the hollows of a thing
+// itself are in its own openness.
 Openness openAt(vec3 place, vec3 normal) {
     Openness open = Openness(sunPast(place + 0.05 * normal), mix(0.25, 1.0, skyPast(place, normal)));
     if (!kFine) return open;

@@ -1,6 +1,7 @@
 // How much more or less than the mean the sun lights the water before 3, 8, 18 and 45 m along each
 // direction. Never added light: a weighted mean of the caustics on the way, less what rock and fish
 // keep away.
+// In: uv over the octahedral map of directions. Out: the four ratios, mean 1, one in each channel.
 #include "shader_interface.h"
 #include "water.glsl"
 layout(location = 0) in vec2 uv;

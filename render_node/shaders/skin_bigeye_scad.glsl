@@ -1,4 +1,5 @@
-// Bigeye scad, Selar crumenophthalmus: a mirror with a golden line.
+// Bigeye scad, Selar crumenophthalmus: silver flanks with a golden line. Members as skin.glsl
+// describes them: SkinPoint in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_BIGEYE_SCAD_GLSL
 #define SKIN_BIGEYE_SCAD_GLSL
 #include "skin_anatomy.glsl"

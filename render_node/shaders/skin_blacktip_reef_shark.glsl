@@ -1,4 +1,5 @@
-// Blacktip reef shark, Carcharhinus melanopterus: grey bronze over white, its fins dipped in ink.
+// Blacktip reef shark, Carcharhinus melanopterus: grey bronze above, white below, black tips of the
+// fins. Members as skin.glsl describes them: SkinPoint in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_BLACKTIP_REEF_SHARK_GLSL
 #define SKIN_BLACKTIP_REEF_SHARK_GLSL
 #include "skin_anatomy.glsl"

@@ -1,4 +1,5 @@
-// Blue tang, Paracanthurus hepatus: royal blue with a painter's palette in black, and a yellow tail.
+// Blue tang, Paracanthurus hepatus: blue with a black mark like a painter's palette, and a yellow
+// tail. Members as skin.glsl describes them: SkinPoint in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_BLUE_TANG_GLSL
 #define SKIN_BLUE_TANG_GLSL
 #include "skin_anatomy.glsl"

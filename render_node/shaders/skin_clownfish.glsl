@@ -1,4 +1,5 @@
-// Clownfish, Amphiprion ocellaris: orange, three white bars with thin black borders.
+// Clownfish, Amphiprion ocellaris: orange, three white bars with thin black borders. Members as
+// skin.glsl describes them: SkinPoint in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_CLOWNFISH_GLSL
 #define SKIN_CLOWNFISH_GLSL
 #include "skin_anatomy.glsl"

@@ -1,4 +1,6 @@
 // A wet eye, painted where the species has it: a clear dome over an iris that lies deeper.
+// In: a skin and a point on it. Out: the skin with the eye; the radius of the eye is
+// eyeOfSpecies.z, body lengths.
 #ifndef SKIN_EYE_GLSL
 #define SKIN_EYE_GLSL
 #include "skin.glsl"

@@ -1,4 +1,5 @@
-// Moorish idol, Zanclus cornutus: ink, milk and lemon in upright bars that go on over the fins.
+// Moorish idol, Zanclus cornutus: black, white and yellow upright bars that continue over the fins.
+// Members as skin.glsl describes them: SkinPoint in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_MOORISH_IDOL_GLSL
 #define SKIN_MOORISH_IDOL_GLSL
 #include "skin_anatomy.glsl"

@@ -1,4 +1,5 @@
-// Bullethead parrotfish, Chlorurus spilurus, terminal male: big green scales edged in pink, a beak.
+// Bullethead parrotfish, Chlorurus spilurus, terminal male: large green scales with pink edges, and
+// a beak. Members as skin.glsl describes them: SkinPoint in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_PARROTFISH_GLSL
 #define SKIN_PARROTFISH_GLSL
 #include "skin_anatomy.glsl"

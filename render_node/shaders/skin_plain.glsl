@@ -1,4 +1,5 @@
-// A species without a skin shader: the colours of its file, dark above and pale below.
+// Skin of a species that has no skin shader: the colours of its file, dark above and pale below.
+// Members as skin.glsl describes them: SkinPoint in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_PLAIN_GLSL
 #define SKIN_PLAIN_GLSL
 #include "skin_anatomy.glsl"

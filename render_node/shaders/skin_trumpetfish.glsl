@@ -1,4 +1,5 @@
-// Trumpetfish, Aulostomus chinensis, yellow phase: a reed that swims.
+// Trumpetfish, Aulostomus chinensis, yellow phase. Members as skin.glsl describes them: SkinPoint
+// in, linear Rec. 709 albedo and mirror out.
 #ifndef SKIN_TRUMPETFISH_GLSL
 #define SKIN_TRUMPETFISH_GLSL
 #include "skin_anatomy.glsl"

@@ -1,4 +1,5 @@
 // The sky above the sea, linear Rec. 709; relative to an irradiance of 1 at the surface.
+// Directions are unit vectors in the world, above the surface.
 #ifndef SKY_GLSL
 #define SKY_GLSL
 #include "shader_interface.h"

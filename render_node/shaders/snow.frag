@@ -1,4 +1,5 @@
-// Round and soft to the rim: a speck has no edge.
+// A speck of snow or plankton: round, fading towards its rim. In: light, and the place within the
+// sprite. Out: scene radiance, added.
 layout(location = 0) in vec3 light;
 layout(location = 0) out vec4 radiance;
 void main() {

@@ -1,8 +1,11 @@
 // Marine snow: specks in a box round the shared eye that wraps in the world.
+// In: the vertex number alone. Out: point sprites in clip space with the light that reaches the
+// eye.
 #include "water.glsl"
 #include "sea_now.glsl"
 #include "hash.h"
 layout(location = 0) out vec3 light;
+// Side of the box.
 const float kBoxMetres = 9.0;
 const float kLensMetres = 0.0055, kFocusMetres = 6.0;  // a little out of focus when near
 float unit(uint n) { return unitOf(hashOf(uint(gl_VertexID) * 4u + n)); }

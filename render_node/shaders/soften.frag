@@ -1,6 +1,8 @@
 // Forward scattering on the way to the eye: of the light of a thing at a range, a share arrives
 // spread over some tenths of a degree. Each tap counts by its own thing's share and spread, so that
 // the distance softens behind a near fish whose outline stays sharp.
+// In: picture and depth of the scene, one sample. Out: linear light. Angles in radians, ranges in
+// metres.
 #include "shader_interface.h"
 #include "look_around.glsl"
 #include "post_radii.h"
@@ -12,6 +14,7 @@ layout(location = 0) out vec4 softened;
 const int kTaps = 16;
 const float kGoldenAngle = 2.39996323;
 
+// Share of the light that is spread over a range, and the spread's sigma, radians.
 float shareSpread(float range) { return 1.0 - exp(-0.028 * range); }
 float sigmaAt(float range) { return min(kScatterSigma * sqrt(range), kScatterMostSigma); }
 

@@ -1,5 +1,6 @@
 // Where the sun's light is more or less than its mean: gathered by the waves on things, and in shafts
 // in the water.
+// Depths and places in metres; a lod is log2 of a width in texels.
 #ifndef SUNLIGHT_GLSL
 #define SUNLIGHT_GLSL
 #include "shader_interface.h"
@@ -67,5 +68,6 @@ vec3 causticColour(vec3 place, float lod) {
     return vec3(net(at + 0.004 * moved, depth, lod), green, net(at - 0.006 * moved, depth, lod));
 }
 
+// The share of the light at a depth that comes straight from the sun.
 float unscatteredShare(float depth) { return 0.80 * exp(-0.030 * depth); }
 #endif

@@ -1,4 +1,6 @@
 // Adds each fish's momentum to the eight cells about it.
+// In: records of the fish. Out: sums in the cells, integers in units of kWakeUnit; one thread for
+// each fish.
 #include "shader_interface.h"
 #include "fish_record.glsl"
 #include "wake.glsl"

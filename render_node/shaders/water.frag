@@ -1,4 +1,5 @@
 // Open water, where nothing else is in view.
+// In: uv of the picture. Out: scene radiance on the far plane.
 #include "water.glsl"
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 radiance;

@@ -1,6 +1,7 @@
 // What water does to light. All radiances are relative to an irradiance of 1 at the sea's surface,
 // linear Rec. 709, and may be negative in red (deep water lies outside the gamut) until the tone.
 // Two coefficients, never one: Kd for the way down, kappa = a + 0.51 b for the way to the eye.
+// Ranges and depths in metres; directions are unit vectors from the eye, world frame.
 #ifndef WATER_GLSL
 #define WATER_GLSL
 #include "shader_interface.h"
@@ -16,12 +17,14 @@ const vec2 kDirectTexels = vec2(64.0, 64.0);
 const vec3 kInscatterTexels = vec3(kSightRanges, kSightRises, kSightAzimuths);
 const vec2 kOpenWaterTexels = vec2(64.0, 32.0);
 vec2 atTexelCentres(vec2 u, vec2 texels) { return (u * (texels - 1.0) + 0.5) / texels; }
+// Texture coordinate of a range: the tables are finer near the eye.
 float rangeAxis(float range) { return sqrt(clamp(range * (1.0 / 80.0), 0.0, 1.0)); }
 // The diver's filter undoes so many metres of the way down: one looks up at a lesser depth.
 float depthAxis(float depth) {
     return sqrt(clamp((depth - sunAndFilterDepth.w + 10.0) * (1.0 / 40.0), 0.0, 1.0));
 }
 
+// Pixels of this view in a radian, in the middle of the picture.
 float pixelsARadian() {
     vec3 row = vec3(clipFromWorld[0].y, clipFromWorld[1].y, clipFromWorld[2].y);
     return 0.5 * viewport.y * length(row);

@@ -1,4 +1,5 @@
 // The surface from below: Snell's window where a facet lets light in, else the mirrored sea and reef.
+// In: world place on the plane y = 0. Out: scene radiance, opaque.
 #include "shader_interface.h"
 #include "shading.glsl"
 #include "sky.glsl"
@@ -16,11 +17,14 @@ struct Facets {
     float variance;  // of the slopes that a pixel cannot show, along one axis
 };
 
+// Mip level for a footprint of so many texels; whole levels where quality is not fine, as they cost
+// less.
 float levelOf(float texels) {
     float level = log2(max(texels, 1.0));
     return kFine ? level : round(level);
 }
 
+// Slope of the surface at a place, and the variance of what is finer than the footprint (metres).
 Facets facetsAt(vec2 xz, float footprint) {
     vec4 wave = textureLod(waveTile, xz / kTileMetres, levelOf(footprint * surfaceDetail.z));
     // Turned, so that the two tiles never meet in step.
@@ -37,6 +41,7 @@ Facets facetsAt(vec2 xz, float footprint) {
     return Facets(slope, 0.5 * lost);
 }
 
+// Reflectance for unpolarised light from below; inward: cosine in the water.
 float fresnel(float inward) {
     float outward = sqrt(max(1.0 - kIndex * kIndex * (1.0 - inward * inward), 0.0));
     float s = (kIndex * inward - outward) / (kIndex * inward + outward);

@@ -1,4 +1,5 @@
 // Slopes, height and squared slope of the surface on one tile: of the waves or of the ripples.
+// In: uv over the tile; SeaNow. Out: slopes along x and z, height in metres, squared slope.
 #include "shader_interface.h"
 #include "sea_now.glsl"
 layout(location = 0) in vec2 uv;
@@ -6,6 +7,7 @@ layout(location = 0) out vec4 slopesHeightSquare;
 layout(location = kTileMetresLocation) uniform float tileMetres;
 layout(location = kDrawsRipplesLocation) uniform bool drawsRipples;
 layout(location = kTexelMetresLocation) uniform float texelMetres;
+// Each texel sums 32 sines: slope and height of those that texels can hold.
 void main() {
     vec3 sum = vec3(0.0);
     float lost = 0.0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/show/channel_picture.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -27,21 +27,25 @@ namespace aquarama::show {
 
 namespace {
 
-// Beyond what the projector lights, so that filters which read neighbours have some: 1 degree.
+// The picture of the frustum is wider than what the projector lights by this angle, 1 degree,
+// because softening and bloom read pixels beside a pixel.
 constexpr double kMarginRadians = 0.0175;
 static_assert(double{shaders::kPostReach} <= kMarginRadians);
+// Distance of the near plane.
 constexpr float kNearMetres = 0.05F;
 
-// Dots large enough to be read from the sweet spot.
+// Size of a dot of the overlay's font, in pixels, readable from the sweet spot.
 float dotPixels(glm::ivec2 pictureSize) {
     return std::max(1.0F, std::round(static_cast<float>(pictureSize.y) / 400.0F));
 }
 
-// For whole sentences, which an operator reads from near.
+// A smaller size for whole sentences, which an operator reads from near the wall.
 float smallDotPixels(glm::ivec2 pictureSize) {
     return std::max(1.0F, std::round(static_cast<float>(pictureSize.y) / 600.0F));
 }
 
+// The list of keys, one label for each line, padded to one width so that the boxes form a
+// rectangle.
 std::vector<Label> helpLabels(float dot) {
     std::vector<Label> labels;
     std::size_t widest = 0;
@@ -56,6 +60,8 @@ std::vector<Label> helpLabels(float dot) {
     return labels;
 }
 
+// The species of a show with their fish. The school is sorted by species: each takes the next
+// assets.fish traits. The digest of text and repertoire is the key of the cached tables.
 std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) {
     std::vector<surface::SchoolSpecies> cast;
     std::span<const motion::FishTraits> rest = admission.welcome.school;
@@ -73,6 +79,7 @@ std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) 
     return cast;
 }
 
+// From the world straight to clip space.
 glm::mat4 clipOf(const scene::View& view) {
     return view.clipFromCamera * view.cameraFromWorld;
 }
@@ -99,6 +106,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     : pattern_{admission.welcome.pattern},
       stereo_{wall::stereoOf(admission.rig, channel)},
       school_{admission.welcome.school} {
+    assert(channel < admission.rig.channels.size());
     const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
     const wall::WarpMap warp = wall::warpMap(rig, channel);
@@ -106,6 +114,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     sceneSize_ = scenePictureSize(map_);
     if (pattern_ == wire::Pattern::World)
         sceneSize_ = glm::ceil(glm::vec2(sceneSize_) * scene::qualityOf(quality).pictureShare);
+    // Two eyes for any stereo mode, else one between them.
     const bool two = stereo_.mode != config::StereoMode::Mono;
     for (const wall::EyeSide side : two ? std::vector{wall::EyeSide::Left, wall::EyeSide::Right}
                                         : std::vector{wall::EyeSide::Between})
@@ -114,6 +123,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     if (two && stereo_.mode != config::StereoMode::QuadBuffer)
         together_.emplace(map_.sizePixels, id, stereo_.mode);
     const bool world = pattern_ == wire::Pattern::World;
+    // The scene has one texture: all eyes but the last need a copy. A test pattern has none.
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
     if (world)
@@ -173,6 +183,7 @@ void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
 }
 
 void ChannelPicture::drawPattern(Viewing& eye) const {
+    assert(eye.kept.has_value());
     eye.sceneTexture = eye.kept->texture();
     if (pattern_ == wire::Pattern::Grid)
         eye.pattern.drawGrid(eye.kept->framebuffer(), sceneSize_);
@@ -187,12 +198,14 @@ std::optional<FishPlace> ChannelPicture::placeOf(const glm::mat4& clipFromWorld,
     const glm::vec2 size(sceneSize_);
     const glm::vec2 place = (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * size;
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) return std::nullopt;
+    // The first row of the matrix: its length is the horizontal scale, from metres to half widths
+    // of the picture at w = 1.
     const glm::vec3 across(clipFromWorld[0].x, clipFromWorld[1].x, clipFromWorld[2].x);
     const float pixelsAMetre = glm::length(across) / clip.w * 0.5F * size.x;
     return FishPlace{place, 0.5F * fish.lengthMetres * pixelsAMetre};
 }
 
-// Each number stands on its fish's body frame.
+// Writes the number of each fish at the origin of its body frame.
 void ChannelPicture::drawFishIds(const Viewing& eye, const wire::StateFrame& frame) {
     const float dot = dotPixels(sceneSize_);
     std::vector<Label> labels;
@@ -218,6 +231,8 @@ void ChannelPicture::drawMind(const Viewing& eye,
 
 std::optional<std::uint32_t> ChannelPicture::fishNearest(const wire::StateFrame& frame,
                                                          glm::vec2 pixel) const {
+    // From the pixel of the display to the pixel of an eye, and through the projection map to the
+    // place in the scene's picture.
     const glm::vec2 own = pixelOfEye(stereo_.mode, map_.sizePixels, pixel);
     const glm::ivec2 texel = glm::clamp(glm::ivec2(own), glm::ivec2(0), map_.sizePixels - 1);
     const glm::vec4 lit =
@@ -256,6 +271,8 @@ void ChannelPicture::project(unsigned framebuffer,
         together_->draw(sceneAndMap(first), sceneAndMap(second), draw);
     } else {
         const Viewing& eye = shown == Shown::RightEye ? eyes_.back() : eyes_.front();
+        // drawScene() comes first.
+        assert(eye.sceneTexture != 0);
         draw.sceneTexture = eye.sceneTexture;
         eye.projection.draw(draw);
     }
@@ -273,6 +290,7 @@ scene::View ChannelPicture::viewOf(const Viewing& viewing, const wire::Eye& subm
 namespace {
 
 template <class Sample>
+// Projects into a target of the sample's format and reads it back.
 wall::Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
     const gl::Target target(format, picture.sizePixels());
     picture.project(target.framebuffer(), encoding, Overlays{}, shown);
@@ -312,6 +330,7 @@ void writeSnapshot(const std::string& folder,
 }
 
 WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels) {
+    assert(picturePixels.x > 0 && picturePixels.y > 0);
     const glm::vec2 size(picturePixels);
     const glm::vec2 room = glm::vec2(windowPixels) / size;
     const glm::ivec2 fitted(size * std::min(room.x, room.y));
@@ -324,7 +343,7 @@ std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
     const WindowFit fit = fitInto(windowPixels, picturePixels);
     const glm::vec2 topLeft(fit.corner.x, windowPixels.y - fit.corner.y - fit.size.y);
     const glm::vec2 share = (windowPlace - topLeft) / glm::vec2(fit.size);
-    // Said so that what is not a number is outside.
+    // Written so that a NaN counts as outside.
     const bool inside = glm::all(glm::greaterThanEqual(share, glm::vec2(0))) &&
                         glm::all(glm::lessThan(share, glm::vec2(1)));
     if (!inside) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one channel shows of a frame: the world from the sweet spot, or from two eyes beside it,
-// projected to its part of the wall.
+// Makes the picture of one channel for a frame: the world seen from the sweet spot, or from two
+// eyes beside it, projected to the channel's part of the wall.
 #pragma once
 
 #include <cstdint>
@@ -23,39 +23,47 @@
 
 namespace aquarama::show {
 
-// Which picture of a channel: the one that its display takes, with both eyes in it where there are
+// Which picture of a channel: the one that its display takes, which holds both eyes where there are
 // two, or that of one eye.
 enum class Shown : std::uint8_t { Display, LeftEye, RightEye };
 
-// The channel of this name. Throws Error where the rig has none.
+// Index of the channel of this name in rig.channels. Throws Error where the rig has none.
 [[nodiscard]] std::size_t channelIndex(const config::Rig& rig, const std::string& name);
 
-// Owns its GL objects; construct, use and destroy with the same context current.
+// Draws in two steps, so that a frame is drawn once and projected as often as needed: drawScene(),
+// then project(). Owns its GL objects; construct, use and destroy it with the same context current.
 class ChannelPicture {
   public:
+    // channel: index in admission.rig.channels. Throws Error: the channel does not aim at the
+    // screen, a driver that cannot draw what is needed.
     ChannelPicture(const session::Admission& admission,
                    std::size_t channel,
                    config::QualityTier quality);
 
-    // The picture of each eye's frustum, in linear light, with what belongs to the world.
+    // Draws the picture of each eye's frustum in linear light, with the overlays that belong to the
+    // world: grid, fish numbers, a mind.
     void drawScene(const wire::StateFrame& frame,
                    const Overlays& overlays,
                    const std::optional<WatchedMind>& mind = std::nullopt);
-    // Of the fish of a frame, the one that a pixel (of the display, from the top left corner) is
-    // nearest to; its place in the school.
+    // The fish of the frame that is nearest to a pixel of the display (from the top left corner),
+    // as its index in the school; empty where no fish is in the picture. Costs a step for each fish
+    // of the school.
     [[nodiscard]] std::optional<std::uint32_t> fishNearest(const wire::StateFrame& frame,
                                                            glm::vec2 pixel) const;
-    // The projector's pixels of the scene that was drawn last, into the framebuffer's lower left
-    // corner. A display of quad buffers takes one eye at a time: in one picture it shows the left.
+    // Writes the projector's pixels of the scene that drawScene() drew last into the framebuffer,
+    // from its lower left corner. A quad-buffered display takes one eye at a time: with
+    // Shown::Display it gets the left one.
     void project(unsigned framebuffer,
                  Encoding encoding,
                  const Overlays& overlays,
                  Shown shown = Shown::Display);
+    // Size of the projector's picture.
     [[nodiscard]] glm::ivec2 sizePixels() const { return map_.sizePixels; }
     [[nodiscard]] const config::Stereo& stereo() const { return stereo_; }
 
   private:
-    // A viewer's eye, or the place between both where one picture serves them.
+    // What is needed for one of the viewer's eyes, or for the point between them where one picture
+    // serves both.
     struct Viewing {
         Viewing(const wall::ChannelFrustum& from,
                 const wall::WarpMap& warp,
@@ -65,62 +73,81 @@ class ChannelPicture {
         wall::ChannelFrustum frustum;
         PatternPass pattern;
         Projection projection;
-        gl::Framebuffer onScene;         // to draw over the scene's texture
-        std::optional<gl::Target> kept;  // of its own, where the scene's is needed for another eye
+        // Used to draw overlays on the scene's texture.
+        gl::Framebuffer onScene;
+        // A copy of the picture, where the scene's own texture is overwritten by the next eye, or
+        // where there is no scene.
+        std::optional<gl::Target> kept;
         glm::mat4 clipFromWorld{1.0F};
+        // GL name of the picture that was drawn last; 0 before the first drawScene().
         unsigned sceneTexture = 0;
     };
 
+    // Draws the world for each eye; drawPattern() draws a test pattern in its place.
     void drawWorld(const wire::StateFrame& frame);
     void drawPattern(Viewing& eye) const;
     void drawFishIds(const Viewing& eye, const wire::StateFrame& frame);
     void drawMind(const Viewing& eye, const wire::StateFrame& frame, const WatchedMind& mind);
+    // The camera of an eye in the world, for the submarine's place and heading.
     [[nodiscard]] scene::View viewOf(const Viewing& viewing, const wire::Eye& submarine) const;
-    // In the scene's pixels, from its top left corner; nothing for what it does not show.
+    // Place of a fish in pixels of the scene's picture, from its top left corner; empty where it is
+    // outside the picture or behind the camera.
     [[nodiscard]] std::optional<FishPlace> placeOf(const glm::mat4& clipFromWorld,
                                                    const motion::PresentedFish& fish) const;
 
     wire::Pattern pattern_;
     config::Stereo stereo_;
     std::vector<motion::FishTraits> school_;
-    ProjectionMap map_;  // from between the eyes
+    // The map for the point between the eyes.
+    ProjectionMap map_;
     glm::ivec2 sceneSize_{};
-    std::deque<Viewing> eyes_;                   // one, or left and right
-    std::optional<PairProjection> together_;     // where one picture holds both
-    std::optional<scene::SceneRenderer> scene_;  // of the world
+    // One, or left and right.
+    std::deque<Viewing> eyes_;
+    // Set where one picture holds both eyes.
+    std::optional<PairProjection> together_;
+    // Set where the world is shown, not a test pattern.
+    std::optional<scene::SceneRenderer> scene_;
     TextOverlay text_;
     std::vector<scene::FoodParticle> food_;
+    // Number of the frame that was drawn last: its parity seeds the dither.
     Frame frame_;
 };
 
-// Pictures of what a channel projects.
+// Pictures of what a channel projects, read back from the GPU.
 
+// Bits of a sample: 8 as the projector gets them, dithered, or 16 without dither.
 enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
 
-// The frame that was drawn last, without overlays.
+// Projects and reads back the frame that was drawn last, without overlays of the channel. Waits for
+// the GPU.
 [[nodiscard]] wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
 
-// What somebody without glasses may look at: one eye's picture where a display takes the two apart
-// from one another.
+// The picture to show to somebody without stereo glasses: one eye's picture where the display
+// separates the eyes in space or time, else the display's own.
 [[nodiscard]] Shown flat(const ChannelPicture& picture);
 
-// folder/channel-NAME.png: takePicture() of the display, and in stereo channel-NAME.left_eye.png
-// and .right_eye.png beside it. Throws Error where they cannot be written.
+// Writes folder/channel-NAME.png, the picture of the display, and in stereo
+// channel-NAME.left_eye.png and .right_eye.png beside it; creates the folder. Throws Error where
+// they cannot be written.
 void writeSnapshot(const std::string& folder,
                    const std::string& channel,
                    ChannelPicture& picture,
                    PictureBits bits);
 
-// How a channel's picture lies in a window of another size: the whole of it, in the middle.
+// A channel's picture in a window of another size: the whole picture, enlarged or reduced, in the
+// middle.
 
+// A rectangle in pixels of the window.
 struct WindowFit {
-    glm::ivec2 corner{};  // the lower left one, from the window's lower left
+    // The lower left corner, from the window's lower left corner.
+    glm::ivec2 corner{};
     glm::ivec2 size{};
 };
+// The largest rectangle with the picture's proportions that fits into the window.
 [[nodiscard]] WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels);
 
-// What a place of the window shows of the picture, both in pixels from the top left; nothing on the
-// dark beside it.
+// Converts a place of the window to a place of the picture, both in pixels from the top left
+// corner; empty on the dark margins.
 [[nodiscard]] std::optional<glm::vec2> picturePlace(glm::ivec2 windowPixels,
                                                     glm::ivec2 picturePixels,
                                                     glm::vec2 windowPlace);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/show/channel_show.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <tuple>
 #include <utility>
@@ -17,11 +17,13 @@ namespace aquarama::show {
 
 namespace {
 
+// On CLOCK_MONOTONIC, as FrameTimes.
 std::chrono::nanoseconds now() {
     return std::chrono::steady_clock::now().time_since_epoch();
 }
 
-// Whether what was built for one serves the other.
+// Whether what was built for one welcome also serves the other: same rig, scene, seed, pattern and
+// cast, and the same fish in the same order.
 bool sameShow(const wire::Welcome& a, const wire::Welcome& b) {
     const auto parts = [](const wire::Welcome& w) {
         return std::tie(w.rigText, w.sceneText, w.seed, w.pattern, w.cast);
@@ -32,7 +34,8 @@ bool sameShow(const wire::Welcome& a, const wire::Welcome& b) {
     return parts(a) == parts(b) && std::ranges::equal(a.school, b.school, sameFish);
 }
 
-// Returns when all that was asked of the GPU is done: only then a frame is ready.
+// Returns when the GPU has finished all that was submitted. A frame may be called ready only after
+// that.
 void waitForGpu() {
     constexpr GLuint64 kASecond = 1'000'000'000;
     const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -41,6 +44,7 @@ void waitForGpu() {
     glDeleteSync(fence);
 }
 
+// Copies the picture into the window, scaled to fit, with black margins.
 void show(const gl::Target& picture, glm::ivec2 window) {
     const auto [corner, size] = fitInto(window, picture.sizePixels());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -71,6 +75,7 @@ ChannelShow::ChannelShow(session::Session& session,
       controls_{controls},
       options_{options},
       trace_{options.traceFolder, options.channel} {
+    assert(options_.filmEvery > 0);
     if (!options.filmPipe.empty()) film_.emplace(options.filmPipe);
 }
 
@@ -92,7 +97,7 @@ void ChannelShow::run(session::Admission first) {
                   options_.deep ? PictureBits::Deep16 : PictureBits::Dithered8);
 }
 
-// A show that goes on after an interruption is not built a second time.
+// When the same show goes on after an interruption, nothing is built again.
 void ChannelShow::build(session::Admission admission) {
     if (built_ && sameShow(built_->welcome, admission.welcome)) return;
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
@@ -110,6 +115,8 @@ void ChannelShow::build(session::Admission admission) {
 }
 
 void ChannelShow::buildPicture(config::QualityTier quality) {
+    assert(built_.has_value());
+    // The old picture goes first, so that the GPU need not hold both.
     picture_.reset();
     picture_.emplace(*built_, channelIndex(built_->rig, options_.channel), quality);
     quality_ = quality;
@@ -133,7 +140,8 @@ double ChannelShow::secondsAFrame(config::QualityTier quality) {
     buildPicture(quality);
     wire::StateFrame frame;
     frame.eye.positionMetres = built_->scene.eye;
-    draw(frame);  // compiles what the driver compiles on first use
+    // The first frame is not measured: some drivers compile shaders on first use.
+    draw(frame);
     waitForGpu();
     const auto begin = now();
     for (int i = 0; i < kFrames; ++i) draw(frame);
@@ -152,6 +160,7 @@ session::Release ChannelShow::play() {
             waitForGpu();
             refuseLoss();
         }
+        // Ready is reported only after the GPU has finished the picture.
         times.ready = now();
         const session::Release release = session_.readyThenWait(state->frame);
         if (release == session::Release::Rejoin || release == session::Release::Quit)
@@ -169,7 +178,8 @@ session::Release ChannelShow::play() {
     return session_.interruption();
 }
 
-// All textures and programs went with it: a new process has them again in a second or two.
+// A lost context takes all textures and programs with it. The node ends; a new process builds
+// everything again in a few seconds.
 void ChannelShow::refuseLoss() const {
     if (const auto loss = context_.loss())
         throw Error("the graphics driver took its context away (" + *loss +
@@ -177,6 +187,7 @@ void ChannelShow::refuseLoss() const {
 }
 
 void ChannelShow::draw(const wire::StateFrame& frame) {
+    assert(picture_.has_value());
     const Overlays overlays = controls_.overlays();
     picture_->drawScene(frame, overlays, overlays.mind ? watchMind(frame) : std::nullopt);
     if (!context_.quadBuffered()) return project(overlays, Shown::Display);
@@ -207,8 +218,8 @@ std::optional<glm::vec2> ChannelShow::pixelAt(const WindowPlace& place) const {
     return picturePlace(context_.framebufferPixels(), picture_->sizePixels(), *place);
 }
 
-// Another fish may come nearest at any time: it is chosen as often as is asked, so that the answer
-// can be read.
+// The fish is chosen only as often as the master is asked, because the nearest fish may change at
+// any time and the text must stay long enough to be read.
 std::optional<WatchedMind> ChannelShow::watchMind(const wire::StateFrame& frame) {
     constexpr std::chrono::milliseconds kBetweenQuestions{250};
     if (now() - askedAt_ >= kBetweenQuestions) {
@@ -228,7 +239,7 @@ bool ChannelShow::isFilmed(Frame frame) const {
     return frame.value % static_cast<std::uint64_t>(options_.filmEvery) == 0;
 }
 
-// Without a window the clip alone looks at frames: those between its pictures need not be drawn.
+// Without a window only the clip takes pictures: frames that it skips are not drawn.
 bool ChannelShow::isSeen(Frame frame) const {
     return context_.hasWindow() || !film_ || isFilmed(frame);
 }
@@ -237,7 +248,7 @@ std::optional<motion::PresentedFish> presentedFish(const wire::StateFrame& frame
                                                    std::span<const motion::FishTraits> school,
                                                    std::size_t place) {
     if (place >= std::min(frame.after.size(), school.size())) return std::nullopt;
-    // Without a tick before, the frame shows the tick itself.
+    // Without a record of the tick before, the frame shows the later tick.
     const bool between = frame.before.size() == frame.after.size();
     const motion::FishRecord& before = between ? frame.before[place] : frame.after[place];
     return motion::present(
@@ -287,7 +298,9 @@ Trace::Trace(const std::string& folder, const std::string& name) {
     if (folder.empty()) return;
     const std::string path = folder + "/" + name + ".csv";
     std::ofstream(path, std::ios::trunc);
-    file_.open(path, std::ios::app);  // who empties it while it is written gets no hole
+    // Opened for appending: where another program empties the file meanwhile, the next line starts
+    // at its new end.
+    file_.open(path, std::ios::app);
     if (!(file_ << "frame,state_ns,ready_ns,present_ns\n" << std::flush))
         throw Error(path + ": cannot be written; choose a folder that exists for --trace");
 }
@@ -300,6 +313,7 @@ void Trace::write(Frame frame, const FrameTimes& times) {
 }
 
 config::QualityTier finestWithin(double budgetSeconds, const FrameCost& cost) {
+    assert(cost != nullptr);
     config::QualityTier finest = config::QualityTier::Low;
     for (std::uint32_t i = 0; i < config::kTierNames.size(); ++i) {
         const config::QualityTier tier = *config::tierAt(i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line of times for each frame that was presented: frame,state_ns,ready_ns,present_ns.
+// The drawing thread of a node: the frames of one channel from the master's state to light, and a
+// trace of their times.
 #pragma once
 
 #include <chrono>
@@ -27,27 +28,33 @@
 
 namespace aquarama::show {
 
-// On CLOCK_MONOTONIC, which all processes of a machine share.
+// The times of one frame. On CLOCK_MONOTONIC, which all processes of a machine share.
 struct FrameTimes {
-    std::chrono::nanoseconds state{};    // its state arrived
-    std::chrono::nanoseconds ready{};    // its picture was finished
-    std::chrono::nanoseconds present{};  // the swap had returned; without a display, the release
+    // When its state arrived.
+    std::chrono::nanoseconds state{};
+    // When its picture was finished.
+    std::chrono::nanoseconds ready{};
+    // When the swap had returned; without a display, when the frame was released.
+    std::chrono::nanoseconds present{};
 };
 
+// Writes a line for each frame that was presented: frame,state_ns,ready_ns,present_ns.
 class Trace {
   public:
-    // folder/name.csv, begun anew; an empty folder writes nothing. Throws Error where it cannot be
-    // written.
+    // Creates folder/name.csv, or empties it; an empty folder means that nothing is written. Throws
+    // Error where it cannot be written.
     Trace(const std::string& folder, const std::string& name);
+    // Appends a line and flushes it, so that a reader sees it at once.
     void write(Frame frame, const FrameTimes& times);
 
   private:
     std::ofstream file_;
 };
 
-// The frames of one channel, from the master's state to light: the drawing thread of a node.
+// The drawing loop.
 
-// Owns GL objects; construct, use and destroy with the context current.
+// Runs on the drawing thread. Owns GL objects; construct, use and destroy it there with the context
+// current. Session, context and controls must outlive it.
 class ChannelShow {
   public:
     ChannelShow(session::Session& session,
@@ -55,25 +62,37 @@ class ChannelShow {
                 Controls& controls,
                 const NodeOptions& options);
 
-    // From the first admission to the end of the show, through every time the master is lost and
-    // found again; then the snapshot.
+    // Runs from the first admission to the end of the show; whenever the master is lost it joins
+    // again. Writes the snapshot at the end. Throws Error: a channel that the rig does not have, a
+    // lost OpenGL context, a file that cannot be written.
     void run(session::Admission admission);
 
   private:
+    // Prepares for a show; keeps everything where it is the same show as before.
     void build(session::Admission admission);
     void buildPicture(config::QualityTier quality);
-    // What the wall is to be drawn at, or as fine as this node keeps up with.
+    // Sets bears_: the tier that the master prescribes, else the finest with which this node keeps
+    // up, which it measures.
     void chooseQuality();
+    // Measured time of a frame without fish at this tier; builds the picture for it.
     [[nodiscard]] double secondsAFrame(config::QualityTier quality);
+    // Draws and presents frames until the master is lost (Rejoin) or the show ends (Quit).
     [[nodiscard]] session::Release play();
+    // Draws and projects a frame, for quad buffers once for each eye. It does not wait for the GPU.
     void draw(const wire::StateFrame& frame);
     void project(const Overlays& overlays, Shown shown);
+    // Throws Error where the context is lost.
     void refuseLoss() const;
+    // Sends the food that a visitor has dropped, as places of the world.
     void feed(const wire::Eye& eye);
-    // Where in the picture a place of the window lies; where there is none, its middle.
+    // Converts a place of the window to a pixel of the picture. No place means the middle of the
+    // picture; empty where the place is beside the picture.
     [[nodiscard]] std::optional<glm::vec2> pixelAt(const WindowPlace& place) const;
+    // The fish nearest to the pointer and what the master last said of it.
     [[nodiscard]] std::optional<WatchedMind> watchMind(const wire::StateFrame& frame);
+    // Whether the clip takes this frame.
     [[nodiscard]] bool isFilmed(Frame frame) const;
+    // Whether anybody sees this frame, so that it must be drawn.
     [[nodiscard]] bool isSeen(Frame frame) const;
 
     session::Session& session_;
@@ -82,48 +101,57 @@ class ChannelShow {
     NodeOptions options_;
     Trace trace_;
     std::optional<wall::FramePipeWriter> film_;
-    std::optional<session::Admission> built_;                 // what picture_ was built for
-    config::QualityTier quality_ = config::QualityTier::Low;  // of picture_
-    config::QualityTier bears_ =
-        config::QualityTier::Low;  // the finest that this node keeps up with
+    // The admission that picture_ was built for.
+    std::optional<session::Admission> built_;
+    // The tier of picture_.
+    config::QualityTier quality_ = config::QualityTier::Low;
+    // The finest tier that this node keeps up with.
+    config::QualityTier bears_ = config::QualityTier::Low;
     std::optional<Pointing> pointing_;
     std::optional<ChannelPicture> picture_;
-    std::optional<gl::Target> offscreen_;   // where there is no window of the channel's size
-    std::optional<std::uint32_t> watched_;  // the fish whose mind is shown
+    // Drawn into where there is no window of the channel's size.
+    std::optional<gl::Target> offscreen_;
+    // The fish whose mind is shown, as its index in the school.
+    std::optional<std::uint32_t> watched_;
+    // When the fish was last chosen and the master asked.
     std::chrono::nanoseconds askedAt_{};
+    // Whether a frame of this show has been presented.
     bool shown_ = false;
-    std::optional<wire::StateFrame> undrawn_;  // the last frame, where nobody saw it
+    // The last frame, where it was not drawn because nobody saw it.
+    std::optional<wire::StateFrame> undrawn_;
 };
 
-// A frame's food and clock as the scene takes them, and its fish for those who point at them.
+// What the wire says of a frame, in the form that the scene and the overlays take.
 
-// The school at the frame's moment. Records beyond the school that was welcomed are left out.
-// It takes its time with all of them: the scene itself presents fish on the GPU.
+// The school at the frame's moment. Records beyond the school of the welcome message are ignored.
+// Slow for a large school: it is for overlays; the scene interpolates fish on the GPU.
 [[nodiscard]] std::vector<motion::PresentedFish> presentedFish(
     const wire::StateFrame& frame, std::span<const motion::FishTraits> school);
-// One of them by its place in the school, if there is such a one.
+// One fish by its index in the school; empty where there is none.
 [[nodiscard]] std::optional<motion::PresentedFish> presentedFish(
     const wire::StateFrame& frame, std::span<const motion::FishTraits> school, std::size_t place);
 
-// The food at the frame's moment: a particle that another takes the place of never glides to it.
+// Replaces `food` by the particles at the frame's moment, world frame. A particle that has replaced
+// another between the ticks does not glide from its place.
 void presentFood(const wire::StateFrame& frame, std::vector<scene::FoodParticle>& food);
 
-// Since tick 0.
+// Time of the frame's moment since tick 0, seconds; never negative.
 [[nodiscard]] double presentedSeconds(const wire::StateFrame& frame);
 
+// From the world to the wall's frame, which moves with the submarine; metres.
 [[nodiscard]] glm::dmat4 wallFromWorld(const wire::Eye& eye);
 
-// Which tier of quality a node keeps up with.
+// The tier of quality that a node keeps up with.
 
-// Seconds that a frame takes at a tier, fish apart.
+// Returns the seconds that a frame without fish takes at a tier.
 using FrameCost = std::function<double(config::QualityTier)>;
 
-// Climbs from the lowest tier, which must do in any case, to the last whose frames take no more
-// than the budget; beyond the first that takes more nothing is tried.
+// The finest tier whose frames take no more than the budget. It tries the tiers from the lowest and
+// stops at the first that is too slow; the lowest is returned even when it is too slow itself.
 [[nodiscard]] config::QualityTier finestWithin(double budgetSeconds, const FrameCost& cost);
 
-// The part of a refresh that a frame without fish may take: the other half is for the fish, for
-// what a show brings, and for luck.
+// The share of the time between two refreshes that a frame without fish may take. The rest is for
+// fish, for the events of a show, and reserve.
 inline constexpr double kBudgetShare = 0.5;
 
 }  // namespace aquarama::show

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/show/controls.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -16,8 +16,10 @@ namespace aquarama::show {
 
 namespace {
 
-constexpr std::size_t kMostPinches = 8;  // that wait for a frame
+// Pinches that may wait for a frame; more are dropped.
+constexpr std::size_t kMostPinches = 8;
 
+// The overlay that a key switches; null for other keys.
 bool* overlayOf(char key, Overlays& overlays) {
     switch (key) {
         case 'g':
@@ -95,15 +97,20 @@ namespace {
 
 using std::chrono::milliseconds;
 
+// Least time between two messages: after a change, and while the same steering is held. Three
+// repetitions may be lost before the submarine takes the silence for released hands.
 constexpr auto kBetweenChanges = milliseconds(33);
 constexpr auto kBetweenRepeats = milliseconds(100);
 static_assert(4 * kBetweenRepeats < kTicksOfAHand * milliseconds(1000) / 60);
 
-constexpr float kDeadZone = 0.15F;      // of a stick that is not quite at rest
-constexpr float kDragDeadZone = 0.02F;  // heights of the window
+// Deflection of a stick that still counts as rest.
+constexpr float kDeadZone = 0.15F;
+// Length of a drag that counts as rest, and of one that gives full steering, window heights.
+constexpr float kDragDeadZone = 0.02F;
 constexpr float kFullDrag = 0.35F;
 
-// Nothing within the dead zone, then from 0, finer about the middle.
+// 0 within the dead zone, then rising from 0 with the square of the distance, so that small
+// corrections are fine; keeps the sign.
 float shareOf(float deflection, float deadZone, float full) {
     const float beyond = (std::abs(deflection) - deadZone) / (full - deadZone);
     const float share = std::clamp(beyond, 0.0F, 1.0F);
@@ -114,10 +121,12 @@ glm::vec2 stick(glm::vec2 place) {
     return {shareOf(place.x, kDeadZone, 1), shareOf(place.y, kDeadZone, 1)};
 }
 
+// +1, 0 or -1 for a pair of opposite keys.
 float between(const gl::Hands& hands, gl::HeldKey plus, gl::HeldKey minus) {
     return (hands.holds(plus) ? 1.0F : 0.0F) - (hands.holds(minus) ? 1.0F : 0.0F);
 }
 
+// Rounds a share, limited to -1 .. 1, to the whole numbers of Steering.
 std::int8_t axisOf(float share) {
     return static_cast<std::int8_t>(
         std::lround(std::clamp(share, -1.0F, 1.0F) * float{kFullSteering}));
@@ -143,6 +152,7 @@ Steering steeringOf(const gl::Hands& hands) {
 }
 
 std::optional<Steering> SteeringPace::due(const Steering& wanted, std::chrono::nanoseconds now) {
+    assert(!saidAt_ || now >= *saidAt_);
     const bool changed = wanted != said_;
     const bool held = wanted != Steering{};
     if (!changed && !held) return std::nullopt;
@@ -155,8 +165,10 @@ std::optional<Steering> SteeringPace::due(const Steering& wanted, std::chrono::n
 
 namespace {
 
-constexpr float kArmMetres = 2.5F;          // of the submarine's, so that it is well in view
-constexpr float kLeastDepthMetres = 0.25F;  // food is dropped into water, not into the air
+// Distance from the viewer at which food is dropped, so that it is well in view.
+constexpr float kArmMetres = 2.5F;
+// Least depth at which food is dropped, so that it is never dropped into the air.
+constexpr float kLeastDepthMetres = 0.25F;
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what hands hold to what the submarine is told, and when it is told.
+// The input of a visitor: steering of the submarine, keys that change the show or this window, food
+// at the pointer.
 #pragma once
 
 #include <array>
@@ -21,17 +22,20 @@
 
 namespace aquarama::show {
 
-// W S, arrows up and down: ahead and back. A D: aside. Arrows left and right: turn. Page up and
-// down: rise and sink. Home, End: nose up, down. The mouse with its right button turns and tilts by
-// how far it is dragged. Gamepad: left stick ahead and aside, right stick turns and tilts, triggers
-// sink and rise. What several say adds up.
+// What keys, mouse and gamepad ask of the submarine, -kFullSteering to kFullSteering on each axis.
+// W S, arrows up and down: ahead and back. A D: sideways. Arrows left and right: turn. Page up and
+// down: rise and sink. Home, End: nose up, down. Dragging with the right mouse button turns and
+// tilts in proportion to the distance. Gamepad: left stick ahead and sideways, right stick turns
+// and tilts, triggers sink and rise. Where several act on one axis, their values are added.
 [[nodiscard]] Steering steeringOf(const gl::Hands& hands);
 
-// When a steering goes out: at once when it changes, thirty times a second at most, and now and
-// then while something is held, so that what is lost is made good before the submarine takes the
-// hand for gone.
+// Decides when a steering is sent: at once when it changes, but at most thirty times a second, and
+// repeatedly while something is held. The repetition replaces lost messages before the submarine
+// takes the silence for released hands. Used by one thread.
 class SteeringPace {
   public:
+    // The steering to send now; empty where nothing is due. now: of a monotonic clock, never
+    // earlier than at the call before.
     [[nodiscard]] std::optional<Steering> due(const Steering& wanted, std::chrono::nanoseconds now);
 
   private:
@@ -39,18 +43,23 @@ class SteeringPace {
     std::optional<std::chrono::nanoseconds> saidAt_;
 };
 
-// What keys and mouse of a window do: to the whole show through the master, and to what this window
-// shows beside the world.
+// Keys and mouse of a window act on the whole show, through the master, and on what this window
+// shows over the world.
 
+// What this window shows over the world; each is switched by a key.
 struct Overlays {
-    bool warpGrid = false;   // lines of equal azimuth and elevation, on the wall
-    bool blendMask = false;  // this channel's share of white
+    // Lines of equal azimuth and elevation, on the wall.
+    bool warpGrid = false;
+    // This channel's share of white light, in place of the scene.
+    bool blendMask = false;
     bool fishIds = false;
-    bool mind = false;  // of the fish nearest to the pointer, or to the picture's middle
+    // The mind of the fish nearest to the pointer, or to the middle of the picture.
+    bool mind = false;
     bool help = false;
 };
 
-// One line a key, in capitals, as the overlay's font has them.
+// The text of the help overlay: one line for each key, in capitals, which are all that the font
+// has.
 inline constexpr std::array<std::string_view, 14> kKeyHelp{
     "W S  UP DOWN     AHEAD, BACK",
     "A D              TO THE SIDE",
@@ -68,27 +77,34 @@ inline constexpr std::array<std::string_view, 14> kKeyHelp{
     "Q    ESC         END THE SHOW",
 };
 
-// A place of a window, in pixels from its top left corner.
+// A place in a window, pixels from its top left corner; empty where there is none.
 using WindowPlace = std::optional<glm::vec2>;
 
-// Food that a visitor drops: where in the window, or before the middle of the picture.
+// Food that a visitor drops: at a place of the window, or at the middle of the picture where the
+// place is empty.
 struct Pinch {
     WindowPlace place;
 };
 
+// Collects input on the main thread and hands it to the drawing thread. The session must outlive
+// it.
 class Controls {
   public:
     explicit Controls(session::Session& session) : session_{session} {}
-    // On the main thread. A second q ends this node alone, for when there is no master to listen.
+    // Called on the main thread. A second q ends this node alone, for the case that no master
+    // listens.
     void press(char key);
     void click(glm::vec2 place);
+    // Where the pointer is now.
     void point(WindowPlace place);
+    // Sends the steering that the hands ask for, when it is due.
     void hold(const gl::Hands& hands, std::chrono::nanoseconds now);
 
-    // From any thread.
+    // May be called by any thread.
     [[nodiscard]] Overlays overlays() const;
     [[nodiscard]] WindowPlace pointer() const;
-    // Each once, oldest first: only who draws knows what the window shows there.
+    // The next pinch of food that waits, oldest first; each is returned once. The drawing thread
+    // takes them, as it knows which part of the world the window shows.
     [[nodiscard]] std::optional<Pinch> nextPinch();
 
   private:
@@ -97,16 +113,19 @@ class Controls {
     session::Session& session_;
     bool quitAsked_ = false;
     SteeringPace pace_;
-    mutable std::mutex mutex_;  // over all below
+    // Guards all members below. Those above belong to the main thread.
+    mutable std::mutex mutex_;
     Overlays overlays_;
     WindowPlace pointer_;
     std::deque<Pinch> pinches_;
 };
 
-// Where in the world a visitor points who points at a pixel of a channel.
+// From a pixel of a channel to a direction and a place in the world.
 
+// The geometry of one channel. Immutable.
 class Pointing {
   public:
+    // channel: index in rig.channels.
     Pointing(const config::Rig& rig, std::size_t channel)
         : screen_{rig.screen},
           channel_{rig.channels.at(channel)},
@@ -114,19 +133,21 @@ class Pointing {
           sweetSpot_{rig.sweetSpotMetres} {}
 
     // Unit vector in the world, from the sweet spot through the point of the screen that the pixel
-    // (of the display, continuous, from its top left corner) lights; nothing where it misses the
-    // screen.
+    // lights; empty where it misses the screen. pixel: of the display, continuous, from its top
+    // left corner.
     [[nodiscard]] std::optional<glm::vec3> directionOf(glm::vec2 pixel, const wire::Eye& eye) const;
-    // Where food falls that is dropped there: an arm's length before the submarine, under water.
-    // World frame, metres.
+    // The place where food enters the world when it is dropped at this pixel: some metres before
+    // the viewer, always under water. World frame, metres.
     [[nodiscard]] std::optional<glm::vec3> pinchAt(glm::vec2 pixel, const wire::Eye& eye) const;
+    // The middle of the channel's picture, pixels.
     [[nodiscard]] glm::vec2 middle() const { return glm::vec2(channel_.sizePixels) * 0.5F; }
 
   private:
     config::Screen screen_;
     config::Channel channel_;
     config::StereoMode mode_;
-    glm::dvec3 sweetSpot_;  // wall frame
+    // Wall frame, metres.
+    glm::dvec3 sweetSpot_;
 };
 
 }  // namespace aquarama::show

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/show/overlay.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cctype>
 #include <string_view>
 #include <vector>
@@ -17,7 +17,7 @@ namespace aquarama::show {
 
 namespace {
 
-// Bands of at most twelve characters, drawn as they look.
+// Up to twelve glyphs side by side, drawn as they look: '#' is a dot, a blank separates two glyphs.
 struct Band {
     std::string_view characters;
     std::array<std::string_view, kGlyphRows> rows;
@@ -85,22 +85,24 @@ GlyphBits glyphOf(char character) {
 
 namespace {
 
-// Places in overlay.vert.
+// Layout for overlay.vert.
 
-// A glyph with a margin of one dot above, below and to its left.
+// Size of a glyph with a margin of one dot above, below and on its left.
 constexpr glm::vec2 kCellDots(kGlyphColumns + 1, kGlyphRows + 2);
 
-// As overlay.vert reads it.
+// Layout of Glyph in overlay.vert, std430: the 64 bits as two words, the low one first.
 struct Glyph {
     glm::vec2 topLeft{};
     glm::uvec2 bits{};
 };
 
+// One glyph for each character of all labels.
 std::vector<Glyph> glyphsOf(std::span<const Label> labels, float dotPixels) {
     std::vector<Glyph> glyphs;
     for (const Label& label : labels) {
         glm::vec2 place = label.topLeft;
-        for (const char character : label.text + ' ') {  // the space closes the box
+        // The blank at the end closes the box on the right.
+        for (const char character : label.text + ' ') {
             const GlyphBits bits = glyphOf(character);
             glyphs.push_back({place, glm::uvec2(bits, bits >> 32U)});
             place.x += kCellDots.x * dotPixels;
@@ -121,6 +123,7 @@ void TextOverlay::draw(std::span<const Label> labels,
                        unsigned framebuffer,
                        glm::ivec2 sizePixels,
                        float dotPixels) {
+    assert(dotPixels > 0.0F);
     if (labels.empty()) return;
     const std::vector<Glyph> glyphs = glyphsOf(labels, dotPixels);
     glNamedBufferData(glyphs_.name(),
@@ -146,9 +149,13 @@ void TextOverlay::draw(std::span<const Label> labels,
 
 namespace {
 
-constexpr float kWidestShare = 0.6F;   // of the picture
-constexpr float kBorderShare = 0.06F;  // of the picture: what the neighbours and the floor take
-constexpr std::string_view kIndent = "          ";  // where the master's lines begin their text
+// Limits of the box, as shares of the picture: its greatest width, and a border that the overlap
+// with neighbours and the floor may hide.
+constexpr float kWidestShare = 0.6F;
+constexpr float kBorderShare = 0.06F;
+// Indent of a wrapped line: the column where the text of the master's lines begins.
+constexpr std::string_view kIndent = "          ";
+// The least width of the box in characters, even where that is more than kWidestShare.
 constexpr float kLeastColumns = 24;
 
 std::string inCapitals(std::string_view text) {
@@ -159,7 +166,7 @@ std::string inCapitals(std::string_view text) {
     return capitals;
 }
 
-// As much of a line as fits, up to the end of a word where there is one.
+// The number of characters of a line that fit, up to the end of a word where possible.
 std::size_t fitting(std::string_view line, std::size_t columns) {
     if (line.size() <= columns) return line.size();
     const std::size_t space = line.rfind(' ', columns);
@@ -167,6 +174,7 @@ std::size_t fitting(std::string_view line, std::size_t columns) {
     return breaks ? space : columns;
 }
 
+// Breaks the lines, in capitals, into rows of at most so many columns.
 std::vector<std::string> wrapped(const std::vector<std::string>& lines, std::size_t columns) {
     std::vector<std::string> rows;
     for (const std::string& line : lines) {
@@ -184,6 +192,7 @@ std::vector<std::string> wrapped(const std::vector<std::string>& lines, std::siz
     return rows;
 }
 
+// Pads all rows to the widest, so that their boxes form a rectangle.
 void pad(std::vector<std::string>& rows) {
     std::size_t widest = 0;
     for (const std::string& row : rows) widest = std::max(widest, row.size());
@@ -196,6 +205,7 @@ std::vector<Label> mindLabels(const FishPlace& fish,
                               const WatchedMind& mind,
                               glm::ivec2 pictureSize,
                               float dotPixels) {
+    assert(dotPixels > 0.0F && pictureSize.x > 0 && pictureSize.y > 0);
     const glm::vec2 size(pictureSize);
     const glm::vec2 glyph =
         glm::vec2(extentInDots("A").x - extentInDots("").x, extentInDots("").y) * dotPixels;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Digits, capitals and a few signs of 5 x 7 dots, for what an operator reads on the wall.
+// Text over a picture, for an operator at the wall: a font of 5 x 7 dots with digits, capitals and
+// a few signs.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +15,33 @@
 
 namespace aquarama::show {
 
+// Dots of a glyph.
 inline constexpr std::size_t kGlyphColumns = 5;
 inline constexpr std::size_t kGlyphRows = 7;
 
-// One bit a dot, row by row from the top left.
+// The dots of a glyph: bit row * kGlyphColumns + column, from the top left dot.
 using GlyphBits = std::uint64_t;
-[[nodiscard]] GlyphBits glyphOf(char character);  // nothing for what it does not know
+// The glyph of a character; 0, which is blank, for one that the font does not have.
+[[nodiscard]] GlyphBits glyphOf(char character);
 
-// White text on dark boxes, over a finished picture.
+// White text on dark boxes, drawn over a finished picture.
 
+// One line of text.
 struct Label {
-    glm::vec2 topLeft{};  // pixels from the picture's top left corner
-    std::string text;     // what the font has; the rest is blank
+    // Of the box, in pixels from the picture's top left corner.
+    glm::vec2 topLeft{};
+    // Characters that the font lacks are drawn as blanks.
+    std::string text;
 };
 
-// The size of a text in dots, with the box around it.
+// The size of a line of text with its box, in dots.
 [[nodiscard]] glm::vec2 extentInDots(const std::string& text);
 
 // Owns its GL objects; construct, use and destroy with the same context current.
 class TextOverlay {
   public:
     TextOverlay();
+    // Draws the labels into the framebuffer of this size; dotPixels is the side of a dot.
     void draw(std::span<const Label> labels,
               unsigned framebuffer,
               glm::ivec2 sizePixels,
@@ -46,10 +53,10 @@ class TextOverlay {
     gl::VertexArray noVertices_;
 };
 
-// What goes on in the mind of a fish, written beside it.
+// The overlay that shows the mind of a fish.
 
-// The fish that is watched, by its place in the school, and what the master last said of it; no
-// lines yet where it has not.
+// The fish that is watched, as its index in the school, and what the master last said of it; no
+// lines before the first answer.
 struct WatchedMind {
     std::uint32_t fish = 0;
     std::vector<std::string> lines;
@@ -57,12 +64,13 @@ struct WatchedMind {
 
 // Where a fish is in a picture.
 struct FishPlace {
-    glm::vec2 middle{};  // pixels from the top left corner
+    // Pixels from the picture's top left corner.
+    glm::vec2 middle{};
     float halfLengthPixels = 0;
 };
 
-// Brackets about the fish, and a box of text to the side where there is more room; lines that are
-// too long for it go on below, and what does not fit the picture's height is left out.
+// Labels for brackets around the fish, and for a box of text on the side that has more room. Lines
+// that are too long are wrapped; lines beyond the picture's height are omitted.
 [[nodiscard]] std::vector<Label> mindLabels(const FishPlace& fish,
                                             const WatchedMind& mind,
                                             glm::ivec2 pictureSize,

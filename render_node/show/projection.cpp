@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/show/projection.h"
 
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -18,8 +18,9 @@ namespace aquarama::show {
 
 namespace {
 
-// Places in project.frag and project_pair.frag.
-// Places in project.glsl, and one in project_pair.frag.
+// State and uniforms that project.frag and project_pair.frag share (project.glsl). GL's own
+// dithering is off: the shader dithers. The seed changes with the channel and with the parity of
+// the frame.
 
 void beginPass(const Projection::Draw& what,
                const gl::ProgramHandle& program,
@@ -39,6 +40,7 @@ void beginPass(const Projection::Draw& what,
     glUniform1i(shaders::kBlendMaskLocation, what.blendMask ? 1 : 0);
 }
 
+// Bilinear filtering without wrapping. A sampler object leaves the texture's own state alone.
 void makeBilinear(const gl::Sampler& sampler) {
     glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -53,6 +55,8 @@ Projection::Projection(const ProjectionMap& map, std::uint32_t channelId)
       channelId_{channelId},
       program_{gl::makeProgram({"quad.vert", "project.frag"})},
       map_{GL_TEXTURE_2D} {
+    assert(map.placeAndWeight.size() ==
+           static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
     glTextureStorage2D(map_.name(), 1, GL_RGBA32F, size_.x, size_.y);
     glTextureSubImage2D(
         map_.name(), 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, map.placeAndWeight.data());
@@ -77,6 +81,7 @@ PairProjection::PairProjection(glm::ivec2 sizePixels,
       channelId_{channelId},
       mode_{mode},
       program_{gl::makeProgram({"quad.vert", "project_pair.frag"})} {
+    assert(mode != config::StereoMode::Mono && mode != config::StereoMode::QuadBuffer);
     makeBilinear(bilinear_);
 }
 
@@ -106,6 +111,8 @@ glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 p
 
 namespace {
 
+// Perspective projection of a screen point: tangents at distance 1, scaled to 0 .. 1 across the
+// frustum.
 glm::vec4 place(const glm::vec4& pointAndWeight, const wall::ChannelFrustum& frustum) {
     if (pointAndWeight.w <= 0) return glm::vec4(0);
     const glm::dvec4 seen = frustum.cameraFromWall * glm::dvec4(glm::dvec3(pointAndWeight), 1);
@@ -118,6 +125,7 @@ glm::vec4 place(const glm::vec4& pointAndWeight, const wall::ChannelFrustum& fru
 }  // namespace
 
 ProjectionMap projectionMap(const wall::WarpMap& warp, const wall::ChannelFrustum& frustum) {
+    assert(frustum.right > frustum.left && frustum.top > frustum.bottom);
     ProjectionMap map{.sizePixels = warp.sizePixels, .placeAndWeight = {}};
     map.placeAndWeight.reserve(warp.pointAndWeight.size());
     for (const glm::vec4& point : warp.pointAndWeight)
@@ -136,7 +144,8 @@ glm::ivec2 scenePictureSize(const ProjectionMap& map) {
     if (at.z <= 0 || right.z <= 0 || below.z <= 0)
         throw Error(
             "channel: the middle of its picture misses the screen; aim its projector at it");
-    // Along either axis of the frustum's picture, how far one step across the projector's goes.
+    // The derivative of the map in the middle. The size along an axis of the scene's picture is 1 /
+    // (the length of the step, along that axis, for one projector pixel).
     const glm::dvec2 acrossColumns = glm::dvec2(right) - glm::dvec2(at);
     const glm::dvec2 acrossRows = glm::dvec2(below) - glm::dvec2(at);
     return {std::ceil(1 / std::hypot(acrossColumns.x, acrossRows.x)),
@@ -145,9 +154,9 @@ glm::ivec2 scenePictureSize(const ProjectionMap& map) {
 
 namespace {
 
-// Places in pattern.frag.
+// Value of greyLight for pattern.frag that selects the grid.
 
-constexpr float kNoGrey = -1;  // the grid instead
+constexpr float kNoGrey = -1;
 
 }  // namespace
 
@@ -172,6 +181,7 @@ void PatternPass::addGrid(unsigned framebuffer, glm::ivec2 sizePixels) const {
 }
 
 void PatternPass::draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const {
+    // The transpose of a rotation is its inverse.
     const glm::mat3 wallFromCamera(glm::transpose(glm::dmat3(frustum_.cameraFromWall)));
     const glm::vec4 extents(frustum_.left, frustum_.bottom, frustum_.right, frustum_.top);
     const glm::vec4 gridLines(wall::kGridDegrees,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each pixel of a projector the place in its frustum's picture that it shows, computed once.
+// From the picture of a frustum to the pixels of a projector: the map, the passes that apply it,
+// and test patterns.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +16,27 @@
 
 namespace aquarama::show {
 
+// For each pixel of a projector the place in its frustum's picture that it shows. Computed once.
 struct ProjectionMap {
     glm::ivec2 sizePixels{};
-    // Top row first: texture coordinate in the frustum's picture (origin at its bottom left),
-    // blend weight, 0.
+    // One entry for each pixel, top row first: texture coordinate in the frustum's picture (origin
+    // at its bottom left), blend weight, 0. All 0 for a pixel that lights no part of the screen.
     std::vector<glm::vec4> placeAndWeight;
 };
 
-// The eye is the frustum's.
+// Projects each screen point of the warp into the frustum's picture, for the frustum's eye.
 [[nodiscard]] ProjectionMap projectionMap(const wall::WarpMap& warp,
                                           const wall::ChannelFrustum& frustum);
 
-// The size at which the frustum's picture is as fine as the projector's pixels are in the middle of
-// its lit area. Away from there a flat picture of a concave screen only gets finer, as the tangent
-// grows faster than the angle.
+// The size, in pixels, at which the frustum's picture is as fine as the projector's pixels in the
+// middle of its lit area. Elsewhere a flat picture of a concave screen is finer, as the tangent
+// grows faster than the angle. Throws Error: fewer than 2 x 2 pixels, or a middle that misses the
+// screen.
 [[nodiscard]] glm::ivec2 scenePictureSize(const ProjectionMap& map);
 
-// The last pass of a channel: scene picture to projector pixels, blended and encoded.
+// The last pass of a channel: from the scene's picture to projector pixels, blended and encoded.
 
+// How light becomes a code of the target.
 enum class Encoding : std::uint8_t {
     Dithered8,  // +-1 code of triangular noise, a function of pixel, channel and the frame's parity
     Plain       // what the target's bits hold, for 16-bit pictures
@@ -43,14 +47,19 @@ class Projection {
   public:
     Projection(const ProjectionMap& map, std::uint32_t channelId);
 
+    // What one pass reads and writes.
     struct Draw {
-        unsigned sceneTexture = 0;  // linear light, 1 the projector's full white
-        unsigned framebuffer = 0;   // at least the channel's size; drawn from its bottom left
+        // GL name of the scene's picture: linear light, 1 is the projector's full white.
+        unsigned sceneTexture = 0;
+        // At least of the channel's size; drawn from its bottom left corner.
+        unsigned framebuffer = 0;
         Frame frame;
         Encoding encoding = Encoding::Dithered8;
-        bool blendMask = false;  // white instead of the scene: only the blend is seen
+        // Draws white in place of the scene, so that only the blend is seen.
+        bool blendMask = false;
     };
     void draw(const Draw& what) const;
+    // GL name of the projection map, for PairProjection.
     [[nodiscard]] unsigned mapTexture() const { return map_.name(); }
 
   private:
@@ -62,17 +71,19 @@ class Projection {
     gl::VertexArray noVertices_;
 };
 
-// Both eyes in one picture, for a display that parts them again (docs/stereo.md).
+// Puts both eyes into one picture, for a display that separates them again (docs/stereo.md). Owns
+// its GL objects, as Projection.
 class PairProjection {
   public:
-    // Any mode but mono and quad-buffer.
+    // mode: any but mono and quad-buffer, which need no pair. Side by side needs an even width, top
+    // and bottom an even height.
     PairProjection(glm::ivec2 sizePixels, std::uint32_t channelId, config::StereoMode mode);
 
-    // The maps are those of the eyes' own projections.
+    // GL names of the picture and of the projection map of one eye.
     struct Eye {
         unsigned sceneTexture = 0, mapTexture = 0;
     };
-    // `both.sceneTexture` is left unread.
+    // Draws into both.framebuffer; both.sceneTexture is not read.
     void draw(const Eye& left, const Eye& right, const Projection::Draw& both) const;
 
   private:
@@ -84,27 +95,30 @@ class PairProjection {
     gl::VertexArray noVertices_;
 };
 
-// In the picture of an eye, the pixel that is seen at a pixel (continuous, from the top left
-// corner) of what the display takes.
+// The pixel in the picture of one eye that is shown at a pixel of the display's picture; both
+// continuous, from the top left corner.
 [[nodiscard]] glm::vec2 pixelOfEye(config::StereoMode mode, glm::ivec2 sizePixels, glm::vec2 pixel);
 
-// Test patterns that lie on the screen, in the picture of a channel's frustum.
+// Test patterns that lie on the screen, drawn into the picture of a channel's frustum.
 
 // Owns its GL objects; construct, use and destroy with the same context current.
 class PatternPass {
   public:
     PatternPass(const wall::ChannelFrustum& frustum, const config::Screen& screen);
 
+    // Draws lines of equal azimuth and elevation, seen from the wall's origin.
     void drawGrid(unsigned framebuffer, glm::ivec2 sizePixels) const;
+    // Draws an even grey of wall::kGreyLight.
     void drawGrey(unsigned framebuffer, glm::ivec2 sizePixels) const;
-    // Lays the grid's light over what is there.
+    // Adds the light of the grid to what is there.
     void addGrid(unsigned framebuffer, glm::ivec2 sizePixels) const;
 
   private:
     void draw(unsigned framebuffer, glm::ivec2 sizePixels, float greyLight) const;
 
     wall::ChannelFrustum frustum_;
-    glm::vec4 eyeAndRadius_;  // wall frame
+    // Wall frame, metres: the eye, and the radius of the screen.
+    glm::vec4 eyeAndRadius_;
     gl::ProgramHandle program_;
     gl::VertexArray noVertices_;
 };

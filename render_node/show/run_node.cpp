@@ -21,8 +21,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPatience = 20ms;  // how late the end of the drawing thread may be noticed
+// How long the main thread waits for events at a time, hence how late it may notice that the
+// drawing thread has ended.
+constexpr auto kPatience = 20ms;
 
+// The channel's window, or a context without one. It is current on no thread afterwards.
 std::unique_ptr<gl::Context> openContext(const NodeOptions& options,
                                          const config::Rig& rig,
                                          std::size_t index) {
@@ -39,6 +42,8 @@ std::unique_ptr<gl::Context> openContext(const NodeOptions& options,
     return context;
 }
 
+// Keeps a context current on this thread for the life of the object. The main thread may destroy
+// the context only after that.
 class CurrentContext {
   public:
     explicit CurrentContext(gl::Context& context) : context_{context} { context_.makeCurrent(); }
@@ -50,7 +55,7 @@ class CurrentContext {
     gl::Context& context_;
 };
 
-// The drawing thread.
+// Body of the drawing thread. Its errors reach the main thread through the future.
 void show(session::Session& session,
           gl::Context& context,
           Controls& controls,
@@ -66,6 +71,7 @@ void show(session::Session& session,
 }  // namespace
 
 void runNode(const NodeOptions& options) {
+    // Before any thread starts, so that all of them inherit the blocked signals.
     cli::holdSignals();
     const std::unique_ptr<session::Session> session =
         session::connectSession(options.channel, options.masterAddress);

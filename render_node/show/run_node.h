@@ -1,27 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the command line of a node says.
+// Runs a render node with the options of its command line.
 #pragma once
 
 #include <string>
 
 namespace aquarama::show {
 
+// The options of a node. Folders and pipes: empty means none.
 struct NodeOptions {
     std::string channel;
     std::string masterAddress;
     bool headless = false;
-    std::string device;          // for --headless, instead of the rig's; empty: the rig's
-    std::string snapshotFolder;  // of the last frame; empty: none
-    bool deep = false;           // 16 bits instead of 8 dithered ones
-    std::string filmPipe;        // a named pipe that takes frames for a clip; empty: none
-    int filmEvery = 1;           // only every so many frames
-    std::string traceFolder;     // empty: none
+    // With --headless, in place of the rig's device; empty: the rig's.
+    std::string device;
+    // Where the last frame is written.
+    std::string snapshotFolder;
+    // 16 bits for each sample of the snapshot, in place of 8 dithered ones.
+    bool deep = false;
+    // A named pipe that takes frames for a clip.
+    std::string filmPipe;
+    // Every how many frames the clip takes one; at least 1.
+    int filmEvery = 1;
+    // Where the times of frames are written.
+    std::string traceFolder;
 };
 
 // One node, from joining the show to its end.
 
-// Returns when the show is over or a signal ended this process. Throws Error: what the command line
-// asks for cannot be.
+// Call it on the main thread: it handles the window's events there and draws on a thread of its
+// own. Returns when the show is over or a signal has ended it. Throws Error for options that cannot
+// be met.
 void runNode(const NodeOptions& options);
 
 }  // namespace aquarama::show

@@ -2,6 +2,7 @@
 #include "render_node/surface/few_triangles.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -18,17 +19,20 @@ namespace aquarama::surface {
 
 namespace {
 
-using Corner = std::uint32_t;  // a control point
+// Index of a control point.
+using Corner = std::uint32_t;
 using Triangle = std::array<Corner, 3>;
 
-// Back, right side, belly, left side.
+// Columns of the tube that are kept: back, right side, belly, left side.
 constexpr std::array<int, 4> kColumns{0, 3, 6, 10};
 
+// The first control points are those of the tube, ring by ring.
 Corner tubeCorner(int ring, int column) {
     return static_cast<Corner>(ring * body::kTubeColumns + column);
 }
 
-// The fish at rest in the axes of its body frame; where its origin is does not matter here.
+// Control points at rest along the axes of the body frame. The origin is the cage's own, which does
+// not matter here.
 std::vector<glm::vec3> atRest(const body::FishBody& body) {
     std::vector<glm::vec3> points;
     for (const body::CageVertex& vertex : body.cage.vertices)
@@ -36,13 +40,14 @@ std::vector<glm::vec3> atRest(const body::FishBody& body) {
     return points;
 }
 
+// Height of the straight line between two points, at x.
 float heightBetween(glm::vec3 front, glm::vec3 rear, float x) {
     const float length = front.x - rear.x;
     const float share = length > 0.0F ? glm::clamp((front.x - x) / length, 0.0F, 1.0F) : 0.0F;
     return glm::mix(front.y, rear.y, share);
 }
 
-// How much of the side view is lost or added where only these rings are kept.
+// The area of the side view that is lost or gained when only these rings are kept.
 float profileError(std::span<const glm::vec3> points, const std::array<int, 4>& rings) {
     float error = 0.0F;
     for (std::size_t k = 0; k + 1 < rings.size(); ++k)
@@ -58,6 +63,8 @@ float profileError(std::span<const glm::vec3> points, const std::array<int, 4>& 
     return error;
 }
 
+// The four rings with the least error, always with the first and the last of the body. Tries all
+// pairs between them, about 200.
 std::array<int, 4> bestRings(std::span<const glm::vec3> points) {
     std::array<int, 4> best{0, 7, 14, body::kBodyEndRing};
     for (int front = 1; front < body::kBodyEndRing - 1; ++front)
@@ -68,6 +75,7 @@ std::array<int, 4> bestRings(std::span<const glm::vec3> points) {
     return best;
 }
 
+// A cone from the nose to the first ring, then two triangles for each side of each segment.
 std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
                                     const std::vector<body::CageSite>& sites) {
     std::vector<Triangle> triangles;
@@ -88,19 +96,22 @@ std::vector<Triangle> bodyTriangles(const std::array<int, 4>& rings,
     return triangles;
 }
 
-// A fin without thickness. Where a vertex of the fin is on it goes by its place in the cage, not by
-// nearness: else the fin would not fill the sheet.
+// A fin without thickness. A vertex of the fin is placed on it by its row and column in the cage,
+// not by distance: otherwise the fin would not fill the sheet.
 struct Sheet {
     body::CagePart part = body::CagePart::Body;
     std::vector<Triangle> triangles;
-    Corner foot = 0,
-           heel = 0;           // its base, front and rear; of the tail its root, from the back down
-    std::vector<Corner> edge;  // as its base runs
-    float firstRing = 0, lastRing = 0;  // of a fin of the midline
+    // Ends of its base, front and rear; for the tail, of its root, from the back down.
+    Corner foot = 0, heel = 0;
+    // The free edge, in the direction of the base; at least two corners.
+    std::vector<Corner> edge;
+    // Rings that carry a fin of the midline.
+    float firstRing = 0, lastRing = 0;
 };
 
-// A point of a line of corners, 0 .. 1.
+// A point of the free edge; share: 0 at its first corner, 1 at its last.
 glm::vec3 alongEdge(const Sheet& sheet, std::span<const glm::vec3> points, float share) {
+    assert(sheet.edge.size() >= 2);
     const float at = share * static_cast<float>(sheet.edge.size() - 1);
     const auto before = std::min(static_cast<std::size_t>(at), sheet.edge.size() - 2);
     return glm::mix(points[sheet.edge[before]],
@@ -108,12 +119,13 @@ glm::vec3 alongEdge(const Sheet& sheet, std::span<const glm::vec3> points, float
                     at - static_cast<float>(before));
 }
 
-// From the back (0) to the belly (1), down either side of the tube.
+// Position of a column between the back (0) and the belly (1), the same on both sides of the tube.
 float downTube(int column) {
     const int steps = column == 0 ? 0 : column <= 6 ? column - 1 : body::kTubeColumns - column;
     return static_cast<float>(steps) / 5.0F;
 }
 
+// Place of a cage vertex on the sheet: along the base, then outwards to the edge, both as shares.
 glm::vec3 placeOnSheet(const Sheet& sheet,
                        const body::CageSite& site,
                        std::span<const glm::vec3> points) {
@@ -129,6 +141,7 @@ glm::vec3 placeOnSheet(const Sheet& sheet,
     return glm::mix(base, alongEdge(sheet, points, along), outwards);
 }
 
+// The tail: its root is the last ring of the body, its edge runs over the fork.
 Sheet tailSheet() {
     constexpr int kEnd = body::kTubeRings - 1;
     const Corner back = tubeCorner(body::kBodyEndRing, 0),
@@ -142,7 +155,8 @@ Sheet tailSheet() {
             {upper, fork, lower}};
 }
 
-// From the first to the last ring that carries the fin, from its base to its edge.
+// A fin of the midline, from the first to the last ring that carries it, from its base to its edge;
+// empty where the species does not have it.
 std::optional<Sheet> midlineSheet(body::CagePart part, const std::vector<body::CageSite>& sites) {
     std::optional<std::size_t> front, rear;
     for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -165,7 +179,7 @@ std::optional<Sheet> midlineSheet(body::CagePart part, const std::vector<body::C
                  static_cast<float>(sites[*rear].ring)};
 }
 
-// The nearest point of a triangle, as weights of its corners.
+// The point of a triangle that is nearest to `point`, as weights of the corners (barycentric).
 glm::vec3 nearestOn(const std::array<glm::vec3, 3>& t, glm::vec3 point) {
     const glm::vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = point - t[0];
     const float aa = glm::dot(ab, ab), cc = glm::dot(ac, ac), bc = glm::dot(ab, ac);
@@ -195,15 +209,17 @@ glm::vec3 nearestOn(const std::array<glm::vec3, 3>& t, glm::vec3 point) {
     return best;
 }
 
-// Puts the mesh together.
+// Builds one mesh; used once.
 class Maker {
   public:
     Maker(const body::FishBody& body, const skin::LimitTable& controlMesh)
         : body_{body}, mesh_{controlMesh}, points_{atRest(body)} {
+        assert(controlMesh.vertices.size() >= points_.size());
         for (std::size_t i = 0; i < controlMesh.vertices.size(); ++i)
             normals_.push_back(skin::skinPoint(controlMesh, i, points_).normal);
     }
 
+    // Triangles first, as the places of the cage refer to them.
     FewTriangles make() {
         const std::vector<body::CageSite> sites = body::makeCageTopology().sites;
         const std::vector<Triangle> body = bodyTriangles(bestRings(points_), sites);
@@ -219,7 +235,8 @@ class Maker {
              {body::CagePart::FirstDorsal, body::CagePart::SecondDorsal, body::CagePart::Anal})
             if (const auto sheet = midlineSheet(part, sites)) addSheet(*sheet);
         for (Corner i = 0; i < mesh_.vertices.size(); ++i) {
-            if (i >= points_.size()) {  // an eye's or a whip's, which shrink into the body
+            // A vertex of an eye or of a whip, which shrinks into the body.
+            if (i >= points_.size()) {
                 const glm::vec4 rest = mesh_.vertices[i].rest;
                 few_.cage.push_back(
                     placeOn(body::CagePart::Body, body, i, {-rest.x, rest.y, rest.z}));
@@ -237,6 +254,8 @@ class Maker {
     }
 
   private:
+    // The triangle with its corners in the order that faces outwards, judged by the normals at
+    // rest.
     [[nodiscard]] Triangle outward(const Triangle& t) const {
         const glm::vec3 normal =
             glm::cross(points_[t[1]] - points_[t[0]], points_[t[2]] - points_[t[0]]);
@@ -244,8 +263,9 @@ class Maker {
         return glm::dot(normal, out) < 0.0F ? Triangle{t[0], t[2], t[1]} : t;
     }
 
-    // Where a sheet grows out of the body, the corner is the body's and knows no place on the fin:
-    // it is the root of the ray above it.
+    // The skin of a corner as a part paints it. Where a sheet grows out of the body, the corner
+    // belongs to the body and has no place on the fin: it takes that of the nearest corner of the
+    // triangle, at the root of its ray.
     [[nodiscard]] skin::SkinPlace placeOf(Corner corner,
                                           body::CagePart part,
                                           const Triangle& triangle) const {
@@ -264,6 +284,7 @@ class Maker {
         return place;
     }
 
+    // Appends a triangle; a corner that the part already has is shared.
     void add(const Triangle& triangle, body::CagePart part) {
         for (const Corner corner : triangle) {
             const auto [known, isNew] = numbers_.try_emplace(
@@ -275,7 +296,7 @@ class Maker {
         }
     }
 
-    // On the triangles of a part, as near as can be to a place.
+    // The place on the triangles of a part that is nearest to `wanted`.
     [[nodiscard]] FewTriangles::Place placeOn(body::CagePart part,
                                               std::span<const Triangle> triangles,
                                               Corner corner,
@@ -295,12 +316,14 @@ class Maker {
                     glm::normalize(weights.x * normals_[t[0]] + weights.y * normals_[t[1]] +
                                    weights.z * normals_[t[2]] + 1e-6F * normals_[corner]),
                     mixed(part, t, weights)};
-            // On the body nobody looks where on a fin it is, but fins that grow out of it do.
+            // A body's own place on a fin is never read, but fins that grow out of it interpolate
+            // from it.
             if (part == body::CagePart::Body) best.place.fin = mesh_.vertices[corner].fin;
         }
         return best;
     }
 
+    // Weighted mean of the skin of three corners.
     [[nodiscard]] skin::SkinPlace mixed(body::CagePart part,
                                         const Triangle& t,
                                         glm::vec3 weights) const {
@@ -316,6 +339,7 @@ class Maker {
     const body::FishBody& body_;
     const skin::LimitTable& mesh_;
     std::vector<glm::vec3> points_, normals_;
+    // Index of the vertex of each part and corner.
     std::map<std::pair<body::CagePart, Corner>, std::uint32_t> numbers_;
     FewTriangles few_;
 };

@@ -2,6 +2,7 @@
 #include "render_node/surface/fish_tables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -28,6 +29,7 @@ static_assert(shaders::kControlPoints == body::kControlPoints &&
 
 namespace {
 
+// Rounds a place to 16 bits; the heading follows later. The negated comparison also rejects NaN.
 RecordedPoint quantised(glm::vec3 point) {
     RecordedPoint recorded{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -39,6 +41,7 @@ RecordedPoint quantised(glm::vec3 point) {
     return recorded;
 }
 
+// Nodal points of a recorded pose, body lengths.
 body::NodalPoints nodesOf(const motion::NodalPose& pose) {
     body::NodalPoints nodes{};
     for (std::size_t n = 0; n < nodes.size(); ++n)
@@ -46,6 +49,7 @@ body::NodalPoints nodesOf(const motion::NodalPose& pose) {
     return nodes;
 }
 
+// Appends the control points that the body computes from its nodal points.
 void addPosed(const body::FishBody& body,
               const body::NodalPoints& nodes,
               std::vector<RecordedPoint>& points) {
@@ -54,19 +58,21 @@ void addPosed(const body::FishBody& body,
     std::ranges::transform(cage, std::back_inserter(points), quantised);
 }
 
-// To the last points, one pose's.
+// Sets the headings of the last kControlPoints points, which are those of one pose.
 void addHeadings(const body::FishBody& body,
                  const body::NodalPoints& nodes,
                  std::vector<RecordedPoint>& points) {
     std::array<float, body::kControlPoints> headings{};
     body::headingsOf(body, nodes, headings);
+    assert(points.size() >= headings.size());
     const std::size_t first = points.size() - headings.size();
     for (std::size_t i = 0; i < headings.size(); ++i)
         points[first + i][3] = static_cast<std::int16_t>(
             std::lround(headings.at(i) / std::numbers::pi_v<float> * 32767.0F));
 }
 
-// As fish_pose.glsl reads them, behind the points of a species.
+// Appends the fin tables behind the points of a species, as raw bytes: fish_pose.glsl reads them
+// from the same buffer because OpenGL guarantees only eight storage blocks.
 void addFins(const body::FinTable& fins, std::vector<RecordedPoint>& points) {
     const auto add = [&](std::span<const std::byte> bytes) {
         const std::size_t first = points.size();
@@ -84,6 +90,7 @@ std::vector<RecordedPoint> recordedPoints(const body::FishBody& body,
     std::vector<RecordedPoint> points;
     points.reserve(std::size_t{motion::kActions} * motion::kPhases * body::kControlPoints);
     for (const motion::ActionSegment& segment : repertoire.segments) {
+        assert(segment.controlPoints.empty() || segment.controlPoints.size() == motion::kPhases);
         for (std::size_t phase = 0; phase < motion::kPhases; ++phase) {
             const body::NodalPoints nodes = nodesOf(segment.nodes.at(phase));
             if (segment.controlPoints.empty()) {
@@ -108,6 +115,7 @@ float reachOf(std::span<const RecordedPoint> points) {
 namespace {
 
 template <class T>
+// Appends and returns the index of the first new element.
 std::uint32_t append(std::vector<T>& all, std::span<const T> more) {
     const auto first = static_cast<std::uint32_t>(all.size());
     all.insert(all.end(), more.begin(), more.end());
@@ -124,8 +132,8 @@ std::uint32_t packedNormal(glm::vec3 normal) {
     return bits;
 }
 
-// The areas that a pose covers from three sides, and its middle. Of a fin, through which one sees,
-// half is counted.
+// Sets the areas that a pose covers from three sides, its middle and its reach. Fins are half
+// transparent and count half.
 void measure(const skin::LimitTable& mesh,
              std::span<const RecordedPoint> pose,
              SpeciesTables& tables) {
@@ -138,6 +146,7 @@ void measure(const skin::LimitTable& mesh,
         places.push_back(skin::skinPoint(mesh, i, points).position);
     glm::vec3 area{}, moment{};
     float side = 0.0F;
+    // Sum of the projected areas of the triangles.
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
         const glm::vec3 a = places[mesh.indices[t]], b = places[mesh.indices[t + 1]],
                         c = places[mesh.indices[t + 2]];
@@ -148,7 +157,7 @@ void measure(const skin::LimitTable& mesh,
         moment += own.z * (a + b + c) / 3.0F;
         side += own.z;
     }
-    // A whip reaches further than the fish, and swings.
+    // Attachments, such as whips, are not control points: they may reach further, and they swing.
     float reach = tables.area.w;
     for (std::size_t i = mesh.skinVertices; i < places.size(); ++i)
         reach = std::max(reach, 1.1F * glm::length(places[i]));
@@ -156,7 +165,7 @@ void measure(const skin::LimitTable& mesh,
     tables.middle = glm::vec4{moment / side, 0.0F};
 }
 
-// Gathers the tables of all species before they go to the GPU.
+// Appends the tables of one species after the other to the shared arrays.
 class Gatherer {
   public:
     SpeciesTables add(const SchoolSpecies& species, std::size_t finest) {
@@ -194,7 +203,8 @@ class Gatherer {
         return mesh;
     }
 
-    // The parents of the control mesh, as fish.comp has them.
+    // Parents of the control mesh's vertices, as fish.comp unpacks them: three control points of 9
+    // bits, two weights of 16 bits, a packed normal.
     void addPlaces(const FewTriangles& few) {
         for (const FewTriangles::Place& place : few.cage) {
             const auto& [a, b, c] = place.controlPoints;
@@ -232,7 +242,8 @@ class Gatherer {
             all_.places.push_back(
                 {controlMesh.vertices[i], few.cage.at(i).place.rest, few.cage.at(i).place.fin});
     }
-    // coarser: where the parents are painted as the coarser level has them.
+    // Vertices of a refined surface and their two parents of the coarser one. coarser: the table
+    // whose skin the parents have.
     void addVertices(const skin::LimitTable& table,
                      const skin::LimitTable& coarser,
                      std::span<const std::array<std::uint32_t, 2>> pairs) {
@@ -251,7 +262,8 @@ class Gatherer {
         }
     }
 
-    // All cages hang together alike, so that one species' stencils serve the others.
+    // All species have the same topology, so that the stencils of the first usually serve the
+    // others; they are stored again only where they differ.
     std::uint32_t addStencils(std::size_t surface, const skin::LimitTable& table) {
         Stencils& shared = shared_.at(surface);
         const bool serves = std::ranges::equal(table.entries, shared.entries, sameEntry) &&
@@ -289,8 +301,9 @@ FishArrays makeFishArrays(std::span<const SchoolSpecies> cast, std::size_t fines
     return arrays;
 }
 
-// How many fish there are follows from the cast alone.
+// Sets the numbers of fish and groups, which follow from the cast alone and are not cached.
 void countFish(std::span<const SchoolSpecies> cast, std::vector<SpeciesTables>& species) {
+    assert(species.size() == cast.size());
     std::size_t firstFish = 0;
     std::size_t groups = 0;
     for (std::size_t i = 0; i < cast.size(); ++i) {
@@ -304,6 +317,7 @@ void countFish(std::span<const SchoolSpecies> cast, std::vector<SpeciesTables>& 
     }
 }
 
+// Whether the tables may be cached.
 bool allHaveSources(std::span<const SchoolSpecies> cast) {
     return std::ranges::all_of(cast,
                                [](const SchoolSpecies& one) { return one.source.has_value(); });
@@ -312,6 +326,7 @@ bool allHaveSources(std::span<const SchoolSpecies> cast) {
 }  // namespace
 
 FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
+    assert(finest < kSurfaces);
     if (cast.size() > kMostSpecies)
         throw Error("a scene has more than " + std::to_string(kMostSpecies) +
                     " species; leave some out");
@@ -326,6 +341,7 @@ FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
 }
 
 FishTables::FishTables(const FishArrays& arrays, std::size_t finest) {
+    assert(finest < kSurfaces);
     for (const SpeciesTables& species : arrays.species) {
         groups += species.groups;
         mostVertices = std::max<std::size_t>(mostVertices, species.meshes.at(1 + finest).vertices);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of a view tell each other and the draws, all in one buffer: fish_plan.glsl.
+// Tables of a cast that the GPU keeps, and the plan by which the kernels of a view and its draws
+// exchange counts and commands (fish_plan.glsl).
 #pragma once
 
 #include <array>
@@ -26,82 +27,100 @@
 
 namespace aquarama::surface {
 
-// The surface buffer is filled so often at most for one view. With its 64 MiB that is room for
-// 78 000 control meshes, or 19 000 meshes, or 4 900 heroes; heroes come first. Fish beyond are
-// drawn as few triangles. It takes more than a fish in each cube of its length to get there.
+// The surface buffer is filled at most so often for one view (a turn each). With its 64 MiB that is
+// room for 78 000 control meshes, or 19 000 meshes, or 4 900 heroes; heroes are placed first. Fish
+// for which no room is left are drawn as few triangles. That needs a school denser than one fish in
+// each cube of its length.
 inline constexpr std::size_t kTurns = shaders::kTurns;
 inline constexpr std::size_t kDetailStride = shaders::kDetailStride;
 inline constexpr std::size_t kSurfaces = shaders::kSurfaces;
+// Few triangles, then one mesh for each level that has a surface.
 inline constexpr std::size_t kMeshes = 1 + kSurfaces;
 inline constexpr std::size_t kTails = shaders::kTails;
 static_assert(kTails == 2 * kMeshes + 1);
-inline constexpr std::size_t kGroup =
-    shaders::kGroupSize;  // fish that one workgroup of fish_cull.comp looks at
+// Fish that one workgroup of fish_cull.comp tests.
+inline constexpr std::size_t kGroup = shaders::kGroupSize;
 
+// Layout of the plan buffer, as fish_plan.glsl declares it in plain numbers. Written by the GPU;
+// the CPU reads only totals, in tests.
 struct FishPlan {
-    struct Command {  // as glDrawElementsIndirect takes it
+    // As glDrawElementsIndirect takes it.
+    struct Command {
         std::uint32_t count, instances, firstIndex, firstVertex, firstInstance;
     };
+    // Fish of one species and level whose surfaces a turn holds.
     struct Piece {
         std::uint32_t firstFish, fish, firstVertex;
     };
+    // One filling of the surface buffer: workgroups as glDispatchComputeIndirect takes them, for
+    // the bodies, and again for the fins where another turn has overwritten the buffer.
     struct Turn {
-        std::array<std::uint32_t, 3> bodyGroups,
-            finGroups;  // as glDispatchComputeIndirect takes it
+        std::array<std::uint32_t, 3> bodyGroups, finGroups;
         std::uint32_t firstFish, padding;
     };
     template <class T>
     using EachPiece = std::array<std::array<std::array<T, kSurfaces>, kMostSpecies>, kTurns>;
 
+    // By species and level: how many fish a view shows, and the index of the first of them among
+    // the drawn fish.
     std::array<std::array<std::uint32_t, kDetailStride>, kMostSpecies> totals, firsts;
     std::array<Turn, kTurns> turns;
     EachPiece<Piece> pieces;
     EachPiece<Command> bodies, fins;
+    // Draws of a species that need no surface.
     std::array<std::array<Command, kTails>, kMostSpecies> tails;
 };
 static_assert(shaders::kMostSpecies == kMostSpecies);
 static_assert(sizeof(FishPlan::Command) == 20 && sizeof(FishPlan::Turn) == 32);
 
-// What the GPU keeps of the species of a cast: recorded control points, and the meshes of each
-// level of detail, all in the same few buffers. Made once.
+// Tables of the species: recorded control points, and the meshes of each level of detail, all
+// species in the same buffers. Made once.
 
-// The fish of one species of a school, which follow those of the species before it.
+// One species of a cast and its fish. In the school they follow the fish of the species before it.
 struct SchoolSpecies {
     body::FishBody body;
     body::FishSkin skin;
     motion::Repertoire repertoire;
     std::vector<motion::FishTraits> fish;
-    std::optional<Digest> source = {};  // of the files that body and repertoire were read from
+    // Digest of the files that body and repertoire were read from; without it the tables are not
+    // cached.
+    std::optional<Digest> source = {};
 };
 
-// A place, body lengths, and a heading (headingsOf()), half turns: 16 bits each.
+// A recorded control point: place x, y, z in units of motion::kPoseUnit (body lengths), and a
+// heading (body::headingsOf()) in units of pi / 32767; 16 bits each.
 using RecordedPoint = std::array<std::int16_t, 4>;
 
-// By segment, phase and control point. Of segments that were captured without control points they
-// are computed from the nodal points (paper, section 3.1), so that the GPU sees no difference.
-// Throws Error where one lies further than a body length from the body frame's origin.
+// All recorded control points, by segment, phase and control point. Segments that were captured
+// without control points get them from their nodal points (paper, section 3.1), so that the GPU
+// sees no difference. Throws Error where one is further than a body length from the body frame's
+// origin.
 [[nodiscard]] std::vector<RecordedPoint> recordedPoints(const body::FishBody& body,
                                                         const motion::Repertoire& repertoire);
 
-// How far from the body frame's origin any control point of any pose gets, in body lengths. Poses
-// between recorded ones get no further.
+// The greatest distance of any control point of any pose from the body frame's origin, in body
+// lengths. Poses that are interpolated between recorded ones do not exceed it.
 [[nodiscard]] float reachOf(std::span<const RecordedPoint> points);
 
-// What shaders know of a species, as fish_lists.glsl has it.
+// Layout of Species in fish_lists.glsl, std430.
 struct SpeciesTables {
+    // Where the parts of one mesh begin in the shared buffers, and their sizes.
     struct Mesh {
         std::uint32_t vertices, firstEntry, firstParent;
         std::uint32_t firstVertex, bodyIndices, firstBodyIndex, finIndices, firstFinIndex;
     };
     std::uint32_t firstFish = 0, fish = 0, firstGroup = 0, groups = 0;
-    glm::vec4 area{};    // seen from the front, from above, from the side: square body lengths; w:
-                         // reachOf()
-    glm::vec4 middle{};  // of the body, in its frame, body lengths
+    // Area seen from the front (x), from above (y) and from the side (z), square body lengths; w:
+    // reachOf(), or further where a whip reaches further.
+    glm::vec4 area{};
+    // Centroid of the side view, body frame, body lengths.
+    glm::vec4 middle{};
     std::array<Mesh, kMeshes> meshes{};
 };
 static_assert(sizeof(SpeciesTables) == 208);
 
-// A vertex of a surface, and what is painted where the next coarser level has it.
+// A vertex of a surface: its place on the skin, and the place on the skin from which it fades in at
+// the next coarser level.
 struct SurfaceVertex {
     skin::SkinPlace place;
     glm::vec4 coarserRest{};
@@ -109,7 +128,7 @@ struct SurfaceVertex {
 };
 static_assert(sizeof(SurfaceVertex) == 52);
 
-// What the GPU keeps of the species of a cast, before it goes there.
+// The same tables as arrays, before they are uploaded. Indices count within each array.
 struct FishArrays {
     std::vector<SpeciesTables> species;
     std::vector<RecordedPoint> recorded;
@@ -132,14 +151,18 @@ struct FishArrays {
     }
 };
 
-// finest: of the surfaces, 0 .. kSurfaces - 1; there are none beyond. Made once on a machine, where
-// each species says what it was made from: derived data. Throws Error.
+// Makes the tables of a cast. finest: index of the finest surface, 0 to kSurfaces - 1. Where every
+// species has a source, the tables come from the cache of derived data. Throws Error: too many
+// species, a control point out of range.
 [[nodiscard]] FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest);
 
+// The tables on the GPU. Construct, use and destroy them with the same context current.
 struct FishTables {
     FishTables(const FishArrays& arrays, std::size_t finest);
 
-    std::size_t mostVertices = 1;  // of a fish
+    // Vertices of the largest surface of any species.
+    std::size_t mostVertices = 1;
+    // Workgroups of fish_cull.comp for the whole school.
     std::size_t groups = 0;
     gl::Buffer cast, recorded, firstEntries, entries, parents, places, indices;
     gl::Buffer fewVertices, fewIndices;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/surface/school_surface.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <future>
 #include <numeric>
 #include <string>
@@ -19,14 +19,17 @@ namespace aquarama::surface {
 
 namespace {
 
+// The include that a species' own skin shader replaces.
 constexpr const char* kPlain = "skin_plain.glsl";
 
+// The skin shader of a species, or the plain one.
 std::string skinShaderOf(const body::FishSkin& skin) {
     std::string file = "skin_" + skin.species + ".glsl";
     const auto files = gl::shaderNames();
     return std::ranges::find(files, file) == files.end() ? std::string(kPlain) : file;
 }
 
+// A program with the species' skin shader and its constants.
 gl::ProgramHandle skinProgram(const std::string& vertices,
                               const std::string& fragments,
                               const body::FishSkin& skin,
@@ -35,7 +38,7 @@ gl::ProgramHandle skinProgram(const std::string& vertices,
     replacements.push_back({kPlain, skinShaderOf(skin)});
     gl::ProgramHandle program = gl::makeProgram({vertices, fragments}, replacements);
     const std::array<glm::vec3, 3> colours{skin.back, skin.flank, skin.belly};
-    // Which of them a skin shader does not look at, has no location.
+    // A uniform that this skin shader does not read has location -1, which OpenGL ignores.
     const auto at = [&](const char* name) { return glGetUniformLocation(program.name(), name); };
     glProgramUniform3fv(program.name(), at("eyeOfSpecies"), 1, &eye.x);
     glProgramUniform3fv(program.name(), at("groundColours"), 3, &colours[0].x);
@@ -61,12 +64,14 @@ SkinShader::SkinShader(const body::FishSkin& skin,
 
 namespace {
 
+// A vertex of the surface buffer: three floats and a packed normal (fish.comp).
 constexpr std::size_t kBytesPerVertex = 16;
 
 void bindStorage(GLuint binding, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
 }
 
+// Layout of the traits in fish_record.glsl.
 struct Traits {
     std::uint32_t id, lengthMillimetres;
 };
@@ -79,6 +84,8 @@ std::vector<Traits> traitsOf(std::span<const SchoolSpecies> cast) {
     return traits;
 }
 
+// 0, 1, 2 ..., at least one number. As an instanced attribute they give a shader its place in the
+// school, since gl_InstanceID does not count from the first instance of a draw.
 std::vector<std::uint32_t> upTo(std::size_t count) {
     std::vector<std::uint32_t> numbers(std::max<std::size_t>(count, 1));
     std::iota(numbers.begin(), numbers.end(), 0U);
@@ -90,11 +97,13 @@ const void* at(std::size_t offset) {
     return reinterpret_cast<const void*>(offset);
 }
 
+// Index of the surface of a level, 0 for the control mesh.
 std::size_t surfaceOf(DetailLevel level) {
+    assert(level >= DetailLevel::ControlMesh);
     return std::size_t(level) - std::size_t(DetailLevel::ControlMesh);
 }
 
-// Indices, and for each instance its place in the school.
+// Sets the indices, and attribute 3: for each instance its place in the school.
 void describe(const gl::VertexArray& array, const gl::Buffer& indices, const gl::Buffer& slots) {
     glVertexArrayElementBuffer(array.name(), indices.name());
     glVertexArrayVertexBuffer(array.name(), 1, slots.name(), 0, sizeof(std::uint32_t));
@@ -104,7 +113,7 @@ void describe(const gl::VertexArray& array, const gl::Buffer& indices, const gl:
     glVertexArrayAttribIFormat(array.name(), 3, 1, GL_UNSIGNED_INT, 0);
 }
 
-// The SkinPlace with which each vertex begins.
+// Sets attributes 0 to 2: the SkinPlace with which each vertex begins.
 void addPlaces(const gl::VertexArray& array, const gl::Buffer& vertices, std::size_t stride) {
     glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, static_cast<GLsizei>(stride));
     for (const unsigned attribute : {0U, 1U, 2U}) {
@@ -131,6 +140,8 @@ std::vector<SkinShader> skinShadersOf(std::span<const SchoolSpecies> cast,
 
 }  // namespace
 
+// Members in the order in which they are made: tables are computed on another thread while this one
+// compiles programs, then uploaded.
 struct SchoolSurface::Parts {
     Parts(std::span<const SchoolSpecies> members,
           const SurfaceOptions& surfaceOptions,
@@ -153,10 +164,13 @@ struct SchoolSurface::Parts {
     void upload(const gl::Buffer& buffer, std::span<const motion::FishRecord> records) const;
     void bindRecords() const;
     void setView(unsigned program, const Frustum& frustum, const SharedView& shared) const;
+    // The four kernels that cull, count, plan and scatter.
     void sort() const;
+    // Fills the surface buffer for one turn.
     void evaluate(std::size_t turn, std::size_t groupsOffset) const;
     void drawSurfaces(std::size_t turn, bool isFins) const;
     void drawTurns(bool isFins) const;
+    // Draws commands of each species that need no surface.
     void drawTails(std::size_t first,
                    std::size_t commands,
                    gl::ProgramHandle SkinShader::*program) const;
@@ -165,12 +179,14 @@ struct SchoolSurface::Parts {
 
     SurfaceOptions options;
     DetailLimits limits;
-    std::future<FishArrays> arrays;  // made while this thread compiles shaders
+    // Computed while this thread compiles programs.
+    std::future<FishArrays> arrays;
     std::shared_ptr<const SkinPrograms> programs;
     std::vector<SkinShader> skinShaders;  // one a species
     FishTables tables;
     std::size_t fish = 0;
-    std::size_t turns = 1;  // of the surface buffer, at most
+    // How often the surface buffer is filled for a view, at most.
+    std::size_t turns = 1;
     gl::Buffer before, after, traits, choices, counts, plan, school, surface, slots;
     gl::VertexArray surfaceArray, fewArray, pointArray;
     gl::Buffer pointIndices{gl::makeBuffer(
@@ -180,13 +196,17 @@ struct SchoolSurface::Parts {
     gl::ProgramHandle planner{gl::makeProgram({"fish_plan.comp"})};
     gl::ProgramHandle scatter{gl::makeProgram({"fish_scatter.comp"})};
 
+    // Of the last update.
     std::size_t recordsUploaded = 0;
     bool isBetween = false;
     float fraction = 1.0F;
 };
 
+// The surface buffer has room for the whole school at its finest level where that fits into
+// surfaceBytes; otherwise it is filled in several turns.
 void SchoolSurface::Parts::makeBuffers(std::span<const SchoolSpecies> members) {
     const std::size_t most = options.surfaceBytes / kBytesPerVertex;
+    assert(most > 0);
     const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
     const std::size_t room = std::min(most, wanted);
     turns = std::min(kTurns, (wanted + most - 1) / most);
@@ -228,6 +248,7 @@ void SchoolSurface::Parts::makeVertexArrays() const {
     describe(pointArray, pointIndices, slots);
 }
 
+// Uniforms that never change.
 void SchoolSurface::Parts::setConstants() const {
     for (const unsigned program : {cull.name(), scatter.name()}) {
         glProgramUniform1fv(
@@ -250,7 +271,7 @@ void SchoolSurface::Parts::upload(const gl::Buffer& buffer,
     glNamedBufferSubData(buffer.name(), 0, bytes, records.data());
 }
 
-// Without a tick before, the frame shows the tick itself.
+// Without a record of the tick before, the frame shows the later tick.
 void SchoolSurface::Parts::bindRecords() const {
     bindStorage(shaders::kBeforeStorage, isBetween ? before : after);
     bindStorage(shaders::kAfterStorage, after);
@@ -267,7 +288,8 @@ void SchoolSurface::Parts::setView(unsigned program,
     glProgramUniform1ui(program, shaders::kFishCountLocation, static_cast<GLuint>(recordsUploaded));
 }
 
-// Each kernel reads what the one before it wrote.
+// Cull and count, scan (where each group begins), plan (where each list begins, and the draws),
+// scatter. Each kernel reads what the one before it wrote, hence the barriers.
 void SchoolSurface::Parts::sort() const {
     const auto groups = static_cast<GLuint>(tables.groups);
     bindRecords();
@@ -276,7 +298,8 @@ void SchoolSurface::Parts::sort() const {
     bindStorage(shaders::kCountsStorage, counts);
     bindStorage(shaders::kPlanStorage, plan);
     bindStorage(shaders::kSchoolStorage, school);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // an earlier view has drawn from these
+    // An earlier view has drawn from these buffers.
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(cull.name());
     glDispatchCompute(groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -304,13 +327,15 @@ void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) 
     glUseProgram(programs->surface.name());
     glUniform1ui(shaders::kTurnLocation, static_cast<GLuint>(turn));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan.name());
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // earlier draws have read what is overwritten
+    // Earlier draws have read what is now overwritten.
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(FishPlan, turns) +
                                                     turn * sizeof(FishPlan::Turn) + groupsOffset));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-// All levels of a species that one program draws go in one call.
+// Draws the surfaces of a turn. Consecutive levels of a species that use the same program go into
+// one call.
 void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
     const std::size_t surfaces = 1 + surfaceOf(options.finest);
     const auto programOf = [&](const SkinShader& skinShader, std::size_t surfaceLevel) {
@@ -334,6 +359,8 @@ void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
     }
 }
 
+// Evaluates each turn and draws it. With a single turn the surfaces of the bodies are still there
+// when the fins are drawn.
 void SchoolSurface::Parts::drawTurns(bool isFins) const {
     glBindVertexArray(surfaceArray.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
@@ -363,7 +390,7 @@ void SchoolSurface::Parts::drawTails(std::size_t first,
     }
 }
 
-// Before the few triangles that fade in over them. They hide nothing.
+// Points are drawn before the few triangles that fade in over them. They do not write depth.
 void SchoolSurface::Parts::drawPoints() const {
     bindStorage(shaders::kSchoolStorage, school);
     bindStorage(shaders::kCastStorage, tables.cast);
@@ -393,6 +420,7 @@ SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;
 SchoolSurface& SchoolSurface::operator=(SchoolSurface&&) noexcept = default;
 
 void SchoolSurface::update(const SchoolMoment& moment) {
+    assert(moment.fraction >= 0.0F && moment.fraction <= 1.0F);
     const gl::Stage stage{"fish records"};
     Parts& parts = *parts_;
     parts.recordsUploaded = std::min(moment.after.size(), parts.fish);

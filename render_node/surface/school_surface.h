@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders that pose fish, which the species of a cast share, and those that paint and light a
-// species.
+// Draws all fish of a node on the GPU, and the programs for it.
 #pragma once
 
 #include <array>
@@ -22,51 +21,61 @@
 
 namespace aquarama::surface {
 
+// The program that makes surfaces, which all species share, and the includes of a tier. May be
+// shared by several schools of one context.
 struct SkinPrograms {
-    gl::ProgramHandle surface;      // fish.comp
-    gl::Replacements replacements;  // of a tier: for the skin shaders
+    // fish.comp
+    gl::ProgramHandle surface;
+    // Includes that the tier replaces in the skin shaders.
+    gl::Replacements replacements;
 };
+// Compiles them; needs a current context.
 [[nodiscard]] std::shared_ptr<const SkinPrograms> makeSkinPrograms(
     gl::Replacements replacements = {});
 
-// What draws the skin of one species: fish_body.frag near, fish_far.frag far and fish_fin.frag with
-// its skin shader, shaders/skin_SPECIES.glsl, or plainly where there is none.
+// The programs of one species: fish_body.frag near, fish_far.frag far, and fish_fin.frag, each with
+// the species' skin shader, shaders/skin_SPECIES.glsl, or skin_plain.glsl where there is none.
 struct SkinShader {
-    // eye: s, y and radius, body lengths.
+    // eye: place s, y and radius, body lengths.
     SkinShader(const body::FishSkin& skin, glm::vec3 eye, const gl::Replacements& replacements);
 
     gl::ProgramHandle nearBody, farBody, fins;
-    gl::ProgramHandle fewBody, fewFins, point;  // with the vertex shaders of coarser levels
+    // The same fragment shaders with the vertex shaders of the coarser levels.
+    gl::ProgramHandle fewBody, fewFins, point;
 
-    // Far bodies have no level finer than 0.
+    // The program for bodies at a surface level (0 is the control mesh, which is always far).
     [[nodiscard]] unsigned bodyOf(int level) const {
         return level == 0 ? farBody.name() : nearBody.name();
     }
 };
 
-// All fish of a node on the GPU: from the wire's records to the surfaces that a view draws.
-// Culling, level of detail, control points and limit surface (eq. 13, paper sections 4.3 and 6) are
-// compute shaders, and the GPU draws what it found: what a frame costs the processor does not
-// depend on the number of fish, but for copying their bytes.
+// From the wire's records to the surfaces that a view draws. Culling, level of detail, control
+// points and limit surface (eq. 13, paper sections 4.3 and 6) are compute shaders, and the GPU
+// draws what they found. The processor's cost of a frame does not depend on the number of fish,
+// except for copying their records.
 
+// Fixed for the life of a SchoolSurface.
 struct SurfaceOptions {
-    bool culling = true;         // off only to measure what it saves
-    bool levelsOfDetail = true;  // off: all are heroes
+    // Switched off only to measure what culling saves.
+    bool culling = true;
+    // Switched off, all fish are heroes.
+    bool levelsOfDetail = true;
     DetailLevel finest = DetailLevel::Hero;
-    float fineness = 1.0F;  // of the meshes: see detailLimits()
-    // Of the surface buffer. Half of the least block that GL drivers allow in practice (128 MiB on
-    // software Mesa).
+    // Fineness of the meshes: see detailLimits().
+    float fineness = 1.0F;
+    // Size of the surface buffer, bytes. Half of the smallest limit for a block that OpenGL drivers
+    // have in practice (128 MiB on software Mesa).
     std::size_t surfaceBytes = std::size_t{64} << 20U;
 };
 
-// The school between two ticks, as the wire brings it: at `fraction` of the way from `before` to
-// `after`. Without a tick before it is at `after`.
+// The school between two ticks, as the wire brings it: at `fraction` (0 to 1) of the way from
+// `before` to `after`. Where `before` has another size, the school is shown at `after`.
 struct SchoolMoment {
     std::span<const motion::FishRecord> before, after;
     float fraction = 1.0F;
 };
 
-// One fish that a view draws, as fish_data.glsl has it.
+// Layout of Fish in fish_data.glsl, std430: one fish that a view draws.
 struct DrawnFish {
     glm::vec3 positionMetres{};
     float lengthMetres = 0;
@@ -77,18 +86,22 @@ struct DrawnFish {
     DetailLevel level = DetailLevel::Point;
     float blend = 0;
     std::uint32_t firstVertex = 0;
-    float speed = 0;  // body lengths a second
+    // Body lengths a second.
+    float speed = 0;
     std::uint32_t padding = 0;
 };
 static_assert(sizeof(DrawnFish) == 80);
 
-struct SurfaceCounts {  // of the last look
+// How many fish the last look() found, in all and at each level.
+struct SurfaceCounts {
     std::size_t visible = 0;
     std::array<std::size_t, kDetailLevels> atLevel{};
 };
 
 struct SkinPrograms;
 
+// For each frame update(), for each view look(), then the draws. Owns its GL objects; construct,
+// use and destroy it with the same context current.
 class SchoolSurface {
   public:
     SchoolSurface(std::span<const SchoolSpecies> cast,
@@ -100,28 +113,29 @@ class SchoolSurface {
     SchoolSurface(const SchoolSurface&) = delete;
     SchoolSurface& operator=(const SchoolSurface&) = delete;
 
-    // Once a frame. Records beyond the school's traits are left out.
+    // Uploads the records of a frame. Records beyond the cast's fish are ignored.
     void update(const SchoolMoment& moment);
 
-    // Once for each view: culls by a single point against the enlarged frustum, chooses levels by
-    // the angle that a fish fills at the shared eye, and sorts what is left. The fish that will be
-    // drawn are then bound as shader storage 0.
+    // Prepares the draws of a view: culls each fish by one point against the enlarged frustum,
+    // chooses its level by the angle that it fills at the shared eye, and sorts the visible ones by
+    // species and level. The drawn fish are then bound as shader storage 0.
     void look(const glm::mat4& clipFromWorld, const SharedView& shared);
 
-    // Draw what the last look found, with its painted skin, lit and seen through the water by
-    // light.glsl. Expect the frame's uniform block to be bound (shaders/frame_uniforms.h). Bodies
-    // are solid things. Points, fish of few triangles and fins are blended over what is behind
-    // them: draw them after the water and all solid things, before what floats in front. The order
-    // is that of the school, in every frame.
+    // Draw what the last look() found, with painted skin, lit and seen through the water
+    // (light.glsl). They expect the frame's uniform block to be bound (shaders/frame_uniforms.h).
+    // Bodies are opaque. Points, fish of few triangles and fins are blended with what is behind
+    // them: draw them after the water and all opaque things, before what floats in front. The order
+    // is always that of the school.
     void drawBodies() const;
     void drawBlended() const;
 
-    // Makes the records readable by shaders that include fish_record.glsl.
+    // Binds the records for shaders that include fish_record.glsl.
     void bindRecords() const;
+    // Number of fish in the last update(), and its fraction.
     [[nodiscard]] std::size_t fishInRecords() const;
     [[nodiscard]] float fraction() const;
 
-    // Waits for the GPU: for tests and benchmarks.
+    // Reads the counts back and waits for the GPU: for tests and benchmarks.
     [[nodiscard]] SurfaceCounts counts() const;
 
   private:

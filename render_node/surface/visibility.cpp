@@ -2,6 +2,7 @@
 #include "render_node/surface/visibility.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
@@ -10,20 +11,23 @@ namespace aquarama::surface {
 
 namespace {
 
-// By level, pixels. A control mesh has 26 rings, so that its quads are 2 pixels wide where the mesh
-// takes over, as are the mesh's where the hero does, and so on.
+// Pixels, by level. A control mesh has 26 rings along the fish: where the next level takes over, at
+// 60 pixels, its quads are about 2 pixels long, and so on for the finer levels.
 constexpr DetailLimits kLimits{0.0F, 2.5F, 4.0F, 14.0F, 60.0F, 180.0F, 600.0F};
-constexpr float kMorph = 1.35F;  // a level is all its own at so many times its limit
+// A level looks entirely like itself at this multiple of its limit.
+constexpr float kMorph = 1.35F;
 
 }  // namespace
 
+// Gribb and Hartmann: each plane is a sum or difference of rows of the matrix.
 Frustum frustumOf(const glm::mat4& clipFromWorld) {
     const glm::vec4 x = glm::row(clipFromWorld, 0), y = glm::row(clipFromWorld, 1);
     const glm::vec4 z = glm::row(clipFromWorld, 2), w = glm::row(clipFromWorld, 3);
     Frustum frustum{{w + x, w - x, w + y, w - y, z, w - z}};
     for (glm::vec4& plane : frustum.planes) {
         const float length = glm::length(glm::vec3(plane));
-        if (length > 0.0F) plane /= length;  // none at infinity
+        // The plane at infinity has no normal.
+        if (length > 0.0F) plane /= length;
     }
     return frustum;
 }
@@ -35,6 +39,7 @@ bool Frustum::sees(glm::vec3 centre, float radius) const {
 }
 
 DetailLimits detailLimits(float fineness) {
+    assert(fineness > 0.0F);
     DetailLimits limits = kLimits;
     for (auto level = std::size_t(DetailLevel::ControlMesh); level < limits.size(); ++level)
         limits[level] /= fineness;
@@ -46,6 +51,7 @@ Detail detailOf(const SharedView& view,
                 DetailLevel finest,
                 glm::vec3 placeMetres,
                 float lengthMetres) {
+    assert(finest <= DetailLevel::CloseUp && view.pixelRadians > 0.0F);
     const float pixels =
         lengthMetres / (glm::distance(view.eyeMetres, placeMetres) * view.pixelRadians);
     std::size_t level = 0;
@@ -63,6 +69,7 @@ float marginOf(const SharedView& view,
                glm::vec3 placeMetres,
                float lengthMetres,
                float reachBodyLengths) {
+    // Half the size of a point, in pixels, with a margin.
     constexpr float kPixels = 3.0F;
     return reachBodyLengths * lengthMetres +
            kPixels * view.pixelRadians * glm::distance(view.eyeMetres, placeMetres);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which fish a channel draws, and how finely (paper, section 6): the CPU reference of what
-// fish_cull.comp does.
+// Which fish a channel draws, and how finely (paper, section 6). This is the reference on the CPU
+// for fish_cull.comp; tests compare the two.
 #pragma once
 
 #include <array>
@@ -13,53 +13,66 @@
 
 namespace aquarama::surface {
 
-// What a view sees, world frame, metres.
+// The planes of a view, world frame, metres.
 struct Frustum {
-    // Inward, with unit normals where they have one: the four sides, then the two of the depth.
+    // Planes (normal, offset) that point inward: the four sides, then the two of the depth. Normals
+    // have unit length, except that a far plane at infinity has none.
     std::array<glm::vec4, 6> planes{};
 
-    // Whether any of a ball lies within.
+    // Whether a part of the ball may lie within: conservative near the edges.
     [[nodiscard]] bool sees(glm::vec3 centre, float radius) const;
 };
-// Depth zero to one, in either direction; the far plane may be at infinity.
+// The frustum of a matrix whose depth runs from zero to one, in either direction; the far plane may
+// be at infinity.
 [[nodiscard]] Frustum frustumOf(const glm::mat4& clipFromWorld);
 
-// From coarse to fine. From the control mesh on they have a surface, which is refined 0 to 3 times.
+// Levels of detail, from coarse to fine. From ControlMesh on a fish has a surface, which is refined
+// 0 to 3 times. The numbers are those of fish_detail.glsl.
 enum class DetailLevel : std::uint32_t {
-    Point,         // its area and its colour
-    Fading,        // few triangles, fading into a point
-    FewTriangles,  // rings of the control cage
-    ControlMesh,   // paper, section 6
-    Mesh,          // the limit surface, as the two that follow
+    // A sprite with the area and the mean colour of the fish.
+    Point,
+    // Few triangles that fade into a point.
+    Fading,
+    // Rings of the control cage.
+    FewTriangles,
+    // The control mesh (paper, section 6).
+    ControlMesh,
+    // The limit surface, as the two levels that follow.
+    Mesh,
     Hero,
     CloseUp,
 };
 inline constexpr std::size_t kDetailLevels = 7;
 
+// The level of a fish, and how far it has changed from the next coarser one.
 struct Detail {
     DetailLevel level = DetailLevel::Point;
-    // How far it is from the next coarser level: 0 looks as that does, 1 is all its own.
+    // 0: looks like the next coarser level; 1: entirely this level. It changes continuously, so
+    // that no change of level is seen.
     float blend = 1.0F;
 };
 
-// From which size on a fish has a level: pixels of the wall that it would fill from nose to tail,
+// The least size of a fish at each level: pixels of the wall that it would fill from nose to tail,
 // seen from the side.
 using DetailLimits = std::array<float, kDetailLevels>;
-// fineness: 1, or more to have the meshes finer than need be.
+// The limits for a tier of quality. fineness divides those of the meshes: 1 is normal, larger
+// values give finer meshes to smaller fish. Positive.
 [[nodiscard]] DetailLimits detailLimits(float fineness);
 
-// The shared eye, and the angle of the wall's finest pixel: what a level of detail may depend on,
-// so that neighbours, and a node that was just started, draw the same fish alike.
+// The shared eye and the angle of the wall's finest pixel. A level of detail may depend on these
+// alone, so that neighbours, and a node that has just started, draw the same fish alike.
 struct SharedView {
     glm::vec3 eyeMetres{};
     float pixelRadians = 0.0016F;
 };
+// The level of a fish at a place of the world; never finer than `finest`.
 [[nodiscard]] Detail detailOf(const SharedView& view,
                               const DetailLimits& limits,
                               DetailLevel finest,
                               glm::vec3 placeMetres,
                               float lengthMetres);
-// How far anything that is drawn of a fish gets from its place. A point may be wider than the fish.
+// Radius of a ball about the fish's place that contains all that is drawn of it, metres. A far fish
+// is drawn as a point, which may be larger than the fish.
 [[nodiscard]] float marginOf(const SharedView& view,
                              glm::vec3 placeMetres,
                              float lengthMetres,

@@ -2,6 +2,7 @@
 #include "render_node/water/water_lobes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -11,15 +12,17 @@ namespace aquarama::scene {
 
 namespace {
 
-// Of four neighbouring entries: where they begin, and each one's share.
+// Four neighbouring entries of one axis: their indices and their weights, which sum to 1.
 struct Stencil {
     std::array<std::size_t, 4> at{};
     std::array<double, 4> share{};
 };
 
-// Catmull and Rom 1974, at places given by index: no kink at an entry, or the gradient of open
-// water would show a line there.
+// Catmull-Rom spline (Catmull and Rom 1974) at a fractional index. Its derivative is continuous: a
+// kink at an entry would appear as a line in the gradient of open water. At either end the last
+// entry is repeated.
 Stencil smooth(double place, std::size_t count) {
+    assert(count >= 2);
     const double inside = std::clamp(place, 0.0, static_cast<double>(count - 1));
     const auto left = static_cast<int>(std::min(inside, static_cast<double>(count) - 1.0001));
     const double t = inside - left;
@@ -34,7 +37,8 @@ Stencil smooth(double place, std::size_t count) {
     return stencil;
 }
 
-// Index of a value between nodes that need not be evenly spaced.
+// Fractional index of a value among ascending nodes that need not be evenly spaced; limited to the
+// nodes.
 template <std::size_t N>
 double placeAmong(const std::array<double, N>& nodes, double value) {
     std::size_t right = 1;
@@ -43,12 +47,14 @@ double placeAmong(const std::array<double, N>& nodes, double value) {
     return static_cast<double>(right - 1) + std::clamp(t, 0.0, 1.0);
 }
 
+// Optical depth is interpolated in its logarithm.
 double opticalDepthIndex(double depth) {
     std::array<double, kLobeDepths.size()> logarithms{};
     std::ranges::transform(kLobeDepths, logarithms.begin(), [](double x) { return std::log(x); });
     return placeAmong(logarithms, std::log(std::max(depth, 1e-3)));
 }
 
+// Phase function of Henyey and Greenstein 1941, 1/sr; g is the mean cosine.
 double henyeyGreenstein(double cosine, double g) {
     const double x = 1 + g * g - 2 * g * cosine;
     return (1 - g * g) / (4 * std::numbers::pi * x * std::sqrt(x));
@@ -57,12 +63,14 @@ double henyeyGreenstein(double cosine, double g) {
 }  // namespace
 
 WaterLobe waterLobe(double albedo, double opticalDepth, double rise, double azimuthDegrees) {
+    assert(albedo >= 0 && albedo <= 1);
     const Stencil a = smooth(placeAmong(kLobeAlbedos, albedo), kLobeAlbedos.size());
     const Stencil d = smooth(opticalDepthIndex(opticalDepth), kLobeDepths.size());
     const Stencil r = smooth(placeAmong(kLobeRises, rise), kLobeRises.size());
     const Stencil z = smooth(placeAmong(kLobeAzimuths, azimuthDegrees), kLobeAzimuths.size());
     double lnSource = 0;
     double loss = 0;
+    // 4 x 4 x 4 x 4 entries; two bits of i for each axis.
     for (std::size_t i = 0; i < 256; ++i) {
         const std::size_t ia = i >> 6U;
         const std::size_t id = i >> 4U & 3U;
@@ -76,6 +84,7 @@ WaterLobe waterLobe(double albedo, double opticalDepth, double rise, double azim
         lnSource += share * kLobeTable.at(entry).lnSource;
         loss += share * kLobeTable.at(entry).loss;
     }
+    // The spline may overshoot: the loss stays positive.
     return {std::exp(lnSource / 1000), std::max(loss / 1000, 0.02)};
 }
 

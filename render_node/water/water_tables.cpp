@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "render_node/water/water_tables.h"
 
 #include <algorithm>
@@ -23,11 +22,12 @@ namespace aquarama::scene {
 
 namespace {
 
-// Evenly from 400 to 700 nm, 1/m.
+// Values at N wavelengths, evenly spaced from 400 to 700 nm, 1/m.
 template <std::size_t N>
 using Samples = std::array<double, N>;
 
 template <std::size_t N>
+// Linear interpolation at a wavelength.
 double sampled(const Samples<N>& samples, double nanometres) {
     const double place = (nanometres - 400.0) / 300.0 * (N - 1);
     const auto left = static_cast<std::size_t>(std::clamp(place, 0.0, N - 2.0));
@@ -35,8 +35,8 @@ double sampled(const Samples<N>& samples, double nanometres) {
     return samples[left] * (1.0 - share) + samples[left + 1] * share;
 }
 
-// Williamson and Hollins 2022, Applied Optics 61(33) 9951, data doi 10.6084/m9.figshare.20290782:
-// b, c and Kd, read at 20 wavelengths; a = c - b.
+// Measured coefficients at 20 wavelengths. Source: Williamson and Hollins 2022, Applied Optics
+// 61(33) 9951, data doi 10.6084/m9.figshare.20290782. They give b, c and Kd; a = c - b.
 constexpr std::size_t kMeasured = 20;
 struct MeasuredWater {
     Samples<kMeasured> absorption, scattering, downwelling;
@@ -77,8 +77,8 @@ constexpr MeasuredWater k3C{
     .downwelling = {.780, .628, .501, .406, .337, .279, .235, .212, .199, .193,
                     .196, .209, .279, .345, .389, .428, .471, .534, .615, .710}};
 
-// Jerlov 1976, table XXVII, as updated by Austin and Petzold 1984: Kd of the clearest types. Pure
-// water: Pope and Fry 1997.
+// Types I and IA, the clearest, which were not measured: Kd by Jerlov 1976, table XXVII, as updated
+// by Austin and Petzold 1984. Absorption of pure water by Pope and Fry 1997. 13 wavelengths.
 constexpr std::size_t kDerived = 13;
 constexpr Samples<kDerived> kDownwellingI{
     .0217, .0185, .0176, .0184, .0280, .0504, .0640, .0931, .2408, .3174, .3559, .4372, .6513};
@@ -93,10 +93,10 @@ constexpr Spectrum kDaylight{82.75,  91.49,  93.43,  86.68,  104.86, 117.01, 117
                              100.0,  96.33,  95.79,  88.69,  90.01,  89.60,  87.70,  83.29,
                              83.70,  80.03,  80.21,  82.28,  78.28,  69.72,  71.61};
 
-// a and b of I and IA are derived, not measured: b = b_w + b_p 550 / lambda with sea water's own
-// b_w = 0.0076 (400 / lambda)^4.32 (Morel 1974) and b_p of clear ocean water at 550 nm; a from
-// Kirk's (Kd mu)^2 = a^2 + 0.256 a b with the mean cosine mu = 0.9; never clearer than 0.95 of pure
-// water.
+// Derives a and b of types I and IA. b = b_w + b_p 550 / lambda, with sea water's own b_w = 0.0076
+// (400 / lambda)^4.32 (Morel 1974) and b_p of clear ocean water at 550 nm (`particles`, 1/m). a is
+// the root of Kirk's (Kd mu)^2 = a^2 + 0.256 a b with the mean cosine mu = 0.9, and at least 0.95
+// of that of pure water.
 void derive(WaterSpectra& water, const Samples<kDerived>& downwelling, double particles) {
     constexpr double kMeanCosine = 0.9;
     for (std::size_t band = 0; band < kBands; ++band) {
@@ -111,6 +111,7 @@ void derive(WaterSpectra& water, const Samples<kDerived>& downwelling, double pa
     }
 }
 
+// Resamples measured coefficients at the bands.
 void copy(WaterSpectra& water, const MeasuredWater& measured) {
     for (std::size_t band = 0; band < kBands; ++band) {
         const double nm = wavelengthOf(band);
@@ -120,12 +121,14 @@ void copy(WaterSpectra& water, const MeasuredWater& measured) {
     }
 }
 
+// A Gaussian whose widths differ below and above its peak; `below` and `above` are 1 / sigma.
 double bell(double x, double peak, double below, double above) {
     const double t = (x - peak) * (x < peak ? below : above);
     return std::exp(-0.5 * t * t);
 }
 
-// CIE 1931 observer as fitted by Wyman, Sloan and Shirley 2013 (JCGT 2:2).
+// Colour matching functions of the CIE 1931 observer, as fitted by Wyman, Sloan and Shirley 2013
+// (JCGT 2:2).
 glm::dvec3 observer(double nm) {
     return {0.362 * bell(nm, 442.0, 0.0624, 0.0374) + 1.056 * bell(nm, 599.8, 0.0264, 0.0323) -
                 0.065 * bell(nm, 501.1, 0.0490, 0.0382),
@@ -133,6 +136,8 @@ glm::dvec3 observer(double nm) {
             1.217 * bell(nm, 437.0, 0.0845, 0.0278) + 0.681 * bell(nm, 459.0, 0.0385, 0.0725)};
 }
 
+// Observer times D65, converted from XYZ to linear Rec. 709 and normalised so that each channel
+// sums to 1.
 void setWeights(WaterSpectra& water) {
     const glm::dmat3 rec709FromXyz{{3.2404542, -0.9692660, 0.0556434},
                                    {-1.5371385, 1.8760108, -0.2040259},
@@ -147,7 +152,8 @@ void setWeights(WaterSpectra& water) {
         for (double& weight : water.weights[c]) weight /= white[c];
 }
 
-// Edges at 505 and 590 nm, 8 nm soft: of such triples the one that errs least over seven pigments.
+// Three reflectances with soft edges (8 nm) at 505 and 590 nm. Among such triples these edges give
+// the least error for seven pigments.
 void setReflectances(WaterSpectra& water) {
     const auto step = [](double x) { return 1.0 / (1.0 + std::exp(-x / 8.0)); };
     for (std::size_t band = 0; band < kBands; ++band) {
@@ -166,6 +172,7 @@ glm::vec3 sunInWater() {
 }
 
 double wavelengthOf(std::size_t band) {
+    assert(band < kBands);
     return 400.0 + 10.0 * static_cast<double>(band);
 }
 
@@ -205,13 +212,18 @@ WaterSpectra seaWater(config::WaterType type) {
 
 namespace {
 
+// Sizes of the tables' axes.
 constexpr int kRanges = 64, kDepths = 64, kRises = 32;
+// The depth of water behind which open water looks the same.
 constexpr double kOpenWaterMetres = 60.0;
-// Eyes: closer near the surface, where the light changes most.
+// Depths of the eye for which Inscatter has tables: closer together near the surface, where the
+// light changes most.
 constexpr int kEyes = 13;
 constexpr double kDeepestEyeMetres = 40.0;
 
+// 0 to 1 in equal steps. The functions below give the value of each axis at an index.
 double evenly(int i, int count) {
+    assert(count > 1 && i >= 0 && i < count);
     return static_cast<double>(i) / (count - 1);
 }
 double rangeAt(int i, int count) {
@@ -230,6 +242,7 @@ double eyeDepthAt(int i) {
     return kDeepestEyeMetres * v * v;
 }
 
+// Linear Rec. 709 of a spectrum of light.
 glm::dvec3 integrated(const WaterSpectra& water, const Spectrum& light) {
     glm::dvec3 sum{0.0};
     for (std::size_t band = 0; band < kBands; ++band)
@@ -237,11 +250,12 @@ glm::dvec3 integrated(const WaterSpectra& water, const Spectrum& light) {
     return sum;
 }
 
+// Of linear Rec. 709.
 double luminance(glm::dvec3 rgb) {
     return glm::dot(rgb, glm::dvec3{0.2126, 0.7152, 0.0722});
 }
 
-// Columns: what is left of a unit of each smooth reflectance, in linear Rec. 709.
+// Columns: what remains of each unit reflectance after this depth and range, in linear Rec. 709.
 glm::dmat3 transmitted(const WaterSpectra& water, double range, double depth) {
     glm::dmat3 columns{0.0};
     for (std::size_t band = 0; band < kBands; ++band) {
@@ -255,9 +269,11 @@ glm::dmat3 transmitted(const WaterSpectra& water, double range, double depth) {
     return columns;
 }
 
-// What a unit of irradiance at the eye makes of the ray before this range: source and loss.
+// Light scattered into one direction of view, by band: source at the eye (1/m) and loss along the
+// way (1/m).
 struct Ray {
     Spectrum source{}, loss{};
+    // The integral of source exp(-loss r) from 0 to this range.
     [[nodiscard]] Spectrum lightBefore(double range) const {
         Spectrum light;
         for (std::size_t band = 0; band < kBands; ++band)
@@ -266,6 +282,8 @@ struct Ray {
     }
 };
 
+// eyeDepth, metres, selects the lobe; litDepth, the depth less the filter's, attenuates the light
+// from above. The least loss keeps the integral finite.
 Ray rayOf(const WaterSpectra& water,
           double eyeDepth,
           double litDepth,
@@ -282,20 +300,23 @@ Ray rayOf(const WaterSpectra& water,
     return ray;
 }
 
+// Azimuth of a layer, degrees: even steps in its cosine.
 double azimuthAt(int i) {
     const double cosine = std::clamp(2.0 * evenly(i, shaders::kSightAzimuths) - 1.0, -1.0, 1.0);
     return std::acos(cosine) * 180.0 / std::numbers::pi;
 }
 
-// Where between the eyes of the slices, by index.
+// Fractional index of a depth among the tables of Inscatter: the inverse of eyeDepthAt().
 double eyePlace(double depth) {
     return std::sqrt(std::clamp(depth / kDeepestEyeMetres, 0.0, 1.0)) * (kEyes - 1);
 }
 
-// Straight between a mean of near sand and the water beyond it, in their logarithms.
+// Exposure for an eye at this depth: kKey divided by a geometric mean of near sand and of open
+// water across the sun, weighted by kWater.
 double exposureOf(const WaterSpectra& water, double eyeDepth) {
     constexpr double kKey = 0.124, kWater = 0.6;
-    constexpr double kDusk = 0.018;  // the deep is darker, 1/m
+    // The deep is shown darker by this, 1/m.
+    constexpr double kDusk = 0.018;
     constexpr double kSandAway = 5.0, kSandBelow = 5.0, kSandAlbedo = 0.4;
     const double lit = eyeDepth - filterDepthMetres(eyeDepth);
     const glm::dvec3 sand = transmitted(water, kSandAway, lit + kSandBelow) * glm::dvec3{1.0};
@@ -312,6 +333,7 @@ double exposureOf(const WaterSpectra& water, double eyeDepth) {
 }  // namespace
 
 double filterDepthMetres(double eyeDepthMetres) {
+    // The filter approaches this many metres and is nearly the depth itself near the surface.
     constexpr double kMost = 21.0;
     const double depth = std::max(eyeDepthMetres, 0.0);
     return depth / std::hypot(1.0, depth / kMost);
@@ -321,6 +343,7 @@ Table bakeDirect(const WaterSpectra& water) {
     Table table{kRanges, kDepths, 3, {}};
     table.texels.resize(std::size_t{kRanges} * kDepths * 3);
     std::size_t at = 0;
+    // A colour is taken as the sum of the three surfaces that gives it at no depth and no range.
     const glm::dmat3 surfacesFromColour = glm::inverse(transmitted(water, 0.0, 0.0));
     for (int depth = 0; depth < kDepths; ++depth)
         for (int range = 0; range < kRanges; ++range) {
@@ -399,6 +422,7 @@ void Inscatter::mixAtDepth(double eyeDepthMetres, Table& table) const {
     const auto share = static_cast<float>(place - static_cast<double>(left));
     const auto& near = slices_[left].texels;
     const auto& far = slices_[left + 1].texels;
+    assert(table.texels.size() == near.size());
     for (std::size_t i = 0; i < near.size(); ++i)
         table.texels[i] = glm::mix(near[i], far[i], share);
 }
@@ -411,6 +435,7 @@ double Inscatter::exposureAt(double eyeDepthMetres) const {
 
 namespace {
 
+// The tables as flat arrays, as the cache of derived data stores them.
 struct WaterArrays {
     std::vector<glm::vec3> inscatter, direct, openWater;
     std::vector<double> exposures;

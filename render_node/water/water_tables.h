@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jerlov's types of sea water: what each does to light, at 31 bands of the spectrum.
+// Jerlov's types of sea water, and tables of what each does to light. Light is integrated over 31
+// bands of the spectrum, then stored as linear Rec. 709.
 #pragma once
 
 #include <array>
@@ -13,86 +14,103 @@
 
 namespace aquarama::scene {
 
-inline constexpr std::size_t kBands = 31;  // 400 to 700 nm by 10
+// Bands of 10 nm, their middles at 400 to 700 nm.
+inline constexpr std::size_t kBands = 31;
 using Spectrum = std::array<double, kBands>;
-[[nodiscard]] double wavelengthOf(std::size_t band);  // nanometres
+// Middle of a band, nanometres.
+[[nodiscard]] double wavelengthOf(std::size_t band);
 
-// Coefficients in 1/m.
+// Optical properties of one type of water, by band. Coefficients in 1/m.
 struct WaterSpectra {
-    Spectrum absorption{};     // a
-    Spectrum scattering{};     // b
-    Spectrum downwelling{};    // Kd
-    Spectrum weights[3];       // band to linear Rec. 709; daylight D65 gives (1, 1, 1)
-    Spectrum reflectances[3];  // smooth red, green, blue surfaces that sum to white
+    Spectrum absorption{};   // a
+    Spectrum scattering{};   // b
+    Spectrum downwelling{};  // Kd
+    // From a band to linear Rec. 709 red, green, blue; daylight D65 gives (1, 1, 1).
+    Spectrum weights[3];
+    // Smooth reflectances of a red, a green and a blue surface, which sum to white.
+    Spectrum reflectances[3];
 };
+// The properties of a type of water; sources are in water_tables.cpp.
 [[nodiscard]] WaterSpectra seaWater(config::WaterType type);
 
-// Towards the sun as seen in the water: before the wall and to its left, 55 degrees up.
+// Unit vector towards the sun as seen in the water, world frame: ahead of the wall and to its left,
+// 55 degrees above the horizon.
 [[nodiscard]] glm::vec3 sunInWater();
 
-// Of the scattered light, so much goes so nearly straight on that it stays in the picture.
+// The share of the scattered light that continues so nearly straight on that it stays in the
+// picture.
 inline constexpr double kStaysInPicture = 0.49;
-// What dims the way to the eye: a + 0.51 b.
+// Attenuation of a picture on the way to the eye, 1/m: a + 0.51 b.
 [[nodiscard]] double beamAttenuation(const WaterSpectra& water, std::size_t band);
 
-// What sea water does to light, integrated over 31 bands of the spectrum into tables for the
-// shaders: separate coefficients for the way down (Kd) and for the way to the eye (a + 0.51 b).
+// Tables for the shaders. The way down and the way to the eye have separate coefficients: Kd and a
+// + 0.51 b.
 
+// Ends of the axes of range and depth.
 inline constexpr double kFarthestMetres = 80.0;
 inline constexpr double kDeepestMetres = 30.0;
-// Depths begin above the surface: the diver's filter may undo more water than there is.
+// The axis of depth begins this far above the surface, as the diver's filter may undo more water
+// than there is.
 inline constexpr double kDepthOffsetMetres = 10.0;
 
+// A table of linear Rec. 709 light, to become a texture.
 struct Table {
     int width = 0, height = 0, layers = 1;
     std::vector<glm::vec3> texels;  // x fastest, then y, then layer
 };
 
-// 3x3 matrices over sqrt(range / 80 m) and sqrt((depth + 10 m) / 40 m); layers are the columns.
+// Attenuation of a thing's light on the way down and to the eye: 3x3 matrices for linear Rec. 709,
+// whose columns are the three layers. x: sqrt(range / 80 m); y: sqrt((depth + 10 m) / 40 m).
 [[nodiscard]] Table bakeDirect(const WaterSpectra& water);
 
-// Light scattered into the view from 60 m of water, without the lobes of direction: over
-// sqrt((depth + 10 m) / 40 m) and rise, (w_y + 1) / 2. For mirrors.
+// Light scattered into the view by 60 m of water, without the lobes of direction; for mirrors. x:
+// sqrt((depth + 10 m) / 40 m); y: (rise w_y + 1) / 2.
 [[nodiscard]] Table bakeOpenWater(const WaterSpectra& water);
 
-// The diver's filter: of the water above an eye at this depth it undoes so many metres, as the
-// white balance of a camera would: a spectral gain exp(Kd z_f), so that depths are looked up z_f
-// higher. Never all of it: distance and depth stay blue. Smooth, for an eye that dives.
+// The diver's filter, as the white balance of a camera: for an eye at this depth it undoes the
+// attenuation by so many metres of water, a spectral gain of exp(Kd z_f). Depths are therefore
+// looked up z_f higher. It never undoes all of the depth, so that distance and depth remain blue.
+// Smooth in depth.
 [[nodiscard]] double filterDepthMetres(double eyeDepthMetres);
 
-// Light scattered into the view on the way from the eye, without the lobes of the shaders: layers
-// over the cosine of the azimuth from the sun's, -1 to 1; in each sqrt(range / 80 m) and rise.
-// Baked for eyes at several depths, between which it is mixed, so that the submarine may dive.
+// Light scattered into the view between the eye and a range, without the lobes of the shaders.
+// Layers: (cosine of the azimuth from the sun's, -1 to 1); x: sqrt(range / 80 m); y: rise. It is
+// made for eyes at several depths and mixed between them, so that the submarine may dive.
 class Inscatter {
   public:
+    // Computes the tables of all depths.
     explicit Inscatter(const WaterSpectra& water);
-    // From what texels() and exposures() returned.
+    // Restores an object from what texels() and exposures() returned.
     Inscatter(std::span<const glm::vec3> texels, std::vector<double> exposures);
+    // The table for an eye at this depth, metres.
     [[nodiscard]] Table atDepth(double eyeDepthMetres) const;
-    // Into a table of `atDepth`; takes no memory.
+    // Writes the same into a table that atDepth() has made; allocates nothing.
     void mixAtDepth(double eyeDepthMetres, Table& table) const;
-    // What makes the water about an eye at this depth bright enough to be seen and dark enough to
-    // hold its colour, before daylight. Smooth in depth.
+    // The factor of exposure for an eye at this depth, before daylight: the water about it is
+    // bright enough to be seen and dark enough to keep its colour. Smooth in depth.
     [[nodiscard]] double exposureAt(double eyeDepthMetres) const;
 
-    [[nodiscard]] std::vector<glm::vec3> texels() const;  // of all depths of the eye, one by one
+    // The texels of all depths of the eye, one table after the other.
+    [[nodiscard]] std::vector<glm::vec3> texels() const;
     [[nodiscard]] const std::vector<double>& exposures() const { return exposures_; }
 
   private:
     [[nodiscard]] Table baked(const WaterSpectra& water, double eyeDepthMetres) const;
 
+    // One table and one exposure for each depth of the eye.
     std::vector<Table> slices_;
     std::vector<double> exposures_;
 };
 
-// All of a type of water. Baked once on a machine: derived data.
+// All tables of a type of water.
 struct WaterTables {
     Inscatter inscatter;
     Table direct, openWater;
 };
+// Takes them from the cache of derived data, or computes them once on this machine.
 [[nodiscard]] WaterTables waterTables(config::WaterType type);
 
-// Kd of daylight's three primaries about the depth that the filter leaves, 1/m.
+// Kd of daylight's three primaries near the depth that the filter leaves, 1/m.
 [[nodiscard]] glm::vec3 primariesDownwelling(const WaterSpectra& water);
 
 }  // namespace aquarama::scene

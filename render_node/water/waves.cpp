@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/water/waves.h"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -17,28 +18,37 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kGravity = 9.81;
 constexpr double kTension = 7.4e-5;  // of water against air by density, m3/s2
-// Headings by the golden angle: a short sea from all sides, whose caustics have no grain.
+// Consecutive headings differ by the golden angle, radians: waves from all sides, so that caustics
+// have no grain.
 constexpr double kGoldenAngle = 2.39996;
-// Below 0.3 caustics are faint, above 0.8 they break into cords and sheets.
+// The focus number of the waves. Below 0.3 caustics are faint; above 0.8 they break into cords and
+// sheets.
 constexpr double kSharpestNet = 0.56;
-// A light breeze: with the waves about 0.17, the slope of Cox and Munk 1954 at 5 m/s.
+// The rms slope of the ripples. Together with the waves it is about 0.17, the slope of Cox and Munk
+// 1954 for a breeze of 5 m/s.
 constexpr double kRippleSteepness = 0.125;
 constexpr double kLongSteepness = 0.055;
 
-// A band of wavelengths, how slopes grow with them, and how fast they run, of the sea's own pace.
+// A band of wavelengths from longest to longest * shortestShare; how slopes grow with the
+// wavelength (exponent `steepening`); and `pace`, the share of the natural frequency at which the
+// waves run.
 struct Band {
     double longestMetres, shortestShare, steepening, pace;
 };
-// At the sea's own pace caustics would flicker: they change within a tenth of a second.
+// The waves run at 0.55 of their natural frequency: at full speed caustics change within a tenth of
+// a second, which looks like flicker.
 constexpr Band kWaveBand{3.8, 0.14, 0.45, 0.55};
 constexpr Band kRippleBand{0.5, 0.10, 0.25, 1.0};
 constexpr Band kLongBand{15.0, 0.4, 0.0, 1.0};
 
+// Dispersion of gravity-capillary waves in deep water, rad/s.
 double frequencyOf(double number) {
     return std::sqrt(kGravity * number + kTension * number * number * number);
 }
 
-// tileMetres 0: repeats nowhere.
+// Wavelengths evenly spaced in their logarithm, headings and phases from the seed. Wave numbers are
+// rounded to whole waves on the tile; tileMetres 0 leaves them as they are. Amplitudes are
+// relative: scale() sets them.
 template <std::size_t Count>
 WaveSet<Count> wavesOf(std::uint32_t seed, const Band& band, double tileMetres) {
     WaveSet<Count> waves;
@@ -69,6 +79,7 @@ void scale(WaveSet<Count>& waves, double by) {
 }
 
 template <std::size_t Count>
+// Sum of (k a)^2 / 2.
 double meanSquareSlope(const WaveSet<Count>& waves) {
     double sum = 0;
     for (const Wave& wave : waves)
@@ -78,6 +89,7 @@ double meanSquareSlope(const WaveSet<Count>& waves) {
 }
 
 template <std::size_t Count>
+// Phases at a time, reduced to one period.
 void setPhases(const WaveSet<Count>& waves, double timeSeconds, std::array<glm::vec4, Count>& now) {
     for (std::size_t i = 0; i < Count; ++i) {
         const Wave& wave = waves[i];
@@ -89,6 +101,7 @@ void setPhases(const WaveSet<Count>& waves, double timeSeconds, std::array<glm::
 }  // namespace
 
 Sea seaOf(std::uint32_t seed, float focusDepthMetres) {
+    assert(focusDepthMetres > 0.0F);
     Sea sea{
         wavesOf<kWaves>(seed, kWaveBand, static_cast<double>(shaders::kTileMetres)),
         wavesOf<kWaves>(hashOf(seed), kRippleBand, static_cast<double>(shaders::kRippleTileMetres)),
@@ -104,11 +117,12 @@ Sea calmSea() {
 }
 
 SeaNow seaAt(const Sea& sea, double timeSeconds) {
+    assert(std::isfinite(timeSeconds));
     SeaNow now;
     setPhases(sea.waves, timeSeconds, now.waves);
     setPhases(sea.ripples, timeSeconds, now.ripples);
     setPhases(sea.longWaves, timeSeconds, now.longWaves);
-    // Swells of 7 and 4.3 s.
+    // rad/s: swells of 7 and 4.3 s, and two flutters of plants.
     constexpr glm::dvec4 kFrequencies{0.898, 1.461, 2.3, 2.7};
     for (int i = 0; i < 4; ++i)
         now.swellPhases[i] = static_cast<float>(std::fmod(kFrequencies[i] * timeSeconds, kTwoPi));
