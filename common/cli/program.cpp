@@ -2,14 +2,15 @@
 #include "common/cli/program.h"
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <optional>
 #include <sstream>
 
-#include "common/cli/causes.h"
-#include "common/cli/version.h"
+#include <unistd.h>
 
 namespace aquarama::cli {
 
@@ -18,10 +19,32 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;
 
-// With the subcommand that was asked for: "aquarama run".
+// With the commands that were asked for: "aquarama study chronicle".
 std::string commandOf(const CLI::App& app) {
-    const auto chosen = app.get_subcommands();
-    return chosen.empty() ? app.get_name() : app.get_name() + " " + chosen.front()->get_name();
+    std::string name = app.get_name();
+    for (const CLI::App* command : app.get_subcommands())
+        if (!command->get_name().empty()) name += " " + commandOf(*command);  // else a group
+    return name;
+}
+
+// To the program and its commands, but for those that hand their arguments to another program.
+void addVersionFlag(CLI::App& app, const std::string& program) {
+    if (app.get_prefix_command()) return;
+    if (!app.get_name().empty())
+        app.set_version_flag(
+            "--version",
+            [program] { return program + " " + versionText(); },
+            "print version, commit, build and libraries, and end");
+    for (CLI::App* command : app.get_subcommands({})) addVersionFlag(*command, program);
+}
+
+// False where there is no supervisor.
+bool tellSupervisor(const std::string& line) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes it
+    const char* pipe = std::getenv(kErrorPipeVariable);
+    if (pipe == nullptr) return false;
+    const std::string whole = line + '\n';
+    return write(std::atoi(pipe), whole.data(), whole.size()) == static_cast<ssize_t>(whole.size());
 }
 
 int sayUsage(const CLI::App& app, const CLI::ParseError& wrong) {
@@ -55,17 +78,15 @@ CLI::Validator between(Number least, Number most, const std::string& kind) {
 }  // namespace
 
 int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
-    app.set_version_flag(
-        "--version",
-        [&app] { return app.get_name() + " " + versionText(); },
-        "print version, commit, build and libraries, and end");
+    assert(!app.get_name().empty());
+    addVersionFlag(app, app.get_name());
     try {
         app.parse(count, arguments);
         return job();
     } catch (const CLI::ParseError& wrong) {
         return sayUsage(app, wrong);
     } catch (const std::exception& error) {
-        sayError(app.get_name(), error.what());
+        sayError(commandOf(app), error.what());
         return kFailed;
     }
 }
@@ -77,10 +98,12 @@ void sayError(const std::string& program, const std::string& what) {
 }
 
 CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
+    assert(least <= most);
     return between(least, most, "a whole number");
 }
 
 CLI::Validator number(double least, double most) {
+    assert(least <= most);
     return between(least, most, "a number");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pipes through which the nodes of a show send frames to the program that encodes its clip.
+// What must be there before the first process of a show starts. Each function throws Error, which
+// says what to do, where it is not.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +9,20 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama::cli {
+namespace aquarama::supervisor {
+
+// A display to open windows on.
+void requireDisplay();
+
+// That nobody listens at the address of a rig, "tcp://HOST:PORT": nodes would join the other show.
+void requireFreePort(const std::string& address);
+
+// That the file can be read and is a recording by its first bytes.
+void requireRecording(const std::string& path);
+
+// What a file is by its first bytes; false where it cannot be read.
+[[nodiscard]] bool looksLikeRecording(const std::string& path);
+[[nodiscard]] bool looksLikeRepertoire(const std::string& path);
 
 // Whether a clip of `of` is composed of all channels: the panorama and the hall.
 [[nodiscard]] bool showsAllChannels(const std::string& of);
@@ -17,7 +31,8 @@ namespace aquarama::cli {
 // that name. Throws Error where the rig has none.
 [[nodiscard]] std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& of);
 
-// Named pipes in a folder of their own, which goes with them.
+// Named pipes, by which nodes send their frames to the program that encodes a clip, in a folder of
+// their own; it is removed with this object.
 class ClipPipes {
   public:
     explicit ClipPipes(const std::vector<std::string>& channels);
@@ -32,4 +47,4 @@ class ClipPipes {
     std::filesystem::path folder_;
 };
 
-}  // namespace aquarama::cli
+}  // namespace aquarama::supervisor

@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/cli/preflight.h"
+#include "master/supervisor/preflight.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <memory>
 
 #include <netdb.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "common/units/error.h"
 
-namespace aquarama::cli {
+namespace aquarama::supervisor {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason() {
+    return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): this process has one thread
+}
 
 bool isSet(const char* variable) {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
@@ -50,6 +60,7 @@ void requireDisplay() {
 }
 
 void requireFreePort(const std::string& address) {
+    assert(address.starts_with("tcp://"));
     const std::size_t host = address.find("//") + 2;
     const std::size_t colon = address.rfind(':');
     std::string name = address.substr(host, colon - host);
@@ -82,4 +93,40 @@ bool looksLikeRepertoire(const std::string& path) {
     return firstBytesOf(path).starts_with("AQREP");
 }
 
-}  // namespace aquarama::cli
+bool showsAllChannels(const std::string& of) {
+    return of == "panorama" || of == "hall";
+}
+
+std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& of) {
+    std::vector<std::string> names;
+    for (const config::Channel& channel : rig.channels) names.push_back(channel.name);
+    if (showsAllChannels(of)) return names;
+    if (std::ranges::find(names, of) != names.end()) return {of};
+    std::string known = "panorama, hall";
+    for (const std::string& name : names) known += ", " + name;
+    throw Error("--clip-of " + of + ": rig \"" + rig.name +
+                "\" has no such channel; choose one of " + known);
+}
+
+ClipPipes::ClipPipes(const std::vector<std::string>& channels) {
+    std::string pattern = (fs::temp_directory_path() / "aquarama-clip-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+        throw Error(pattern + ": no folder can be made for the clip's pipes (" + reason() + ")");
+    folder_ = pattern;
+    for (const std::string& channel : channels)
+        if (mkfifo((folder_ / channel).c_str(), S_IRUSR | S_IWUSR) != 0)
+            throw Error(folder_.string() + ": takes no named pipe (" + reason() +
+                        "); set TMPDIR to a folder of a local disk");
+}
+
+ClipPipes::~ClipPipes() {
+    std::error_code none;
+    fs::remove_all(folder_, none);
+}
+
+std::string ClipPipes::pipeOf(const std::string& channel) const {
+    const fs::path pipe = folder_ / channel;
+    return fs::exists(pipe) ? pipe.string() : "";
+}
+
+}  // namespace aquarama::supervisor

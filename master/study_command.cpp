@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// aquarama study: with and without each adaptation of the mind to its motor.
+// `aquarama study`: with and without each adaptation of the mind to its motor; and a chronicle of
+// one scene.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -11,13 +13,10 @@
 #include <CLI/CLI.hpp>
 
 #include "common/cli/outputs.h"
-#include "common/cli/program.h"
-#include "common/cli/python.h"
 #include "common/files/files.h"
 #include "common/units/error.h"
-#include "master/capture/compile/config_folder.h"
 #include "master/capture/compile/progress_bar.h"
-#include "master/capture/compile/repertoire_cache.h"
+#include "master/commands.h"
 #include "master/study/chronicle.h"
 #include "master/study/scenarios.h"
 #include "master/study/study_csv.h"
@@ -84,8 +83,7 @@ std::vector<study::Sample> watched(const study::StudyPlan& plan) {
 
 void runStudy(const StudyOptions& options) {
     DataFolder::require(options.out);
-    const fs::path config =
-        options.config.empty() ? capture::findConfigFolder() : fs::path(options.config);
+    const fs::path config = configFolder(options.config);
     const study::StudyPlan plan{.scenarios = study::scenariosOf(config),
                                 .minutes = options.minutes,
                                 .seeds = options.seeds,
@@ -129,33 +127,31 @@ void chronicle(const ChronicleOptions& options) {
 
 }  // namespace
 
-}  // namespace aquarama
-
-int main(int count, char** arguments) {
-    using namespace aquarama;
-    CLI::App app{"With and without each adaptation of the mind to its motor, as tables in Markdown",
-                 "aquarama-study"};
-    StudyOptions options;
-    app.add_option("--out", options.out, "folder for a table of all runs and a figure");
-    app.add_option("--minutes", options.minutes, "of each run; 10 when not given")
-        ->check(cli::number(0.1, 1440));
-    app.add_option("--seeds", options.seeds, "runs of each kind; 5 when not given")
-        ->check(cli::wholeNumber(1, 100));
-    app.add_option("--config", options.config, "folder that holds scenes and species");
-    ChronicleOptions life;
-    CLI::App& chronicled =
-        *app.add_subcommand("chronicle", "what happens in a scene, hour by hour");
-    chronicled.add_option("SCENE", life.scene, "the scene's file")->required();
-    chronicled.add_option("--out", life.out, "folder for the hours and overlaps as tables");
-    chronicled.add_option("--hours", life.hours, "of the scene; 1 when not given")
-        ->check(cli::number(0.01, 1000));
-    chronicled.add_option("--seed", life.seed, "of the world; 1 when not given")
-        ->check(cli::wholeNumber(0, cli::kMostSeed));
-    return cli::runProgram(app, count, arguments, [&] {
-        if (chronicled.parsed())
-            chronicle(life);
-        else
-            runStudy(options);
-        return 0;
-    });
+void addStudy(CommandLine& line) {
+    const auto [command, options] = line.add<StudyOptions>(
+        "study",
+        "with and without each adaptation of the mind to its motor, as tables in Markdown; study "
+        "chronicle SCENE: what happens in a scene",
+        runStudy);
+    command.require_subcommand(0, 1);
+    command.add_option("--out", options.out, "folder for a table of all runs and a figure");
+    command.add_option("--minutes", options.minutes, "of each run")
+        ->check(cli::number(0.1, 1440))
+        ->capture_default_str();
+    command.add_option("--seeds", options.seeds, "runs of each kind")
+        ->check(cli::wholeNumber(1, 100))
+        ->capture_default_str();
+    describeConfig(command, options.config);
+    const auto [life, chronicled] = line.addTo<ChronicleOptions>(
+        command, "chronicle", "what happens in a scene, hour by hour", chronicle);
+    life.add_option("SCENE", chronicled.scene, "the scene's file")->required();
+    life.add_option("--out", chronicled.out, "folder for the hours and overlaps as tables");
+    life.add_option("--hours", chronicled.hours, "of the scene")
+        ->check(cli::number(0.01, 1000))
+        ->capture_default_str();
+    life.add_option("--seed", chronicled.seed, "of the world")
+        ->check(cli::wholeNumber(0, cli::kMostSeed))
+        ->capture_default_str();
 }
+
+}  // namespace aquarama

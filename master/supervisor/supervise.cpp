@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/cli/show.h"
+#include "master/supervisor/supervise.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -12,27 +13,27 @@
 
 #include <signal.h>
 
-#include "common/cli/causes.h"
-#include "common/cli/children.h"
-#include "common/cli/clip.h"
 #include "common/cli/outputs.h"
-#include "common/cli/preflight.h"
-#include "common/cli/siblings.h"
 #include "common/units/error.h"
+#include "master/supervisor/children.h"
+#include "master/supervisor/preflight.h"
 
-namespace aquarama::cli {
+namespace aquarama::supervisor {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kGoodbye = 5s;        // how long a process may take to end after it was asked to
-constexpr auto kLastPictures = 60s;  // and how long a clip may, which ends when the nodes have
-constexpr int kInterrupted = 130;    // what shells say of Ctrl-C
-constexpr auto kTooShort = 5s;       // one that dies sooner at its first start would only die again
-constexpr auto kBreath = 1s;         // before another start of one that keeps dying
+constexpr auto kTimeToEnd = 5s;         // of a process that was asked to end,
+constexpr auto kTimeToEndClip = 60s;    // and of a clip, which ends after the nodes
+constexpr auto kTimeForPictures = 30s;  // of the nodes, after the master has ended
+constexpr int kInterrupted = 130;       // the exit status after Ctrl-C, as shells have it
+constexpr auto kShortestLife = 5s;  // a process that dies sooner at its first start would die again
+constexpr auto kPauseBeforeRestart = 1s;  // of a process that keeps dying
 
+// Names of processes.
+constexpr const char* kMaster = "master";
 constexpr const char* kClip = "clip";
 
 struct Process {
@@ -61,36 +62,36 @@ void append(std::vector<std::string>& arguments,
     arguments.push_back(value);
 }
 
-Process masterProcess(const ShowOptions& options) {
-    std::vector<std::string> arguments{options.rigPath};
+Process masterProcess(const RunOptions& options) {
+    const ShowOptions& show = options.show;
+    std::vector<std::string> arguments{"master", show.rigPath};
     if (options.lockstep()) arguments.emplace_back("--lockstep");
-    if (options.frames) append(arguments, "--frames", std::to_string(*options.frames));
-    if (options.seed) append(arguments, "--seed", std::to_string(*options.seed));
-    append(arguments, "--scene", options.scenePath);
-    if (options.fish) append(arguments, "--fish", std::to_string(*options.fish));
-    append(arguments, "--pattern", options.pattern);
-    append(arguments, "--quality", options.quality);
-    append(arguments, "--trace", options.traceFolder);
-    append(arguments, "--replay", options.replayPath);
-    Process master{
-        .name = "master", .command = {siblingProgram("master"), arguments}, .started = {}};
-    // A master that is started again begins another world: it does not belong into this file.
-    append(master.firstTimeOnly, "--record", options.recordPath);
+    if (show.frames) append(arguments, "--frames", std::to_string(*show.frames));
+    append(arguments, "--replay", show.replayPath);
+    if (show.replayPath.empty()) append(arguments, "--seed", std::to_string(show.seed));
+    append(arguments, "--scene", show.scenePath);
+    if (show.fish) append(arguments, "--fish", std::to_string(*show.fish));
+    append(arguments, "--pattern", show.pattern);
+    append(arguments, "--quality", show.quality);
+    append(arguments, "--trace", show.traceFolder);
+    Process master{.name = kMaster, .command = {ownProgram(), arguments}, .started = {}};
+    // A master that is started again begins another world, which does not belong into this file.
+    append(master.firstTimeOnly, "--record", show.recordPath);
     return master;
 }
 
-// Composes and encodes while the nodes draw.
-Process clipProcess(const ShowOptions& options, const std::string& pipes) {
-    std::vector<std::string> arguments{"clip", options.rigPath, options.clipPath};
+// Composes and encodes the clip while the nodes draw.
+Process clipProcess(const RunOptions& options, const std::string& pipes) {
+    std::vector<std::string> arguments{"clip", options.show.rigPath, options.clipPath};
     append(arguments, "--pipes", pipes);
     append(arguments, "--of", options.clipOf);
     append(arguments, "--every", std::to_string(options.filmEvery));
-    if (options.frames) append(arguments, "--frames", std::to_string(*options.frames));
+    if (options.show.frames) append(arguments, "--frames", std::to_string(*options.show.frames));
     if (showsAllChannels(options.clipOf)) append(arguments, "--first", options.snapshotFolder);
     return {.name = kClip, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
 }
 
-Process nodeProcess(const ShowOptions& options,
+Process nodeProcess(const RunOptions& options,
                     const config::Rig& rig,
                     const config::Channel& channel,
                     const std::string& filmPipe) {
@@ -100,7 +101,7 @@ Process nodeProcess(const ShowOptions& options,
     if (options.deep) arguments.emplace_back("--deep");
     append(arguments, "--film", filmPipe);
     if (!filmPipe.empty()) append(arguments, "--film-every", std::to_string(options.filmEvery));
-    append(arguments, "--trace", options.traceFolder);
+    append(arguments, "--trace", options.show.traceFolder);
     return {.name = "node " + channel.name,
             .command = {siblingProgram("node"), arguments},
             .started = {}};
@@ -127,8 +128,8 @@ void signalAll(const std::vector<Process>& processes, int signal) {
     }
 }
 
-// Every death that was heard of, before the first of them is judged: what is dead must not be
-// waited for.
+// Marks every process that has died, before the first death is judged: nobody may wait for a dead
+// process.
 std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
                                                 const Heard& heard) {
     std::vector<std::pair<Process*, Ending>> dead;
@@ -141,8 +142,8 @@ std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
     return dead;
 }
 
-// Asks all to end, and makes sure of it; at once where somebody asks again. The clip ends by
-// itself, with the nodes: what was shown until then is kept.
+// Asks all processes to end, and kills those that take too long, or all where somebody interrupts
+// again. The clip ends after the nodes: the pictures until then are kept.
 void endAll(std::vector<Process>& processes) {
     signalAll(processes, SIGTERM);
     const auto asked = Clock::now();
@@ -152,7 +153,8 @@ void endAll(std::vector<Process>& processes) {
         const auto waited = Clock::now() - asked;
         for (const Process& process : processes)
             if (process.running() &&
-                (heard.interrupted || waited > (process.name == kClip ? kLastPictures : kGoodbye)))
+                (heard.interrupted ||
+                 waited > (process.name == kClip ? kTimeToEndClip : kTimeToEnd)))
                 kill(process.child, SIGKILL);
     }
 }
@@ -162,9 +164,10 @@ std::string described(const Ending& ending) {
                               : "ended with status " + std::to_string(ending.exitCode);
 }
 
-// Of a show that ends with it: what was said first, for what dies next dies of that.
-std::string causeOf(const Causes& causes, const Process& process, const Ending& ending) {
-    const std::vector<std::string> said = causes.heard();
+// The line for a show that ends with this death: the first error that was reported, as later ones
+// follow from it.
+std::string causeOf(const ErrorPipe& errors, const Process& process, const Ending& ending) {
+    const std::vector<std::string> said = errors.heard();
     return said.empty() ? "aquarama: " + process.name + ' ' + described(ending) + "; the show ends"
                         : said.front();
 }
@@ -172,23 +175,23 @@ std::string causeOf(const Causes& causes, const Process& process, const Ending& 
 // What the death of one process means for the show.
 enum class Verdict { GoesOn, Over, Failed };
 
-Verdict judge(const ShowOptions& options,
-              const Causes& causes,
+Verdict judge(const RunOptions& options,
+              const ErrorPipe& errors,
               Process& process,
               const Ending& ending) {
-    const bool early = Clock::now() - process.started < kTooShort;
+    const bool early = Clock::now() - process.started < kShortestLife;
     process.proven = process.proven || !early;
-    if (ending.clean()) return process.name == "master" ? Verdict::Over : Verdict::GoesOn;
+    if (ending.clean()) return process.name == kMaster ? Verdict::Over : Verdict::GoesOn;
     if (options.lockstep() || !process.proven) {
-        std::cerr << causeOf(causes, process, ending) << '\n';
+        std::cerr << causeOf(errors, process, ending) << '\n';
         return Verdict::Failed;
     }
-    for (const std::string& line : causes.heard()) std::cerr << line << '\n';
+    for (const std::string& line : errors.heard()) std::cerr << line << '\n';
     std::cerr << "aquarama: " << process.name << ' ' << described(ending) << "; starting it again"
-              << (process.name == "master" && !options.recordPath.empty()
+              << (process.name == kMaster && !options.show.recordPath.empty()
                       ? "; what follows is not recorded\n"
                       : "\n");
-    if (early) std::this_thread::sleep_for(kBreath);
+    if (early) std::this_thread::sleep_for(kPauseBeforeRestart);
     process.launch();
     return Verdict::GoesOn;
 }
@@ -197,19 +200,18 @@ enum class Outcome { Finished, Interrupted, Failed };
 
 // Watches until the master has ended and every node with it, or something failed, or we are asked
 // to stop.
-Outcome watch(const ShowOptions& options, const Causes& causes, std::vector<Process>& processes) {
-    auto farewell = Clock::time_point::max();
+Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Process>& processes) {
+    auto lastMoment = Clock::time_point::max();
     while (anyRunning(processes)) {
         const Heard heard = waitForChildren(200ms);
         bool failed = false;
         for (const auto& [process, ending] : deaths(processes, heard)) {
-            const Verdict verdict = judge(options, causes, *process, ending);
+            const Verdict verdict = judge(options, errors, *process, ending);
             failed = verdict == Verdict::Failed;
-            if (failed) break;  // what dies with it is no cause
-            if (verdict == Verdict::Over)
-                farewell = Clock::now() + 30s;  // nodes may still be writing their pictures
+            if (failed) break;  // other deaths follow from this one
+            if (verdict == Verdict::Over) lastMoment = Clock::now() + kTimeForPictures;
         }
-        if (!failed && Clock::now() > farewell && anyRunning(processes)) {
+        if (!failed && Clock::now() > lastMoment && anyRunning(processes)) {
             std::cerr << "aquarama: a node did not end with the show; ending it\n";
             failed = true;
         }
@@ -221,9 +223,10 @@ Outcome watch(const ShowOptions& options, const Causes& causes, std::vector<Proc
     return Outcome::Finished;
 }
 
-// Lets aquarama-calibrate make a whole of the nodes' pictures.
-bool compose(const ShowOptions& options, const Causes& causes) {
-    std::vector<std::string> arguments{"compose", options.rigPath, options.snapshotFolder};
+// Has aquarama-calibrate compose the panorama and the hall of the nodes' pictures; false where it
+// fails.
+bool compose(const RunOptions& options, const ErrorPipe& errors) {
+    std::vector<std::string> arguments{"compose", options.show.rigPath, options.snapshotFolder};
     if (options.deep) arguments.emplace_back("--deep");
     Process composer{
         .name = "compose", .command = {siblingProgram("calibrate"), arguments}, .started = {}};
@@ -231,13 +234,13 @@ bool compose(const ShowOptions& options, const Causes& causes) {
     while (true) {
         for (const Ending& ending : waitForChildren(1s).endings) {
             if (ending.child != composer.child) continue;
-            if (!ending.clean()) std::cerr << causeOf(causes, composer, ending) << '\n';
+            if (!ending.clean()) std::cerr << causeOf(errors, composer, ending) << '\n';
             return ending.clean();
         }
     }
 }
 
-void sayWhatWasMade(const ShowOptions& options, const config::Rig& rig) {
+void sayWhatWasMade(const RunOptions& options, const config::Rig& rig) {
     if (options.snapshotFolder.empty()) return;
     std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
     if (std::ranges::any_of(rig.channels, [&](const config::Channel& channel) {
@@ -249,8 +252,8 @@ void sayWhatWasMade(const ShowOptions& options, const config::Rig& rig) {
     std::cout << '\n';
 }
 
-// The master, the nodes and, first, who waits for their frames.
-std::vector<Process> processesOf(const ShowOptions& options,
+// The clip, which waits for frames, the master and the nodes, in the order of their start.
+std::vector<Process> processesOf(const RunOptions& options,
                                  const config::Rig& rig,
                                  const std::optional<ClipPipes>& pipes) {
     std::vector<Process> processes;
@@ -264,33 +267,34 @@ std::vector<Process> processesOf(const ShowOptions& options,
 
 }  // namespace
 
-int runShow(const ShowOptions& options, const config::Rig& rig) {
+int runShow(const RunOptions& options, const config::Rig& rig) {
+    assert(!rig.channels.empty());
     if (!options.headless) requireDisplay();
     requireFreePort(rig.controlAddress);
     requireFreePort(rig.stateAddress);
-    requireFile("--clip", options.clipPath);
-    requireFile("--record", options.recordPath);
-    requireFolder("--snapshot", options.snapshotFolder);
-    requireFolder("--trace", options.traceFolder);
+    cli::requireFile("--clip", options.clipPath);
+    cli::requireFile("--record", options.show.recordPath);
+    cli::requireFolder("--snapshot", options.snapshotFolder);
+    cli::requireFolder("--trace", options.show.traceFolder);
     std::optional<ClipPipes> pipes;
     if (!options.clipPath.empty()) pipes.emplace(channelsFor(rig, options.clipOf));
     shareCores(rig);
     listenForSignals();
 
-    const Causes causes;
+    const ErrorPipe errors;
     std::vector<Process> processes = processesOf(options, rig, pipes);
     std::cout << "starting the master and " << rig.channels.size() << " nodes of "
-              << options.rigPath << std::endl;
+              << options.show.rigPath << std::endl;
     for (Process& process : processes) process.launch();
 
-    const Outcome outcome = watch(options, causes, processes);
+    const Outcome outcome = watch(options, errors, processes);
     if (outcome == Outcome::Failed) return 1;
     // A live show runs until somebody ends it; one that was to finish by itself has not done its
     // work.
     if (outcome == Outcome::Interrupted) return options.lockstep() ? kInterrupted : 0;
-    if (!options.snapshotFolder.empty() && !compose(options, causes)) return 1;
+    if (!options.snapshotFolder.empty() && !compose(options, errors)) return 1;
     sayWhatWasMade(options, rig);
     return 0;
 }
 
-}  // namespace aquarama::cli
+}  // namespace aquarama::supervisor

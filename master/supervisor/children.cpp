@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/cli/children.h"
+#include "master/supervisor/children.h"
 
+#include <array>
+#include <cassert>
 #include <cerrno>
+#include <cstdlib>
+#include <sstream>
 #include <system_error>
 
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/cli/program.h"
 #include "common/units/error.h"
 
-namespace aquarama::cli {
+namespace aquarama::supervisor {
 
 namespace {
 
@@ -44,12 +50,27 @@ std::vector<Ending> reap() {
 
 }  // namespace
 
+std::filesystem::path ownProgram() {
+    return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+std::filesystem::path siblingProgram(const std::string& name) {
+    assert(!name.empty());
+    auto program = ownProgram().parent_path() / ("aquarama-" + name);
+    if (!std::filesystem::exists(program)) {
+        throw Error(program.string() +
+                    " is missing; build or install all of Aquarama's programs into one folder");
+    }
+    return program;
+}
+
 void listenForSignals() {
     const sigset_t signals = heardSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
 pid_t start(const Command& command) {
+    assert(command.program.is_absolute());
     const std::vector<char*> arguments = argumentVector(command);
     const pid_t parent = getpid();
     const pid_t child = fork();
@@ -83,4 +104,35 @@ void become(const Command& command) {
                 std::system_category().message(errno));
 }
 
-}  // namespace aquarama::cli
+ErrorPipe::ErrorPipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw Error("no pipe can be made (" + std::system_category().message(errno) +
+                    "); close other programs");
+    reading_ = ends[0];
+    writing_ = ends[1];
+    fcntl(reading_, F_SETFL, O_NONBLOCK);
+    fcntl(writing_, F_SETFD, 0);  // the children inherit it
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
+    setenv(cli::kErrorPipeVariable, std::to_string(writing_).c_str(), /*overwrite=*/1);
+}
+
+ErrorPipe::~ErrorPipe() {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
+    unsetenv(cli::kErrorPipeVariable);
+    close(reading_);
+    close(writing_);
+}
+
+std::vector<std::string> ErrorPipe::heard() const {
+    std::string text;
+    std::array<char, 4096> bytes{};
+    for (ssize_t count = 0; (count = read(reading_, bytes.data(), bytes.size())) > 0;)
+        text.append(bytes.data(), static_cast<std::size_t>(count));
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+}  // namespace aquarama::supervisor

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama capture` and `export`: repertoires are made, and go to other programs.
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <iostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "common/cli/outputs.h"
+#include "common/cli/signals.h"
+#include "common/files/files.h"
+#include "common/units/error.h"
+#include "master/capture/compile/config_folder.h"
+#include "master/capture/compile/progress_bar.h"
+#include "master/capture/compile/repertoire_cache.h"
+#include "master/capture/exchange/c3d.h"
+#include "master/capture/exchange/csv.h"
+#include "master/capture/exchange/gltf.h"
+#include "master/capture/report/report_data.h"
+#include "master/commands.h"
+
+namespace aquarama {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CaptureOptions {
+    std::vector<std::string> species;
+    std::string out;
+    std::string report;
+    std::string config;
+};
+
+std::vector<capture::RepertoireFile> captured(const std::vector<capture::SpeciesText>& texts) {
+    std::atomic<bool> isStopped = false;
+    const cli::SignalWatch watch([&] { isStopped = true; });
+    capture::ProgressBar bar("capturing");
+    return capture::repertoiresFor(texts,
+                                   files::cacheFolder() / "repertoires",
+                                   {.progress = [&](double share) { bar.show(share); },
+                                    .isStopped = [&] { return isStopped.load(); }});
+}
+
+// With the data of its report, where one is asked for; returns their path.
+fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
+    const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
+    files::writeWhole(path, file.bytes);
+    std::cout << path.string() << '\n';
+    if (options.report.empty()) return {};
+    const motion::Repertoire repertoire = motion::decodeRepertoire(file.bytes, path.string());
+    return report::writeReport(repertoire, options.report);
+}
+
+// A species that fails is named, and the others still come out. Returns the exit status.
+int captureAll(const CaptureOptions& options) {
+    cli::holdSignals();
+    cli::requireFolder("--out", options.out);
+    cli::requireFolder("--report", options.report);
+    if (!options.report.empty()) cli::requirePython({"matplotlib"});
+    const fs::path config = configFolder(options.config);
+    std::vector<capture::SpeciesText> texts;
+    for (const fs::path& file : capture::speciesFiles(options.species, config))
+        texts.push_back(capture::readSpeciesText(file));
+    const std::vector<capture::RepertoireFile> files = captured(texts);
+    int status = 0;
+    std::vector<std::string> reports;
+    for (const capture::RepertoireFile& file : files) {
+        if (file.error.empty()) {
+            reports.push_back(write(file, options));
+        } else {
+            cli::sayError("aquarama capture", file.error);
+            status = 1;
+        }
+    }
+    if (!options.report.empty() && !reports.empty())
+        cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", reports);
+    return status;
+}
+
+struct ExportOptions {
+    std::string file;
+    std::string segment;
+    int cycles = 1;
+    std::string c3d, gltf, csv;  // where to; one is asked for
+    std::string config;
+};
+
+std::vector<std::string> segmentNames() {
+    std::vector<std::string> names;
+    names.reserve(motion::kCapturedActions);
+    for (int i = 0; i < motion::kCapturedActions; ++i)
+        names.emplace_back(motion::nameOf(static_cast<motion::Action>(i)));
+    return names;
+}
+
+motion::Action actionNamed(const std::string& segment) {
+    const std::vector<std::string> names = segmentNames();
+    return static_cast<motion::Action>(std::ranges::find(names, segment) - names.begin());
+}
+
+exchange::GltfContainer containerOf(const fs::path& path) {
+    if (path.extension() == ".glb") return exchange::GltfContainer::Binary;
+    if (path.extension() == ".gltf") return exchange::GltfContainer::Text;
+    throw Error(path.string() + ": name it .glb (binary) or .gltf (text)");
+}
+
+// The skin is not in the repertoire but in the species' file.
+body::FishBody bodyOf(const motion::Repertoire& repertoire, const ExportOptions& options) {
+    const fs::path config = configFolder(options.config);
+    return body::makeBody(
+        config::readSpecies(capture::speciesFiles({repertoire.species}, config).front().string()));
+}
+
+void exportSegment(const ExportOptions& options) {
+    cli::requireFile("--c3d", options.c3d);
+    cli::requireFile("--gltf", options.gltf);
+    cli::requireFile("--csv", options.csv);
+    const motion::Action action = actionNamed(options.segment);
+    const motion::Repertoire repertoire =
+        motion::decodeRepertoire(capture::readRepertoireFile(options.file), options.file);
+    if (!options.gltf.empty()) {
+        const exchange::GltfContainer container = containerOf(options.gltf);
+        const body::FishBody body = bodyOf(repertoire, options);
+        files::writeWhole(options.gltf,
+                          exchange::gltfOf(repertoire, body, action, options.cycles, container));
+        return;
+    }
+    const exchange::Take take = exchange::takeAtTicks(repertoire, action, options.cycles);
+    if (options.csv.empty()) {
+        files::writeWhole(options.c3d, exchange::c3dOf(take));
+    } else {
+        const std::string rows = exchange::csvOf(take);
+        files::writeWhole(options.csv, std::as_bytes(std::span(rows)));
+    }
+}
+
+}  // namespace
+
+void describeConfig(CLI::App& command, std::string& folder) {
+    command.add_option("--config", folder, "folder that holds scenes and species");
+}
+
+fs::path configFolder(const std::string& given) {
+    return given.empty() ? capture::findConfigFolder() : fs::path(given);
+}
+
+void addCapture(CommandLine& line) {
+    const auto [command, options] = line.add<CaptureOptions>(
+        "capture",
+        "simulate the biomechanical fish of each species and compile its repertoire: --out DIR",
+        captureAll);
+    command.add_option("--species",
+                       options.species,
+                       "name of a species in the config folder, or a file; all when not given");
+    command.add_option("--out", options.out, "folder for SPECIES.aqrep")->required();
+    command.add_option("--report", options.report, "folder for a page with pictures and figures");
+    describeConfig(command, options.config);
+}
+
+void addExport(CommandLine& line) {
+    const auto [command, options] = line.add<ExportOptions>(
+        "export",
+        "a segment as C3D, glTF or CSV, metres, Y up, from the origin along +x: aquarama export "
+        "FILE --segment NAME --c3d OUT",
+        exportSegment);
+    command.add_option("FILE", options.file, "a repertoire")->required();
+    command.add_option("--segment", options.segment, "which")
+        ->required()
+        ->check(CLI::IsMember(segmentNames()));
+    command.add_option("--cycles", options.cycles, "how often it is repeated")
+        ->check(cli::wholeNumber(1, exchange::kMostCycles))
+        ->capture_default_str();
+    CLI::Option_group& out = *command.add_option_group("format", "one of");
+    out.add_option("--c3d", options.c3d, "nodal points as markers, 60 frames a second");
+    out.add_option("--csv", options.csv, "nodal points as a table, 60 rows a second");
+    out.add_option("--gltf", options.gltf, "the skin, swimming: a .glb or .gltf file");
+    out.require_option(1);
+    describeConfig(command, options.config);
+}
+
+}  // namespace aquarama
