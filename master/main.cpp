@@ -20,11 +20,11 @@ struct Group {
 const std::array kGroups{
     Group{"A show on this machine", {addRun, addReplay}},
     Group{"While a show runs", {addStatus, addPilot, addExplain}},
-    Group{"A show on several machines: one process each", {addMaster, addNode}},
+    Group{"A show on several machines, one process each", {addMaster, addNode}},
     Group{"Files", {addCheck, addInspect}},
-    Group{"Fish: their repertoires, and how true they are",
+    Group{"Fish and their repertoires",
           {addCapture, addExport, addGaits, addSearch, addControllers, addFidelity}},
-    Group{"Worlds: what their minds are worth", {addStudy}},
+    Group{"Worlds", {addStudy}},
 };
 
 }  // namespace

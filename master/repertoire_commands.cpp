@@ -152,7 +152,7 @@ fs::path configFolder(const std::string& given) {
 void addCapture(CommandLine& line) {
     const auto [command, options] = line.add<CaptureOptions>(
         "capture",
-        "simulate the biomechanical fish of each species and compile its repertoire: --out DIR",
+        "simulate the biomechanical fish and compile repertoires: --out DIR",
         captureAll);
     command.add_option("--species",
                        options.species,
@@ -165,9 +165,9 @@ void addCapture(CommandLine& line) {
 void addExport(CommandLine& line) {
     const auto [command, options] = line.add<ExportOptions>(
         "export",
-        "a segment as C3D, glTF or CSV, metres, Y up, from the origin along +x: aquarama export "
-        "FILE --segment NAME --c3d OUT",
+        "a segment as C3D, glTF or CSV: aquarama export FILE --segment NAME --c3d OUT",
         exportSegment);
+    command.footer("Metres, Y up; the fish swims from the origin along +x.");
     command.add_option("FILE", options.file, "a repertoire")->required();
     command.add_option("--segment", options.segment, "which")
         ->required()

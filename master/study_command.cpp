@@ -130,10 +130,11 @@ void chronicle(const ChronicleOptions& options) {
 void addStudy(CommandLine& line) {
     const auto [command, options] = line.add<StudyOptions>(
         "study",
-        "with and without each adaptation of the mind to its motor, as tables in Markdown; study "
-        "chronicle SCENE: what happens in a scene",
+        "with and without each adaptation of the mind to its motor; study chronicle SCENE: an hour "
+        "of a scene in figures",
         runStudy);
     command.require_subcommand(0, 1);
+    command.footer("Prints its tables in Markdown.");
     command.add_option("--out", options.out, "folder for a table of all runs and a figure");
     command.add_option("--minutes", options.minutes, "of each run")
         ->check(cli::number(0.1, 1440))
