@@ -6,10 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "calibration/inventory.h"
+#include "calibration/check.h"
+#include "calibration/theatre/compose.h"
 #include "calibration/theatre/film.h"
-#include "calibration/theatre/snapshot.h"
-#include "calibration/theatre/survey.h"
 #include "common/cli/program.h"
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
@@ -31,12 +30,12 @@ config::Rig checkedRig(const std::string& path) {
     return rig;
 }
 
-// With the scene that it shows.
+// Says what each channel lights; checks the scene that the rig shows as well.
 void checkRig(const std::string& path) {
     const config::Rig rig = checkedRig(path);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, i)).c_str());
-    const double worst = theatre::worstBlendSum(rig);
+        std::printf("%s\n", oneLine(surveyChannel(rig, i)).c_str());
+    const double worst = worstBlendSum(rig);
     if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
     (void)inventoryOfScene(config::scenePathOf(rig, path));
     std::printf(
@@ -62,7 +61,7 @@ int checkAll(const std::vector<std::string>& paths) {
         try {
             check(path);
         } catch (const Error& error) {
-            cli::sayError("aquarama-calibrate", error.what());
+            cli::sayError("aquarama-calibrate check", error.what());
             status = 1;
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a rig's projectors do to its screen, in the numbers that a crew asks for.
+// What `aquarama check` and `inspect` say: what a rig's projectors do to its screen, in the numbers
+// that a crew asks for, and what is in a scene's or a species' file.
 #pragma once
 
 #include <string>
@@ -7,8 +8,14 @@
 
 #include "common/config/rig.h"
 
-namespace aquarama::theatre {
+namespace aquarama {
 
+// Several lines; each throws Error with file:line:column for a mistake in the file, or in one that
+// it names.
+[[nodiscard]] std::string inventoryOfScene(const std::string& path);
+[[nodiscard]] std::string inventoryOfSpecies(const std::string& path);
+
+// What two channels both light.
 struct ChannelOverlap {
     std::string with;   // the other channel
     double pixels = 0;  // of this channel's picture, along the screen's mid-height
@@ -23,12 +30,14 @@ struct ChannelSurvey {
     std::vector<ChannelOverlap> overlaps;
 };
 
+// Of the channel of this index, which lights a part of the screen (wall::checkGeometry).
 [[nodiscard]] ChannelSurvey surveyChannel(const config::Rig& rig, std::size_t channel);
 
-// The largest deviation from one of the sum of all shares on the screen, of many points.
+// The largest deviation from one of the sum of all channels' shares of light, over many points of
+// the screen.
 [[nodiscard]] double worstBlendSum(const config::Rig& rig);
 
 // The survey in one line.
 [[nodiscard]] std::string oneLine(const ChannelSurvey& survey);
 
-}  // namespace aquarama::theatre
+}  // namespace aquarama
