@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// aquarama-master on the desk and ports of its own; ended with the test.
+// `aquarama master` on the desk and ports of its own; ended with the test.
 class Master {
   public:
     explicit Master(const std::vector<std::string>& arguments) {
@@ -37,7 +37,8 @@ class Master {
         rig.stateAddress = "tcp://127.0.0.1:" + std::to_string(freePort());
         rig.scene = config + rig.scene;
         std::ofstream(folder_ / "rig.txtpb") << config::writeRig(rig);
-        std::vector<std::string> words{std::string(getenv("AQUARAMA_BIN")) + "/aquarama-master",
+        std::vector<std::string> words{std::string(getenv("AQUARAMA_BIN")) + "/aquarama",
+                                       "master",
                                        (folder_ / "rig.txtpb").string()};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;
