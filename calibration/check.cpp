@@ -18,6 +18,7 @@ namespace aquarama {
 
 namespace {
 
+// As printf(), up to 511 characters.
 [[gnu::format(printf, 1, 2)]] std::string said(const char* format, ...) {
     char text[512];
     std::va_list arguments;
@@ -44,6 +45,7 @@ std::string joined(const std::vector<std::string>& names) {
     return list;
 }
 
+// Name, role, size, and whom it hunts or shadows.
 std::string lineOf(const config::Species& species) {
     const config::Habits& habits = species.habits;
     std::string line = said("%s, %s, %.3g to %.3g m",
@@ -123,6 +125,7 @@ glm::dvec2 densityAt(const config::Screen& screen,
     return {(right->x - here->x) / degreesRight, (down->y - here->y) / degreesDown};
 }
 
+// An azimuth in words.
 std::string sideways(double degrees) {
     char text[48];
     std::snprintf(

@@ -9,7 +9,7 @@
 #include "calibration/check.h"
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/film.h"
-#include "common/cli/program.h"
+#include "common/cli/command_line.h"
 #include "common/config/cast.h"
 #include "common/config/file_kind.h"
 #include "common/config/stereo_names.h"
@@ -24,6 +24,7 @@ void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
+// Throws Error for a mistake in the file, or for a projector that misses the screen.
 config::Rig checkedRig(const std::string& path) {
     config::Rig rig = config::readRig(path);
     wall::checkGeometry(rig, path);
@@ -104,11 +105,13 @@ void inspectRig(const std::string& path) {
     }
 }
 
+// More of a rig than `check` says; of other files the same.
 void inspect(const std::string& path) {
     if (config::fileKindAt(path) == config::FileKind::Rig) return inspectRig(path);
     check(path);
 }
 
+// Options of `compose` and `clip`.
 struct Composition {
     std::string rig;
     std::string folder;

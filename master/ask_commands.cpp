@@ -30,8 +30,8 @@ namespace {
 
 // Which master is asked.
 struct AskedMaster {
-    std::string rig = kDesk;
-    std::string address;
+    std::string rig = supervisor::kDefaultRig;
+    std::string address;  // empty: the rig's
 
     [[nodiscard]] std::string controlAddress() const {
         return address.empty() ? config::readRig(rig).controlAddress : address;
@@ -47,10 +47,11 @@ void showStatus(const AskedMaster& asked) {
     std::cout << conductor::runStatus(asked.controlAddress());
 }
 
-// Often enough that the submarine never takes the hand for gone.
-constexpr auto kBetweenWords = std::chrono::milliseconds(100);
+// So short that the submarine never takes its pilot for gone.
+constexpr auto kBetweenMessages = std::chrono::milliseconds(100);
 
-// A terminal that gives every key as it is pressed, without showing it; as before afterwards.
+// The terminal of standard input, set to give every key as it is pressed and to show none, as long
+// as this lives. Other inputs are read as they are.
 class Keyboard {
   public:
     Keyboard() : isTerminal_(tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -65,11 +66,11 @@ class Keyboard {
     Keyboard(const Keyboard&) = delete;
     Keyboard& operator=(const Keyboard&) = delete;
 
-    // Waits no longer than `kBetweenWords`. False: nothing will come any more.
+    // Waits no longer than `kBetweenMessages`. False: no more keys will come.
     bool read(std::string& keys) {
         keys.clear();
         pollfd input{STDIN_FILENO, POLLIN, 0};
-        if (poll(&input, 1, static_cast<int>(kBetweenWords.count())) <= 0) return true;
+        if (poll(&input, 1, static_cast<int>(kBetweenMessages.count())) <= 0) return true;
         std::array<char, 64> bytes{};
         const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
         if (count <= 0) return false;
@@ -82,6 +83,7 @@ class Keyboard {
     bool isTerminal_;
 };
 
+// Tells the master what the keys say, and shows where the submarine is, until a key ends it.
 void steer(const AskedMaster& asked) {
     conductor::RequestClient master(asked.controlAddress());
     Keyboard keyboard;
@@ -105,7 +107,7 @@ void steer(const AskedMaster& asked) {
                   << std::flush;
     }
     master.tell(wire::Input{wire::InputKind::Steer, {}, {}});
-    master.ask<wire::StatusReply>(wire::StatusRequest{});  // it has heard that as well
+    master.ask<wire::StatusReply>(wire::StatusRequest{});  // an answer: the master has had both
     if (onScreen) std::cout << '\n';
 }
 
@@ -116,10 +118,11 @@ struct ExplainOptions {
     std::uint32_t fish = 0;
     AskedMaster asked;
     bool follow = false;
-    std::string recording;
-    std::uint64_t tick = 0;
+    std::string recording;   // empty: a running master is asked
+    std::uint64_t tick = 0;  // of the recording
 };
 
+// Throws Error where the world has no such fish.
 void print(const wire::Explanation& explanation) {
     if (explanation.fish >= explanation.school)
         throw Error(
@@ -141,6 +144,7 @@ void explainLive(const ExplainOptions& options) {
     } while (options.follow);
 }
 
+// Replays up to the tick, without a wall.
 void explainReplay(const ExplainOptions& options) {
     const wire::Recording recording = wire::readRecording(options.recording);
     for (const std::string& doubt : wire::doubtsAbout(recording))

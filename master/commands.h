@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "common/cli/program.h"
+#include "common/cli/command_line.h"
 #include "master/supervisor/supervise.h"
 
 namespace aquarama {
@@ -63,8 +63,7 @@ class CommandLine {
     cli::Job job_ = []() -> int { throw CLI::RequiredError("a command"); };
 };
 
-inline constexpr const char* kDesk = "config/desk.txtpb";  // the rig where none is named
-
+// In the order of the program's help; what each command does its help says.
 void addRun(CommandLine& line);     // a show on this machine
 void addReplay(CommandLine& line);  // a recorded one
 void addMaster(CommandLine& line);  // the master alone

@@ -27,11 +27,13 @@ namespace aquarama {
 
 namespace {
 
+// What makes a replay of this recording doubtful, a line each.
 void printDoubts(const std::string& path, const wire::Recording& recording) {
     for (const std::string& doubt : wire::doubtsAbout(recording))
         std::cout << path << ": " << doubt << '\n';
 }
 
+// An input in words.
 std::string wordsFor(const wire::RecordedInput& input) {
     if (const auto* food = std::get_if<wire::RecordedFood>(&input.input))
         return fmt::format("food, {} pellets at {:.2f} {:.2f} {:.2f} m",
@@ -53,6 +55,7 @@ std::string wordsFor(const wire::RecordedInput& input) {
                        moved.position.z);
 }
 
+// Its origin, its world and its first inputs.
 void inspectRecording(const std::string& path) {
     constexpr std::size_t kMostInputsShown = 20;
     const wire::Recording recording = wire::readRecording(path);
@@ -87,9 +90,10 @@ void inspectRecording(const std::string& path) {
 
 struct InspectOptions {
     std::string file;
-    std::string report;
+    std::string report;  // folder for a page; empty: none
 };
 
+// Tests for Python before the work, since drawing is its last step.
 void inspectRepertoire(const InspectOptions& options) {
     cli::requireFolder("--report", options.report);
     if (!options.report.empty()) cli::requirePython({"matplotlib"});
@@ -102,7 +106,8 @@ void inspectRepertoire(const InspectOptions& options) {
     cli::runPython({"matplotlib"}, "master/capture/report/draw_report.py", {data});
 }
 
-// Every other file that we know is a text.
+// By the ending of the name, or by the first bytes. Every other kind is a text, which
+// aquarama-calibrate reads.
 void inspect(const InspectOptions& options) {
     const std::string& file = options.file;
     if (file.ends_with(".aqrep") || supervisor::looksLikeRepertoire(file))

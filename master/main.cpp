@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/cli/program.h"
+#include "common/cli/command_line.h"
 #include "master/commands.h"
 
 namespace aquarama {
@@ -35,11 +35,11 @@ int main(int count, char** arguments) {
     using namespace aquarama;
     CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors", "aquarama"};
     app.require_subcommand(0, 1);
-    app.footer("aquarama COMMAND --help lists the options of a command.");
     CommandLine line(app);
     for (const Group& group : kGroups) {
         line.startGroup(group.heading);
         for (const auto add : group.commands) add(line);
     }
+    app.footer("aquarama COMMAND --help lists the options of a command.");
     return cli::runProgram(app, count, arguments, [&] { return line.runChosen(); });
 }

@@ -11,8 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
-#include "common/cli/program.h"
 #include "common/cli/signals.h"
 #include "common/config/cast.h"
 #include "common/config/rig.h"
@@ -38,7 +38,8 @@ struct MasterOptions {
     bool lockstep = false;
 };
 
-// No clock is read in lockstep: its tier cannot be measured.
+// None: the nodes measure which they can draw. In lockstep no clock is read, so nothing is
+// measured.
 std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const MasterOptions& options) {
     constexpr config::QualityTier kOfLockstep = config::QualityTier::Low;
     if (!options.show.quality.empty()) return config::tierNamed(options.show.quality);
@@ -46,6 +47,7 @@ std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const Maste
     return rig.quality;
 }
 
+// How the conductor runs the frames.
 conductor::ConductorOptions conductorOptions(const config::Rig& rig, const MasterOptions& options) {
     conductor::ConductorOptions conductor;
     conductor.quality = qualityOf(rig, options);
@@ -59,7 +61,7 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     return conductor;
 }
 
-// What the nodes are told of the cast, and the blobs that they may then ask for.
+// What the nodes are told of the cast; adds to `blobs` what they may then ask for.
 std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& assets, conductor::Blobs& blobs) {
     std::vector<wire::SpeciesBlobs> cast;
     for (const wire::SpeciesAssets& species : assets.cast) {
@@ -71,14 +73,14 @@ std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& assets, conducto
     return cast;
 }
 
-// What is shown: the living world, or a recorded or replayed one about it.
+// What is shown: the living world, or `simulation` as a decorator of it, which records or replays.
 struct Shown {
     const wire::AssetBundle& assets;
     const simulation::LivingWorld& world;
     conductor::Simulation& simulation;
 };
 
-// Returns when the show is over. `running` is the conductor meanwhile.
+// Returns when the show is over. Until then `*running` is its conductor.
 void show(const config::Rig& rig,
           const conductor::ConductorOptions& options,
           const Shown& shown,
@@ -98,6 +100,7 @@ void show(const config::Rig& rig,
     conductor.run();
 }
 
+// A new world, recorded where that is asked for.
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
@@ -114,6 +117,7 @@ void showNew(const config::Rig& rig,
     show(rig, conducting, {assets, world, recorded}, std::move(channels));
 }
 
+// A recording; the show ends with it.
 void showAgain(const config::Rig& rig,
                const MasterOptions& options,
                std::unique_ptr<net::MasterChannels> channels) {
@@ -123,7 +127,7 @@ void showAgain(const config::Rig& rig,
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
     conducting.seed = recording.assets.seed;
-    // In lockstep the world runs ahead of the frames: there these are counted.
+    // In lockstep the world runs ahead of the frames, so the frames are counted instead.
     conductor::Conductor* running = nullptr;
     std::function<void()> onEnd = [&running] { running->stop(); };
     if (options.lockstep) {
@@ -135,6 +139,8 @@ void showAgain(const config::Rig& rig,
     show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
 }
 
+// Binds the addresses before it makes the world, which takes seconds: a second master of the rig is
+// refused at once.
 void runMaster(const MasterOptions& options) {
     cli::holdSignals();
     const config::Rig rig = config::readRig(options.show.rigPath);

@@ -2,6 +2,7 @@
 // `aquarama capture` and `export`: repertoires are made, and go to other programs.
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <filesystem>
 #include <iostream>
 #include <span>
@@ -30,12 +31,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CaptureOptions {
-    std::vector<std::string> species;
+    std::vector<std::string> species;  // names or files; none: all
     std::string out;
     std::string report;
     std::string config;
 };
 
+// From the cache or simulated, with a bar of progress; Ctrl-C ends it.
 std::vector<capture::RepertoireFile> captured(const std::vector<capture::SpeciesText>& texts) {
     std::atomic<bool> isStopped = false;
     const cli::SignalWatch watch([&] { isStopped = true; });
@@ -46,7 +48,7 @@ std::vector<capture::RepertoireFile> captured(const std::vector<capture::Species
                                     .isStopped = [&] { return isStopped.load(); }});
 }
 
-// With the data of its report, where one is asked for; returns their path.
+// Writes the repertoire and, where a report is asked for, its data; returns the path of these.
 fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
     const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
     files::writeWhole(path, file.bytes);
@@ -56,7 +58,7 @@ fs::path write(const capture::RepertoireFile& file, const CaptureOptions& option
     return report::writeReport(repertoire, options.report);
 }
 
-// A species that fails is named, and the others still come out. Returns the exit status.
+// Names a species that fails, and writes the others. Returns the exit status.
 int captureAll(const CaptureOptions& options) {
     cli::holdSignals();
     cli::requireFolder("--out", options.out);
@@ -98,9 +100,12 @@ std::vector<std::string> segmentNames() {
     return names;
 }
 
+// Of a name out of segmentNames().
 motion::Action actionNamed(const std::string& segment) {
     const std::vector<std::string> names = segmentNames();
-    return static_cast<motion::Action>(std::ranges::find(names, segment) - names.begin());
+    const auto found = std::ranges::find(names, segment);
+    assert(found != names.end());
+    return static_cast<motion::Action>(found - names.begin());
 }
 
 exchange::GltfContainer containerOf(const fs::path& path) {
@@ -109,13 +114,14 @@ exchange::GltfContainer containerOf(const fs::path& path) {
     throw Error(path.string() + ": name it .glb (binary) or .gltf (text)");
 }
 
-// The skin is not in the repertoire but in the species' file.
+// The body with its skin, which is not in the repertoire but in the species' file.
 body::FishBody bodyOf(const motion::Repertoire& repertoire, const ExportOptions& options) {
     const fs::path config = configFolder(options.config);
     return body::makeBody(
         config::readSpecies(capture::speciesFiles({repertoire.species}, config).front().string()));
 }
 
+// Writes the one file that was asked for.
 void exportSegment(const ExportOptions& options) {
     cli::requireFile("--c3d", options.c3d);
     cli::requireFile("--gltf", options.gltf);

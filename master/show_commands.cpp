@@ -23,17 +23,16 @@ std::string clipNameProblem(const std::string& path) {
 
 // What only a supervisor does: windows or not, and pictures of all channels.
 void describePictures(CLI::App& command, supervisor::RunOptions& options) {
-    command.add_flag("--headless", options.headless, "without a display; implies lockstep");
+    command.add_flag("--headless", options.headless, "without a display");
     CLI::Option* snapshot = command.add_option(
         "--snapshot",
         options.snapshotFolder,
         "folder for pictures of the last frame, and with --clip of the first as soon as "
-        "it is there; implies lockstep");
+        "it is there");
     command.add_flag("--deep", options.deep, "pictures of 16 bits instead of 8 dithered ones")
         ->needs(snapshot);
-    CLI::Option* clip =
-        command.add_option("--clip", options.clipPath, "FILE.mp4 or FILE.webp; implies lockstep")
-            ->check(CLI::Validator(clipNameProblem, ""));
+    CLI::Option* clip = command.add_option("--clip", options.clipPath, "FILE.mp4 or FILE.webp")
+                            ->check(CLI::Validator(clipNameProblem, ""));
     command
         .add_option("--clip-of", options.clipOf, "panorama (by default), hall or a channel's name")
         ->needs(clip);
@@ -42,6 +41,9 @@ void describePictures(CLI::App& command, supervisor::RunOptions& options) {
         ->check(cli::wholeNumber(1, 10000));
     command.add_flag("--live", options.live, "keep to the clock where lockstep would be implied")
         ->excludes(clip);
+    command.footer(
+        "--headless, --frames, --snapshot and --clip imply lockstep: frame n shows tick n, and no "
+        "clock is read.");
 }
 
 int runWith(const supervisor::RunOptions& options) {
@@ -97,8 +99,7 @@ void describeWorld(CLI::App& command, supervisor::ShowOptions& options) {
 }
 
 void describeWall(CLI::App& command, supervisor::ShowOptions& options) {
-    command
-        .add_option("--frames", options.frames, "end after so many frames; run: implies lockstep")
+    command.add_option("--frames", options.frames, "end after so many frames")
         ->check(cli::wholeNumber(1, cli::kMostShownFrames));
     command.add_option("--pattern", options.pattern, "show this instead of the world")
         ->check(CLI::IsMember({"world", "grid", "grey"}));

@@ -35,10 +35,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GaitsOptions {
-    std::vector<std::string> species;
+    std::vector<std::string> species;  // names or files; none: all
     std::string config;
 };
 
+// A line as soon as its species has swum.
 void printGaits(const GaitsOptions& options) {
     const fs::path config = configFolder(options.config);
     const auto files = capture::speciesFiles(options.species, config);
@@ -62,6 +63,7 @@ std::string textOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// The best trial so far, for the bar of progress.
 std::string told(std::size_t trials, const search::SearchTrial& best) {
     std::ostringstream note;
     note << std::fixed << std::setprecision(2) << "trial " << trials << ", Strouhal "
@@ -70,6 +72,8 @@ std::string told(std::size_t trials, const search::SearchTrial& best) {
     return note.str();
 }
 
+// Goes on where its journal ends; then chooses the strength of turns, and writes the species' text
+// with what was found.
 void searchGaitsOf(const SearchOptions& options) {
     cli::requireFile("--out", options.out);
     const fs::path file =
@@ -103,6 +107,7 @@ struct ControllersOptions {
     std::string config;
 };
 
+// Measures each controller and has Python draw the sheet.
 void drawControllers(const ControllersOptions& options) {
     cli::requireFolder("--out", options.out);
     cli::requirePython({"matplotlib"});
@@ -113,18 +118,20 @@ void drawControllers(const ControllersOptions& options) {
 }
 
 struct FidelityOptions {
-    std::vector<std::string> species;
+    std::vector<std::string> species;  // names or files; none: all
     std::string out;
     std::string config;
-    std::uint64_t seed = 1;
-    double seconds = 60;
+    std::uint64_t seed = 1;  // of the script of commands
+    double seconds = 60;     // its length
 };
 
+// Names the file on stderr: stdout is for the tables.
 void writeText(const fs::path& path, const std::string& text) {
     files::writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
     std::cerr << path.string() << '\n';
 }
 
+// The same script to the fish and its replica, for each species; Python draws what was measured.
 void compareAll(const FidelityOptions& options) {
     cli::requireFolder("--out", options.out);
     cli::requirePython({"matplotlib"});

@@ -34,10 +34,11 @@ struct StudyOptions {
     std::uint32_t seeds = 5;
 };
 
-// Where the data go: into the folder that was asked for, or into one that goes again.
+// Where the data are written: the folder that was asked for, or a temporary one that is removed
+// with this object.
 class DataFolder {
   public:
-    // Asked before the work.
+    // Before the work: throws Error where the folder cannot be written or there is no Python.
     static void require(const std::string& asked) {
         cli::requireFolder("--out", asked);
         cli::requirePython(kModules);
@@ -72,6 +73,7 @@ class DataFolder {
     bool isKept_;
 };
 
+// Runs the study under a bar of progress.
 std::vector<study::Sample> watched(const study::StudyPlan& plan) {
     capture::ProgressBar bar("studying");
     std::mutex mutex;
@@ -97,7 +99,7 @@ void runStudy(const StudyOptions& options) {
 struct ChronicleOptions {
     std::string scene;
     std::string out;
-    double hours = 1;
+    double hours = 1;  // of the scene's time
     std::uint32_t seed = 1;
 };
 
@@ -145,6 +147,7 @@ void addStudy(CommandLine& line) {
     describeConfig(command, options.config);
     const auto [life, chronicled] = line.addTo<ChronicleOptions>(
         command, "chronicle", "what happens in a scene, hour by hour", chronicle);
+    life.group("Commands");
     life.add_option("SCENE", chronicled.scene, "the scene's file")->required();
     life.add_option("--out", chronicled.out, "folder for the hours and overlaps as tables");
     life.add_option("--hours", chronicled.hours, "of the scene")

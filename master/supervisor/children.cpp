@@ -14,13 +14,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/cli/program.h"
+#include "common/cli/command_line.h"
 #include "common/units/error.h"
 
 namespace aquarama::supervisor {
 
 namespace {
 
+// Those that end a show, and that of a child's death.
 sigset_t heardSignals() {
     sigset_t signals;
     sigemptyset(&signals);
@@ -28,6 +29,7 @@ sigset_t heardSignals() {
     return signals;
 }
 
+// For execv(); points into the command.
 std::vector<char*> argumentVector(const Command& command) {
     std::vector<char*> vector{const_cast<char*>(command.program.c_str())};
     for (const std::string& argument : command.arguments)
@@ -36,6 +38,7 @@ std::vector<char*> argumentVector(const Command& command) {
     return vector;
 }
 
+// Every child that has died and was not yet told of.
 std::vector<Ending> reap() {
     std::vector<Ending> endings;
     int status = 0;

@@ -27,12 +27,14 @@ std::string reason() {
     return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): this process has one thread
 }
 
+// Whether an environment variable has a value.
 bool isSet(const char* variable) {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
     const char* value = std::getenv(variable);
     return value != nullptr && *value != '\0';
 }
 
+// As many as tell the kind of a file; fewer where it is shorter.
 std::string firstBytesOf(const std::string& path) {
     std::array<char, 21> bytes{};
     std::ifstream file(path, std::ios::binary);
@@ -40,6 +42,7 @@ std::string firstBytesOf(const std::string& path) {
     return {bytes.data(), static_cast<std::size_t>(file.gcount())};
 }
 
+// Whether another socket listens there: tries to bind one.
 bool isTaken(const addrinfo& place) {
     const int probe = socket(place.ai_family, place.ai_socktype, place.ai_protocol);
     if (probe < 0) return false;
@@ -84,7 +87,7 @@ void requireRecording(const std::string& path) {
         throw Error(path + ": is no recording of a show; make one by aquarama run --record FILE");
 }
 
-// Before the letters by which it is known a recording has some lengths.
+// The letters by which a recording is known come after some lengths.
 bool looksLikeRecording(const std::string& path) {
     return firstBytesOf(path).find("AQREC") != std::string::npos;
 }

@@ -11,10 +11,12 @@
 
 namespace aquarama::supervisor {
 
+inline constexpr const char* kDefaultRig = "config/desk.txtpb";  // where no rig is named
+
 // What a show is of and how the wall draws it: what a master has to know. An empty string is an
 // option that was not given.
 struct ShowOptions {
-    std::string rigPath = "config/desk.txtpb";
+    std::string rigPath = kDefaultRig;
     std::string scenePath;  // empty: the rig's
     std::uint32_t seed = 1;
     std::optional<std::uint32_t> fish;    // of the first species; none: as many as the scene has

@@ -118,7 +118,11 @@ class Usage(Case):
                               r"libraries  ([\w-]+ \d[\w.]*, )*[\w-]+ \d[\w.]*\n", "")
             for library in links[program]:
                 self.assertIn(f" {library} ", run.stdout)
-        self.assertNotIn("GLFW", subprocess.run([BIN / "aquarama master", "--version"], capture_output=True, text=True).stdout)
+        own = aquarama("--version").stdout
+        for library in ["GLFW", "FFmpeg-libavcodec"]:
+            self.assertNotIn(library, own)
+        for command in set(COMMANDS) - {"node", "check"}:
+            self.assertEqual(aquarama(command, "--version").stdout, own, command)
 
 
 class Files(Case):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/cli/program.h"
+#include "common/cli/command_line.h"
 
 #include <algorithm>
 #include <cassert>
