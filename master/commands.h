@@ -43,6 +43,7 @@ class CommandLine {
         auto options = std::make_shared<Options>();
         CLI::App& command = *parent.add_subcommand(name, what);
         command.callback([this, options, run = std::move(run)] {
+            if (job_) return;  // by a nested command: CLI11 calls the innermost first
             job_ = [options, run] {
                 if constexpr (std::is_void_v<std::invoke_result_t<Run, const Options&>>) {
                     run(*options);
@@ -54,13 +55,16 @@ class CommandLine {
         });
         return {command, *options};
     }
-    // Does what was chosen; returns the exit status.
-    [[nodiscard]] int runChosen() const { return job_(); }
+    // Does what was chosen; returns the exit status. Throws CLI::RequiredError where nothing was.
+    [[nodiscard]] int runChosen() const {
+        if (!job_) throw CLI::RequiredError("a command");
+        return job_();
+    }
 
   private:
     CLI::App& app_;
     std::string heading_;
-    cli::Job job_ = []() -> int { throw CLI::RequiredError("a command"); };
+    cli::Job job_;
 };
 
 // In the order of the program's help; what each command does its help says.
