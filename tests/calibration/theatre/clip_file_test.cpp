@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clips as a player sees them: every picture, when it is shown, and with which colours.
-#include "calibration/theatre/clip.h"
-
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "calibration/theatre/clip.h"
 #include "calibration/theatre/film.h"
 #include "common/config/rig.h"
 #include "common/units/error.h"
