@@ -6,11 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "calibration/inventory.h"
+#include "calibration/check.h"
+#include "calibration/theatre/compose.h"
 #include "calibration/theatre/film.h"
-#include "calibration/theatre/snapshot.h"
-#include "calibration/theatre/survey.h"
-#include "common/cli/program.h"
+#include "common/cli/command_line.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/config/text_file.h"
@@ -25,6 +24,7 @@ void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
+// Throws Error for a mistake in the file, or for a projector that misses the screen.
 config::Rig checkedRig(const std::string& text, const std::string& path) {
     config::Rig rig = config::parseRig(text, path);
     wall::checkGeometry(rig, path);
@@ -35,11 +35,11 @@ config::Rig readCheckedRig(const std::string& path) {
     return checkedRig(config::readTextFile(path), path);
 }
 
-// With the scene that it shows.
+// Says what each channel lights; checks the scene that the rig shows as well.
 void checkRig(const config::Rig& rig, const std::string& path) {
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, i)).c_str());
-    const double worst = theatre::worstBlendSum(rig);
+        std::printf("%s\n", oneLine(surveyChannel(rig, i)).c_str());
+    const double worst = worstBlendSum(rig);
     if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
     const std::string scene = config::scenePathOf(rig, path);
     (void)inventoryOf(config::readScene(scene), scene);
@@ -67,7 +67,7 @@ int checkAll(const std::vector<std::string>& paths) {
         try {
             show(path, checkRig);
         } catch (const Error& error) {
-            cli::sayError("aquarama-calibrate", error.what());
+            cli::sayError("aquarama-calibrate check", error.what());
             status = 1;
         }
     }
@@ -109,6 +109,7 @@ void inspectRig(const config::Rig& rig, const std::string& /*path*/) {
     }
 }
 
+// Options of `compose` and `clip`.
 struct Composition {
     std::string rig;
     std::string folder;

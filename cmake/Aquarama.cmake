@@ -46,21 +46,19 @@ function(aquarama_library name)
   endif()
 endfunction()
 
-# aquarama_program(master SOURCES main.cpp LINK targets...): the executable aquarama-master in build/PRESET/bin. Its own
-# sources are compiled as one: they read command lines, and each would take ten seconds for CLI11 alone.
+# aquarama_program(aquarama-node SOURCES main.cpp LINK targets...): an executable in build/PRESET/bin.
 function(aquarama_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(aquarama-${name} ${ARG_SOURCES})
-  target_link_libraries(aquarama-${name} PRIVATE aquarama_options ${ARG_LINK})
-  set_target_properties(aquarama-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin
-    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-  target_compile_options(aquarama-${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a quarter faster to compile
-  aquarama_version(aquarama-${name})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE aquarama_options ${ARG_LINK})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a quarter faster to compile
+  aquarama_version(${name})
 endfunction()
 
-# aquarama_version(aquarama-master): writes the text of its --version. It runs when everything is configured, since only
-# then it is known what the program links. The commit is in a source of its own, so that after a commit only one small
-# file is compiled and the programs are linked.
+# aquarama_version(aquarama): writes the text of its --version. It runs when everything is configured, since only then it
+# is known what the program links. The commit is in a source of its own, so that after a commit only one small file is
+# compiled and the programs are linked.
 function(aquarama_version program)
   cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL aquarama_write_version ${program})")
 endfunction()

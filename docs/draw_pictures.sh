@@ -29,6 +29,7 @@ declare -A way=(
     [fidelity_ways.svg]=fidelity
     [fidelity_segments.svg]=fidelity
     [adaptation.svg]=adaptation
+    [modules.svg]=modules
 )
 
 # Each leaves its pictures in $drawn.
@@ -76,6 +77,12 @@ fidelity() { $bin/aquarama fidelity --seed 4 --out "$drawn"; }
 # Prints the tables of docs/appendices/adaptation.md besides.
 adaptation() { $bin/aquarama study --seeds 16 --minutes 4 --out "$drawn"; }
 
+# The libraries and programs, as CMake knows them.
+modules() {
+    cmake --preset show-tests --graphviz="$drawn/cmake.dot" >/dev/null
+    docs/draw_modules.py "$drawn/cmake.dot" "$drawn/modules.svg"
+}
+
 mapfile -t names < <(printf '%s\n' "${!way[@]}" | sort)
 if (($# > 0)); then names=("$@"); fi
 for name in "${names[@]}"; do
@@ -86,7 +93,9 @@ for name in "${names[@]}"; do
 done
 
 cmake --preset show-tests >"$drawn/configure.log" 2>&1 || { cat "$drawn/configure.log" >&2; exit 1; }
-cmake --build --preset show-tests --target aquarama_programs aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
+if [ "${names[*]}" != modules.svg ]; then
+    cmake --build --preset show-tests --target aquarama_programs aquarama_draw_still aquarama_draw_species aquarama_draw_sheet
+fi
 
 declare -A seconds=()
 for name in "${names[@]}"; do

@@ -1,178 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// The master of a rig: wires the world to the conductor.
-#include <algorithm>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
+// aquarama: runs shows and their master, asks it, and captures and studies fish.
+#include <array>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "common/cli/outputs.h"
-#include "common/cli/program.h"
-#include "common/cli/signals.h"
-#include "common/config/rig.h"
-#include "common/net/channels.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
-#include "common/wall/wall.h"
-#include "common/wire/recording.h"
+#include "common/cli/command_line.h"
 #include "master/commands.h"
-#include "master/conductor/conductor.h"
-#include "master/simulation/living_world.h"
-#include "master/simulation/recorded_world.h"
 
 namespace aquarama {
 
 namespace {
 
-struct MasterOptions {
-    std::string rigPath;
-    std::string scenePath;  // empty: the rig's
-    bool lockstep = false;
-    std::optional<std::uint64_t> frames;
-    std::uint32_t seed = 1;
-    std::optional<std::uint32_t> fish;
-    std::string pattern = "world";
-    std::string quality;  // empty: the rig's
-    std::string traceFolder;
-    std::string recordPath;  // empty: the show is not recorded
-    std::string replayPath;  // of the recording that is shown; empty: a new world
+struct Group {
+    const char* heading;
+    std::vector<void (*)(CommandLine&)> commands;
 };
 
-// No clock is read in lockstep: its tier cannot be measured.
-std::optional<config::QualityTier> qualityOf(const config::Rig& rig, const MasterOptions& options) {
-    constexpr config::QualityTier kOfLockstep = config::QualityTier::Low;
-    if (!options.quality.empty()) return config::tierNamed(options.quality);
-    if (!rig.quality && options.lockstep) return kOfLockstep;
-    return rig.quality;
-}
-
-conductor::ConductorOptions conductorOptions(const config::Rig& rig, const MasterOptions& options) {
-    conductor::ConductorOptions conductor;
-    conductor.quality = qualityOf(rig, options);
-    conductor.pace = options.lockstep ? wire::Pace::Lockstep : wire::Pace::Live;
-    conductor.pattern = options.pattern == "grid"   ? wire::Pattern::Grid
-                        : options.pattern == "grey" ? wire::Pattern::Grey
-                                                    : wire::Pattern::World;
-    conductor.frames = options.frames;
-    conductor.seed = options.seed;
-    conductor.traceDirectory = options.traceFolder;
-    return conductor;
-}
-
-// What the nodes are told of the cast, and the blobs that they may then ask for.
-std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& assets, conductor::Blobs& blobs) {
-    std::vector<wire::SpeciesBlobs> cast;
-    for (const wire::SpeciesAssets& species : assets.cast) {
-        const auto text = std::as_bytes(std::span{species.text});
-        cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
-        blobs.emplace(cast.back().species, net::ByteVector{text.begin(), text.end()});
-        blobs.emplace(cast.back().repertoire, species.repertoire);
-    }
-    return cast;
-}
-
-// What is shown: the living world, or a recorded or replayed one about it.
-struct Shown {
-    const wire::AssetBundle& assets;
-    const simulation::LivingWorld& world;
-    conductor::Simulation& simulation;
+const std::array kGroups{
+    Group{"A show on this machine", {addRun, addReplay}},
+    Group{"While a show runs", {addStatus, addPilot, addExplain}},
+    Group{"A show on several machines, one process each", {addMaster, addNode}},
+    Group{"Files", {addCheck, addInspect}},
+    Group{"Fish and their repertoires",
+          {addCapture, addExport, addGaits, addSearch, addControllers, addFidelity}},
+    Group{"Worlds", {addStudy}},
 };
-
-// Returns when the show is over. `running` is the conductor meanwhile.
-void show(const config::Rig& rig,
-          const conductor::ConductorOptions& options,
-          const Shown& shown,
-          std::unique_ptr<net::MasterChannels> channels,
-          conductor::Conductor** running = nullptr) {
-    conductor::Blobs blobs;
-    wire::Welcome welcome;
-    welcome.rigText = rig.text;
-    welcome.sceneText = shown.assets.scene;
-    welcome.cast = castOf(shown.assets, blobs);
-    const auto school = shown.world.world().traits();
-    welcome.school.assign(school.begin(), school.end());
-    conductor::Conductor conductor(
-        rig, options, shown.simulation, std::move(welcome), std::move(blobs), std::move(channels));
-    if (running != nullptr) *running = &conductor;
-    const cli::SignalWatch watch([&] { conductor.stop(); });
-    conductor.run();
-}
-
-void showNew(const config::Rig& rig,
-             const MasterOptions& options,
-             std::unique_ptr<net::MasterChannels> channels) {
-    const simulation::Assets assets = simulation::readAssets(
-        options.scenePath.empty() ? config::scenePathOf(rig, options.rigPath) : options.scenePath,
-        {.seed = options.seed, .fish = options.fish});
-    simulation::LivingWorld world(simulation::worldOptionsOf(assets));
-    const conductor::ConductorOptions conducting = conductorOptions(rig, options);
-    if (options.recordPath.empty())
-        return show(rig, conducting, {assets.bytes, world, world}, std::move(channels));
-    simulation::RecordingFile file(options.recordPath, assets.bytes);
-    simulation::RecordedWorld recorded(world, file);
-    show(rig, conducting, {assets.bytes, world, recorded}, std::move(channels));
-}
-
-void showAgain(const config::Rig& rig,
-               const MasterOptions& options,
-               std::unique_ptr<net::MasterChannels> channels) {
-    const wire::Recording recording = wire::readRecording(options.replayPath);
-    for (const std::string& doubt : wire::doubtsAbout(recording))
-        logWarning("{}: {}", options.replayPath, doubt);
-    simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
-    conductor::ConductorOptions conducting = conductorOptions(rig, options);
-    conducting.seed = recording.assets.seed;
-    // In lockstep the world runs ahead of the frames: there these are counted.
-    conductor::Conductor* running = nullptr;
-    std::function<void()> onEnd = [&running] { running->stop(); };
-    if (options.lockstep) {
-        const std::uint64_t frames = recording.lastTick().value + 1;
-        conducting.frames = std::min(conducting.frames.value_or(frames), frames);
-        onEnd = [] {};
-    }
-    simulation::ReplayedWorld replayed(recording, world, onEnd);
-    show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
-}
-
-void runMaster(const MasterOptions& options) {
-    cli::holdSignals();
-    const config::Rig rig = config::readRig(options.rigPath);
-    wall::checkGeometry(rig, options.rigPath);
-    cli::requireFolder("--trace", options.traceFolder);
-    if (!options.recordPath.empty()) simulation::requireNewRecording(options.recordPath);
-    cli::requireFile("--record", options.recordPath);
-    auto channels = net::bindMaster(rig.controlAddress, rig.stateAddress);
-    (options.replayPath.empty() ? showNew : showAgain)(rig, options, std::move(channels));
-}
-
-void describe(CLI::App& app, MasterOptions& options) {
-    app.add_option("RIG", options.rigPath, "the rig's file");
-    app.add_flag("--lockstep", options.lockstep, "frame n shows tick n; no clock is read");
-    app.add_option("--frames", options.frames, "end after so many frames")
-        ->check(cli::wholeNumber(1, cli::kMostShownFrames));
-    app.add_option("--seed", options.seed, "of the world: the same seed gives the same world")
-        ->check(cli::wholeNumber(0, cli::kMostSeed));
-    app.add_option("--scene", options.scenePath, "what is shown, instead of the rig's scene");
-    app.add_option(
-           "--fish", options.fish, "how many of the first species, instead of the scene's number")
-        ->check(cli::wholeNumber(0, kMostFish));
-    app.add_option("--pattern", options.pattern, "what the channels show")
-        ->check(CLI::IsMember({"world", "grid", "grey"}));
-    app.add_option("--quality", options.quality, "how fine the wall is drawn, instead of the rig's")
-        ->check(CLI::IsMember({"low", "medium", "high", "ultra"}));
-    app.add_option(
-        "--trace", options.traceFolder, "folder for master.csv: a line of times a frame");
-    app.add_option("--record", options.recordPath, "write the show to this new file");
-    app.add_option("--replay", options.replayPath, "show this recording")
-        ->excludes("--record")
-        ->excludes("--seed")
-        ->excludes("--scene")
-        ->excludes("--fish");
-}
 
 }  // namespace
 
@@ -180,15 +33,13 @@ void describe(CLI::App& app, MasterOptions& options) {
 
 int main(int count, char** arguments) {
     using namespace aquarama;
-    CLI::App app{"The master of a rig: moves every fish, and has all nodes present in step",
-                 "aquarama-master"};
-    MasterOptions options;
-    describe(app, options);
-    cli::Job job = [&] {
-        if (options.rigPath.empty()) throw CLI::RequiredError("RIG");
-        runMaster(options);
-        return 0;
-    };
-    for (const auto add : {addStatus, addExplain, addPilot, addReplay, addInspect}) add(app, job);
-    return cli::runProgram(app, count, arguments, [&] { return job(); });
+    CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors", "aquarama"};
+    app.require_subcommand(0, 1);
+    CommandLine line(app);
+    for (const Group& group : kGroups) {
+        line.startGroup(group.heading);
+        for (const auto add : group.commands) add(line);
+    }
+    app.footer("aquarama COMMAND --help lists the options of a command.");
+    return cli::runProgram(app, count, arguments, [&] { return line.runChosen(); });
 }

@@ -4,8 +4,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
-#include "common/cli/program.h"
 #include "common/net/address.h"
 #include "common/units/log.h"
 #include "render_node/show/run_node.h"

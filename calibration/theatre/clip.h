@@ -13,17 +13,20 @@
 
 namespace aquarama::theatre {
 
+// Of a clip that is to be made.
 struct ClipFormat {
     std::string path;  // its ending chooses: .mp4 or .webp
     glm::ivec2 sizePixels{};
     int ticksBetween = 1;  // frames of a show from one picture of the clip to the next
 };
 
-// The file is there when it is whole; until then it is PATH.part.
+// A clip that is being made. Its file is PATH.part until finish(), and is removed where that is not
+// called. The functions throw Error where the file cannot be written.
 class Clip {
   public:
     virtual ~Clip() = default;
-    // Codes of 8 bits, of the format's size. Ticks count up; the first may be any.
+    // The next picture: codes of 8 bits, of the format's size. Ticks count up; the first may be
+    // any.
     virtual void add(const wall::Picture& picture, std::uint64_t tick) = 0;
     // Once, after the last. The last picture is seen as long as the others.
     virtual void finish() = 0;
@@ -33,7 +36,8 @@ class Clip {
 // part 2, which every build of the library has.
 [[nodiscard]] std::span<const char* const> videoEncoders();
 
-// Throws Error: another ending, a file that cannot be written, no encoder.
+// By the ending of the path. Throws Error: another ending, a file that cannot be written, no
+// encoder.
 [[nodiscard]] std::unique_ptr<Clip> makeClip(const ClipFormat& format);
 // By the first of these encoders that the library has and that opens.
 [[nodiscard]] std::unique_ptr<Clip> makeVideo(const ClipFormat& format,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated hall: adds up, in linear light, what the projectors throw on the screen.
+// The simulated hall: adds up, in linear light, what the projectors throw on the screen, and writes
+// the two pictures that are composed of a snapshot.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -13,13 +15,15 @@
 
 namespace aquarama::theatre {
 
-// Where the unrolled screen's pixels lie in the channels' pictures: for many panoramas of one rig.
+// Where the unrolled screen's pixels lie in the channels' pictures. Made once for many panoramas of
+// one rig.
 class PanoramaMap {
   public:
     explicit PanoramaMap(const config::Rig& rig);
-    // One picture for each channel of the rig, of its size, as light.
+    // One picture for each channel of the rig, in its order and of its size, as light.
     [[nodiscard]] wall::Light compose(std::span<const wall::Light> channels) const;
 
+    // A pixel of the panorama that a channel lights.
     struct Sample {
         std::uint32_t place = 0;  // in the panorama, row by row
         glm::vec2 pixel{};        // of the channel's picture, continuous
@@ -30,16 +34,35 @@ class PanoramaMap {
     std::vector<std::vector<Sample>> samples_;  // of each channel
 };
 
-// The unrolled screen. One picture for each channel of the rig, of its size, as light.
+// The unrolled screen, of one picture for each channel as above.
 [[nodiscard]] wall::Light composePanorama(const config::Rig& rig,
                                           std::span<const wall::Light> channels);
 
-// Of the hall's picture and clip.
+// Size of the hall's picture and clip.
 inline constexpr glm::ivec2 kHallPixels(1600, 900);
 
-// What somebody at the back of a dark hall sees of it, over the heads of the audience.
+// What a visitor at the back of the dark hall sees, over the heads of the audience. Takes seconds;
+// uses all processors.
 [[nodiscard]] wall::Light composeHall(const config::Rig& rig,
                                       const wall::Light& panorama,
                                       glm::ivec2 sizePixels);
+
+// What every channel of folder/channel-NAME.png throws on the wall, seen without glasses: of two
+// eyes that its display parts again the mean of channel-NAME.left_eye.png and .right_eye.png.
+// Throws Error when a picture is missing or has not its channel's size.
+[[nodiscard]] std::vector<wall::Light> readChannels(const config::Rig& rig,
+                                                    const std::string& folder);
+
+// Writes folder/panorama.png and folder/hall.png with 8 or 16 bits. Throws Error where they cannot
+// be written.
+void writePanoramaAndHall(const config::Rig& rig,
+                          const wall::Light& panorama,
+                          const std::string& folder,
+                          int bits);
+
+// Composes folder/panorama.png and folder/hall.png, and in stereo panorama.left_eye.png and
+// .right_eye.png, of the channels' pictures there. Throws as readChannels() and
+// writePanoramaAndHall() do.
+void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits);
 
 }  // namespace aquarama::theatre

@@ -2,6 +2,7 @@
 #include "calibration/theatre/film.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <deque>
 #include <iomanip>
@@ -14,7 +15,6 @@
 
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
-#include "calibration/theatre/snapshot.h"
 #include "common/cli/signals.h"
 #include "common/units/log.h"
 #include "common/wall/frame_pipe.h"
@@ -35,6 +35,7 @@ std::vector<config::Channel> filmedChannels(const config::Rig& rig, const std::s
     return {*named};
 }
 
+// Makes a picture of the clip of a frame of each filmed channel. Keeps a reference to the rig.
 class Camera {
   public:
     Camera(const config::Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
@@ -73,8 +74,8 @@ class Camera {
     std::optional<PanoramaMap> map_;  // unless a channel is shown as it is
 };
 
-// How far a clip is: in one line of a terminal, which is written again and again, or a line of a
-// log every ten seconds.
+// Says how far the clip is: in one line of a terminal, written anew, or in a line of a log every
+// ten seconds.
 class Progress {
   public:
     explicit Progress(const Filming& filming) : pictures_{picturesIn(filming)} {}
@@ -111,7 +112,7 @@ class Progress {
     Clock::time_point shown_ = begun_;
 };
 
-// The next frame of every channel; nothing as soon as one has ended.
+// The next frame of every channel; none as soon as one channel has ended.
 std::optional<std::vector<wall::PipedFrame>> nextFrame(
     std::deque<wall::FramePipeReader>& pipes, const std::vector<config::Channel>& channels) {
     std::vector<wall::PipedFrame> frames;
@@ -130,11 +131,12 @@ std::optional<std::vector<wall::PipedFrame>> nextFrame(
 }  // namespace
 
 void film(const config::Rig& rig, const Filming& filming) {
+    assert(filming.ticksBetween > 0);
     const std::vector<config::Channel> channels = filmedChannels(rig, filming.of);
     std::deque<wall::FramePipeReader> pipes;
     for (const config::Channel& channel : channels)
         pipes.emplace_back(wall::framePipe(filming.pipes, channel.name));
-    cli::holdSignals();  // the end of the nodes is the clip's: what was shown until then is kept
+    cli::holdSignals();  // the clip ends with its nodes: what was shown until then is kept
     const Camera camera(rig, filming.of);
     const auto clip =
         makeClip({filming.clipPath, camera.sizePixels(channels), filming.ticksBetween});

@@ -15,6 +15,7 @@ namespace aquarama::theatre {
 inline constexpr const char* kPanorama = "panorama";
 inline constexpr const char* kHall = "hall";
 
+// What is filmed, and into which files.
 struct Filming {
     std::string of = kPanorama;   // or kHall, or a channel's name
     std::filesystem::path pipes;  // folder with a named pipe for each channel that is filmed
@@ -26,9 +27,10 @@ struct Filming {
     std::string firstPictures = {};
 };
 
-// Until the nodes close their pipes; then says what it made. Shows how far it is on standard
-// output: in one line of a terminal, or a line every ten seconds. Throws Error: frames that are not
-// the rig's or not the same ones of all channels, no frame at all, a clip that cannot be written.
+// Makes the clip until the nodes close their pipes, and says what it made. Shows its progress on
+// standard output: in one line of a terminal, or a line every ten seconds. Throws Error: frames
+// that are not the rig's or not the same ones of all channels, no frame at all, a clip that cannot
+// be written.
 void film(const config::Rig& rig, const Filming& filming);
 
 }  // namespace aquarama::theatre

@@ -19,7 +19,8 @@ namespace aquarama::theatre {
 class ScreenGlow {
   public:
     ScreenGlow(const config::Screen& screen, const wall::Light& panorama);
-    // Light that a white matt surface would send back.
+    // Light that a white matt surface at this point of the wall's frame would send back; the normal
+    // has length one.
     [[nodiscard]] glm::vec3 on(glm::dvec3 point, glm::dvec3 normal) const;
     // The screen out of focus, as a dull floor mirrors it; unrolled coordinates.
     [[nodiscard]] const glm::vec3& mean() const { return mean_; }
@@ -36,17 +37,20 @@ class ScreenGlow {
     glm::vec3 mean_{};
 };
 
+// A part of a body.
 struct Capsule {
     glm::dvec3 from, to;  // a segment
     double radius;        // and all that is this near to it, metres
 };
 
+// One of the audience, a dark shape before the screen.
 struct Person {
     std::vector<Capsule> body;
     glm::dvec3 centre;  // of a ball that holds the body
     double reach;
 };
 
+// The hall as an eye sees it; keeps a reference to the panorama.
 class Room {
   public:
     Room(const config::Screen& screen, const wall::Light& panorama, glm::dvec3 eye);

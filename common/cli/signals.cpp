@@ -26,9 +26,9 @@ void holdSignals() {
 SignalWatch::SignalWatch(std::function<void()> onSignal) {
     const sigset_t signals = watchedSignals();
     thread_ = std::jthread([signals, call = std::move(onSignal)](const std::stop_token& ended) {
-        constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 50'000'000};
+        constexpr timespec kPollInterval{.tv_sec = 0, .tv_nsec = 50'000'000};
         while (!ended.stop_requested())
-            if (sigtimedwait(&signals, nullptr, &kLook) > 0) call();
+            if (sigtimedwait(&signals, nullptr, &kPollInterval) > 0) call();
     });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIGINT and SIGTERM as a call on a thread of their own, so that whatever waits can be told to
-// stop.
+// SIGINT, SIGTERM and SIGHUP as a call on a thread of their own, so that a loop that waits for
+// something else can be told to end.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,11 @@
 
 namespace aquarama::cli {
 
-// Before any other thread is made: all of them leave these signals to the watch.
+// Blocks these signals. Call it before any other thread is made: threads inherit it, and leave the
+// signals to the watch.
 void holdSignals();
 
+// Calls `onSignal` for each of these signals, on its own thread, as long as it lives.
 class SignalWatch {
   public:
     explicit SignalWatch(std::function<void()> onSignal);

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from show import BIN, ROOT, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, wait_until
 
-PROGRAMS = ["aquarama", "aquarama-master", "aquarama-node", "aquarama-capture", "aquarama-study", "aquarama-calibrate"]
+PROGRAMS = ["aquarama", "aquarama-node", "aquarama-calibrate"]
 COMMANDS = ["run", "replay", "master", "node", "capture", "export", "gaits", "search", "fidelity", "controllers", "study", "check",
             "inspect", "status", "pilot", "explain"]
 STARTED = r"starting the master and 3 nodes of \S+\n(\[.*\n)*"
@@ -66,20 +66,20 @@ class Usage(Case):
             ("run", "aquarama run", "--fish", f"{whole} 0 to 1000000"),
             ("run --clip a.mp4", "aquarama run", "--film-every", f"{whole} 1 to 10000"),
             ("replay FILE", "aquarama replay", "--frames", f"{whole} {count}"),
-            ("master RIG", "aquarama-master", "--frames", f"{whole} {count}"),
-            ("master RIG", "aquarama-master", "--seed", seed),
-            ("master RIG", "aquarama-master", "--fish", f"{whole} 0 to 1000000"),
-            ("explain", "aquarama-master explain", "--fish", f"{whole} 0 to 1000000"),
-            ("explain --fish 1 --replay FILE", "aquarama-master explain", "--tick", f"{whole} 0 to 1000000000"),
+            ("master RIG", "aquarama master", "--frames", f"{whole} {count}"),
+            ("master RIG", "aquarama master", "--seed", seed),
+            ("master RIG", "aquarama master", "--fish", f"{whole} 0 to 1000000"),
+            ("explain", "aquarama explain", "--fish", f"{whole} 0 to 1000000"),
+            ("explain --fish 1 --replay FILE", "aquarama explain", "--tick", f"{whole} 0 to 1000000000"),
             ("node NAME --master tcp://127.0.0.1:1 --film PIPE", "aquarama-node", "--film-every", f"{whole} 1 to 10000"),
-            ("study", "aquarama-study", "--seeds", f"{whole} 1 to 100"),
-            ("study", "aquarama-study", "--minutes", "a number from 0.1 to 1440"),
-            ("study chronicle SCENE", "aquarama-study chronicle", "--hours", "a number from 0.01 to 1000"),
-            ("study chronicle SCENE", "aquarama-study chronicle", "--seed", seed),
-            ("export FILE --segment forward_slow --csv a", "aquarama-capture export", "--cycles", f"{whole} 1 to 1000"),
-            ("fidelity --out DIR", "aquarama-capture fidelity", "--seed", seed),
-            ("fidelity --out DIR", "aquarama-capture fidelity", "--seconds", "a number from 1 to 3600"),
-            ("search SPECIES --out FILE", "aquarama-capture search", "--trials", f"{whole} 1 to 1000000"),
+            ("study", "aquarama study", "--seeds", f"{whole} 1 to 100"),
+            ("study", "aquarama study", "--minutes", "a number from 0.1 to 1440"),
+            ("study chronicle SCENE", "aquarama study chronicle", "--hours", "a number from 0.01 to 1000"),
+            ("study chronicle SCENE", "aquarama study chronicle", "--seed", seed),
+            ("export FILE --segment forward_slow --csv a", "aquarama export", "--cycles", f"{whole} 1 to 1000"),
+            ("fidelity --out DIR", "aquarama fidelity", "--seed", seed),
+            ("fidelity --out DIR", "aquarama fidelity", "--seconds", "a number from 1 to 3600"),
+            ("search SPECIES --out FILE", "aquarama search", "--trials", f"{whole} 1 to 1000000"),
         ]:
             for value in ["-1", "99999999999999999999", "many", "3x", "nan"] + (["0"] if "from 0 " not in allowed else []):
                 with self.subTest(command, option=option, value=value):
@@ -108,8 +108,8 @@ class Usage(Case):
             self.assertIn(word, inspect)
 
     def test_version_names_commit_build_and_the_libraries_that_the_program_links(self):
-        links = {"aquarama": ["Protobuf"], "aquarama-master": ["ZeroMQ", "Protobuf"], "aquarama-node": ["GLFW", "OpenSubdiv", "ZeroMQ"],
-                 "aquarama-capture": ["Eigen", "NLopt"], "aquarama-study": ["Protobuf"], "aquarama-calibrate": ["FFmpeg-libavcodec"]}
+        links = {"aquarama": ["ZeroMQ", "Protobuf", "Eigen", "NLopt"], "aquarama-node": ["GLFW", "OpenSubdiv", "ZeroMQ"],
+                 "aquarama-calibrate": ["FFmpeg-libavcodec"]}
         for program in PROGRAMS:
             run = subprocess.run([BIN / program, "--version"], capture_output=True, text=True, timeout=60)
             self.said(run, 0, rf"{program} \d+\.\d+\.\d+\n"
@@ -118,28 +118,32 @@ class Usage(Case):
                               r"libraries  ([\w-]+ \d[\w.]*, )*[\w-]+ \d[\w.]*\n", "")
             for library in links[program]:
                 self.assertIn(f" {library} ", run.stdout)
-        self.assertNotIn("GLFW", subprocess.run([BIN / "aquarama-master", "--version"], capture_output=True, text=True).stdout)
+        own = aquarama("--version").stdout
+        for library in ["GLFW", "FFmpeg-libavcodec"]:
+            self.assertNotIn(library, own)
+        for command in set(COMMANDS) - {"node", "check"}:
+            self.assertEqual(aquarama(command, "--version").stdout, own, command)
 
 
 class Files(Case):
     def test_an_unknown_field_is_named_with_its_place_in_plain_words(self):
         rig = self.edited((r"screen \{", "screen { curvature: 3"))
-        self.refuses(r'aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or remove it',
+        self.refuses(r'aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: screen has no field named "curvature"; correct its name or remove it',
                      "check", rig)
 
     def test_overlapping_ids(self):
         rig = self.edited((r"\bid: 2\b", "id: 1"))
-        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: .*\b1\b.*", "check", rig)
+        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: .*\b1\b.*", "check", rig)
 
     def test_a_projector_that_misses_the_screen(self):
         rig = Path(self.edited())
         rig.write_text(re.sub(r"yaw_deg: *-?[\d.]+", "yaw_deg: 170", rig.read_text(), count=1))
-        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", "check", rig)
-        self.ends(r"aquarama-master: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", rig)
+        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", "check", rig)
+        self.ends(r"aquarama master: \S+/desk\.txtpb:\d+:\d+: .*misses the screen.*", rig)
 
     def test_a_window_of_no_size(self):
         rig = self.edited((r"width_px: *480", "width_px: 0"))
-        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: width_px is 0: .*", "check", rig)
+        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: width_px is 0: .*", "check", rig)
 
     def test_all_files_are_checked_and_each_bad_one_gets_a_line(self):
         one, other = self.path / "one.txtpb", self.path / "other.txtpb"
@@ -147,20 +151,20 @@ class Files(Case):
         other.write_text('name: "rig" screen { radius_m: 0 }')
         good = ROOT / "config/scenes/reef.txtpb"
         both = aquarama("check", one, good, other)
-        self.said(both, 1, r"(?s:.+)", r'aquarama-calibrate: \S+/one\.txtpb:1:\d+: rig has no field named "screens"; .*\n'
-                                       r"aquarama-calibrate: \S+/other\.txtpb:1:\d+: .*\n")
+        self.said(both, 1, r"(?s:.+)", r'aquarama-calibrate check: \S+/one\.txtpb:1:\d+: rig has no field named "screens"; .*\n'
+                                       r"aquarama-calibrate check: \S+/other\.txtpb:1:\d+: .*\n")
         self.assertEqual(both.stdout, aquarama("check", good).stdout)
         self.assertEqual(aquarama("check", good, good).stdout, 2 * both.stdout)
 
     def test_a_rig_that_is_not_there(self):
-        self.refuses(r"aquarama-calibrate: nowhere\.txtpb: cannot be read.*", "check", "nowhere.txtpb")
-        self.refuses(r"aquarama: nowhere\.txtpb: cannot be read.*", "run", "nowhere.txtpb", "--headless", "--frames", 1)
+        self.refuses(r"aquarama-calibrate check: nowhere\.txtpb: cannot be read.*", "check", "nowhere.txtpb")
+        self.refuses(r"aquarama run: nowhere\.txtpb: cannot be read.*", "run", "nowhere.txtpb", "--headless", "--frames", 1)
 
     def test_a_scene_that_is_not_there(self):
-        self.ends(r"aquarama-master: nowhere\.txtpb: cannot be read.*", self.edited(), "--scene", "nowhere.txtpb")
+        self.ends(r"aquarama master: nowhere\.txtpb: cannot be read.*", self.edited(), "--scene", "nowhere.txtpb")
         rig = self.edited((r"reef\.txtpb", "atlantis.txtpb"))
-        self.ends(r"aquarama-master: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", rig)
-        self.refuses(r"aquarama-calibrate: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", "check", rig, stdout="(.* lights .*\n)*")
+        self.ends(r"aquarama master: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", rig)
+        self.refuses(r"aquarama-calibrate check: \S+/desk\.txtpb:\d+:\d+: .*atlantis.*", "check", rig, stdout="(.* lights .*\n)*")
 
     def test_a_mistake_in_a_scene_and_in_a_species_of_it(self):
         scene = (ROOT / "config/scenes/reef.txtpb").read_text().replace("../species", str(ROOT / "config/species"))
@@ -174,13 +178,13 @@ class Files(Case):
             (scene.replace(str(ROOT / "config/species/parrotfish"), "odd"), r"\S+/odd\.txtpb:\d+:\d+: .*hunts.*"),
         ]:
             own.write_text(wrong)
-            self.refuses("aquarama-calibrate: " + expected, "check", own)
-            self.ends("aquarama-master: " + expected, self.edited(), "--scene", own)
+            self.refuses("aquarama-calibrate check: " + expected, "check", own)
+            self.ends("aquarama master: " + expected, self.edited(), "--scene", own)
 
     def test_a_number_of_fish_that_the_scene_cannot_hold(self):
         reef = ROOT / "config/scenes/reef.txtpb"
         for fish, expected in [(0, "only an open sea"), (999_000, "room for")]:
-            self.ends(rf"aquarama-master: .*{expected}.*", self.edited(), "--scene", reef, "--fish", fish)
+            self.ends(rf"aquarama master: .*{expected}.*", self.edited(), "--scene", reef, "--fish", fish)
 
     def test_a_damaged_repertoire(self):
         out = aquarama("capture", "--species", "bigeye_scad", "--out", self.folder.name)
@@ -189,17 +193,17 @@ class Files(Case):
         content = bytearray(whole.read_bytes())
         self.assertEqual(aquarama("inspect", whole).returncode, 0)
         whole.write_bytes(content[:-100])
-        self.refuses(rf"aquarama-capture: \S+/{whole.name}: .*", "inspect", whole)
+        self.refuses(rf"aquarama inspect: \S+/{whole.name}: .*", "inspect", whole)
         content[len(content) // 2] ^= 1
         whole.write_bytes(content)
-        self.refuses(rf"aquarama-capture: \S+/{whole.name}: .*", "inspect", whole)
+        self.refuses(rf"aquarama inspect: \S+/{whole.name}: .*", "inspect", whole)
 
     def test_a_recording_that_is_none(self):
         none = self.path / "none.aqrec"
         for check in [["--check"], ["--headless"], []]:
-            self.refuses(rf"aquarama: {none}: cannot be read; check the path", "replay", none, *check)
+            self.refuses(rf"aquarama replay: {none}: cannot be read; check the path", "replay", none, *check)
         none.write_text("a letter to somebody")
-        self.refuses(rf"aquarama: {none}: is no recording of a show; .*", "replay", none, "--headless")
+        self.refuses(rf"aquarama replay: {none}: is no recording of a show; .*", "replay", none, "--headless")
 
     def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
         blocked = self.path / "file"
@@ -207,25 +211,25 @@ class Files(Case):
         rig, inside = self.edited(), blocked / "inside"
         wrong = rf"--\w+ {inside}: cannot be written \(Not a directory\); choose another folder"
         for arguments in [("--snapshot", inside), ("--trace", inside)]:
-            self.refuses(f"aquarama: {wrong}", "run", rig, "--headless", "--frames", 1, *arguments)
+            self.refuses(f"aquarama run: {wrong}", "run", rig, "--headless", "--frames", 1, *arguments)
         inside = blocked / "inside.mp4"
         wrong_file = rf"--\w+ {inside}: cannot be written \(Not a directory\); choose another folder"
         for option in ["--clip", "--record"]:
-            self.refuses(f"aquarama: {wrong_file}", "run", rig, "--headless", "--frames", 1, option, inside)
-        self.refuses(f"aquarama-master: {wrong_file}", "master", rig, "--record", inside)
+            self.refuses(f"aquarama run: {wrong_file}", "run", rig, "--headless", "--frames", 1, option, inside)
+        self.refuses(f"aquarama master: {wrong_file}", "master", rig, "--record", inside)
         for command in [("fidelity", "--out"), ("controllers", "--out"), ("capture", "--out"),
                         ("capture", "--out", self.folder.name, "--report"), ("inspect", self.path / "a.aqrep", "--report")]:
             with self.subTest(command):
-                self.refuses(f"aquarama-capture: {wrong}", *command, blocked / "inside")
-        self.refuses(f"aquarama-study: {wrong}", "study", "--out", blocked / "inside")
-        self.refuses(f"aquarama-capture: {wrong_file}", "search", "bigeye_scad", "--out", inside)
-        self.refuses(f"aquarama-capture: {wrong_file}", "export", "a.aqrep", "--segment", "forward_slow", "--c3d", inside)
+                self.refuses(f"aquarama {command[0]}: {wrong}", *command, blocked / "inside")
+        self.refuses(f"aquarama study: {wrong}", "study", "--out", blocked / "inside")
+        self.refuses(f"aquarama search: {wrong_file}", "search", "bigeye_scad", "--out", inside)
+        self.refuses(f"aquarama export: {wrong_file}", "export", "a.aqrep", "--segment", "forward_slow", "--c3d", inside)
 
 
 class Shows(Case):
     def test_binding_past_the_loopback_is_refused(self):
         rig = self.edited((r"tcp://127\.0\.0\.1:", "tcp://0.0.0.0:"))
-        self.refuses(r"aquarama: \S+/desk\.txtpb:\d+:\d+: .*needs keys.*", "run", rig, "--headless", "--frames", 1)
+        self.refuses(r"aquarama run: \S+/desk\.txtpb:\d+:\d+: .*needs keys.*", "run", rig, "--headless", "--frames", 1)
 
     def test_an_occupied_port(self):
         rig = self.edited()
@@ -234,8 +238,8 @@ class Shows(Case):
             with socket.socket() as other:
                 other.bind(("127.0.0.1", port))
                 other.listen()
-                self.refuses(rf"aquarama: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "run", rig, "--headless", "--frames", 1)
-                self.refuses(rf"aquarama-master: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "master", rig, "--pattern", "grid")
+                self.refuses(rf"aquarama run: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "run", rig, "--headless", "--frames", 1)
+                self.refuses(rf"aquarama master: cannot listen at tcp://127\.0\.0\.1:{port}: .*", "master", rig, "--pattern", "grid")
 
     def test_a_channel_that_the_rig_does_not_have(self):
         rig = self.edited()
@@ -249,11 +253,11 @@ class Shows(Case):
     def test_nobody_answers(self):
         rig = self.edited()
         for command, stdout in [(("status",), ""), (("explain", "--fish", 1), ""), (("pilot",), "w s ahead.*\n")]:
-            self.refuses(r"aquarama-master: no master answers.*", *command, rig, input="w", stdout=stdout)
+            self.refuses(rf"aquarama {command[0]}: no master answers.*", *command, rig, input="w", stdout=stdout)
 
     def test_a_window_without_a_display(self):
         environment = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
-        line = "aquarama: there is no display to open windows on: set DISPLAY, or draw without windows by --headless"
+        line = "aquarama run: there is no display to open windows on: set DISPLAY, or draw without windows by --headless"
         self.refuses(line, "run", self.edited(), "--frames", 1, environment=environment)
         self.refuses(line, "run", self.edited(), environment=environment)
 

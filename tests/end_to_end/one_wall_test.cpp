@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include "calibration/theatre/compose.h"
-#include "calibration/theatre/snapshot.h"
 #include "common/config/rig.h"
 #include "common/wall/wall.h"
 #include "tests/end_to_end/free_port.h"

@@ -159,16 +159,14 @@ class WithoutMatplotlib(Case):
 
     def test_every_report_is_refused_in_one_line_before_anything_is_simulated(self):
         out = self.folder / "out"
-        for program, *arguments in [("capture", "capture", "--out", out, "--report", out),
-                                    ("capture", "inspect", "a.aqrep", "--report", out),
-                                    ("capture", "controllers", "--out", out), ("capture", "fidelity", "--out", out),
-                                    ("study", "study", "--out", out), ("study", "study"),
-                                    ("study", "study", "chronicle", REEF)]:
+        for command, arguments in [("capture", ["--out", out, "--report", out]), ("inspect", ["a.aqrep", "--report", out]),
+                                   ("controllers", ["--out", out]), ("fidelity", ["--out", out]),
+                                   ("study", ["--out", out]), ("study", []), ("study chronicle", [REEF])]:
             for python in [self.fake_python(), self.folder / "none"]:
-                with self.subTest(arguments, python=python):
-                    run = aquarama(*arguments, environment={"AQUARAMA_PYTHON": str(python)}, timeout=10)
+                with self.subTest(command, python=python):
+                    run = aquarama(*command.split(), *arguments, environment={"AQUARAMA_PYTHON": str(python)}, timeout=10)
                     self.assertEqual(run.returncode, 1)
-                    self.assertRegex(run.stderr, rf"\Aaquarama-{program}: .*install .*python3-matplotlib.*\n\Z")
+                    self.assertRegex(run.stderr, rf"\Aaquarama {command}: .*install .*python3-matplotlib.*\n\Z")
                     self.assertEqual(run.stdout, "")
                     self.assertEqual(list(out.glob("*")), [])
 

@@ -52,11 +52,11 @@ def aquarama(*arguments, **options):
     return subprocess.run(command, capture_output=True, text=True, env=environment, cwd=ROOT, **options)
 
 
-def start(program, *arguments, log=None):
-    """Starts aquarama-PROGRAM; its output goes to `log`."""
+def start(command, *arguments, log=None):
+    """Starts `aquarama COMMAND`; its output goes to `log`."""
     environment = os.environ | {"LP_NUM_THREADS": "1"}
     with open(log or os.devnull, "a") as output:
-        return subprocess.Popen([str(BIN / f"aquarama-{program}"), *map(str, arguments)],
+        return subprocess.Popen([str(BIN / "aquarama"), command, *map(str, arguments)],
                                 stdout=output, stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
 
 

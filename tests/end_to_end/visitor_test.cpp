@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// aquarama-master on the desk and ports of its own; ended with the test.
+// `aquarama master` on the desk and ports of its own; ended with the test.
 class Master {
   public:
     explicit Master(const std::vector<std::string>& arguments) {
@@ -34,7 +34,8 @@ class Master {
         const config::Rig rig = config::parseRig(rigOnFreePorts("desk"), "desk");
         control_ = rig.controlAddress;
         std::ofstream(folder_ / "rig.txtpb") << rig.text;
-        std::vector<std::string> words{std::string(getenv("AQUARAMA_BIN")) + "/aquarama-master",
+        std::vector<std::string> words{std::string(getenv("AQUARAMA_BIN")) + "/aquarama",
+                                       "master",
                                        (folder_ / "rig.txtpb").string()};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;

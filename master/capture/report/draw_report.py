@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the page about a repertoire of SPECIES.json, which aquarama-capture writes: draw_report.py SPECIES.json...
+"""Makes the page about a repertoire of SPECIES.json, which `aquarama capture` writes: draw_report.py SPECIES.json...
 
 Beside the data come SPECIES.html and its pictures as SPECIES_NAME.svg.
 """

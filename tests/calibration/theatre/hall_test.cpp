@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/check.h"
 #include "calibration/theatre/compose.h"
-#include "calibration/theatre/survey.h"
 #include "common/config/rig.h"
 
 namespace aquarama::theatre {

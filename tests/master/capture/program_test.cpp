@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// aquarama-capture as it is used: what it leaves in its folder, on mistakes too.
+// `aquarama capture` as it is used: what it leaves in its folder, on mistakes too.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -36,7 +36,7 @@ class Program : public testing::Test {
     [[nodiscard]] Outcome capture(const std::string& arguments,
                                   const std::string& before = "") const {
         const std::string command = "XDG_CACHE_HOME=" + cache().string() + " " + before +
-                                    " \"$AQUARAMA_BIN\"/aquarama-capture --out " + out().string() +
+                                    " \"$AQUARAMA_BIN\"/aquarama capture --out " + out().string() +
                                     " " + arguments + " 2>&1";
         std::FILE* pipe = popen(command.c_str(), "r");
         Outcome outcome;
@@ -103,7 +103,7 @@ TEST_F(Program, namesASpeciesThatFailsAndCapturesTheOthers) {
     const std::string broken = edited("time_scale: 1.5", "time_scale: -1");
     const Outcome outcome = capture("--species bigeye_scad " + broken);
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_THAT(outcome.said, testing::ContainsRegex("aquarama-capture: [^\n]*edited.txtpb"));
+    EXPECT_THAT(outcome.said, testing::ContainsRegex("aquarama capture: [^\n]*edited.txtpb"));
     EXPECT_EQ(left(), std::set<std::string>{"bigeye_scad.aqrep"});
 }
 

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/theatre/compose.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <thread>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "calibration/theatre/room.h"
+#include "common/units/log.h"
+#include "common/units/worker_pool.h"
+#include "common/wall/pinhole.h"
+#include "common/wall/png_file.h"
+#include "common/wall/wall.h"
+
+namespace aquarama::theatre {
+
+namespace {
+
+std::vector<PanoramaMap::Sample> samplesOf(const config::Rig& rig, const config::Channel& channel) {
+    const wall::Pinhole projector(channel);
+    std::vector<PanoramaMap::Sample> samples;
+    for (int y = 0; y < rig.panoramaPixels.y; ++y)
+        for (int x = 0; x < rig.panoramaPixels.x; ++x) {
+            const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(rig.panoramaPixels);
+            const glm::dvec3 point = wall::screenPointAt(rig.screen, at);
+            const auto pixel = projector.pixelOf(point);
+            if (pixel && wall::lightsInside(projector, point))
+                samples.push_back(
+                    {static_cast<std::uint32_t>(y * rig.panoramaPixels.x + x), glm::vec2(*pixel)});
+        }
+    return samples;
+}
+
+constexpr double kEyeBackRadii = 1.15;  // behind the sweet spot, so that the whole arc is in view
+constexpr double kEyeUpMetres = 0.35;   // standing, behind people who sit
+constexpr double kMargin = 1.09;        // of the screen's width
+constexpr double kShareAbove = 0.3;     // of the free height; the floor gets the rest
+constexpr std::size_t kSamplesPerSide = 2;  // of a pixel
+
+// An eye that looks level, so that vertical edges stay vertical; its picture is shifted, not
+// tilted.
+struct Eye {
+    glm::dvec3 position;
+    double left, top, tangentPerPixel;
+
+    [[nodiscard]] wall::Ray ray(glm::dvec2 pixel) const {
+        return {position,
+                glm::normalize(glm::dvec3(
+                    left + pixel.x * tangentPerPixel, top - pixel.y * tangentPerPixel, -1))};
+    }
+};
+
+Eye eyeAtTheBack(const config::Screen& screen, glm::dvec2 sizePixels) {
+    Eye eye{};
+    eye.position = {0, kEyeUpMetres, kEyeBackRadii * screen.radiusMetres};
+    const double halfArc = screen.arcRadians / 2;
+    const double toEdge = eye.position.z + screen.radiusMetres * std::cos(halfArc);
+    const double halfWidth = screen.radiusMetres * std::sin(halfArc) / toEdge;
+    const double height = screen.heightMetres / toEdge;
+    const double width = std::max(2 * halfWidth, height * sizePixels.x / sizePixels.y);
+    eye.tangentPerPixel = kMargin * width / sizePixels.x;
+    eye.left = -kMargin * width / 2;
+    const double free = eye.tangentPerPixel * sizePixels.y - height;
+    eye.top = (screen.heightMetres / 2 - eye.position.y) / toEdge + kShareAbove * free;
+    return eye;
+}
+
+void drawRow(const Room& room, const Eye& eye, int y, wall::Light& hall) {
+    std::array<wall::Ray, kSamplesPerSide * kSamplesPerSide> rays;
+    for (int x = 0; x < hall.sizePixels.x; ++x) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const glm::dvec2 offset(i % kSamplesPerSide, i / kSamplesPerSide);
+            rays[i] = eye.ray(glm::dvec2(x, y) + (offset + 0.5) / double(kSamplesPerSide));
+        }
+        hall.at(x, y) = room.seen(rays);
+    }
+}
+
+std::string sizeText(glm::ivec2 size) {
+    return std::to_string(size.x) + " x " + std::to_string(size.y);
+}
+
+// `eye` is empty for what the display shows, or of one eye: ".left_eye".
+wall::Light readChannel(const config::Channel& channel,
+                        const std::string& folder,
+                        const std::string& eye) {
+    const std::string path = folder + "/channel-" + channel.name + eye + ".png";
+    const wall::Picture picture = wall::readPng(path);
+    if (picture.sizePixels != channel.sizePixels)
+        throw Error(path + ": is " + sizeText(picture.sizePixels) +
+                    " pixels, the rig's channel \"" + channel.name + "\" has " +
+                    sizeText(channel.sizePixels) + "; take the snapshot with this rig");
+    return wall::lightOf(picture);
+}
+
+// Whether the picture is what the display throws on the wall. Displays of the other modes part the
+// two eyes of it and throw both, one over the other.
+bool showsAsItIs(config::StereoMode mode) {
+    return mode == config::StereoMode::Mono || mode == config::StereoMode::Anaglyph;
+}
+
+wall::Light meanOf(wall::Light one, const wall::Light& other) {
+    for (std::size_t i = 0; i < one.rgb.size(); ++i)
+        one.rgb[i] = 0.5F * (one.rgb[i] + other.rgb[i]);
+    return one;
+}
+
+// As one eye behind its glasses sees it; a mono channel has one picture for both.
+std::vector<wall::Light> readEye(const config::Rig& rig,
+                                 const std::string& folder,
+                                 const std::string& eye) {
+    std::vector<wall::Light> channels;
+    for (std::size_t i = 0; i < rig.channels.size(); ++i) {
+        const bool two = wall::stereoOf(rig, i).mode != config::StereoMode::Mono;
+        channels.push_back(readChannel(rig.channels[i], folder, two ? eye : ""));
+    }
+    return channels;
+}
+
+bool hasStereo(const config::Rig& rig) {
+    for (std::size_t i = 0; i < rig.channels.size(); ++i)
+        if (wall::stereoOf(rig, i).mode != config::StereoMode::Mono) return true;
+    return false;
+}
+
+}  // namespace
+
+PanoramaMap::PanoramaMap(const config::Rig& rig) : sizePixels_{rig.panoramaPixels} {
+    std::vector<std::future<std::vector<Sample>>> pending;
+    for (const config::Channel& channel : rig.channels)
+        pending.push_back(
+            std::async(std::launch::async, samplesOf, std::cref(rig), std::cref(channel)));
+    for (auto& samples : pending) samples_.push_back(samples.get());
+}
+
+wall::Light PanoramaMap::compose(std::span<const wall::Light> channels) const {
+    assert(channels.size() == samples_.size());
+    wall::Light panorama = wall::darkness(sizePixels_);
+    for (std::size_t i = 0; i < samples_.size(); ++i)
+        for (const Sample& sample : samples_[i])
+            panorama.rgb[sample.place] += wall::bilinear(channels[i], glm::dvec2(sample.pixel));
+    return panorama;
+}
+
+wall::Light composePanorama(const config::Rig& rig, std::span<const wall::Light> channels) {
+    return PanoramaMap(rig).compose(channels);
+}
+
+wall::Light composeHall(const config::Rig& rig,
+                        const wall::Light& panorama,
+                        glm::ivec2 sizePixels) {
+    assert(sizePixels.x > 0 && sizePixels.y > 0);
+    const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
+    const Room room(rig.screen, panorama, eye.position);
+    wall::Light hall = wall::darkness(sizePixels);
+    WorkerPool(std::thread::hardware_concurrency())
+        .run(static_cast<std::size_t>(sizePixels.y),
+             [&](std::size_t y) { drawRow(room, eye, static_cast<int>(y), hall); });
+    return hall;
+}
+
+std::vector<wall::Light> readChannels(const config::Rig& rig, const std::string& folder) {
+    std::vector<wall::Light> channels;
+    for (std::size_t i = 0; i < rig.channels.size(); ++i) {
+        const config::Channel& channel = rig.channels[i];
+        channels.push_back(showsAsItIs(wall::stereoOf(rig, i).mode)
+                               ? readChannel(channel, folder, "")
+                               : meanOf(readChannel(channel, folder, ".left_eye"),
+                                        readChannel(channel, folder, ".right_eye")));
+    }
+    return channels;
+}
+
+void writePanoramaAndHall(const config::Rig& rig,
+                          const wall::Light& panorama,
+                          const std::string& folder,
+                          int bits) {
+    assert(bits == 8 || bits == 16);
+    // While the hall is composed, which takes longer.
+    auto written = std::async(std::launch::async, [&] {
+        wall::writePng(folder + "/panorama.png", wall::pictureOf(panorama, bits, 0));
+    });
+    wall::writePng(folder + "/hall.png",
+                   wall::pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
+    written.get();
+}
+
+void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits) {
+    const PanoramaMap map(rig);
+    writePanoramaAndHall(rig, map.compose(readChannels(rig, folder)), folder, bits);
+    if (!hasStereo(rig)) return;
+    for (const std::string eye : {".left_eye", ".right_eye"})
+        wall::writePng(folder + "/panorama" + eye + ".png",
+                       wall::pictureOf(map.compose(readEye(rig, folder, eye)), bits, 0));
+}
+
+}  // namespace aquarama::theatre

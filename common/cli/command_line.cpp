@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/cli/command_line.h"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace aquarama::cli {
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUsage = 2;
+
+// With the commands that were asked for: "aquarama study chronicle".
+std::string commandOf(const CLI::App& app) {
+    std::string name = app.get_name();
+    for (const CLI::App* command : app.get_subcommands())
+        if (!command->get_name().empty()) name += " " + commandOf(*command);  // else a group
+    return name;
+}
+
+// To the program and its commands, but for those that hand their arguments to another program.
+void addVersionFlag(CLI::App& app, const std::string& program) {
+    if (app.get_prefix_command()) return;
+    if (!app.get_name().empty())
+        app.set_version_flag(
+            "--version",
+            [program] { return program + " " + versionText(); },
+            "print version, commit, build and libraries, and end");
+    for (CLI::App* command : app.get_subcommands({})) addVersionFlag(*command, program);
+}
+
+// False where there is no supervisor.
+bool tellSupervisor(const std::string& line) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes it
+    const char* pipe = std::getenv(kErrorPipeVariable);
+    if (pipe == nullptr) return false;
+    const std::string whole = line + '\n';
+    return write(std::atoi(pipe), whole.data(), whole.size()) == static_cast<ssize_t>(whole.size());
+}
+
+int sayUsage(const CLI::App& app, const CLI::ParseError& wrong) {
+    if (wrong.get_exit_code() == 0) return app.exit(wrong);  // --help or --version
+    const std::string command = commandOf(app);
+    sayError(command, wrong.what() + ("; see " + command + " --help"));
+    return kUsage;
+}
+
+template <typename Number>
+std::optional<Number> parsed(const std::string& text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+template <typename Number>
+CLI::Validator between(Number least, Number most, const std::string& kind) {
+    std::ostringstream text;
+    text << least << " to " << most;
+    const std::string range = text.str();
+    return {[=](std::string& given) -> std::string {
+                const auto value = parsed<Number>(given);
+                if (value && *value >= least && *value <= most) return {};
+                return "\"" + given + "\" is not " + kind + " from " + range;
+            },
+            range};
+}
+
+}  // namespace
+
+int runProgram(CLI::App& app, int count, char** arguments, const Job& job) {
+    assert(!app.get_name().empty());
+    addVersionFlag(app, app.get_name());
+    try {
+        app.parse(count, arguments);
+        return job();
+    } catch (const CLI::ParseError& wrong) {
+        return sayUsage(app, wrong);
+    } catch (const std::exception& error) {
+        sayError(commandOf(app), error.what());
+        return kFailed;
+    }
+}
+
+void sayError(const std::string& program, const std::string& what) {
+    std::string line = program + ": " + what;
+    std::ranges::replace(line, '\n', ' ');
+    if (!tellSupervisor(line)) std::cerr << line << '\n';
+}
+
+CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
+    assert(least <= most);
+    return between(least, most, "a whole number");
+}
+
+CLI::Validator number(double least, double most) {
+    assert(least <= most);
+    return between(least, most, "a number");
+}
+
+}  // namespace aquarama::cli

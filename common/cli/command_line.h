@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the command lines of all programs have in common: --help and --version of the program and of
+// each command, one line on stderr for an error, and the exit status: 2 where the command line
+// itself is wrong, 1 for every other error.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace aquarama::cli {
+
+// What a program does once its command line is read; returns the exit status.
+using Job = std::function<int()>;
+
+// Reads the command line and does the job, which may rename the program in its errors. An error is
+// reported as that of the chosen command: "aquarama study chronicle: ...". Returns the exit status.
+[[nodiscard]] int runProgram(CLI::App& app, int count, char** arguments, const Job& job);
+
+// One line, "PROGRAM: what is wrong": to the supervisor of a show where there is one, else to
+// stderr. Line breaks in `what` become spaces.
+void sayError(const std::string& program, const std::string& what);
+
+// The environment variable by which a supervisor names, to the processes that it starts, the pipe
+// for their errors (a file descriptor).
+inline constexpr const char* kErrorPipeVariable = "AQUARAMA_CAUSES";
+
+// Version, commit, build type and libraries of the running program, a line each. The build writes
+// its definition for each program (aquarama_version in cmake/Aquarama.cmake).
+[[nodiscard]] std::string versionText();
+
+// Validators of an option's value; they refuse it in words that name it and what is allowed. Both
+// ends of a range are allowed.
+[[nodiscard]] CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most);
+[[nodiscard]] CLI::Validator number(double least, double most);
+inline constexpr std::uint64_t kMostSeed = UINT32_MAX;
+inline constexpr std::uint64_t kMostShownFrames = 1'000'000'000;  // half a year
+
+}  // namespace aquarama::cli

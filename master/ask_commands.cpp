@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// `aquarama status`, `pilot` and `explain`: they ask the master of a running show, or tell it.
+#include <array>
+#include <chrono>
+#include <iostream>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <poll.h>
+#include <spdlog/fmt/fmt.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/units/log.h"
+#include "common/wire/recording.h"
+#include "master/commands.h"
+#include "master/conductor/ask.h"
+#include "master/conductor/status.h"
+#include "master/conductor/terminal_steering.h"
+#include "master/simulation/living_world.h"
+#include "master/simulation/recorded_world.h"
+
+namespace aquarama {
+
+namespace {
+
+// Which master is asked.
+struct AskedMaster {
+    std::string rig = supervisor::kDefaultRig;
+    std::string address;  // empty: the rig's
+
+    [[nodiscard]] std::string controlAddress() const {
+        return address.empty() ? config::readRig(rig).controlAddress : address;
+    }
+};
+
+void describeMaster(CLI::App& command, AskedMaster& asked) {
+    command.add_option("RIG", asked.rig, "whose master is asked")->capture_default_str();
+    command.add_option("--master", asked.address, "its control address, instead of the rig's");
+}
+
+void showStatus(const AskedMaster& asked) {
+    std::cout << conductor::runStatus(asked.controlAddress());
+}
+
+// So short that the submarine never takes its pilot for gone.
+constexpr auto kBetweenMessages = std::chrono::milliseconds(100);
+
+// The terminal of standard input, set to give every key as it is pressed and to show none, as long
+// as this lives. Other inputs are read as they are.
+class Keyboard {
+  public:
+    Keyboard() : isTerminal_(tcgetattr(STDIN_FILENO, &before_) == 0) {
+        if (!isTerminal_) return;
+        termios raw = before_;
+        raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);
+        tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    }
+    ~Keyboard() {
+        if (isTerminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+    }
+    Keyboard(const Keyboard&) = delete;
+    Keyboard& operator=(const Keyboard&) = delete;
+
+    // Waits no longer than `kBetweenMessages`. False: no more keys will come.
+    bool read(std::string& keys) {
+        keys.clear();
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (poll(&input, 1, static_cast<int>(kBetweenMessages.count())) <= 0) return true;
+        std::array<char, 64> bytes{};
+        const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+        if (count <= 0) return false;
+        keys.assign(bytes.data(), static_cast<std::size_t>(count));
+        return true;
+    }
+
+  private:
+    termios before_{};
+    bool isTerminal_;
+};
+
+// Tells the master what the keys say, and shows where the submarine is, until a key ends it.
+void steer(const AskedMaster& asked) {
+    conductor::RequestClient master(asked.controlAddress());
+    Keyboard keyboard;
+    conductor::TerminalSteering terminal;
+    const bool onScreen = isatty(STDOUT_FILENO) != 0;
+    std::cout << conductor::kTerminalSteeringHelp << '\n';
+    Steering said;
+    for (std::string keys; keyboard.read(keys) && !terminal.ended();) {
+        terminal.press(keys);
+        const Steering& held = terminal.steering();
+        if (held != said || held != Steering{})
+            master.tell(wire::Input{wire::InputKind::Steer, {}, held});
+        said = held;
+        const auto status = master.ask<wire::StatusReply>(wire::StatusRequest{});
+        // On a screen one line that changes, else one after the other.
+        std::cout << fmt::format("{}{}   {}{}",
+                                 onScreen ? "\r\x1b[K" : "",
+                                 conductor::submarineText(status),
+                                 terminal.text(),
+                                 onScreen ? "" : "\n")
+                  << std::flush;
+    }
+    master.tell(wire::Input{wire::InputKind::Steer, {}, {}});
+    master.ask<wire::StatusReply>(wire::StatusRequest{});  // an answer: the master has had both
+    if (onScreen) std::cout << '\n';
+}
+
+constexpr auto kBetweenLooks = std::chrono::milliseconds(500);
+constexpr const char* kClearScreen = "\x1b[H\x1b[2J";
+
+struct ExplainOptions {
+    std::uint32_t fish = 0;
+    AskedMaster asked;
+    bool follow = false;
+    std::string recording;   // empty: a running master is asked
+    std::uint64_t tick = 0;  // of the recording
+};
+
+// Throws Error where the world has no such fish.
+void print(const wire::Explanation& explanation) {
+    if (explanation.fish >= explanation.school)
+        throw Error(
+            "there is no fish " + std::to_string(explanation.fish) + ": the world has " +
+            std::to_string(explanation.school) +
+            (explanation.school == 0 ? "" : ", 0 to " + std::to_string(explanation.school - 1)));
+    for (const std::string& line : explanation.lines) std::cout << line << '\n';
+    std::cout.flush();
+}
+
+void explainLive(const ExplainOptions& options) {
+    conductor::RequestClient master(options.asked.controlAddress());
+    const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
+    do {
+        const auto explanation = master.ask<wire::Explanation>(wire::ExplainRequest{options.fish});
+        if (onScreen) std::cout << kClearScreen;
+        print(explanation);
+        if (options.follow) std::this_thread::sleep_for(kBetweenLooks);
+    } while (options.follow);
+}
+
+// Replays up to the tick, without a wall.
+void explainReplay(const ExplainOptions& options) {
+    const wire::Recording recording = wire::readRecording(options.recording);
+    for (const std::string& doubt : wire::doubtsAbout(recording))
+        std::cerr << options.recording << ": " << doubt << '\n';
+    if (options.tick > recording.lastTick().value)
+        throw Error(options.recording + ": ends at tick " +
+                    std::to_string(recording.lastTick().value) + "; choose an earlier one");
+    simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
+    simulation::Playback playback(recording, world);
+    while (world.tick().value < options.tick) playback.advance();
+    if (playback.difference())
+        std::cerr << options.recording << ": from tick " << playback.difference()->tick.value
+                  << " on this is another world than the recorded one\n";
+    print(world.explain(options.fish));
+}
+
+void explain(const ExplainOptions& options) {
+    options.recording.empty() ? explainLive(options) : explainReplay(options);
+}
+
+}  // namespace
+
+void addStatus(CommandLine& line) {
+    const auto [command, asked] =
+        line.add<AskedMaster>("status", "what the running wall is doing", showStatus);
+    describeMaster(command, asked);
+}
+
+void addPilot(CommandLine& line) {
+    const auto [command, asked] = line.add<AskedMaster>(
+        "pilot", "steer the submarine of the running wall from a terminal", steer);
+    describeMaster(command, asked);
+}
+
+void addExplain(CommandLine& line) {
+    const auto [command, options] = line.add<ExplainOptions>(
+        "explain", "what a fish sees, feels, intends and does, and why: --fish ID", explain);
+    command.add_option("--fish", options.fish, "which, by its number")
+        ->required()
+        ->check(cli::wholeNumber(0, kMostFish));
+    describeMaster(command, options.asked);
+    CLI::Option* follow = command.add_flag("--follow", options.follow, "go on, twice a second");
+    CLI::Option* replay =
+        command.add_option("--replay", options.recording, "ask this recording, not a master");
+    replay->excludes(follow);
+    command.add_option("--tick", options.tick, "of the recording")
+        ->needs(replay)
+        ->check(cli::wholeNumber(0, cli::kMostShownFrames));
+}
+
+}  // namespace aquarama

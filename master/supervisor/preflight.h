@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must be there before the first process of a show starts. Each function throws Error, which
+// says what to do, where it is not.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/config/rig.h"
+
+namespace aquarama::supervisor {
+
+// A display to open windows on.
+void requireDisplay();
+
+// That nobody listens at the address of a rig, "tcp://HOST:PORT": nodes would join the other show.
+void requireFreePort(const std::string& address);
+
+// That the file can be read and is a recording by its first bytes.
+void requireRecording(const std::string& path);
+
+// What a file is by its first bytes; false where it cannot be read.
+[[nodiscard]] bool looksLikeRecording(const std::string& path);
+[[nodiscard]] bool looksLikeRepertoire(const std::string& path);
+
+// Whether a clip of `of` is composed of all channels: the panorama and the hall.
+[[nodiscard]] bool showsAllChannels(const std::string& of);
+
+// The channels that a clip of `of` needs: all of them for the panorama and the hall, or the one of
+// that name. Throws Error where the rig has none.
+[[nodiscard]] std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& of);
+
+// Named pipes, by which nodes send their frames to the program that encodes a clip, in a folder of
+// their own; it is removed with this object.
+class ClipPipes {
+  public:
+    explicit ClipPipes(const std::vector<std::string>& channels);
+    ~ClipPipes();
+    ClipPipes(const ClipPipes&) = delete;
+    ClipPipes& operator=(const ClipPipes&) = delete;
+    [[nodiscard]] std::string folder() const { return folder_.string(); }
+    // Empty where the channel is not filmed.
+    [[nodiscard]] std::string pipeOf(const std::string& channel) const;
+
+  private:
+    std::filesystem::path folder_;
+};
+
+}  // namespace aquarama::supervisor

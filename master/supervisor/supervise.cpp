@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/supervisor/supervise.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <signal.h>
+
+#include "common/cli/outputs.h"
+#include "common/units/log.h"
+#include "master/supervisor/children.h"
+#include "master/supervisor/preflight.h"
+
+namespace aquarama::supervisor {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kTimeToEnd = 5s;         // of a process that was asked to end,
+constexpr auto kTimeToEndClip = 60s;    // and of a clip, which ends after the nodes
+constexpr auto kTimeForPictures = 30s;  // of the nodes, after the master has ended
+constexpr int kInterrupted = 130;       // the exit status after Ctrl-C, as shells have it
+constexpr auto kShortestLife = 5s;  // a process that dies sooner at its first start would die again
+constexpr auto kPauseBeforeRestart = 1s;  // of a process that keeps dying
+
+// Names of processes.
+constexpr const char* kMaster = "master";
+constexpr const char* kClip = "clip";
+
+struct Process {
+    std::string name;
+    Command command;
+    std::vector<std::string> firstTimeOnly{};  // arguments of its first start
+    pid_t child = 0;
+    Clock::time_point started;
+    bool proven = false;  // has lived long enough once
+
+    void launch() {
+        Command now = command;
+        for (std::string& argument : std::exchange(firstTimeOnly, {}))
+            now.arguments.push_back(std::move(argument));
+        child = start(now);
+        started = Clock::now();
+    }
+    [[nodiscard]] bool running() const { return child != 0; }
+};
+
+void append(std::vector<std::string>& arguments,
+            const std::string& name,
+            const std::string& value) {
+    if (value.empty()) return;
+    arguments.push_back(name);
+    arguments.push_back(value);
+}
+
+Process masterProcess(const RunOptions& options) {
+    const ShowOptions& show = options.show;
+    std::vector<std::string> arguments{"master", show.rigPath};
+    if (options.lockstep()) arguments.emplace_back("--lockstep");
+    if (show.frames) append(arguments, "--frames", std::to_string(*show.frames));
+    append(arguments, "--replay", show.replayPath);
+    if (show.replayPath.empty()) append(arguments, "--seed", std::to_string(show.seed));
+    append(arguments, "--scene", show.scenePath);
+    if (show.fish) append(arguments, "--fish", std::to_string(*show.fish));
+    append(arguments, "--pattern", show.pattern);
+    append(arguments, "--quality", show.quality);
+    append(arguments, "--trace", show.traceFolder);
+    Process master{.name = kMaster, .command = {ownProgram(), arguments}, .started = {}};
+    // A master that is started again begins another world, which does not belong into this file.
+    append(master.firstTimeOnly, "--record", show.recordPath);
+    return master;
+}
+
+// Composes and encodes the clip while the nodes draw.
+Process clipProcess(const RunOptions& options, const std::string& pipes) {
+    std::vector<std::string> arguments{"clip", options.show.rigPath, options.clipPath};
+    append(arguments, "--pipes", pipes);
+    append(arguments, "--of", options.clipOf);
+    append(arguments, "--every", std::to_string(options.filmEvery));
+    if (options.show.frames) append(arguments, "--frames", std::to_string(*options.show.frames));
+    if (showsAllChannels(options.clipOf)) append(arguments, "--first", options.snapshotFolder);
+    return {.name = kClip, .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+}
+
+Process nodeProcess(const RunOptions& options,
+                    const config::Rig& rig,
+                    const config::Channel& channel,
+                    const std::string& filmPipe) {
+    std::vector<std::string> arguments{channel.name, "--master", rig.controlAddress};
+    if (options.headless) arguments.emplace_back("--headless");
+    append(arguments, "--snapshot", options.snapshotFolder);
+    if (options.deep) arguments.emplace_back("--deep");
+    append(arguments, "--film", filmPipe);
+    if (!filmPipe.empty()) append(arguments, "--film-every", std::to_string(options.filmEvery));
+    append(arguments, "--trace", options.show.traceFolder);
+    return {.name = "node " + channel.name,
+            .command = {siblingProgram("node"), arguments},
+            .started = {}};
+}
+
+// Software OpenGL takes every core for each process; several nodes on one machine share them
+// better. Two threads at least: those that fill pixels rest while their node prepares vertices, so
+// that nodes take turns.
+void shareCores(const config::Rig& rig) {
+    const std::size_t perNode = std::thread::hardware_concurrency() / rig.channels.size();
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): this process has one thread
+    setenv("LP_NUM_THREADS",
+           std::to_string(std::max<std::size_t>(perNode, 2)).c_str(),
+           /*overwrite=*/0);
+}
+
+bool anyRunning(const std::vector<Process>& processes) {
+    return std::ranges::any_of(processes, &Process::running);
+}
+
+void signalAll(const std::vector<Process>& processes, int signal) {
+    for (const Process& process : processes) {
+        if (process.running()) kill(process.child, signal);
+    }
+}
+
+// Marks every process that has died, before the first death is judged: nobody may wait for a dead
+// process.
+std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
+                                                const Heard& heard) {
+    std::vector<std::pair<Process*, Ending>> dead;
+    for (const Ending& ending : heard.endings) {
+        const auto process = std::ranges::find(processes, ending.child, &Process::child);
+        if (process == processes.end()) continue;
+        process->child = 0;
+        dead.emplace_back(&*process, ending);
+    }
+    return dead;
+}
+
+// Asks all processes to end, and kills those that take too long, or all where somebody interrupts
+// again. The clip ends after the nodes: the pictures until then are kept.
+void endAll(std::vector<Process>& processes) {
+    signalAll(processes, SIGTERM);
+    const auto asked = Clock::now();
+    while (anyRunning(processes)) {
+        const Heard heard = waitForChildren(100ms);
+        deaths(processes, heard);
+        const auto waited = Clock::now() - asked;
+        for (const Process& process : processes)
+            if (process.running() &&
+                (heard.interrupted ||
+                 waited > (process.name == kClip ? kTimeToEndClip : kTimeToEnd)))
+                kill(process.child, SIGKILL);
+    }
+}
+
+std::string described(const Ending& ending) {
+    return ending.signal != 0 ? "was killed by signal " + std::to_string(ending.signal)
+                              : "ended with status " + std::to_string(ending.exitCode);
+}
+
+// The line for a show that ends with this death: the first error that was reported, as later ones
+// follow from it.
+std::string causeOf(const ErrorPipe& errors, const Process& process, const Ending& ending) {
+    const std::vector<std::string> said = errors.heard();
+    return said.empty() ? "aquarama: " + process.name + ' ' + described(ending) + "; the show ends"
+                        : said.front();
+}
+
+// What the death of one process means for the show.
+enum class Verdict { GoesOn, Over, Failed };
+
+Verdict judge(const RunOptions& options,
+              const ErrorPipe& errors,
+              Process& process,
+              const Ending& ending) {
+    const bool early = Clock::now() - process.started < kShortestLife;
+    process.proven = process.proven || !early;
+    if (ending.clean()) return process.name == kMaster ? Verdict::Over : Verdict::GoesOn;
+    if (options.lockstep() || !process.proven) {
+        std::cerr << causeOf(errors, process, ending) << '\n';
+        return Verdict::Failed;
+    }
+    for (const std::string& line : errors.heard()) std::cerr << line << '\n';
+    std::cerr << "aquarama: " << process.name << ' ' << described(ending) << "; starting it again"
+              << (process.name == kMaster && !options.show.recordPath.empty()
+                      ? "; what follows is not recorded\n"
+                      : "\n");
+    if (early) std::this_thread::sleep_for(kPauseBeforeRestart);
+    process.launch();
+    return Verdict::GoesOn;
+}
+
+enum class Outcome { Finished, Interrupted, Failed };
+
+// Watches until the master has ended and every node with it, or something failed, or we are asked
+// to stop.
+Outcome watch(const RunOptions& options, const ErrorPipe& errors, std::vector<Process>& processes) {
+    auto lastMoment = Clock::time_point::max();
+    while (anyRunning(processes)) {
+        const Heard heard = waitForChildren(200ms);
+        bool failed = false;
+        for (const auto& [process, ending] : deaths(processes, heard)) {
+            const Verdict verdict = judge(options, errors, *process, ending);
+            failed = verdict == Verdict::Failed;
+            if (failed) break;  // other deaths follow from this one
+            if (verdict == Verdict::Over) lastMoment = Clock::now() + kTimeForPictures;
+        }
+        if (!failed && Clock::now() > lastMoment && anyRunning(processes)) {
+            std::cerr << "aquarama: a node did not end with the show; ending it\n";
+            failed = true;
+        }
+        if (failed || heard.interrupted) {
+            endAll(processes);
+            return failed ? Outcome::Failed : Outcome::Interrupted;
+        }
+    }
+    return Outcome::Finished;
+}
+
+// Has aquarama-calibrate compose the panorama and the hall of the nodes' pictures; false where it
+// fails.
+bool compose(const RunOptions& options, const ErrorPipe& errors) {
+    std::vector<std::string> arguments{"compose", options.show.rigPath, options.snapshotFolder};
+    if (options.deep) arguments.emplace_back("--deep");
+    Process composer{
+        .name = "compose", .command = {siblingProgram("calibrate"), arguments}, .started = {}};
+    composer.launch();
+    while (true) {
+        for (const Ending& ending : waitForChildren(1s).endings) {
+            if (ending.child != composer.child) continue;
+            if (!ending.clean()) std::cerr << causeOf(errors, composer, ending) << '\n';
+            return ending.clean();
+        }
+    }
+}
+
+void sayWhatWasMade(const RunOptions& options, const config::Rig& rig) {
+    if (options.snapshotFolder.empty()) return;
+    std::cout << "pictures in " << options.snapshotFolder << ": panorama.png, hall.png";
+    if (std::ranges::any_of(rig.channels, [&](const config::Channel& channel) {
+            return channel.display.stereo.value_or(rig.stereo.mode) != config::StereoMode::Mono;
+        }))
+        std::cout << " and each eye's";
+    for (const config::Channel& channel : rig.channels)
+        std::cout << ", channel-" << channel.name << ".png";
+    std::cout << '\n';
+}
+
+// The clip, which waits for frames, the master and the nodes, in the order of their start.
+std::vector<Process> processesOf(const RunOptions& options,
+                                 const config::Rig& rig,
+                                 const std::optional<ClipPipes>& pipes) {
+    std::vector<Process> processes;
+    if (pipes) processes.push_back(clipProcess(options, pipes->folder()));
+    processes.push_back(masterProcess(options));
+    for (const config::Channel& channel : rig.channels)
+        processes.push_back(
+            nodeProcess(options, rig, channel, pipes ? pipes->pipeOf(channel.name) : ""));
+    return processes;
+}
+
+}  // namespace
+
+int runShow(const RunOptions& options, const config::Rig& rig) {
+    assert(!rig.channels.empty());
+    if (!options.headless) requireDisplay();
+    requireFreePort(rig.controlAddress);
+    requireFreePort(rig.stateAddress);
+    cli::requireFile("--clip", options.clipPath);
+    cli::requireFile("--record", options.show.recordPath);
+    cli::requireFolder("--snapshot", options.snapshotFolder);
+    cli::requireFolder("--trace", options.show.traceFolder);
+    std::optional<ClipPipes> pipes;
+    if (!options.clipPath.empty()) pipes.emplace(channelsFor(rig, options.clipOf));
+    shareCores(rig);
+    listenForSignals();
+
+    const ErrorPipe errors;
+    std::vector<Process> processes = processesOf(options, rig, pipes);
+    std::cout << "starting the master and " << rig.channels.size() << " nodes of "
+              << options.show.rigPath << std::endl;
+    for (Process& process : processes) process.launch();
+
+    const Outcome outcome = watch(options, errors, processes);
+    if (outcome == Outcome::Failed) return 1;
+    // A live show runs until somebody ends it; one that was to finish by itself has not done its
+    // work.
+    if (outcome == Outcome::Interrupted) return options.lockstep() ? kInterrupted : 0;
+    if (!options.snapshotFolder.empty() && !compose(options, errors)) return 1;
+    sayWhatWasMade(options, rig);
+    return 0;
+}
+
+}  // namespace aquarama::supervisor
