@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/simulation/living_world.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <thread>
 #include <utility>
@@ -24,6 +24,7 @@ namespace aquarama::simulation {
 
 namespace {
 
+// The kind of a particle as the wire names it.
 wire::FoodRecord::Kind kindOf(surroundings::FoodKind kind) {
     switch (kind) {
         case surroundings::FoodKind::Plankton:
@@ -42,7 +43,8 @@ LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
     for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
 }
 
-// As the nodes are told of it.
+// All particles as they are published: relative to the middle of the water, so that few bits
+// suffice.
 void LivingWorld::food(wire::FoodCloud& cloud) const {
     const surroundings::Food& food = world_.surroundings().food;
     cloud.originMetres = world_.surroundings().obstacles.water.centre;
@@ -52,6 +54,7 @@ void LivingWorld::food(wire::FoodCloud& cloud) const {
             kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
 }
 
+// The wall is the submarine's window: its attitude is that of the wall.
 wire::Eye LivingWorld::eye() const {
     const surroundings::Vessel& vessel = world_.pilot().vessel;
     const motion::Quaternion q = surroundings::worldFromBody(vessel.attitude);
@@ -68,11 +71,12 @@ wire::Explanation LivingWorld::explain(std::uint32_t fish) const {
 
 namespace {
 
-// One core moves a few thousand fish well inside a tick; more threads would only wait for each
-// other.
+// Fish for each thread. One core moves a few thousand fish well within a tick; with more threads
+// each would mostly wait for the others.
 constexpr std::uint32_t kFishOfAThread = 2000;
 
-// The first show of a species on this machine simulates it; later ones find what it swam.
+// The repertoires of the cast, from the cache or by simulation. Throws Error with the first
+// failure.
 std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::CastSpecies>& cast) {
     std::vector<capture::SpeciesText> texts;
     for (const config::CastSpecies& member : cast) texts.push_back({member.path, member.text});
@@ -86,6 +90,7 @@ std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Cast
     return files;
 }
 
+// Parses one species and decodes its repertoire.
 world::WorldSpecies worldSpeciesOf(const wire::SpeciesAssets& produced,
                                    const std::optional<config::Start>& start) {
     const config::Species species = config::parseSpecies(produced.text, produced.file);
@@ -104,7 +109,7 @@ std::uint32_t fishIn(const config::Scene& scene) {
     return fish;
 }
 
-// The scene with the number of fish that is asked for.
+// The scene, with the chosen number of fish of its first species.
 config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
     config::Scene scene = config::readScene(path);
     config::CastMember& school = scene.cast.front();
@@ -120,12 +125,15 @@ config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
 wire::AssetBundle readAssets(const std::string& scenePath, const AssetChoice& choice) {
     const config::Scene scene = chosenScene(scenePath, choice);
     const std::vector<config::CastSpecies> cast = config::readCastSpecies(scene, scenePath);
+    assert(cast.size() == scene.cast.size());
+    // Throws Error where the scene has too little water for its fish.
     place::checkRoom(scene, scenePath, fishIn(scene), cast.front().species.size.meanMetres);
     wire::AssetBundle assets{.seed = choice.seed,
                              .sceneFile = scenePath,
                              .scene = config::writeScene(scene),
                              .cast = {}};
     std::vector<capture::RepertoireFile> captured = capturedOnce(cast);
+    assert(captured.size() == cast.size());
     for (std::size_t i = 0; i < cast.size(); ++i)
         assets.cast.push_back(
             {cast[i].path, cast[i].text, std::move(captured[i].bytes), scene.cast[i].fish});
@@ -142,6 +150,7 @@ world::WorldOptions worldOptionsOf(const wire::AssetBundle& assets) {
                     std::to_string(assets.cast.size()) + " species with it");
     for (std::size_t i = 0; i < assets.cast.size(); ++i)
         options.cast.push_back(worldSpeciesOf(assets.cast[i], options.scene.cast[i].start));
+    // One thread for every kFishOfAThread, at least one, at most one for each core.
     options.threads = std::clamp(fishIn(options.scene) / kFishOfAThread,
                                  1U,
                                  std::max(std::thread::hardware_concurrency(), 1U));
