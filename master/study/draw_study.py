@@ -2,7 +2,7 @@
 """Prints the tables of docs/adaptation.md and draws the figure: draw_study.py adaptation DIR [figure], or
 draw_study.py chronicle DIR HOURS.
 
-DIR holds the files of CSV that `aquarama study` or `aquarama study chronicle` writes (see study_csv.h).
+DIR holds the files of CSV that `aquarama study` or `aquarama study chronicle` writes (see study.h).
 """
 
 import sys
@@ -15,7 +15,7 @@ from scipy import stats
 sys.path.append(str(Path(__file__).resolve().parents[1] / "capture/report"))
 from figures import PX, QUIET, markdown_table, plt, read_csv, save
 
-# Words with the unit, digits after the point, what was published.
+# For each column of adaptation.csv: words with the unit, digits after the point, published value.
 QUANTITIES = {
     "touches_per_fish_minute": ("overlaps that begin, a fish and minute", 3, ""),
     "deep_touches_per_fish_minute": ("of them deeper than a quarter of a body", 4, ""),
@@ -34,7 +34,8 @@ QUANTITIES = {
     "rotation": ("rotation", 2, "> 0.65 milling (Tunstrom 2013)"),
     "intention_changes_per_minute": ("changes of intention, a fish and minute", 2, ""),
 }
-# Of the figure: an adaptation and what it is there for.
+# Panels of the figure: the adaptation, the condition without it, and the scenario and quantity in
+# which its effect should show.
 PANELS = [("recommendations", "no recommendations", "school", "same_segment_percent"),
           ("recommendations", "no recommendations", "school", "in_step_percent"),
           ("enlarged regions", "regions not enlarged", "crowded tank", "touches_per_fish_minute"),
@@ -46,6 +47,7 @@ WITHOUT, WITH = "#b4472f", "#1f6f8b"
 
 def is_clear(without, with_all):
     """Whether runs differ, seed by seed, by more than chance would do in 95 of 100 studies."""
+    # A paired t-test: both runs of a seed begin with the same fish.
     differences = with_all - without
     differences = differences[~np.isnan(differences)]
     if len(differences) < 2:
@@ -96,6 +98,7 @@ def draw_adaptation(runs):
             axes.set_visible(False)
             continue
         without, with_all = runs[scenario][condition][quantity], runs[scenario]["all"][quantity]
+        # Left without the adaptation, right with it; a line joins the two runs of one seed.
         axes.plot([1, 2], [without, with_all], color="#c3cdd4", linewidth=0.8)
         for place, values, colour in [(1, without, WITHOUT), (2, with_all, WITH)]:
             axes.plot(np.full(len(values), place), values, "o", color=colour, markersize=4.5, alpha=0.6,
@@ -111,6 +114,7 @@ def draw_adaptation(runs):
 
 
 def print_hours(hours):
+    # hoursCsv() names these columns by routine; their order is that of the intentions.
     routines = [key for key in hours[0] if key.endswith(" share")]
     shares = " / ".join(key.removesuffix(" share") for key in routines) + ", %"
     head = ["hour", "fewest fish", "meals", "catches", "returns", "spawnings", shares,
@@ -130,6 +134,7 @@ def print_overlaps(overlaps, key, words, hours):
     """By the pair of what `key` names; those that lasted longest together first."""
     groups = defaultdict(list)
     for row in overlaps:
+        # The order of the two fish does not matter.
         groups[", ".join(sorted([row[f"{key}_a"], row[f"{key}_b"]]))].append(row)
     head = [words, "overlaps an hour", "seconds an hour", "longest, s", "longest over a quarter of a body, s",
             "deepest, % of the shorter body"]
