@@ -85,6 +85,7 @@ std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Cast
         capture::repertoiresFor(texts,
                                 files::cacheFolder() / "repertoires",
                                 {.progress = [&](double share) { bar.show(share); }});
+    // A species that cannot be captured has an error instead of bytes.
     for (const capture::RepertoireFile& file : files)
         if (!file.error.empty()) throw Error(file.error);
     return files;

@@ -109,6 +109,7 @@ class Playback {
     [[nodiscard]] const std::optional<Difference>& difference() const { return difference_; }
 
   private:
+    // Compares the present hash with every recorded one that is due.
     void compare();
     void compareWith(const wire::RecordedHash& expected);
 
@@ -133,6 +134,7 @@ class ReplayedWorld final : public SimulationDecorator {
   private:
     Playback playback_;
     std::function<void()> onEnd_;
+    // Each warning is given once.
     bool toldOfInput_ = false, toldOfDifference_ = false, ended_ = false;
 };
 
