@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,19 +12,27 @@ namespace aquarama::behaviour {
 
 namespace {
 
+// How far ahead the paths of two fish are extrapolated.
 constexpr float kLookAheadSeconds = 2.0F;
-constexpr float kAhead = 0.7F;     // cosine of 45 degrees: the threat is before the fish
-constexpr float kSameWay = 0.5F;   // cosine of 60 degrees between two courses
-constexpr float kTurnAway = 1.6F;  // against the unit vector of the own course
+// Cosine of 45 degrees: another fish within it is ahead.
+constexpr float kAhead = 0.7F;
+// Cosine of 60 degrees between two courses.
+constexpr float kSameWay = 0.5F;
+// Weights of going aside against the unit vector of the course: alone, and in a school.
+constexpr float kTurnAway = 1.6F;
 constexpr float kLean = 0.25F;
-constexpr float kBrake = 0.25F;            // of slow, behind a tail
-constexpr float kSureMissLengths = 0.05F;  // a smaller miss says nothing of a side
+// Share by which it is slower than the fish ahead.
+constexpr float kBrake = 0.25F;
+// In body lengths: a smaller miss says nothing about the side.
+constexpr float kSureMissLengths = 0.05F;
 
+// To the right of a heading, level.
 glm::vec3 rightOf(glm::vec3 heading) {
     return place::directionOf({-heading.z, 0, heading.x}, {0, 0, 1});
 }
 
-// From the fish to where the other will be when they are nearest.
+// Offset to the other fish when both are nearest to each other, within the look-ahead. `approach`
+// is its velocity relative to the fish.
 glm::vec3 missOf(glm::vec3 offset, glm::vec3 approach) {
     const float squared = place::dot(approach, approach);
     if (squared < 1.0e-6F) return offset;
@@ -33,15 +40,14 @@ glm::vec3 missOf(glm::vec3 offset, glm::vec3 approach) {
     return offset + approach * std::clamp(soonest, 0.0F, kLookAheadSeconds);
 }
 
-// Away from where the other passes. Of two that would meet nose to nose each turns to its right.
+// Away from where the other passes. Two that would meet head-on both turn to their right.
 glm::vec3 asideFrom(glm::vec3 miss, glm::vec3 heading, float length) {
     const glm::vec3 across = miss - heading * place::dot(miss, heading);
     if (place::lengthOf(across) < kSureMissLengths * length) return rightOf(heading);
     return -place::directionOf(across, rightOf(heading));
 }
 
-// In its school a fish is as near to others as to none else: it only leans away, and keeps its
-// place.
+// In a school other fish are always near: it only leans away and keeps its place.
 fish::Course leanAway(const Situation& situation, glm::vec3 aside) {
     fish::Course course = school(situation);
     course.direction =
@@ -49,7 +55,7 @@ fish::Course leanAway(const Situation& situation, glm::vec3 aside) {
     return course;
 }
 
-// Behind a tail it slows; one that comes from behind or beside it does not let slow it.
+// Behind another fish it slows down; one from behind or beside does not slow it.
 float speedPast(const Situation& situation) {
     const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
@@ -83,13 +89,13 @@ fish::Course avoidFish(const Situation& situation, const fish::Mind& mind) {
 
 namespace {
 
-// A push within 12 degrees of straight back says nothing of a side.
+// About the tangent of 12 degrees: a push nearer to straight back says nothing about a side.
 constexpr float kHeadOn = 0.2F;
 
-// Of a push straight back, from which a fish wants to stop.
+// A push of this strength straight back makes the fish want to stop.
 constexpr float kStopsAt = 3.0F;
 
-// Of a side that the push leaves open: towards the middle of the water.
+// Side to take where the push prefers none: towards the middle of the water.
 float openSide(const Situation& situation, glm::vec3 right) {
     const glm::vec3 middle = situation.environment.surroundings->obstacles.water.centre;
     return place::dot(middle - situation.senses.position, right) < 0 ? -1.0F : 1.0F;
@@ -105,6 +111,7 @@ glm::vec3 wayRound(const Situation& situation) {
     const float aside = place::dot(senses.push, right);
     const float up = senses.push.y + back * senses.heading.y;
     if (aside * aside + up * up > kHeadOn * kHeadOn * back * back) return senses.push;
+    // To the side to which the push leans; where it leans to none, to the open side.
     const bool even = std::abs(aside) < 0.05F * back;
     const float side = even ? openSide(situation, right) : (aside < 0 ? -1.0F : 1.0F);
     return senses.push + right * (side * back);
@@ -117,7 +124,7 @@ fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
     const Senses& senses = situation.senses;
     const float back = std::max(0.0F, -place::dot(senses.push, senses.heading));
     const fish::SpeciesParameters& parameters = situation.parameters;
-    // Who is run into must not stop.
+    // A fish in the way of the submarine must not stop.
     const float pace = senses.hurry > 0
                            ? parameters.slow + (parameters.fast - parameters.slow) * senses.hurry
                            : parameters.slow * std::max(0.0F, 1 - back / kStopsAt);
@@ -126,18 +133,24 @@ fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
 
 namespace {
 
-constexpr int kHeights = 16;             // at which the water is tried
-constexpr float kInside = 0.85F;         // of the water's half height
-constexpr float kPerCelsius = 0.1F;      // a degree too warm or cold is as bad as a tenth of light
-constexpr float kSlantMetres = 2.0F;     // the way up or down is not sought more steeply
-constexpr float kTiePerMetre = 1.0e-3F;  // of two heights that suit as well the nearer
+// Number of heights that are tried.
+constexpr int kHeights = 16;
+// Share of the half height of the water in which they lie.
+constexpr float kInside = 0.85F;
+// A degree too warm or too cold is as bad as a tenth of the light.
+constexpr float kPerCelsius = 0.1F;
+// Distance in height from which it climbs or dives fully.
+constexpr float kSlantMetres = 2.0F;
+// Decides between equally good heights for the nearer one.
+constexpr float kTiePerMetre = 1.0e-3F;
 
+// How far a value is outside a range; 0 inside.
 float beyond(const config::Span& span, float value) {
     return std::max(
         {0.0F, static_cast<float>(span.least) - value, value - static_cast<float>(span.most)});
 }
 
-// How ill the water at a height suits; 0: well.
+// How badly the water at a height suits the species; 0: well.
 float illAt(const Situation& situation, float y) {
     const surroundings::Surroundings& around = *situation.environment.surroundings;
     const config::Habits& habits = situation.parameters.habits;
@@ -177,10 +190,13 @@ fish::Course leave(const Situation& situation) {
 
 namespace {
 
-constexpr float kFlee = 2.5F;        // against the unit vector of one's own course
-constexpr float kSharpStart = 1.0F;  // urgency from which the motor turns sharply
+// Weight of flight against the unit vector of the present course.
+constexpr float kFlee = 2.5F;
+// Urgency from which the motor turns sharply.
+constexpr float kSharpStart = 1.0F;
 
-// 0 where it only just leaves its school, 1 where the predator is so near that nothing else counts.
+// How much flight outweighs the school: 0 when it has just left the school, 1 when the predator is
+// so near that only flight counts.
 float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
     const float more = feelings.greatestFear - parameters.habits.fearAlone;
     return std::clamp(more / std::max(1 - parameters.habits.fearAlone, 0.01F), 0.0F, 1.0F);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/company.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 
 #include "common/place/place.h"
 #include "common/units/random_streams.h"
@@ -15,25 +15,32 @@ namespace aquarama::behaviour {
 
 namespace {
 
+// Periods of shadowing, in ticks, and how many hosts are drawn until one is in sight.
 constexpr std::uint64_t kTicksOfBout = 50 * 60;
-constexpr std::uint32_t kShortestShadowing = 10 * 60;  // ticks
+constexpr std::uint32_t kShortestShadowing = 10 * 60;
 constexpr std::uint32_t kShadowingSpread = 30 * 60;
 constexpr std::uint32_t kHostsTried = 4;
 
+// A shadowing fish keeps this far over the back of its host.
 constexpr float kOverBackMetres = 0.15F;
-constexpr float kHalfHeight = 0.2F;  // of a host's length, from its middle to its back
-constexpr float kCatchUp = 1.2F;     // body lengths a second for a body length behind
+// From the middle of a host to its back, as a share of its length.
+constexpr float kHalfHeight = 0.2F;
+// Body lengths a second faster for each body length behind.
+constexpr float kCatchUp = 1.2F;
 constexpr float kNearLengths = 1.5F;
-constexpr float kSameCourse = 1.2F;   // against the way to the place: metres
-constexpr float kPairIsApart = 2.0F;  // times the distance that it keeps
+// Weight of the course of the other fish, in body lengths of way to the place beside it.
+constexpr float kSameCourse = 1.2F;
+// The leading partner waits from this many times the distance that the pair keeps.
+constexpr float kPairIsApart = 2.0F;
 
-// At a place beside another that swims: there, and then along with it.
+// The course to a place beside another fish that swims, and then along with it.
 fish::Course alongside(const Situation& situation, std::uint32_t other, glm::vec3 place) {
     const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
     const glm::vec3 towards = place - senses.position;
     const glm::vec3 course = view.heading(other);
-    // Far off it only has to come; near, it must not overtake.
+    // Far off, the whole distance counts; near, only the part along the course, so that it does not
+    // overtake.
     const float distance = place::lengthOf(towards) / senses.length;
     const float behind =
         distance > kNearLengths ? distance : place::dot(towards, course) / senses.length;
@@ -42,20 +49,23 @@ fish::Course alongside(const Situation& situation, std::uint32_t other, glm::vec
     return heading(situation, towards + course * (kSameCourse * senses.length), speed);
 }
 
+// Whether a fish is there and nearer than this.
 bool isWithin(const Situation& situation, std::uint32_t other, float metres) {
     const fish::FishView& view = *situation.environment.view;
     return other < view.size() && !view.shows(other, fish::kAway) &&
            place::lengthOf(view.position(other) - situation.senses.position) < metres;
 }
 
+// How far the fish sees another of ordinary size, metres.
 float sightOf(const Situation& situation) {
     return std::min(situation.parameters.habits.visionBodyLengths * situation.senses.length,
                     situation.environment.surroundings->clarityMetres);
 }
 
-// A fish of one of the kinds it likes to shadow.
+// A random fish of a random kind among those that it likes to shadow; kNobody for an empty kind.
 std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
     const std::uint64_t kinds = situation.parameters.shadows;
+    // Picks one of the bits of the mask.
     auto skip = hash % static_cast<std::uint32_t>(std::popcount(kinds));
     std::uint64_t left = kinds;
     while (skip-- > 0) left &= left - 1;
@@ -68,6 +78,7 @@ std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
 }  // namespace
 
 std::uint32_t partnerOf(const fish::SpeciesParameters& parameters, std::uint32_t fish) {
+    assert(fish >= parameters.first && fish < parameters.last);
     const std::uint32_t partner = parameters.first + ((fish - parameters.first) ^ 1U);
     return partner < parameters.last ? partner : fish::kNobody;
 }
@@ -98,11 +109,11 @@ std::optional<fish::Course> keptCompany(const Situation& situation) {
         static_cast<float>(situation.parameters.habits.pairBodyLengths) * senses.length;
     if (apart <= 0) return {};
     const std::uint32_t partner = partnerOf(situation.parameters, situation.fish);
-    // Partners know each other, and look for each other as far as the water is clear.
+    // Partners find each other as far as the water is clear, farther than they see others.
     if (!isWithin(situation, partner, situation.environment.surroundings->clarityMetres)) return {};
     const glm::vec3 from = senses.position - view.position(partner);
     const bool leads = situation.fish < partner;
-    // The one that leads goes where it likes, but waits.
+    // The leading partner goes where it likes, but waits for the other.
     if (leads && place::lengthOf(from) < kPairIsApart * apart) return {};
     const glm::vec3 level = place::directionOf({from.x, 0.3F * from.y, from.z}, {0, 0, 1});
     return alongside(situation, partner, view.position(partner) + level * apart);
@@ -110,28 +121,36 @@ std::optional<fish::Course> keptCompany(const Situation& situation) {
 
 namespace {
 
-// Distances in body lengths. Huth & Wissel 1992 have zones (repulse 0.5, align 2, attract 5); here
-// the zones fade into one another, so that the school settles at its spacing instead of dithering
-// at a border.
-constexpr float kAbreastToFile = 0.6F;  // room abreast for room in file
-constexpr float kAsideShare = 0.25F;    // of a push in file that is along it: the rest is sideways
+// Distances in body lengths. Huth & Wissel 1992 use separate zones (repulsion to 0.5, alignment to
+// 2, attraction to 5). Here the zones overlap and fade, so that the school settles at its spacing
+// instead of switching at a border.
+// Distance needed side by side, as a share of the distance needed in file.
+constexpr float kAbreastToFile = 0.6F;
+// Share of a push in file that acts along the file; the rest acts sideways.
+constexpr float kAsideShare = 0.25F;
 constexpr float kAlignFully = 2.0F;
 constexpr float kAttractFully = 5.0F;
 constexpr float kAttractAlarmed = 1.5F;
-constexpr float kHuddle = 1.5F;  // times as much more, alarmed
+// Relative gain of cohesion at full alarm.
+constexpr float kHuddle = 1.5F;
 
-constexpr float kSeparate = 2.2F;  // weights against the unit vector of one's own course
+// Weights of the rules against the unit vector of the present course.
+constexpr float kSeparate = 2.2F;
 constexpr float kMostSeparation = 0.9F;
 constexpr float kAlign = 0.9F;
 constexpr float kCohere = 1.2F;
 
-constexpr float kGiveWay = 1.5F;          // of one that keeps to itself
-constexpr float kRoomBodyLengths = 1.2F;  // of the longer of two fish
+// Weight and reach of roomFrom(); the reach in lengths of the longer of the two fish.
+constexpr float kGiveWay = 1.5F;
+constexpr float kRoomBodyLengths = 1.2F;
 
-constexpr float kNowhere = 1.0e-6F;  // lengths: no way leads to what is nearer
+// Body lengths: below this distance no direction is defined.
+constexpr float kNowhere = 1.0e-6F;
 
+// A neighbour as seen from the fish, in units of `per`.
 struct Neighbour {
-    glm::vec3 offset;  // in lengths: of the fish itself, or of a larger one that it meets
+    // In lengths of the fish itself, or of a larger fish that it meets.
+    glm::vec3 offset;
     glm::vec3 towards;
     float distance;
 };
@@ -145,20 +164,23 @@ Neighbour neighbourOf(const fish::FishView& view,
     return {offset, distance > kNowhere ? offset / distance : glm::vec3{0, 1, 0}, distance};
 }
 
-// Fish are long: in file they need more room than abreast; there the one behind brakes and moves
-// aside.
+// Separation from one neighbour. Fish are long: in file they need more room than side by side, so
+// the component along the course is scaled before the distance is compared. The fish behind brakes
+// and moves aside.
 void giveWay(Company& company, const Neighbour& neighbour, glm::vec3 heading, float spacing) {
     const float ahead = place::dot(neighbour.offset, heading);
     const glm::vec3 aside = neighbour.offset - heading * ahead;
     const float room = place::lengthOf(aside + heading * (ahead * kAbreastToFile));
     if (room >= spacing) return;
     const float tooNear = 1 - room / spacing;
+    // Linear at first, then with the cube: weak at the spacing, strong at contact.
     const float repulsion = tooNear * (1 + 2 * tooNear * tooNear);
     company.separation -=
         place::directionOf(aside + heading * (ahead * kAsideShare), {0, 1, 0}) * repulsion;
     company.brake += repulsion * std::max(0.0F, place::dot(neighbour.towards, heading));
 }
 
+// Sum of the pushes away from these neighbours.
 glm::vec3 roomFromThose(const Situation& situation, const Neighbours& those) {
     const fish::FishView& view = *situation.environment.view;
     const Senses& senses = situation.senses;
@@ -180,12 +202,13 @@ Company companyOf(const fish::FishView& view,
                   const Senses& senses,
                   std::uint32_t fish,
                   float alarm) {
+    assert(fish < view.size() && alarm >= 0 && alarm <= 1);
     Company company;
     const float perLength = 1 / view.fish[fish].length;
     const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;
     const float attract = kAttractFully + (kAttractAlarmed - kAttractFully) * alarm;
     for (std::size_t i = 0; i < senses.others.count; ++i) {
-        // Of a larger fish one stays clear by its length.
+        // From a larger fish it keeps a distance in that fish's lengths.
         const std::uint32_t other = senses.others.fish[i];
         const float per = std::min(perLength, 1 / view.fish[other].length);
         giveWay(company, neighbourOf(view, senses, other, per), senses.heading, spacing);
@@ -202,7 +225,7 @@ Company companyOf(const fish::FishView& view,
         company.alignment += view.heading(other) * inStep;
         company.speed += view.fish[other].speed * perLength;
     }
-    // Parting by more than a slant would bring the tails together.
+    // Separation is limited: at a larger angle between the courses the tails would meet.
     const float parting = place::lengthOf(company.separation) * kSeparate;
     if (parting > kMostSeparation) company.separation *= kMostSeparation / parting;
     if (senses.schoolmates.count == 0) return company;
@@ -225,37 +248,44 @@ glm::vec3 roomFrom(const Situation& situation) {
 
 namespace {
 
-constexpr float kKeepCourse = 0.8F;  // weights against the unit vector of one's own course
+// Weights of the school's steering against the unit vector of the present course.
+constexpr float kKeepCourse = 0.8F;
 constexpr float kFollow = 0.7F;
 constexpr float kWander = 0.55F;
-constexpr float kAttentive = 0.7F;  // so much less of that, alarmed
+// Share by which the random part decreases at full alarm.
+constexpr float kAttentive = 0.7F;
 constexpr float kGiveWayToHunter = 0.8F;
 
-constexpr float kSlowest = 0.85F;  // body lengths a second
+// Speeds of a schooling fish, in body lengths a second: limits, and pace around a goal.
+constexpr float kSlowest = 0.85F;
 constexpr float kFastest = 2.9F;
 constexpr float kMillPace = 1.9F;
 constexpr float kBaitBallPace = 2.1F;
-constexpr float kBrakeBefore = 0.4F;  // body lengths a second, for a push of 1 straight back
-constexpr float kAlarmedPace = 0.5F;  // more than at ease
+// Body lengths a second slower for a push of 1 straight back.
+constexpr float kBrakeBefore = 0.4F;
+// Body lengths a second faster at full alarm.
+constexpr float kAlarmedPace = 0.5F;
 
+// Distant schoolmates that a fish looks at, and ticks for which it looks at the same ones.
 constexpr std::uint32_t kGlimpses = 4;
 constexpr std::uint64_t kTicksOfGlance = 60;
 constexpr float kRejoin = 1.5F;
-constexpr float kKeepLevel = 1.0F;  // against the way round the ball
+// Weight of keeping its level in the ball, against the way around it.
+constexpr float kKeepLevel = 1.0F;
 
-// How far from the goal, in the shape of the school: a ball, flatter where the water is shallow.
+// Offset to the goal in the shape of the school: heights are stretched where the school is flat.
 glm::vec3 fromGoal(const surroundings::Goal& goal, glm::vec3 position) {
     glm::vec3 towards = goal.position - position;
     towards.y /= goal.flatness;
     return towards;
 }
 
-// Where the school as a whole goes: along with the goal, and towards it from outside the school.
+// Along with the goal, and towards it from outside the school.
 glm::vec3 followed(const surroundings::Goal& goal, glm::vec3 towards, float pull) {
     return place::directionOf(towards, {}) * pull + goal.velocityMetresPerSecond * 2.0F;
 }
 
-// Round the goal.
+// Around the goal, left or right about by the sign of Goal::mill.
 glm::vec3 circled(const surroundings::Goal& goal, glm::vec3 towards, float pull) {
     const float turn = goal.mill > 0 ? 1.0F : -1.0F;
     const glm::vec3 around{-towards.z * turn, 0, towards.x * turn};
@@ -263,12 +293,14 @@ glm::vec3 circled(const surroundings::Goal& goal, glm::vec3 towards, float pull)
            place::directionOf(towards, {}) * (pull + 0.3F);
 }
 
+// Up or down to the level that the fish keeps in a bait ball.
 glm::vec3 toLevel(const Environment& environment, std::uint32_t fish, glm::vec3 towards) {
     const float high = environment.schoolRadiusMetres;
     const float climb = towards.y + levelInBall(environment.seed, fish) * high;
     return {0, std::clamp(climb / (0.3F * high), -1.0F, 1.0F) * kKeepLevel, 0};
 }
 
+// The common course of the school at a place: follow the goal, circle it, or a mixture.
 glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec3 position) {
     const surroundings::Goal& goal = environment.goal;
     const glm::vec3 towards = fromGoal(goal, position);
@@ -281,17 +313,18 @@ glm::vec3 commonWay(const Environment& environment, std::uint32_t fish, glm::vec
     return follow + (circled(goal, towards, pull) - follow) * std::abs(goal.mill);
 }
 
-// A slow whim of each fish, so that no two hold quite the same course.
+// A slowly changing random direction of each fish, so that no two hold exactly the same course.
 glm::vec3 whim(std::uint32_t seed, std::size_t fish, Tick tick) {
     const std::uint32_t own = hashOf(seed, static_cast<std::uint32_t>(fish));
+    // The period of five hours keeps the float exact enough.
     const float seconds = static_cast<float>(tick.value % (1U << 20U)) / 60.0F;
     return {place::valueNoise(own, {seconds * 0.5F, 0.5F}),
             0.6F * place::valueNoise(own, {seconds * 0.5F, 8.5F}),
             place::valueNoise(own, {seconds * 0.5F, 16.5F})};
 }
 
-// The pace of the goal and of those about, quicker where the school is ahead and slower behind
-// others' tails.
+// Wanted speed, body lengths a second: the mean of the goal's pace and that of the neighbours,
+// faster to close up, slower behind others and before obstacles.
 float wantedSpeed(const Situation& situation, const Company& company, float alarm) {
     const surroundings::Goal& goal = situation.environment.goal;
     const Senses& senses = situation.senses;
@@ -307,13 +340,13 @@ float wantedSpeed(const Situation& situation, const Company& company, float alar
         own = goalPace + (round - goalPace) * std::abs(goal.mill);
     }
     const float pace = company.speed > 0 ? 0.5F * (own + company.speed) : own;
-    // What it heads for slows it too.
+    // An obstacle ahead slows it too.
     const float stop = kBrakeBefore * std::max(0.0F, -place::dot(senses.push, senses.heading));
     return std::clamp(
         pace + company.hurry - company.brake - stop + kAlarmedPace * alarm, kSlowest, kFastest);
 }
 
-// Whom it catches sight of, of its own kind.
+// Schoolmates that a fish looks at beyond its neighbours, drawn at random once a second.
 using Glance = std::array<std::uint32_t, kGlimpses>;
 Glance glanceOf(const Situation& situation) {
     const fish::SpeciesParameters& parameters = situation.parameters;
@@ -329,11 +362,11 @@ Glance glanceOf(const Situation& situation) {
     return glance;
 }
 
-// Beyond its neighbours a fish sees others of its kind, a few at a time: so parts of a school that
-// lost one another find together again; alarmed, all seek the middle.
+// Mean direction to the distant schoolmates that it looks at: by it separated parts of a school
+// find together again. At full alarm near ones count too, and all seek the middle.
 glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm) {
     const fish::FishView& view = *situation.environment.view;
-    // A school is a large, flashing thing: it is seen as far as the water is clear.
+    // The flashing of a whole school is seen as far as the water is clear.
     const float sight = situation.environment.surroundings->clarityMetres;
     glm::vec3 sum{};
     for (const std::uint32_t other : glance) {
@@ -347,8 +380,8 @@ glm::vec3 glimpses(const Situation& situation, const Glance& glance, float alarm
     return sum;
 }
 
-// 0 up to the fear that is heeded, 1 from that on with which each flees for itself: a predator that
-// only goes about far off does not press a school together.
+// Alarm of a school, 0 to 1: 0 up to the fear that is heeded (f0), 1 from the fear at which each
+// fish flees alone (f1). So a predator far off does not compress the school.
 float alarmOf(const fish::SpeciesParameters& parameters, const fish::Feelings& feelings) {
     const float more = feelings.fear - parameters.habits.fearFrom;
     return std::clamp(
@@ -357,7 +390,7 @@ float alarmOf(const fish::SpeciesParameters& parameters, const fish::Feelings& f
         1.0F);
 }
 
-// Schoolmates give way to a predator before it comes so near that each flees for itself.
+// A push away from a predator that grows before it is so near that each fish flees alone.
 glm::vec3 clearing(const Situation& situation) {
     const fish::SpeciesParameters& parameters = situation.parameters;
     const float fear = situation.feelings.greatestFear - parameters.habits.fearFrom;
@@ -371,11 +404,12 @@ glm::vec3 clearing(const Situation& situation) {
 
 float levelInBall(std::uint32_t seed, std::uint32_t fish) {
     const std::uint32_t own = hashOf(hashOf(seed, Stream::SchoolLevels), fish);
+    // The sum of two uniform numbers: a triangular distribution.
     return unitOf(own) + unitOf(hashOf(own)) - 1;
 }
 
 float schoolRadiusMetres(std::size_t fish) {
-    // A ball at one fish in (0.3 m)^3; grown in steps, as there is no exact cube root.
+    // A ball with one fish in (0.3 m)^3, grown in steps of 10 % (no libm, hence no cube root).
     float radius = 0.3F;
     while (radius * radius * radius < static_cast<float>(fish) * 0.015F) radius *= 1.1F;
     return radius;
@@ -388,7 +422,7 @@ fish::Course school(const Situation& situation) {
     const bool gathers = environment.gathering != config::Gathering::None;
     const Glance glance = gathers ? Glance{} : glanceOf(situation);
     const Company company = companyOf(*environment.view, senses, situation.fish, alarm);
-    // What must be avoided comes before where one would like to go.
+    // Avoiding obstacles comes before following.
     const float follow = kFollow * std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 way = gathers ? commonWay(environment, situation.fish, senses.position)
                                   : glimpses(situation, glance, alarm) * kRejoin;

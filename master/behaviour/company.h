@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whom a fish at ease keeps near: its partner, or the back of a larger fish.
+// Company: whom a fish at ease keeps near (a partner, or a larger fish that it shadows), and how
+// neighbours steer a fish.
 #pragma once
 
 #include <cstdint>
@@ -13,42 +14,48 @@
 
 namespace aquarama::behaviour {
 
-// Fish of one species that live in pairs: every two of them, in order; the odd one out is alone.
+// The partner in a species that lives in pairs: fish pair up by index, two by two. kNobody for the
+// last one of an odd number. `fish` is of this species.
 [[nodiscard]] std::uint32_t partnerOf(const fish::SpeciesParameters& parameters,
                                       std::uint32_t fish);
 
-// The fish over whose back this one hangs now: for 10 to 40 of every 50 s, one of those it likes to
-// shadow that is near enough to be seen.
+// The fish that this one shadows now, swimming over its back, or kNobody. In every 50 s it shadows
+// for 10 to 40 s one fish, drawn from the species that it likes to shadow and near enough to be
+// seen.
 [[nodiscard]] std::uint32_t shadowedBy(const Situation& situation);
 
-// The course to keep with whom the fish keeps now; nothing for one that goes alone.
+// The course that stays with the shadowed fish or the partner; none where the fish goes alone.
 [[nodiscard]] std::optional<fish::Course> keptCompany(const Situation& situation);
 
-// What the fish next to one ask of it: room, a common course, and not to be left behind (Reynolds
-// 1987; Huth & Wissel 1992).
+// What neighbours ask of a fish: separation, alignment and cohesion (Reynolds 1987; Huth & Wissel
+// 1992).
 
-// Between the middles of neighbours, in body lengths: at ease, and when a predator is about.
+// Wanted distance between the middles of neighbours, in body lengths: at ease, and when a predator
+// is near.
 inline constexpr float kSpacing = 0.9F;
 inline constexpr float kAlarmedSpacing = 0.65F;
 
+// The influence of all neighbours of one fish. Directions in the world frame; weights in pullOf().
 struct Company {
     glm::vec3 separation{}, alignment{}, cohesion{};
-    float speed = 0;  // mean of theirs, body lengths a second; 0: alone
-    float hurry = 0;  // to close up, body lengths a second
-    float brake = 0;  // for those just ahead, body lengths a second
+    // Mean speed of the schoolmates, in body lengths a second; 0 where there are none.
+    float speed = 0;
+    // Change of speed to close up, and to stay behind those ahead, both in body lengths a second.
+    float hurry = 0;
+    float brake = 0;
 };
 
-// Of the same species one keeps with; to others one only gives way. alarm: 0 at ease, 1 where a
-// predator is about and all close up.
+// Schoolmates act by all three rules; fish of other species only by separation. `alarm` is 0 at
+// ease and 1 where a predator is near and all close up.
 [[nodiscard]] Company companyOf(const fish::FishView& view,
                                 const Senses& senses,
                                 std::uint32_t fish,
                                 float alarm);
 
-// The three together, against the unit vector of one's own course.
+// The weighted sum of the three rules, in units of the unit vector of the present course.
 [[nodiscard]] glm::vec3 pullOf(const Company& company);
 
-// Away from all that are too near, whoever they are but for its prey, against the same.
+// Direction away from all neighbours that are too near, except prey; in the same units.
 [[nodiscard]] glm::vec3 roomFrom(const Situation& situation);
 
 }  // namespace aquarama::behaviour

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/courtship.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "common/place/place.h"
 #include "common/units/hash.h"
@@ -18,42 +18,54 @@ namespace {
 constexpr auto kSecond = static_cast<std::uint32_t>(kTicksPerSecond);
 constexpr glm::vec3 kUp{0, 1, 0};
 
-// By CourtshipStage.
+// Longest time in a stage, by CourtshipStage.
 constexpr std::array<std::uint32_t, 6> kLongestSeconds{20, 12, 25, 30, 15, 20};
-constexpr std::uint32_t kLoopSeconds = 6;  // about one loop; at least
+// Shortest times in a stage; a loop takes about 6 s.
+constexpr std::uint32_t kLoopSeconds = 6;
 constexpr std::uint32_t kCircleSeconds = 8;
 constexpr std::uint32_t kAscentSeconds = 4;
 constexpr std::uint32_t kNuzzleSeconds = 3;
 
 // Distances in body lengths.
-constexpr float kTogether = 5.0F;  // no farther than this they court
+// Within this distance a pair is together.
+constexpr float kTogether = 5.0F;
+// The male loops about a point this far before her; they circle about the point between them.
 constexpr float kLoopAhead = 2.6F;
 constexpr float kLoopRadius = 1.5F;
 constexpr float kCircleRadius = 1.4F;
-constexpr float kCloser = 0.8F;  // weight of the way back to the circle, for a radius off it
-constexpr float kBehind = 1.0F;  // a follower keeps so far
-constexpr float kBelow = 0.7F;   // he rises so far below her
-constexpr float kBelly = 0.3F;   // he comes so near below her: their bodies touch
+// Weight of the way back to the circle, for each radius off it.
+constexpr float kCloser = 0.8F;
+// Distance that a follower keeps.
+constexpr float kBehind = 1.0F;
+// Depth below her at which he rises, and at which he nuzzles her belly: there bodies touch.
+constexpr float kBelow = 0.7F;
+constexpr float kBelly = 0.3F;
 constexpr float kTouches = 0.6F;
-constexpr float kStationFrom = 1.5F;  // he keeps station within so far of his place
-constexpr float kCatchUp = 0.8F;      // body lengths a second for one that he is behind
-constexpr float kClose = 0.7F;        // weight of a body length astray against her course
-constexpr float kYielding = 0.9F;     // of slow: so she swims as he nuzzles her
+// Within this distance of his place he keeps station instead of pursuing it.
+constexpr float kStationFrom = 1.5F;
+// Body lengths a second faster for each body length that he is behind.
+constexpr float kCatchUp = 0.8F;
+// Weight of a body length off his place, against her course.
+constexpr float kClose = 0.7F;
+// Her speed while he nuzzles her, as a share of the slow gait.
+constexpr float kYielding = 0.9F;
 
-constexpr float kRise = 0.42F;  // sine of the steepest way up
-constexpr float kBob = 0.2F;    // sine of the pitch of a loop or a bob
+// Sines of pitch angles.
+constexpr float kRise = 0.42F;
+constexpr float kBob = 0.2F;
 constexpr std::uint32_t kBobTicks = 2 * kSecond;
 
-// Up and down by turns.
+// Pitch up and down in turn, a second each.
 float bob(std::uint32_t ticks) {
     return ticks % kBobTicks < kBobTicks / 2 ? kBob : -kBob;
 }
 
+// The level unit vector of a direction.
 glm::vec3 level(glm::vec3 direction) {
     return place::directionOf({direction.x, 0, direction.z}, {1, 0, 0});
 }
 
-// Along a level circle round a point.
+// Direction along a level circle around a point; corrects the distance and the height.
 glm::vec3 aroundOn(glm::vec3 toCentre, float radius, bool left) {
     const glm::vec3 inwards = level(toCentre);
     const glm::vec3 along =
@@ -63,7 +75,8 @@ glm::vec3 aroundOn(glm::vec3 toCentre, float radius, bool left) {
     return along + closer + kUp * (0.5F * toCentre.y / radius);
 }
 
-// What is done in the stage by him where he and she differ, and by her.
+// Movements of the stages. Where the sexes differ, he follows, loops or keeps below her; she
+// hovers, bobs or rises.
 fish::Course follow(const Situation& situation, const Couple& couple) {
     const glm::vec3 behind = couple.offset - couple.matesHeading * (kBehind * couple.length);
     return pursue(
@@ -92,7 +105,7 @@ fish::Course rise(const Situation& situation) {
         situation, level(situation.senses.heading) + kUp * kRise, situation.parameters.slow);
 }
 
-// Under her and along with her: from afar he goes for the place, at it he swims as she does.
+// Keeps a place below her: pursues it from afar, matches her speed when near.
 fish::Course keepBelow(const Situation& situation, const Couple& couple, float below) {
     const fish::SpeciesParameters& parameters = situation.parameters;
     const glm::vec3 place = couple.offset - kUp * (below * couple.length);
@@ -112,6 +125,7 @@ bool isComplete(CourtshipStage stage,
                 const Couple& couple,
                 glm::vec3 heading,
                 std::uint32_t ticks) {
+    assert(couple.length > 0);
     const float distance = place::lengthOf(couple.offset);
     const bool together = distance < kTogether * couple.length;
     const glm::vec3 fromHerToHim = couple.isFemale ? couple.offset : -couple.offset;
@@ -135,6 +149,7 @@ bool isComplete(CourtshipStage stage,
 }
 
 std::uint32_t longestTicks(CourtshipStage stage) {
+    assert(static_cast<std::size_t>(stage) < kLongestSeconds.size());
     return kLongestSeconds[static_cast<std::size_t>(stage)] * kSecond;
 }
 
@@ -188,8 +203,8 @@ void enter(fish::Mind& mind, CourtshipStage stage) {
     mind.sinceStage = 0;
 }
 
-// Where the other stands now puts a fish into its stage: of two that court each other the one that
-// is behind catches up.
+// Sets the stage by what the other fish does now. Of two fish that court each other the one that is
+// behind catches up.
 void fallIn(const Situation& situation, fish::Mind& mind) {
     const fish::FishView& view = *situation.environment.view;
     const std::uint32_t courted = view.partner[mind.target];
@@ -200,6 +215,7 @@ void fallIn(const Situation& situation, fish::Mind& mind) {
     enter(mind, std::max({stageOf(mind.stage), theirs, CourtshipStage::Loop}));
 }
 
+// Enters the next stage when this one is complete. After the last the male reports the spawning.
 void goOn(fish::Mind& mind,
           const Couple& couple,
           const Situation& situation,
@@ -216,12 +232,14 @@ void goOn(fish::Mind& mind,
 }  // namespace
 
 fish::Course mate(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    assert(mind.target < situation.environment.view->size());
     fallIn(situation, mind);
     const Couple couple = coupleOf(situation, mind);
     goOn(mind, couple, situation, events);
     const CourtshipStage stage = stageOf(mind.stage);
     if (mind.sinceStage > longestTicks(stage)) {
-        mind.sinceSpawning = 0;  // its mood is gone, as after spawning
+        // It gives up: its libido starts from 0, as after spawning.
+        mind.sinceSpawning = 0;
         return wander(situation);
     }
     return court(situation, mind, couple, stage);

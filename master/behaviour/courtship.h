@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The courtship of a pair that wants one another (Tu 1996, section 5.6.6): he loops before her
-// while she hovers and bobs, they circle, she rises and he follows from below, he nuzzles her belly
-// and they spawn. Each knows only its own stage and what it sees of the other.
+// The courtship of a pair (Tu 1996, section 5.6.6): the male loops before the female while she
+// hovers and bobs; they circle; she rises and he follows from below; he nuzzles her belly and they
+// spawn. Each fish knows only its own stage and what it sees of the other.
 #pragma once
 
 #include <cstdint>
@@ -12,35 +12,43 @@
 
 namespace aquarama::behaviour {
 
-// Of Mind::stage while a fish would mate.
+// Values of Mind::stage while a fish mates, in order.
 enum class CourtshipStage : std::uint8_t {
-    Follow,   // the other courts nobody yet
-    Impress,  // the other courts a third
-    Loop,     // from here on both court each other
+    // The other fish courts nobody yet.
+    Follow,
+    // The other fish courts a third one.
+    Impress,
+    // In this and all later stages both court each other.
+    Loop,
     Circle,
     Ascend,
     Nuzzle,
 };
 
-// What one of two sees of both.
+// What one fish of a pair sees of both.
 struct Couple {
-    glm::vec3 offset{};  // from self to the mate, metres
+    // From the fish to its mate, metres.
+    glm::vec3 offset{};
     glm::vec3 matesHeading{1, 0, 0};
-    float matesSpeed = 0;  // metres a second
-    float length = 0;      // the mean of theirs, metres
+    // Metres a second.
+    float matesSpeed = 0;
+    // Mean of both lengths, metres.
+    float length = 0;
     bool isFemale = false;
-    bool turnsLeft = false;  // both the same way round
+    // Sense in which they circle; the same for both fish.
+    bool turnsLeft = false;
 };
 
-// Whether a stage has reached its goal after `ticks` in it. Of Follow and Impress: never; that is
-// the other's to say.
+// Whether a stage has reached its goal after `ticks` in it; `heading` is that of the fish. Never
+// for Follow and Impress, which end when the other fish answers.
 [[nodiscard]] bool isComplete(CourtshipStage stage,
                               const Couple& couple,
                               glm::vec3 heading,
                               std::uint32_t ticks);
-// How long it may take before the fish gives up.
+// Ticks in a stage after which the fish gives up.
 [[nodiscard]] std::uint32_t longestTicks(CourtshipStage stage);
 
+// The course of one fish in a stage; what it does depends on its sex.
 [[nodiscard]] fish::Course court(const Situation& situation,
                                  const fish::Mind& mind,
                                  const Couple& couple,

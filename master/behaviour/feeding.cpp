@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/feeding.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/place/place.h"
 #include "master/behaviour/routines.h"
@@ -12,18 +12,23 @@ namespace aquarama::behaviour {
 
 namespace {
 
-// Distances in body lengths. A biomechanical fish can still correct its way within the first; this
-// motor, which plays turns to their end, begins from the second (paper, section 5.2).
+// Distances in body lengths within which pursuit is careful. The biomechanical fish can still
+// correct its way within the first; this motor, which plays turns to their end, begins at the
+// second (paper, section 5.2).
 constexpr float kCarefulWithin = 2.5F;
 constexpr float kEarlierWithin = 5.0F;
-constexpr float kGeneralCosine = 0.94F;  // 20 degrees: near enough a direction from far off
-constexpr float kTurnsWithin = 1.5F;     // a nearer target abeam would only be circled
+// Cosine of 20 degrees: from far off this is near enough to the direction.
+constexpr float kGeneralCosine = 0.94F;
+// A nearer target to the side would only be circled: the fish slows and turns first.
+constexpr float kTurnsWithin = 1.5F;
 constexpr float kAbeamCosine = 0.5F;
-constexpr float kTurningPace = 0.6F;  // of slow, while turning towards it
-constexpr float kCarefulPace = 0.8F;  // of slow, at the target
+// Shares of the slow gait: while turning towards a target, and at the target.
+constexpr float kTurningPace = 0.6F;
+constexpr float kCarefulPace = 0.8F;
+// The motion of a target is extrapolated no farther than this.
 constexpr float kMostLeadSeconds = 1.5F;
 
-// Where the target will be when the fish can be there.
+// Offset to where the target will be when the fish can be there.
 glm::vec3 lead(const Situation& situation, glm::vec3 towards, float speed, glm::vec3 velocity) {
     const float metresPerSecond = std::max(0.05F, speed * situation.senses.length);
     return towards +
@@ -36,6 +41,7 @@ fish::Course pursue(const Situation& situation,
                     glm::vec3 towards,
                     float speed,
                     glm::vec3 velocity) {
+    assert(speed >= 0);
     const Senses& senses = situation.senses;
     const float slow = situation.parameters.slow;
     const glm::vec3 to = lead(situation, towards, speed, velocity);
@@ -49,7 +55,7 @@ fish::Course pursue(const Situation& situation,
     if (lengths < kTurnsWithin && along < kAbeamCosine)
         return heading(situation, direction, kTurningPace * slow);
     const float least = std::min(speed, kCarefulPace * slow);
-    // A target that swims off must be swum after.
+    // A target that swims away adds its own speed.
     const float chase = std::max(0.0F, place::dot(velocity, direction)) / senses.length;
     const float pace = least + (speed - least) * lengths / careful;
     return heading(situation, direction, std::min(speed, pace + chase));
@@ -64,9 +70,12 @@ fish::Course heading(const Situation& situation, glm::vec3 desired, float speed)
 
 namespace {
 
-constexpr float kAsideOfItsWay = 1.2F;          // against straight away, for one right before it
-constexpr float kNearestSquaredMetres = 0.01F;  // nearer than this does not count more
+// Weight of going aside against straight away, for a fish right before the predator.
+constexpr float kAsideOfItsWay = 1.2F;
+// Square metres: a predator nearer than 0.1 m does not count more.
+constexpr float kNearestSquaredMetres = 0.01F;
 
+// Direction away from one predator; `course` is its heading.
 glm::vec3 awayFrom(glm::vec3 offset, glm::vec3 course, glm::vec3 otherwise) {
     const glm::vec3 away = place::directionOf(-offset, otherwise);
     const float before = place::dot(away, course);
@@ -93,26 +102,31 @@ glm::vec3 flightFrom(const Situation& situation) {
 
 namespace {
 
-// The cone of suction from the mouth, in body lengths. It is as long as a fish comes forward
-// between two thoughts, so that it misses nothing that it swims through.
+// Cone of suction before the mouth, in body lengths. It is as long as the way of a fish between two
+// thoughts, so that no particle in its path is missed.
 constexpr float kSuction = 0.3F;
-constexpr float kSuctionCosine = 0.6F;  // half an angle of 53 degrees
-constexpr float kAtTheLips = 0.08F;     // in every direction
+// Cosine of half the opening angle, 53 degrees.
+constexpr float kSuctionCosine = 0.6F;
+// Within this distance direction does not matter.
+constexpr float kAtTheLips = 0.08F;
 
-// A particle that it has come too near to, without having it before the mouth, would be circled:
-// the fish swims on and turns back for it from farther off.
+// Stages of eat(). A particle that is near but not before the mouth would only be circled: the fish
+// swims on and turns back from farther off (kRunUp).
 enum Stage : std::uint8_t { kApproach, kRunUp };
 constexpr float kTooNear = 2.0F;  // body lengths
 constexpr float kRunUpLengths = 3.0F;
 constexpr float kAsideCosine = 0.35F;
-constexpr std::uint32_t kRunUpTicks = 240;  // at most
-constexpr float kSteepest = 0.42F;          // sine of the steepest way up or down
+// Longest run-up.
+constexpr std::uint32_t kRunUpTicks = 240;
+// Sine of the steepest climb.
+constexpr float kSteepest = 0.42F;
 
 void enter(fish::Mind& mind, Stage stage) {
     mind.stage = stage;
     mind.sinceStage = 0;
 }
 
+// Whether a near particle is too far to the side, up or down to be reached by a turn.
 bool cannotTurnTo(const Senses& senses, glm::vec3 fromMouth) {
     const float distance = place::lengthOf(fromMouth);
     if (distance > kTooNear * senses.length) return false;
@@ -131,6 +145,7 @@ bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset) {
 }
 
 fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    assert(situation.senses.food.seen());
     const Senses& senses = situation.senses;
     const Sighting& food = senses.food;
     const float slow = situation.parameters.slow;
@@ -149,12 +164,15 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
 
 namespace {
 
-constexpr float kRushFrom = 2.0F;               // body lengths
-constexpr float kAheadCosine = 0.5F;            // and only at what is before it
-constexpr std::uint32_t kStalkTicks = 20 * 60;  // then the time of its chase runs
-// A bite reaches so far from the mouth, in body lengths: a gape and the water that rushes in.
+// A predator rushes from this distance, in body lengths, at prey ahead of it.
+constexpr float kRushFrom = 2.0F;
+constexpr float kAheadCosine = 0.5F;
+// Stalking for longer counts as part of the chase, whose time is limited.
+constexpr std::uint32_t kStalkTicks = 20 * 60;
+// Reach of a bite from the mouth, in body lengths, by its gape and suction; twice as far straight
+// ahead.
 constexpr float kBite = 0.05F;
-constexpr float kBiteCosine = 0.85F;  // or, before it, further by as much again
+constexpr float kBiteCosine = 0.85F;
 constexpr float kMostHuntLeadSeconds = 0.3F;
 
 bool isInTheMouth(const Senses& senses, glm::vec3 fromMouth) {
@@ -168,6 +186,7 @@ glm::vec3 velocityOf(const fish::FishView& view, std::uint32_t fish) {
     return view.heading(fish) * view.fish[fish].speed;
 }
 
+// Approaches at medium speed; changes to a rush when near.
 fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting& prey) {
     const Senses& senses = situation.senses;
     const bool isBefore = place::dot(prey.offset, senses.heading) > kAheadCosine * prey.distance;
@@ -182,6 +201,7 @@ fish::Course stalk(const Situation& situation, fish::Mind& mind, const Sighting&
 }  // namespace
 
 fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    assert(situation.senses.prey.seen());
     const Senses& senses = situation.senses;
     const fish::FishView& view = *situation.environment.view;
     const Sighting& prey = senses.prey;
@@ -192,6 +212,7 @@ fish::Course hunt(const Situation& situation, fish::Mind& mind, DeferredEvents& 
     if (mind.stage == static_cast<std::uint8_t>(HuntStage::Stalk))
         return stalk(situation, mind, prey);
     const float speed = situation.parameters.fast;
+    // Aims at where the prey will be, but not far ahead: prey that turns gets away.
     const float seconds =
         std::min(kMostHuntLeadSeconds, place::lengthOf(fromMouth) / (speed * senses.length));
     return heading(situation, fromMouth + velocityOf(view, prey.object) * seconds, speed);

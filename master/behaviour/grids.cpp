@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/grids.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cstring>
 
 #include "master/behaviour/neighbours.h"
@@ -12,9 +12,11 @@ namespace aquarama::behaviour {
 
 namespace {
 
-constexpr std::size_t kPointsInBucket = 1024;  // about so many, were they evenly spread
+// About so many points in a bucket, if they were evenly spread.
+constexpr std::size_t kPointsInBucket = 1024;
 constexpr std::size_t kMostBuckets = 1024;
 
+// At least one.
 int cellsAcross(float halfExtent, float cellMetres) {
     return std::max(1, static_cast<int>(2 * halfExtent / cellMetres) + 1);
 }
@@ -42,6 +44,8 @@ SpatialGrid::SpatialGrid(const place::Region& water,
       cellMetres_(cellMetres),
       cellOfPoint_(most),
       parts_(std::max<std::size_t>(1, (most + kPointsInPart - 1) / kPointsInPart)) {
+    assert(cellMetres > 0);
+    // Enlarges the cells in steps of 25 % until they are few enough.
     const auto cover = [&] {
         cells_ = {cellsAcross(water.halfExtent.x, cellMetres_),
                   cellsAcross(water.halfExtent.y, cellMetres_),
@@ -64,20 +68,23 @@ void SpatialGrid::makeRoomForSteps() {
 }
 
 void SpatialGrid::rebuild(const Points& points, std::span<const std::uint32_t> chosen) {
+    assert(chosen.size() <= cellOfPoint_.size());
     std::fill(starts_.begin(), starts_.end(), 0U);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         cellOfPoint_[i] = cellIndex(points[chosen[i]]);
         ++starts_[cellOfPoint_[i]];
     }
+    // Running sums: each start becomes the end of its cell, and moves back as the cell is filled.
     std::uint32_t end = 0;
     for (std::uint32_t& start : starts_) start = end += start;
-    // Filled from the back, each start moves down to where its cell begins.
+    // Filled from the back, so that each cell keeps the order of the indices.
     for (std::size_t i = chosen.size(); i-- > 0;) {
         const std::uint32_t point = chosen[i];
         sorted_.put(--starts_[cellOfPoint_[i]], points[point], point);
     }
 }
 
+// O(parts x buckets), on one thread. Buckets follow one another; in each the parts do, in order.
 void SpatialGrid::arrange() {
     std::uint32_t next = 0;
     for (std::size_t bucket = 0; bucket < buckets_; ++bucket) {
@@ -93,7 +100,9 @@ void SpatialGrid::arrange() {
     starts_.back() = next;
 }
 
+// Parts write to disjoint places, so that threads do not meet.
 void SpatialGrid::spread(std::size_t part, const Points& points) {
+    assert(part < parts_ && tallies_.size() == parts_ * buckets_);
     std::uint32_t* const next = tallies_.data() + part * buckets_;
     const std::size_t last = std::min(points.count, firstOfPart(part + 1));
     for (std::size_t i = firstOfPart(part); i < last; ++i) {
@@ -105,7 +114,9 @@ void SpatialGrid::spread(std::size_t part, const Points& points) {
     }
 }
 
+// A counting sort by cell within the bucket.
 void SpatialGrid::sort(std::size_t bucket) {
+    assert(bucket < buckets_);
     const CellRun cells = cellsOfBucket(bucket);
     const std::uint32_t first = bucketStarts_[bucket];
     const std::uint32_t last = bucketStarts_[bucket + 1];
@@ -116,7 +127,7 @@ void SpatialGrid::sort(std::size_t bucket) {
         end += starts_[cell];
         starts_[cell] = end;
     }
-    // Filled from the back, each start moves down to where its cell begins.
+    // Filled from the back, so that each cell keeps the order of the indices.
     for (std::uint32_t i = last; i-- > first;)
         sorted_.put(--starts_[spreadCells_[i]],
                     {spread_.x[i], spread_.y[i], spread_.z[i]},
@@ -139,17 +150,19 @@ std::size_t SpatialGrid::bytes() const {
 
 namespace {
 
+// Widths of cells of the sparse grids and of food: about how far they are searched.
 constexpr float kSparseCellMetres = 2.0F;
 constexpr float kFoodCellMetres = 0.8F;
 
-// In a wide sea cells grow, so that those without anybody neither cost time nor memory.
+// Limit of the number of cells: a wide sea gets larger cells, as empty ones cost time and memory.
 std::size_t mostCellsFor(std::size_t points) {
     constexpr std::size_t kFew = 4096;
     constexpr std::size_t kToPoint = 4;
     return std::max(kFew, points * kToPoint);
 }
 
-// Predators and large bodies are seen from so far that a search would pass many empty cells.
+// A grid of points that are seen from so far that with small cells a search would pass many empty
+// ones: at most one cell for two points.
 SpatialGrid farSeen(const place::Region& water, std::size_t points) {
     return {water, kSparseCellMetres, points, points / 2};
 }
@@ -176,6 +189,7 @@ Grids::Grids(const place::Region& water, std::size_t fishCount, std::size_t food
     chosen_[kFood].reserve(foodCount);
 }
 
+// Replaces a grid by a larger one where it has too little room.
 void Grids::expect(SpatialGrid& grid, Sparse which, std::size_t count) {
     if (count <= chosen_[which].capacity()) return;
     chosen_[which].reserve(count);
@@ -198,6 +212,7 @@ void Grids::mark(const fish::FishView& view,
                  std::span<const fish::SpeciesParameters> speciesParameters,
                  std::size_t first,
                  std::size_t last) {
+    assert(last <= view.size() && last <= marks_.size());
     for (std::size_t i = first; i < last; ++i) {
         const std::uint8_t signs = view.signs[i];
         int marks = kPresent;
@@ -208,7 +223,7 @@ void Grids::mark(const fish::FishView& view,
     }
 }
 
-// Few fish bear these marks, so eight are asked at a time.
+// Few fish have these marks, so eight are tested at a time, as one 64-bit number.
 std::span<const std::uint32_t> Grids::marked(Sparse which, Mark mark) {
     std::vector<std::uint32_t>& chosen = chosen_[which];
     chosen.clear();
@@ -225,6 +240,7 @@ std::span<const std::uint32_t> Grids::marked(Sparse which, Mark mark) {
     return chosen;
 }
 
+// One job of the last step of rebuild().
 void Grids::rebuildSparse(std::size_t which,
                           const Points& fishPoints,
                           const surroundings::Food& particles) {
@@ -255,7 +271,9 @@ std::size_t Grids::bytes() const {
 
 namespace {
 
-constexpr int kBlockBits = 2;  // a block is 4 cells wide
+// A block is 4 cells wide along each axis.
+constexpr int kBlockBits = 2;
+// Values of kindOfCell_ that are no kind: no fish, and fish of several kinds.
 constexpr std::uint8_t kEmpty = 0xff;
 constexpr std::uint8_t kMixed = 0xfe;
 
@@ -275,6 +293,7 @@ void KindsAbout::clear() {
     std::fill(kindsOfBlock_.begin(), kindsOfBlock_.end(), 0U);
 }
 
+// Index of the block that a cell is in.
 std::size_t KindsAbout::blockOf(int x, int y, int z) const {
     return static_cast<std::size_t>(
         ((z >> kBlockBits) * blocks_.y + (y >> kBlockBits)) * blocks_.x + (x >> kBlockBits));
@@ -290,7 +309,8 @@ void KindsAbout::note(const SpatialGrid& grid,
         const SpatialGrid::Slots slots = grid.slotsOfCell(bucket, cell);
         kindOfCell_[cell] = kEmpty;
         if (slots.first == slots.last) continue;
-        // The fish of a cell stand in the order of their index, those of a kind together.
+        // Fish of a cell stand in the order of their index, and a species has a run of indices: if
+        // the first and the last are of one kind, all are.
         const std::uint8_t first = kinds[grid.index()[slots.first]];
         const std::uint8_t last = kinds[grid.index()[slots.last - 1]];
         kindOfCell_[cell] = first == last ? first : kMixed;
@@ -301,7 +321,9 @@ void KindsAbout::note(const SpatialGrid& grid,
         const auto x = static_cast<int>(cell % width);
         const auto y = static_cast<int>(cell / width % height);
         const auto z = static_cast<int>(cell / width / height);
-        // Threads may note cells of one block; a union is the same in any order.
+        // Several threads may note cells of one block. A union is the same in any order; it is read
+        // first, because it seldom changes and a write would take the cache line from other
+        // threads.
         const std::atomic_ref<std::uint64_t> block(kindsOfBlock_[blockOf(x, y, z)]);
         if ((~block.load(std::memory_order_relaxed) & present) != 0)
             block.fetch_or(present, std::memory_order_relaxed);
@@ -321,6 +343,7 @@ bool KindsAbout::mayHoldOthers(const SpatialGrid::Cell& from,
 }
 
 bool KindsAbout::rowHoldsOthers(std::size_t first, std::size_t last, std::uint8_t own) const {
+    assert(last < kindOfCell_.size());
     for (std::size_t cell = first; cell <= last; ++cell)
         if (kindOfCell_[cell] != kEmpty && kindOfCell_[cell] != own) return true;
     return false;

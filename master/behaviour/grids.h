@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who or what is near: points sorted into the cells of a uniform grid, so that a search reads a few
-// short runs of memory.
+// Spatial search: points sorted into the cells of a uniform grid, so that a search reads a few
+// short runs of memory. World frame, metres.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,10 +17,11 @@
 
 namespace aquarama::behaviour {
 
-// The most points that a search reads at a time.
+// Most points that a search reads at a time: the widest vector, and the padding behind arrays.
 inline constexpr std::size_t kMostLanes = 16;
 
-// Places in metres, in columns or in records of so many floats.
+// Positions of points, in metres; not owned. Either columns (stride 1) or members of records of
+// `stride` floats.
 struct Points {
     const float *x = nullptr, *y = nullptr, *z = nullptr;
     std::size_t count = 0;
@@ -30,29 +32,36 @@ struct Points {
     }
 };
 
+// The grid and a sorted copy of its points. rebuild() is one thread's work; the steps below it may
+// be shared out. While it is not rebuilt any number of threads may search it.
 class SpatialGrid {
   public:
-    // Room for `most` points. Those outside `water` are kept in the border cells; they are found
-    // all the same. Where there would be more than `mostCells` cells they are made larger.
+    // Room for `most` points. Points outside `water` are kept in the border cells and found all the
+    // same. Cells are enlarged until there are at most `mostCells`, so that a wide sea takes no
+    // more memory than its fish.
     SpatialGrid(const place::Region& water,
                 float cellMetres,
                 std::size_t most,
                 std::size_t mostCells);
 
-    // Of all points, those at these ascending indices. In each cell they stand in the order of
-    // their index. Allocates nothing.
+    // Takes those of `points` that have these ascending indices, at most `most`. In each cell they
+    // stand in the order of their index. A counting sort: O(chosen + cells). Allocates nothing.
     void rebuild(const Points& points, std::span<const std::uint32_t> chosen);
 
-    // The same for many points, in steps whose jobs threads may share: count() for every part,
-    // arrange(), spread() for every part, sort() for every bucket. A part is a run of indices, a
-    // bucket a run of cells; which they are depends on `most` alone, so any number of threads makes
-    // the same grid.
-    void makeRoomForSteps();  // once
+    // The same for many points, in steps: count() for every part, arrange(), spread() for every
+    // part, sort() for every bucket. The jobs of one step may run on several threads; the next step
+    // begins when all are done. A part is a run of indices, a bucket a run of cells. Both depend on
+    // `most` alone, so that any number of threads makes the same grid.
+    // Once, before the first step.
+    void makeRoomForSteps();
     [[nodiscard]] std::size_t parts() const { return parts_; }
     [[nodiscard]] std::size_t buckets() const { return buckets_; }
     [[nodiscard]] static std::size_t firstOfPart(std::size_t part) { return part * kPointsInPart; }
+    // Finds the cell of each point of a part, for which isThere(i) holds, and counts them by
+    // bucket.
     template <class IsThere>
     void count(std::size_t part, const Points& points, const IsThere& isThere) {
+        assert(part < parts_ && points.count <= cellOfPoint_.size());
         std::uint32_t* const tally = tallies_.data() + part * buckets_;
         std::fill_n(tally, buckets_, 0U);
         const std::size_t last = std::min(points.count, firstOfPart(part + 1));
@@ -61,17 +70,21 @@ class SpatialGrid {
             if (cellOfPoint_[i] != kNowhere) ++tally[cellOfPoint_[i] / cellsInBucket_];
         }
     }
+    // Turns the counts into the places where each part writes into each bucket.
     void arrange();
+    // Copies the points of a part into their buckets.
     void spread(std::size_t part, const Points& points);
+    // Sorts the points of a bucket by cell; in a cell they keep the order of their index.
     void sort(std::size_t bucket);
 
-    struct Candidates {  // one run of cells, structure of arrays
+    // The points of one run of cells, as a structure of arrays.
+    struct Candidates {
         std::span<const float> x, y, z;
         std::span<const std::uint32_t> index;
     };
-    // Calls visit(Candidates) for rows of cells, from the point outwards, that together hold every
-    // point within sqrt(reachSquared). The visitor may lower reachSquared as it finds what it
-    // sought.
+    // Calls visit(Candidates) for rows of cells, in square rings from the point outwards. Together
+    // they hold every point within sqrt(reachSquared), and others. The visitor may lower
+    // reachSquared when it has found something: then the search ends sooner.
     template <class Visit>
     void visitAround(glm::vec3 point, const float& reachSquared, Visit&& visit) const {
         const glm::vec3 at = (point - origin_) * cellsPerMetre_;  // in cells
@@ -106,8 +119,8 @@ class SpatialGrid {
 
     [[nodiscard]] std::size_t bytes() const;
 
-    // For searches that go over the cells themselves. The sorted points stand in slots, those of a
-    // row of cells one after the other; behind the last of them a whole vector may be read.
+    // For searches that go over the cells themselves. The sorted points stand in slots; those of a
+    // row of cells along x follow one another. Behind the last slot a whole vector may be read.
     struct Cell {
         int x, y, z;
     };
@@ -122,9 +135,11 @@ class SpatialGrid {
     [[nodiscard]] Cell cells() const { return cells_; }
     [[nodiscard]] float cellMetres() const { return cellMetres_; }
     [[nodiscard]] glm::vec3 origin() const { return origin_; }
-    [[nodiscard]] std::size_t rowOf(int y, int z) const {  // its first cell's index
+    // Index of the first cell of a row.
+    [[nodiscard]] std::size_t rowOf(int y, int z) const {
         return (std::size_t(z) * std::size_t(cells_.y) + std::size_t(y)) * std::size_t(cells_.x);
     }
+    // The slots of cells firstX to lastX, both included, of a row.
     [[nodiscard]] Slots slotsOf(int firstX, int lastX, int y, int z) const {
         const std::uint32_t* const starts = starts_.data() + rowOf(y, z);
         return {starts[firstX], starts[lastX + 1]};
@@ -136,11 +151,12 @@ class SpatialGrid {
         return {std::min(bucket * cellsInBucket_, starts_.size() - 1),
                 std::min((bucket + 1) * cellsInBucket_, starts_.size() - 1)};
     }
-    // Of one of them; asks nothing of other buckets, which may not be sorted yet.
+    // Slots of a cell of this bucket. Reads nothing of other buckets, which may not be sorted yet.
     [[nodiscard]] Slots slotsOfCell(std::size_t bucket, std::size_t cell) const {
         const bool isLast = cell + 1 == cellsOfBucket(bucket).last;
         return {starts_[cell], isLast ? bucketStarts_[bucket + 1] : starts_[cell + 1]};
     }
+    // Number of points in the grid.
     [[nodiscard]] std::size_t size() const { return starts_.back(); }
     [[nodiscard]] const float* x() const { return sorted_.x.data(); }
     [[nodiscard]] const float* y() const { return sorted_.y.data(); }
@@ -148,6 +164,7 @@ class SpatialGrid {
     [[nodiscard]] const std::uint32_t* index() const { return sorted_.index.data(); }
 
   private:
+    // Points by slot, with room for a vector behind the last.
     struct Columns {
         std::vector<float> x, y, z;
         std::vector<std::uint32_t> index;
@@ -161,15 +178,17 @@ class SpatialGrid {
         }
         [[nodiscard]] std::size_t bytes() const;
     };
-    static constexpr float kSlack = 1.001F;  // more than rounding can take off a reach
+    // Enlarges a reach by more than rounding can take off it.
+    static constexpr float kSlack = 1.001F;
     static constexpr std::size_t kPointsInPart = 4096;
+    // Cell of a point that is not there.
     static constexpr std::uint32_t kNowhere = 0xffffffffU;
 
-    // Border cells reach outwards without end.
+    // Clamped: border cells extend outwards without end.
     [[nodiscard]] static int clampedCell(float cell, int cells) {
         return static_cast<int>(std::clamp(cell, 0.0F, static_cast<float>(cells - 1)));
     }
-    // How far a point in cell `own` is from another, in cells.
+    // Distance from a point in cell `own` to cell `other` along one axis, in cells.
     [[nodiscard]] static float outside(float at, int own, int other) {
         return other > own   ? static_cast<float>(other) - at
                : other < own ? at - static_cast<float>(other + 1)
@@ -189,30 +208,35 @@ class SpatialGrid {
     std::vector<std::uint32_t> starts_;       // first slot of each cell; one more at the end
     std::vector<std::uint32_t> cellOfPoint_;  // by index; by place where the points are chosen
     Columns sorted_;
-    // Of the steps: how many points of each part go to each bucket, then where the next goes; where
-    // the buckets begin; the points by bucket.
+    // Of the steps. tallies_ has for each part and bucket first the number of points, then the
+    // place of the next one; bucketStarts_ the first slot of each bucket; spread_ the points by
+    // bucket.
     std::size_t parts_, buckets_ = 1, cellsInBucket_ = 1;
     std::vector<std::uint32_t> tallies_, bucketStarts_;
     Columns spread_;
     std::vector<std::uint32_t> spreadCells_;
 };
 
-// Which species are in each cell of the fishes' grid: a fish among its own alone need not look for
-// others.
+// Which species are in each cell of the grid of all fish. A fish in a school of its own species, as
+// most are, then skips the search for others.
 
+// Exact for each cell; for blocks of 4 x 4 x 4 cells as a set of kinds.
 class KindsAbout {
   public:
     explicit KindsAbout(const SpatialGrid& grid);
 
+    // Before the first note() of a tick.
     void clear();
-    // Of the fish of a bucket, once it is sorted; from any thread.
+    // Notes the kinds of the fish of a bucket, once it is sorted. `kinds` is by fish, below 64.
+    // Several threads may note different buckets.
     void note(const SpatialGrid& grid, std::size_t bucket, std::span<const std::uint8_t> kinds);
 
-    // Whether cells [from, to] may hold fish of other kinds than `own`.
+    // Whether the block of cells from `from` to `to` may hold fish of other kinds than `own`. It
+    // may wrongly say yes, never wrongly no.
     [[nodiscard]] bool mayHoldOthers(const SpatialGrid::Cell& from,
                                      const SpatialGrid::Cell& to,
                                      std::uint8_t own) const;
-    // The same of a row of cells, to the cell; [first, last] are cells of the whole grid.
+    // The same, exact, for a run of cells [first, last] by their index in the whole grid.
     [[nodiscard]] bool rowHoldsOthers(std::size_t first, std::size_t last, std::uint8_t own) const;
 
     [[nodiscard]] std::size_t bytes() const;
@@ -226,21 +250,25 @@ class KindsAbout {
     std::vector<std::uint64_t> kindsOfBlock_;  // a bit for each kind
 };
 
-// Who and what is where: all fish in a fine grid; predators, large bodies, willing mates and food
-// in sparse grids of their own.
+// The grids of a world: all fish in a fine grid; predators, large bodies, willing mates and food in
+// sparse grids of their own.
 
-inline constexpr float kLargeBodyMetres = 0.6F;  // from this length a fish is a large body
+// A fish of this length or more is a large body: it hides others and is felt from afar.
+inline constexpr float kLargeBodyMetres = 0.6F;
 
+// Owned by the world and rebuilt at each tick; constant while fish think.
 class Grids {
   public:
+    // Room for so many fish and particles of food.
     Grids(const place::Region& water, std::size_t fish, std::size_t food);
 
-    // Makes the grids of predators and of large bodies as large as they need be for these fish,
-    // of whom some may be away. rebuild() does so too where they are too small.
+    // Makes the grids of predators and of large bodies large enough for these fish, also for those
+    // that are away. rebuild() enlarges a grid that is too small, but then it allocates.
     void expect(const fish::FishView& view,
                 std::span<const fish::SpeciesParameters> speciesParameters);
 
-    // Of those that are there. Allocates nothing once expect() was told of these fish.
+    // Rebuilds all grids from the fish and the food that are there. Allocates nothing after
+    // expect().
     void rebuild(const fish::FishView& view,
                  const surroundings::Food& particles,
                  std::span<const fish::SpeciesParameters> speciesParameters) {
@@ -253,8 +281,9 @@ class Grids {
             },
             [](std::size_t, std::size_t) {});
     }
-    // The same by share(jobs, job), which calls job(i) once for each of [0, jobs) in any order and
-    // on any thread. Before fish [first, last) are looked at, it calls look(first, last).
+    // The same, shared out: share(jobs, job) calls job(i) once for each of [0, jobs), in any order
+    // and on any thread, and returns when all are done. look(first, last) is called before fish
+    // [first, last) are read, and may write them.
     template <class Share, class Look>
     void rebuild(const fish::FishView& view,
                  const surroundings::Food& particles,
@@ -262,6 +291,7 @@ class Grids {
                  const Share& share,
                  const Look& look) {
         const Points points = placesOf(view);
+        assert(view.size() <= marks_.size());
         share(fish.parts(), [&](std::size_t part) {
             const std::size_t first = SpatialGrid::firstOfPart(part);
             const std::size_t last = std::min(view.size(), SpatialGrid::firstOfPart(part + 1));
@@ -290,9 +320,11 @@ class Grids {
     SpatialGrid food;
 
   private:
+    // Marks of each fish: by them the sparse grids are filled.
     enum Mark : std::uint8_t { kPresent = 1, kPredator = 2, kLarge = 4, kMate = 8 };
     enum Sparse : std::size_t { kMates, kFood, kPredators, kLarges, kSparseGrids };
 
+    // Writes the marks of fish [first, last); a fish that is away gets none.
     void mark(const fish::FishView& view,
               std::span<const fish::SpeciesParameters> speciesParameters,
               std::size_t first,
@@ -306,6 +338,7 @@ class Grids {
     void rebuildSparse(std::size_t which,
                        const Points& fishPoints,
                        const surroundings::Food& particles);
+    // Indices, ascending, of all fish that have a mark.
     [[nodiscard]] std::span<const std::uint32_t> marked(Sparse which, Mark mark);
     void expect(SpatialGrid& grid, Sparse which, std::size_t count);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/home.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/place/place.h"
 #include "common/units/random_streams.h"
@@ -14,21 +14,28 @@ namespace aquarama::behaviour {
 
 namespace {
 
+// A new point every 15 s.
 constexpr std::uint64_t kTicksToAPlace = 15 * 60;
-constexpr float kInside = 0.75F;      // of the water's half extent: where places are
-constexpr float kDepthSpread = 0.4F;  // of it, about the best depth
+// Share of the half extent of the water in which points lie.
+constexpr float kInside = 0.75F;
+// Spread about the best depth, as a share of the half height.
+constexpr float kDepthSpread = 0.4F;
 constexpr float kAboveRockMetres = 0.45F;
-constexpr float kHomeInside = 0.6F;  // of the water's half height
+// Homes lie within this share of the half height of the water.
+constexpr float kHomeInside = 0.6F;
 
-// A beat is swum towards a point 40 degrees ahead on its oval.
+// Cosine and sine of 40 degrees: a predator makes for a point that far ahead on its oval.
 constexpr float kBeatCosine = 0.766F;
 constexpr float kBeatSine = 0.643F;
-constexpr std::uint64_t kTicksOfPass = 16 * 60;  // one of some predators goes through the bait ball
+// Period in which some predators pass through the bait ball.
+constexpr std::uint64_t kTicksOfPass = 16 * 60;
 
+// A point drawn from the cube -1 to 1.
 glm::vec3 shareOf(std::uint32_t hash) {
     return {signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
 }
 
+// Height y about the best depth, `share` -1 to 1, within the water.
 float heightIn(const place::Region& water, float bestDepthMetres, float share) {
     const float half = kInside * water.halfExtent.y;
     const float height = -bestDepthMetres + share * kDepthSpread * water.halfExtent.y;
@@ -40,7 +47,7 @@ bool standsIn(const place::Region& water, const place::Rock& rock) {
            std::abs(rock.centre.z - water.centre.z) < kInside * water.halfExtent.z;
 }
 
-// The rock of a household among those that stand in the water; none where there are none.
+// The rock of a household, drawn among those within the water; null where there is none.
 const place::Rock* rockFor(const surroundings::Obstacles& obstacles, std::uint32_t hash) {
     const auto isIn = [&](const place::Rock& rock) { return standsIn(obstacles.water, rock); };
     const auto count = std::ranges::count_if(obstacles.rocks, isIn);
@@ -51,12 +58,12 @@ const place::Rock* rockFor(const surroundings::Obstacles& obstacles, std::uint32
     return nullptr;
 }
 
-// Of every three spells one goes through the school, each predator in its turn.
+// In every third period a predator passes through the school, each at another time.
 bool passes(const Environment& environment, std::uint32_t fish) {
     return (environment.tick.value / kTicksOfPass + fish) % 3 == 0;
 }
 
-// Through the middle of the ball and out on its other side.
+// Through the middle of the ball and straight on until it is out on the other side.
 glm::vec3 passGoal(const Environment& environment, glm::vec3 position, glm::vec3 course) {
     const glm::vec3 ball = environment.goal.position;
     const glm::vec3 towards = ball - position;
@@ -81,6 +88,7 @@ glm::vec3 wanderingGoal(std::uint32_t seed,
 }
 
 std::uint32_t householdOf(std::uint32_t firstOfKind, std::uint32_t fish) {
+    assert(fish >= firstOfKind);
     return firstOfKind + (fish - firstOfKind) / 2;
 }
 
@@ -139,7 +147,7 @@ Bound boundFor(const Environment& environment,
     const float radius =
         own ? static_cast<float>(home.radiusMetres) : environment.schoolRadiusMetres;
     const float leash = own ? static_cast<float>(home.leashMetres) : 2 * radius;
-    // The same walk about the home as another would take through all the water.
+    // The point in all the water, scaled to the range of the home.
     const glm::vec3 share =
         (goal - obstacles.water.centre) / (obstacles.water.halfExtent * kInside);
     const float away = place::lengthOf(position - middle);
@@ -149,20 +157,25 @@ Bound boundFor(const Environment& environment,
 
 namespace {
 
+// A pace lasts 5 s; a turn may begin it and lasts 1 s.
 constexpr std::uint64_t kTicksOfPace = 5 * 60;
 constexpr std::uint64_t kTicksOfTurn = 60;
-constexpr float kTurns = 0.35F;      // the share of paces that begin with a turn for no reason
-constexpr float kHoverPace = 0.15F;  // of slow
+// Share of paces that begin with a random turn.
+constexpr float kTurns = 0.35F;
+// Share of the slow gait at which a fish hovers.
+constexpr float kHoverPace = 0.15F;
 
-constexpr float kKeepCourse = 1.0F;  // weights against the unit vector of one's own course
+// Weights against the unit vector of the present course.
+constexpr float kKeepCourse = 1.0F;
 constexpr float kGo = 0.7F;
-constexpr float kGoHome = 2.0F;  // more, at the leash
+// Added to kGo when the fish is at its leash.
+constexpr float kGoHome = 2.0F;
 constexpr float kTurn = 1.5F;
 
-// What a fish drew for the pace that it is in.
+// The random number of a pace, and the ticks since it began.
 struct Spell {
     std::uint32_t hash;
-    std::uint64_t ticks;  // since it began
+    std::uint64_t ticks;
 };
 Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
     const std::uint32_t own = hashOf(hashOf(seed, Stream::Pace), fish);
@@ -170,7 +183,7 @@ Spell spellOf(std::uint32_t seed, std::uint32_t fish, Tick tick) {
     return {hashOf(own, static_cast<std::uint32_t>(now / kTicksOfPace)), now % kTicksOfPace};
 }
 
-// A turn for no reason: 40 degrees if gradual, 100 if sharp, to either side.
+// A random turn: 40 degrees if gradual, 100 if sharp, to either side. Zero where there is none now.
 glm::vec3 turnOf(const fish::SpeciesParameters& parameters, const Spell& spell, glm::vec3 course) {
     const std::uint32_t hash = hashOf(spell.hash, Stream::WanderTurn);
     if (spell.ticks >= kTicksOfTurn || unitOf(hash) >= kTurns) return {};
@@ -212,7 +225,7 @@ fish::Course wander(const Situation& situation) {
         turnOf(parameters, spell, senses.heading) * (kTurn * calm * (1 - bound.strayed)) +
         roomFrom(situation);
     const float pace = paceOf(parameters, environment.seed, situation.fish, environment.tick);
-    // Far from home nobody hovers.
+    // Far from home a fish does not hover.
     return heading(situation, desired, std::max(pace, parameters.slow * bound.strayed));
 }
 

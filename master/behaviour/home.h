@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a fish that wants nothing goes about: its own place, its beat, or all the water.
+// Where a fish at ease goes: around its home, along its beat, or through all its water.
 #pragma once
 
 #include <cstddef>
@@ -16,35 +16,39 @@
 
 namespace aquarama::behaviour {
 
-// Where a fish is bound for, in its water, about the depth that its species likes best. Another
-// place every quarter of a minute.
+// A point in the water for a fish to swim to, near the depth that its species likes best. Another
+// one every 15 s.
 [[nodiscard]] glm::vec3 wanderingGoal(std::uint32_t seed,
                                       const place::Region& water,
                                       float bestDepthMetres,
                                       std::size_t fish,
                                       Tick tick);
 
-// The place of a household (a number that fish which live together share): drawn by the seed, over
-// a rock where the habit has it so and there is one.
+// The home of a household (a number shared by fish that live together), drawn by the seed: over a
+// rock where the species lives on the reef and there is one, else anywhere.
 [[nodiscard]] glm::vec3 homeOf(std::uint32_t seed,
                                const config::Home& home,
                                const surroundings::Obstacles& obstacles,
                                float bestDepthMetres,
                                std::uint32_t household);
-// Of fish of one species, every two live together.
+// Household of a fish: two by two the fish of a species live together.
 [[nodiscard]] std::uint32_t householdOf(std::uint32_t firstOfKind, std::uint32_t fish);
 
-// The next point of a predator's beat: an oval near the borders of the water, and now and then
-// through the bait ball.
+// The next point of a predator's beat: an oval near the borders of the water; from time to time
+// through the middle of a bait ball.
 [[nodiscard]] glm::vec3 beatGoal(const Environment& environment,
                                  const fish::SpeciesParameters& parameters,
                                  std::uint32_t fish,
                                  glm::vec3 position);
 
+// Where a fish at ease is going.
 struct Bound {
-    glm::vec3 towards{};  // metres
-    float strayed = 0;    // 0 within the range, 1 at the leash and beyond
+    // From the fish to the point, metres.
+    glm::vec3 towards{};
+    // 0 within the range of its home, 1 at its greatest distance (leash) and beyond.
+    float strayed = 0;
 };
+// By the home or role of the species; a predator without a home patrols its beat.
 [[nodiscard]] Bound boundFor(const Environment& environment,
                              const fish::SpeciesParameters& parameters,
                              std::uint32_t fish,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/intention_generator.h"
 
 #include "common/units/units.h"
@@ -9,14 +8,18 @@ namespace aquarama::behaviour {
 
 namespace {
 
-constexpr float kTurnAway = 1;       // urgency from which only turning away matters
-constexpr float kTurnedAway = 0.7F;  // and down to which a fish goes on with it
+// Urgency from which a fish avoids obstacles, and down to which it goes on doing so.
+constexpr float kTurnAway = 1;
+constexpr float kTurnedAway = 0.7F;
+// An interrupted intention is forgotten after this.
 constexpr float kMemorySeconds = 12;
-// Of hunger and libido the other one must be stronger by this, and the one pursued for so long.
+// To take over, hunger or libido must be stronger than the other by kPreference, and the other must
+// have been pursued for kLeastPursuitSeconds.
 constexpr float kPreference = 0.1F;
 constexpr float kLeastPursuitSeconds = 2;
-constexpr float kUneasy = 0.02F;   // of Senses::discomfort: leave from here on
-constexpr float kAtEase = -0.02F;  // and until here
+// Senses::discomfort from which a fish leaves, and at which it stops leaving.
+constexpr float kUneasy = 0.02F;
+constexpr float kAtEase = -0.02F;
 
 float seconds(std::uint32_t ticks) {
     return static_cast<float>(ticks) / static_cast<float>(kTicksPerSecond);
@@ -27,7 +30,8 @@ bool likesSchooling(const fish::SpeciesParameters& parameters, const fish::Mind&
            (mind.likes & fish::kLikesSchooling) != 0;
 }
 
-// Prey alone heeds its fear. A school shelters from a lesser one, where there is a school.
+// Only prey heeds its fear. A schooling fish shelters in the school while the fear of each predator
+// is below f1 and there is a school. All thresholds have hysteresis.
 fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
                     const fish::Mind& mind,
                     const Senses& senses,
@@ -43,7 +47,7 @@ fish::Alarm alarmOf(const fish::SpeciesParameters& parameters,
     return together ? fish::Alarm::Together : fish::Alarm::Alone;
 }
 
-// One function for each priority rule; each knows nothing of the others.
+// One thought: what the rules compare. There is one function for each rule; none knows the others.
 struct Case {
     const fish::SpeciesParameters& parameters;
     const fish::Mind& mind;
@@ -99,7 +103,7 @@ struct Case {
         return rule;
     }
 
-    // What was interrupted is resumed with the same target alone.
+    // An intention is resumed only with the target that it had.
     [[nodiscard]] bool canGoOn() const {
         if (mind.remembered == fish::Intention::Eat) {
             const Weighed now = hunger();
@@ -110,14 +114,17 @@ struct Case {
         return likesSchooling(parameters, mind);
     }
 
+    // Threshold of a drive, lower for the one that is pursued (hysteresis).
     [[nodiscard]] float desireFor(fish::Intention aimed) const {
         return aim.intention == aimed ? fish::kDesire * fish::kHysteresis : fish::kDesire;
     }
 
+    // Prey for a predator, a particle for the others.
     [[nodiscard]] const Sighting& meal() const {
         return parameters.habits.role == config::Role::Predator ? senses.prey : senses.food;
     }
 
+    // While hunting: the chase has lasted too long. Else: the last one ended too recently.
     [[nodiscard]] bool isRestingFromAChase() const {
         if (parameters.habits.role != config::Role::Predator) return false;
         const float since = seconds(mind.sinceChase);
@@ -150,7 +157,7 @@ struct Case {
     [[nodiscard]] bool wouldEat() const {
         return feelings.hunger > desireFor(fish::Intention::Eat) && meal().seen();
     }
-    // The published comparison H > L; what is being done already is preferred.
+    // H > L as published, but with a preference for the drive that is pursued already.
     [[nodiscard]] bool hungerIsStronger() const {
         const bool justBegun = seconds(mind.pursued) < kLeastPursuitSeconds;
         if (aim.intention == fish::Intention::Eat)
@@ -199,7 +206,7 @@ struct Case {
     }
 };
 
-// Visits the rules in the order of their priority, until the visitor says that it is enough.
+// Applies the rules in order until isEnough(rule, weighed) is true.
 template <class IsEnough>
 void applyRules(const Case& of, const IsEnough& isEnough) {
     if (isEnough(PriorityRule::Obstacle, of.obstacle())) return;
@@ -262,7 +269,7 @@ void remember(fish::Mind& mind, const Decision& decision) {
         mind.rememberedTarget = fish::kNobody;
     } else if (!fish::interrupts(mind.intention, mind.alarm) &&
                mind.intention >= fish::Intention::School) {
-        // Eat, mate and school are worth resuming.
+        // Leave and Wander are not remembered: they come back by themselves.
         mind.remembered = mind.intention;
         mind.rememberedTarget = mind.target;
         mind.sinceRemembered = 0;
@@ -271,6 +278,7 @@ void remember(fish::Mind& mind, const Decision& decision) {
     mind.target = decision.target;
     mind.alarm = decision.alarm;
     const fish::Aim after = fish::aimOf(mind);
+    // An interruption does not change the aim, so that clocks and stage go on.
     if (after == before) return;
     mind.pursued = 0;
     mind.stage = 0;
@@ -282,8 +290,10 @@ void remember(fish::Mind& mind, const Decision& decision) {
 
 namespace {
 
-constexpr float kCalm = 0.15F;                 // urgency up to which there is room for a whim
-constexpr float kMealIsFarBodyLengths = 6.0F;  // beyond, it merely swims in its direction
+// Urgency up to which another pattern is allowed.
+constexpr float kCalm = 0.15F;
+// Beyond this distance a fish only swims in the direction of its food.
+constexpr float kMealIsFarBodyLengths = 6.0F;
 
 bool isFarFromMeal(const fish::SpeciesParameters& parameters, const Senses& senses) {
     const Sighting& meal =

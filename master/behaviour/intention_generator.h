@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The intention generator (Tu & Terzopoulos 1994, section 6.2): collision first, then fear, then
-// what was interrupted, then hunger and libido by strength, then habits.
+// what was interrupted, then hunger or libido, whichever is stronger, then habits. Pure functions
+// of one fish.
 #pragma once
 
 #include <array>
@@ -14,21 +15,24 @@
 
 namespace aquarama::behaviour {
 
+// The result of a thought: what the fish will do, with which target, and how alarmed it is.
 struct Decision {
     fish::Intention intention = fish::Intention::Wander;
     std::uint32_t target = fish::kNobody;
     fish::Alarm alarm = fish::Alarm::Calm;
 };
 
+// The first rule that wins, in the order of PriorityRule. O(1).
 [[nodiscard]] Decision decide(const fish::SpeciesParameters& parameters,
                               const fish::Mind& mind,
                               const Senses& senses,
                               const fish::Feelings& feelings);
 
-// The mind with the decision taken: what it interrupts is remembered, what it resumes forgotten.
+// Takes a decision into the mind: what it interrupts is remembered, what it resumes is forgotten. A
+// new aim resets the stage and the clock of the aim.
 void remember(fish::Mind& mind, const Decision& decision);
 
-// The rules that decide() applies in this order: the first that wins is the decision.
+// The rules of decide(), in their order, with the intention that each stands for.
 enum class PriorityRule : std::uint8_t {
     Obstacle,   // AvoidObstacle
     OtherFish,  // AvoidFish
@@ -38,34 +42,42 @@ enum class PriorityRule : std::uint8_t {
     Libido,     // Mate
     Climate,    // Leave
     Company,    // School
-    Ease,       // Wander: always wins
+    // Wander: always wins.
+    Ease,
 };
 inline constexpr std::size_t kPriorityRules = 9;
 
-// The result of a rule.
+// What became of a rule.
 enum class Verdict : std::uint8_t {
     Wins,
     Outranked,      // would have won, but a rule before it did
     AgainstHabits,  // its role or habits do not allow it
     TooWeak,        // value is not above threshold
-    NoTarget,       // wanted, but nothing of the kind is in view (Climate: nowhere is better)
-    Nothing,        // Memory: nothing was interrupted
-    TooOld,         // Memory: interrupted for longer than threshold; forgotten
-    Resting,        // Hunger of a predator: the last chase is not long enough ago
-    Yields,         // the other of hunger and libido is stronger
+    // Wanted, but nothing of the kind is in view (Climate: no other height is better).
+    NoTarget,
+    Nothing,  // Memory: nothing was interrupted
+    TooOld,   // Memory: interrupted for longer than threshold; forgotten
+    // Hunger of a predator: it rests after a chase.
+    Resting,
+    // Hunger or libido: the other one is stronger.
+    Yields,
 };
 
+// A rule as it was applied to one fish.
 struct Weighed {
-    fish::Intention intention = fish::Intention::Wander;  // that the rule stands for
+    // The intention that the rule stands for.
+    fish::Intention intention = fish::Intention::Wander;
     std::uint32_t target = fish::kNobody;
     Verdict verdict = Verdict::Wins;
-    // Obstacle: urgency. OtherFish: share of the other's body in the box. Fear, Hunger, Libido: the
-    // feeling. Memory: seconds since. Climate: Senses::discomfort.
+    // What was compared. Obstacle: urgency. OtherFish: share of the other body in the box. Fear,
+    // Hunger, Libido: the feeling. Memory: seconds since the interruption. Climate:
+    // Senses::discomfort.
     float value = 0;
     float threshold = 0;
 };
 
-// How a mind came to its decision: rule by rule, by the same functions that decide() applies.
+// How a mind comes to its decision, rule by rule. The same functions as in decide(); for `aquarama
+// explain`.
 struct Reasoning {
     std::array<Weighed, kPriorityRules> rules;  // by PriorityRule
     Decision decision;
@@ -76,11 +88,10 @@ struct Reasoning {
                                const Senses& senses,
                                const fish::Feelings& feelings);
 
-// The intention generator's word on what the secondary controller recommends (paper, section 5.1).
+// Whether the intention allows what the secondary controller recommends (paper, section 5.1).
 
-// Whether a fish with this intention may swim another pattern for a while, for no reason but
-// variety. Not while a stroke counts: in flight, in fear, in another's way, near what it eats, in
-// courtship.
+// Whether a fish may swim another pattern for a while, for variety. Not while every stroke counts:
+// near obstacles or other fish, in fear or flight, near its food, in courtship.
 [[nodiscard]] bool acceptsRecommendation(const fish::SpeciesParameters& parameters,
                                          const fish::Mind& mind,
                                          const Senses& senses,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/mental_state.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/units/random_streams.h"
 #include "common/units/units.h"
@@ -13,9 +13,10 @@ namespace aquarama::behaviour {
 
 namespace {
 
+// Share of the fear of a predator that is after nobody.
 constexpr float kFearOfIdle = 0.5F;
 
-// No stimulus tempts those who never mate.
+// Always 0 for species that do not mate, whatever is in sight.
 float libidoOf(const fish::SpeciesParameters& parameters,
                const fish::Mind& mind,
                const Senses& senses,
@@ -25,7 +26,7 @@ float libidoOf(const fish::SpeciesParameters& parameters,
     return std::min(1.0F, fish::innerLibido(parameters, mind, hunger) + kLibidoStimulus * stimulus);
 }
 
-// A predator is not tempted: it hunts when it is hungry.
+// A stimulus raises the hunger of all but predators; those hunt by inner hunger alone.
 float hungerOf(const fish::SpeciesParameters& parameters,
                const fish::Mind& mind,
                const Senses& senses) {
@@ -36,8 +37,9 @@ float hungerOf(const fish::SpeciesParameters& parameters,
     return std::min(1.0F, inner + kHungerStimulus * stimulus);
 }
 
-// Tu's F_i = min(D0 / d_i, 1). A predator that is after nobody frightens less: fish keep an eye on
-// it and go on eating (threat sensitivity: Helfman 1989, Behav. Ecol. Sociobiol. 24:47).
+// Fear of one predator, F_i = min(D0 / d_i, 1) (Tu). A predator that is after nobody frightens
+// less: fish watch it and go on feeding (threat sensitivity: Helfman 1989, Behav. Ecol. Sociobiol.
+// 24:47).
 float fearOf(const fish::SpeciesParameters& parameters, const Sighting& predator) {
     const float heeded = predator.hunting ? 1.0F : kFearOfIdle;
     return heeded * std::min(parameters.habits.fearMetres / predator.distance, 1.0F);
@@ -61,9 +63,9 @@ fish::Feelings feel(const fish::SpeciesParameters& parameters,
 
 namespace {
 
-// Streams of one seed: what a number is drawn for.
 constexpr float kTicks = static_cast<float>(kTicksPerSecond);
 
+// A number of 0 to 1 for one fish and stream.
 float share(std::uint32_t seed, std::uint32_t fish, Stream draw) {
     return unitOf(hashOf(hashOf(hashOf(seed, draw), fish)));
 }
@@ -93,9 +95,11 @@ std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
 fish::Mind freshMind(const fish::SpeciesParameters& parameters,
                      std::uint32_t seed,
                      std::uint32_t fish) {
+    assert(parameters.habits.digestionPerSecond > 0);
     fish::Mind mind;
     mind.likes = likesOf(parameters, seed, fish);
-    // Who finds enough eats until it is gorged, then digests; who hunts is seldom so lucky.
+    // A fish that finds food at all times eats until it is gorged, then digests; a predator eats
+    // just its appetite.
     const bool grazes = parameters.habits.role != config::Role::Predator;
     mind.eaten = static_cast<std::uint16_t>(grazes ? 2 * parameters.habits.appetiteParticles + 1
                                                    : parameters.habits.appetiteParticles);

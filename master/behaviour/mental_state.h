@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hunger, libido and fear (Tu & Terzopoulos 1994, section 6.1; Tu 1996, section 5.2), each 0 to 1.
+// Feelings (Tu & Terzopoulos 1994, section 6.1; Tu 1996, section 5.2): hunger, libido and fear,
+// each 0 to 1; and the temperament that a fish begins with.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +11,21 @@
 
 namespace aquarama::behaviour {
 
-// Hunger H = 1 - n_e R / alpha + a_h S_h, libido L = s (1 - H) + a_l S_l, fear F = sum of
-// min(D0 / d, 1) over the predators in sight.
+// Hunger H = 1 - n_e R / alpha + a_h S_h, libido L = s (1 - H) + a_l S_l, fear F = sum of min(D0 /
+// d, 1) over the predators in sight; each limited to 1.
 [[nodiscard]] fish::Feelings feel(const fish::SpeciesParameters& parameters,
                                   const fish::Mind& mind,
                                   const Senses& senses);
 
-// What one fish draws for itself from the ranges of its species, by the seed.
+// Temperament: what a fish draws for itself, by the seed, from the ranges of its species.
 
-// Bits of Like. Of two that contradict each other a fish that would draw both has neither.
+// Bits of Like. A fish that would draw two that contradict each other has neither.
 [[nodiscard]] std::uint8_t likesOf(const fish::SpeciesParameters& parameters,
                                    std::uint32_t seed,
                                    std::uint32_t fish);
 
-// A mind at tick 0, as if it had lived long before: fed and in love by a share of its own, so that
-// not all hunger at once.
+// A mind as if the fish had lived long before: each with another time since its last meal and
+// spawning, so that not all are hungry at once.
 [[nodiscard]] fish::Mind freshMind(const fish::SpeciesParameters& parameters,
                                    std::uint32_t seed,
                                    std::uint32_t fish);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/neighbours.h"
 
+#include <cassert>
+
 #include "common/place/place.h"
 
 namespace aquarama::behaviour {
@@ -22,6 +24,7 @@ void Neighbours::insert(std::uint32_t other, float squared) {
 }
 
 bool inFieldOfView(glm::vec3 heading, glm::vec3 offset) {
+    // Visible: ahead, or at an angle to straight behind whose squared cosine is small enough.
     const float ahead = place::dot(heading, offset);
     return ahead >= 0 || ahead * ahead <= kBlindCosineSquared * place::dot(offset, offset);
 }
@@ -30,6 +33,7 @@ NearestFish nearestVisibleReference(const fish::FishView& view,
                                     const SpatialGrid& grid,
                                     const fish::SpeciesParameters& parameters,
                                     std::uint32_t fish) {
+    assert(fish < view.size());
     NearestFish nearest;
     const glm::vec3 position = view.position(fish);
     const glm::vec3 heading = view.heading(fish);

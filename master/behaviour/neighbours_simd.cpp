@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vectorised search: what nearestVisibleReference() finds, of as many fish at a time as the
-// processor has lanes.
+// The vectorised search for neighbours: finds what nearestVisibleReference() finds, for as many
+// fish at a time as a vector has lanes. Steps for one fish: guess a reach from the local density;
+// collect all visible fish within it; if there are fewer than seven, repeat with a larger reach;
+// rank the collected ones.
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "master/behaviour/grids.h"
 #include "master/behaviour/neighbours.h"
@@ -18,32 +21,39 @@ HWY_BEFORE_NAMESPACE();
 namespace aquarama::behaviour::HWY_NAMESPACE {
 namespace {
 
-// More than are worth ranking among one another: then the farther half is left out first.
+// With more fish than this the farther half is dropped before ranking, which is quadratic.
 constexpr std::size_t kMostRanked = 32;
+// Fish that a search collects before it reduces them to the nearest.
 constexpr std::size_t kRoom = 256;
-// A first guess at how far the seven are is made for so many in view: seldom are there too few.
+// The first guess of the reach is made for this many visible fish, so that there are seldom fewer
+// than seven.
 constexpr float kHopedFor = 14;
-constexpr float kViewShare = 0.933F;  // of a ball that the field of view has
-constexpr float kCertain = 0.999F;    // rounding takes less off a distance to a border
+// Share of a ball that is in the field of view.
+constexpr float kViewShare = 0.933F;
+// A safety factor: rounding changes a distance to the border of a cell by less.
+constexpr float kCertain = 0.999F;
 
-// Those that a search has kept.
+// Fish collected so far, with room for a whole vector behind the last.
 struct Kept {
     HWY_ALIGN float distanceSquared[kRoom + kMostLanes];
     HWY_ALIGN std::uint32_t fish[kRoom + kMostLanes];
     std::size_t count = 0;
 };
 
+// The plain way, one by one; used where ranking cannot decide.
 void insertAll(const Kept& kept, Neighbours& nearest) {
     for (std::size_t i = 0; i < kept.count; ++i)
         nearest.insert(kept.fish[i], kept.distanceSquared[i]);
 }
 
+// Which lanes from i on hold a fish whose squared distance is at most the limit.
 HWY_INLINE LaneMask notBeyond(const Kept& kept, std::size_t i, Lanes limit) {
     const LaneMask there = hn::FirstN(kFloats, kept.count - i);
     return hn::And(there, hn::Le(hn::Load(kFloats, kept.distanceSquared + i), limit));
 }
 
-// Leaves out those farther than the mean, if seven remain; false where that leaves out nobody.
+// Drops the fish farther than the mean, if at least seven remain. False where that would drop too
+// many or none.
 HWY_INLINE bool leaveOutFarther(Kept& kept) {
     Lanes sum = hn::Zero(kFloats);
     sweep(0, kept.count, [&](std::size_t i, LaneMask there) HWY_ATTR {
@@ -69,8 +79,8 @@ HWY_INLINE bool leaveOutFarther(Kept& kept) {
     return true;
 }
 
-// How many of all are nearer, for each; false where distances are equal among the nearest, so that
-// places are not told by them alone.
+// Ranks by counting, for each fish, how many are nearer: O(n^2), but vectorised and without
+// branches. False where equal distances among the nearest leave their order open.
 HWY_INLINE bool rank(Kept& kept, Neighbours& nearest) {
     const auto wanted = static_cast<std::uint32_t>(std::min(kept.count, kMostNeighbours));
     std::size_t ranked = 0;
@@ -102,6 +112,7 @@ HWY_INLINE bool rank(Kept& kept, Neighbours& nearest) {
     return taken == (1U << wanted) - 1;
 }
 
+// The seven nearest of those collected.
 Neighbours nearestOf(Kept& kept) {
     Neighbours nearest;
     while (kept.count > kMostRanked)
@@ -112,8 +123,8 @@ Neighbours nearestOf(Kept& kept) {
     return nearest;
 }
 
-// Vectors of slots to look at: whose they are and how many lanes of each are meant. Listed first,
-// so that the loop over them has nothing to ask.
+// List of vectors of slots to test: the first slot and the number of lanes in use. Made in advance,
+// so that the loop over it has no branches.
 struct Steps {
     static constexpr std::size_t kRoom = 64;
     std::uint32_t slot[kRoom + 1];
@@ -121,14 +132,15 @@ struct Steps {
     std::size_t count = 0;
 };
 
+// What the search for one fish compares with, in all lanes.
 struct Search {
     const SpatialGrid* grid;
     glm::vec3 place;
     OffsetLanes position, heading;
     IndexLanes self, firstOfKind, countOfKind;
 
-    // Adds to those kept who stand in these slots, are in view and within the limit, and of its own
-    // kind or not.
+    // Tests the listed slots and adds the fish that are within the limit, in the field of view, and
+    // of the own kind (kOwnKind) or of another. Empties the list.
     template <bool kOwnKind>
     HWY_INLINE void look(Steps& steps, float& limit, Kept& kept) const {
         const float* const x = grid->x();
@@ -165,6 +177,7 @@ struct Search {
         steps.count = 0;
     }
 
+    // Reduces the fish collected to the nearest, and the limit to the farthest of them.
     static void keepNearest(Kept& kept, float& limit) {
         const Neighbours nearest = nearestOf(kept);
         kept.count = nearest.count;
@@ -174,7 +187,7 @@ struct Search {
     }
 };
 
-// Adds a row of slots to the steps; where there is no more room for one, those listed are taken.
+// Lists a row of slots; tests those listed when the list is full.
 template <bool kOwnKind>
 HWY_INLINE void list(
     const Search& search, SpatialGrid::Slots slots, Steps& steps, float& limit, Kept& kept) {
@@ -192,7 +205,7 @@ HWY_INLINE void list(
     if (steps.count == Steps::kRoom) search.look<kOwnKind>(steps, limit, kept);
 }
 
-// How far a point is from a cell beside its own, in cells; cells at the border of the grid reach
+// Distance from a point to another row of cells along one axis, in cells. Border cells extend
 // outwards without end.
 HWY_INLINE float outside(float at, int own, int other) {
     const float beyond =
@@ -200,7 +213,8 @@ HWY_INLINE float outside(float at, int own, int other) {
     return other == own ? 0.0F : beyond;
 }
 
-// All within reach of a fish, for which isMeant(from, to, y, z) holds of their row of cells.
+// Collects all fish within reach, row by row of cells; only rows for which isMeant(from.x, to.x, y,
+// z) holds.
 template <bool kOwnKind, class IsMeant>
 HWY_INLINE void lookWithin(const Search& search, float reach, const IsMeant& isMeant, Kept& kept) {
     const SpatialGrid& grid = *search.grid;
@@ -223,21 +237,23 @@ HWY_INLINE void lookWithin(const Search& search, float reach, const IsMeant& isM
     search.look<kOwnKind>(steps, limit, kept);
 }
 
-// The third root, near enough for a guess: a third is taken of the logarithm that the bits of a
-// float nearly are.
+// A rough cube root, for the guess only. The bits of a float are roughly its logarithm, so dividing
+// them by three takes the root.
 HWY_INLINE float roughThirdRoot(float x) {
     constexpr std::uint64_t kBitsOfOne = 0x3f800000;
     const std::uint64_t bits = std::bit_cast<std::uint32_t>(x);
     return std::bit_cast<float>(static_cast<std::uint32_t>((bits + 2 * kBitsOfOne) / 3));
 }
 
-// The rows of the 27 cells about a fish, fewer at the border of the grid.
+// The 27 cells about a fish, fewer at the border of the grid: their rows, the number of fish in
+// them, and the distance within which they hold every fish.
 struct Block {
     SpatialGrid::Slots rows[9];
     int rowCount = 0;
     int cells;
     std::uint32_t fish = 0;
-    float reach;  // metres: as far it holds all
+    // Metres: the block holds every fish within this distance.
+    float reach;
 
     HWY_INLINE Block(const SpatialGrid& grid, glm::vec3 place) {
         const SpatialGrid::Cell most = grid.cells();
@@ -254,7 +270,7 @@ struct Block {
                 fish += slots.last - slots.first;
                 rows[rowCount++] = slots;
             }
-        // Of one that strayed out of the grid it is negative, and then less than nothing is held.
+        // The margin is negative for a fish outside the grid; then the reach may be 0.
         const glm::vec3 inCells = (place - grid.origin()) / grid.cellMetres();
         const auto margin = [](float in, int cell) {
             const float share = in - static_cast<float>(cell);
@@ -266,7 +282,7 @@ struct Block {
     }
 };
 
-// About how far the hoped for are, were all the water as the block is.
+// Reach within which kHopedFor fish are visible, if the density is that of the block.
 HWY_INLINE float guess(const SpatialGrid& grid, const Block& block) {
     constexpr float kBall = 4.18879F;  // of radius 1
     const float cubed = kHopedFor * static_cast<float>(block.cells) /
@@ -274,6 +290,7 @@ HWY_INLINE float guess(const SpatialGrid& grid, const Block& block) {
     return roughThirdRoot(cubed) * grid.cellMetres();
 }
 
+// Collects the fish of the own kind in a block.
 HWY_INLINE void lookInBlock(const Search& search, const Block& block, float reach, Kept& kept) {
     float limit = reach * reach;
     Steps steps;
@@ -282,11 +299,13 @@ HWY_INLINE void lookInBlock(const Search& search, const Block& block, float reac
     search.look<true>(steps, limit, kept);
 }
 
-// All within a guessed reach; where they are fewer than seven, within a longer one.
+// The nearest schoolmates: tries the block, then growing reaches up to kSightMetres, until there
+// are seven.
 HWY_INLINE Neighbours nearestOfKind(const Search& search) {
-    constexpr float kEnough = 0.8F;  // of the hoped for reach: then half of them are in it
+    // Share of the wanted reach that the block must cover: half of the volume.
+    constexpr float kEnough = 0.8F;
     constexpr float kFarther = 1.5F;
-    // In a ball so dense most of the 27 cells are passed by.
+    // In a dense school the reach is short, and most of the 27 cells would be tested in vain.
     constexpr float kFewOfACell = 0.7F;
     const auto everyRow = [](int, int, int, int) { return true; };
     Kept kept;
@@ -303,6 +322,7 @@ HWY_INLINE Neighbours nearestOfKind(const Search& search) {
     }
 }
 
+// The nearest of other species; usually a single test shows that there are none.
 HWY_INLINE Neighbours nearestOthers(const Search& search,
                                     const KindsAbout& kinds,
                                     std::uint8_t own) {
@@ -362,6 +382,7 @@ NearestFish nearestVisible(const fish::FishView& view,
                            const fish::SpeciesParameters& parameters,
                            std::uint32_t fish) {
     NearestFish nearest;
+    assert(fish < view.size());
     HWY_DYNAMIC_DISPATCH(nearestVisibleVectors)(view, grids, parameters, fish, &nearest);
     return nearest;
 }

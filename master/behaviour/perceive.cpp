@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/perceive.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 
 #include "common/place/place.h"
@@ -17,16 +17,17 @@ namespace aquarama::behaviour {
 
 namespace {
 
-constexpr float kReachSeconds = 2.2F;  // how far ahead the surroundings are felt
+// Obstacles are felt this time ahead at the present speed, and a little farther.
+constexpr float kReachSeconds = 2.2F;
 constexpr float kReachMetres = 0.4F;
-constexpr float kBowWaveSeconds = 1.0F;  // of the submarine's way, by which it seems larger
+// A submarine that approaches counts as larger by its way in this time.
+constexpr float kBowWaveSeconds = 1.0F;
 
-// b1, b2 of a predator's cost of a prey: schooling and turning make it dearer (Tu &
-// Terzopoulos 1994).
+// b1 and b2 of the cost of a prey: schooling and turning make it costlier (Tu & Terzopoulos 1994).
 constexpr float kSchoolingCost = 0.5F;
 constexpr float kTurningCost = 0.2F;
 
-// Who looks, and what it is about.
+// One act of perception: who looks, at what, and where the result goes.
 struct Onlooker {
     const Environment& environment;
     const fish::SpeciesParameters& parameters;
@@ -37,6 +38,7 @@ struct Onlooker {
 
     [[nodiscard]] const fish::FishView& view() const { return *environment.view; }
     [[nodiscard]] float clarity() const { return environment.surroundings->clarityMetres; }
+    // How far it sees a body so conspicuous, metres.
     [[nodiscard]] float sight(float conspicuous) const {
         return sightMetres(parameters, senses.length, conspicuous, clarity());
     }
@@ -44,19 +46,21 @@ struct Onlooker {
         return behaviour::isHidden(
             environment, fish, sighting.object, {senses.position, sighting.offset});
     }
-    // Of a fish that is there; not whether anything is in between.
+    // Sighting of another fish, without asking whether something hides it.
     [[nodiscard]] Sighting sightingOf(std::uint32_t other) const {
         const glm::vec3 offset = view().position(other) - senses.position;
         return {other, offset, place::lengthOf(offset)};
     }
 };
 
-// Within so few cells all are looked at; farther, from the fish outwards, until none can cost less.
+// A reach of at most this many cells is searched as a whole by vectors; a longer one from the fish
+// outwards, which can stop early.
 constexpr float kNearCells = 1.5F;
 
-// Searches a grid for what costs least. costOf(index, offset, distance) must be `distance` or more,
-// and infinite for what is not sought, as all beyond reach; what costs `best` or more is passed
-// over. Of equal costs the lower index has it.
+// Finds the point of least cost in a grid. costOf(index, offset, distance) must be `distance` or
+// more, so that a cost found limits the reach of the rest of the search; infinite for what is not
+// wanted. Points beyond `reach` and those that cost more than `best` are left out. Of equal costs
+// the lower index wins.
 template <class CostOf>
 Sighting cheapestIn(
     const SpatialGrid& grid, glm::vec3 position, float reach, float best, const CostOf& costOf) {
@@ -86,6 +90,7 @@ Sighting cheapestIn(
     return cheapest;
 }
 
+// Cost of what is not wanted.
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 void feelItself(const fish::FishView& view, std::uint32_t fish, Senses& senses) {
@@ -100,12 +105,12 @@ void seeNeighbours(const Onlooker& onlooker) {
         onlooker.view(), *onlooker.environment.grids, onlooker.parameters, onlooker.fish);
     onlooker.senses.schoolmates = nearest.schoolmates;
     onlooker.senses.others = nearest.others;
-    // They are looked at last, when they have come from memory.
+    // They are read last in the thought; until then they have come from memory.
     for (const Neighbours* those : {&onlooker.senses.schoolmates, &onlooker.senses.others})
         for (std::size_t i = 0; i < those->count; ++i) onlooker.view().fetch(those->fish[i]);
 }
 
-// Keeps the nearest, sorted; of equally near ones the lower index first.
+// Inserts a predator in order of distance if it is among the nearest; ties go to the lower index.
 void insert(Senses& senses, const Sighting& predator) {
     const auto isNearer = [&](std::size_t place) {
         const Sighting& other = senses.predators[place];
@@ -120,7 +125,7 @@ void insert(Senses& senses, const Sighting& predator) {
     senses.predators[place] = predator;
 }
 
-// Behind rock, sand or a nearer one of them.
+// Removes predators that rock, sand or a nearer predator hides.
 void forgetHiddenPredators(const Onlooker& onlooker) {
     Senses& senses = onlooker.senses;
     const std::array<Sighting, kMostPredators> looked = senses.predators;
@@ -137,7 +142,8 @@ void forgetHiddenPredators(const Onlooker& onlooker) {
     }
 }
 
-// An alarmed fish looks about: it does not lose what it flees from in its blind angle.
+// The nearest visible predators. An alarmed fish looks around: it does not lose a predator in its
+// blind angle.
 void seePredators(const Onlooker& onlooker) {
     const fish::SpeciesParameters& parameters = onlooker.parameters;
     if (parameters.huntedBy == 0) return;
@@ -160,6 +166,7 @@ void seePredators(const Onlooker& onlooker) {
     forgetHiddenPredators(onlooker);
 }
 
+// A predator that is hungry enough to begin or continue a hunt.
 bool mayHunt(const Onlooker& onlooker) {
     if (onlooker.parameters.habits.role != config::Role::Predator || onlooker.parameters.hunts == 0)
         return false;
@@ -167,7 +174,8 @@ bool mayHunt(const Onlooker& onlooker) {
            fish::kDesire * fish::kHysteresis;
 }
 
-// C_k = d_k (1 + b1 S_k + b2 E_k / pi).
+// Cost of a prey (Tu & Terzopoulos 1994): C_k = d_k (1 + b1 S_k + b2 E_k / pi); S_k: it schools,
+// E_k: angle to it.
 float costOfPrey(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
     const fish::FishView& view = onlooker.view();
     if ((onlooker.parameters.hunts >> view.kind[other] & 1U) == 0 || view.shows(other, fish::kAway))
@@ -180,8 +188,8 @@ float costOfPrey(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset
     return distance * (1 + schooling + kTurningCost * place::angleOf(aside, ahead) / place::kPi);
 }
 
-// The target that a fish pursues is kept while it is in sight and no other is better by the fish's
-// persistence. Of the two only these are looked at for what hides them.
+// Focus of attention: the present target is kept while it is visible and no other is better by the
+// fish's persistence. Rays for what hides an object are costly, so they are cast only to these two.
 template <class CostOf>
 Sighting attend(const Onlooker& onlooker,
                 const SpatialGrid& grid,
@@ -203,7 +211,7 @@ Sighting attend(const Onlooker& onlooker,
     return better ? other : kept;
 }
 
-// What is so far off that a chase would be given up is not hunted at all.
+// The prey of least cost. Prey so far away that a chase would be given up is not considered.
 void seePrey(const Onlooker& onlooker) {
     if (!mayHunt(onlooker)) return;
     const float giveUp = static_cast<float>(onlooker.parameters.habits.hunt.giveUpMetres);
@@ -216,7 +224,7 @@ void seePrey(const Onlooker& onlooker) {
                                   });
 }
 
-// How far it is worth looking for what would raise a drive above its threshold.
+// Reach within which an object could raise a drive over its threshold, at most `sense`; metres.
 float worthLooking(
     const Onlooker& onlooker, float inner, float weight, const StimulusRange& range, float sense) {
     const float lacking = (fish::kDesire * fish::kHysteresis - inner) / weight;
@@ -230,8 +238,8 @@ bool isInASchool(const Onlooker& onlooker) {
            onlooker.senses.schoolmates.count > 0;
 }
 
-// A school that feeds stays one: its members dart at the plankton beside them, and leave it for
-// pellets alone.
+// A school stays together while it feeds: its members go only for plankton beside them, and leave
+// the school for pellets alone. In body lengths.
 constexpr float kDartBodyLengths = 2.5F;
 
 bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float distance) {
@@ -240,16 +248,17 @@ bool isWorthLeaving(const Onlooker& onlooker, std::uint32_t particle, float dist
            distance < kDartBodyLengths * onlooker.senses.length;
 }
 
-// What is before the mouth costs its distance alone; for what is behind, a fish has to come about.
+// In body lengths: added cost of a particle straight behind, for which the fish has to turn round.
 constexpr float kComeAboutBodyLengths = 2;
 
+// Distance, and by the angle from the mouth the cost of turning.
 float costOfFood(const Senses& senses, glm::vec3 offset, float distance) {
     const glm::vec3 fromMouth = offset - senses.heading * (fish::kMouthBodyLengths * senses.length);
     const float cosine = place::dot(place::directionOf(fromMouth, senses.heading), senses.heading);
     return distance + 0.5F * kComeAboutBodyLengths * senses.length * (1 - cosine);
 }
 
-// Food is sensed in all directions, and never hidden: it smells.
+// Food is sensed in all directions and never hidden, as it smells.
 void senseFood(const Onlooker& onlooker) {
     const fish::SpeciesParameters& parameters = onlooker.parameters;
     if (!parameters.habits.eatsPlankton || parameters.habits.role == config::Role::Predator ||
@@ -289,11 +298,12 @@ void senseFood(const Onlooker& onlooker) {
     if (better.seen()) senses.food = better;
 }
 
-// A male courts the nearest; a female prefers the larger among the near, and him who courts her.
+// Cost of a mate: its distance times dearnessOfMate(); the blind angle holds for all but the
+// present one.
 float costOfMate(const Onlooker& onlooker, std::uint32_t other, glm::vec3 offset, float distance) {
     const fish::FishView& view = onlooker.view();
     if (!suitsAsMate(view, onlooker.mind.likes, onlooker.fish, other)) return kNever;
-    // Whom it courts already it feels behind it too.
+    // It also feels behind it the mate that it courts already.
     if (other != onlooker.aim.target && !inFieldOfView(onlooker.senses.heading, offset))
         return kNever;
     return distance * dearnessOfMate(view, onlooker.mind.likes, onlooker.fish, other);
@@ -315,8 +325,8 @@ void seeMate(const Onlooker& onlooker) {
                                   });
 }
 
-// The way that is felt ahead is the one past the submarine, which comes to meet the fish or
-// overtakes it; one that comes on is felt from farther.
+// Push of the submarine. Both move, so the path is that of the fish relative to the submarine. A
+// submarine that approaches is felt from farther away.
 glm::vec3 submarinePush(const surroundings::Submarine& submarine,
                         const Senses& senses,
                         float reach) {
@@ -354,6 +364,8 @@ Senses perceive(const Environment& environment,
                 const fish::SpeciesParameters& parameters,
                 std::uint32_t fish,
                 const fish::Mind& mind) {
+    assert(environment.view != nullptr && environment.grids != nullptr);
+    assert(environment.surroundings != nullptr && fish < environment.view->size());
     Senses senses;
     feelItself(*environment.view, fish, senses);
     const Onlooker onlooker{environment, parameters, fish, mind, senses};
@@ -370,9 +382,12 @@ Senses perceive(const Environment& environment,
 
 namespace {
 
-constexpr float kDegreesOfComfort = 10;  // weigh as much as all the light there is
-constexpr float kNoticeable = 0.02F;     // less difference between here and there moves no fish
+// A temperature difference that weighs as much as all the light.
+constexpr float kDegreesOfComfort = 10;
+// A smaller difference between two places moves no fish.
+constexpr float kNoticeable = 0.02F;
 
+// Light and temperature at one height.
 struct Ambient {
     float light, celsius;
 };
@@ -382,7 +397,7 @@ Ambient ambientAt(const surroundings::Surroundings& around, float y) {
             surroundings::celsiusAt(around.climate, y)};
 }
 
-// How far the ambient is outside what a habit likes; each habit minds one side of one range.
+// How far a place is outside what one habit likes; each habit concerns one end of one range.
 float lackOf(fish::Like habit, const config::Habits& habits, const Ambient& ambient) {
     switch (habit) {
         case fish::kLikesBrightness:
@@ -419,7 +434,7 @@ void feelClimate(const surroundings::Surroundings& around,
         worst = habit;
     }
     if (senses.discomfort <= -kNoticeable) return;  // at ease
-    // Light and warmth change with depth alone: the best place is the top or the bottom.
+    // Both change with depth alone, so the best place is at the top or at the bottom of the water.
     const place::Region& water = around.obstacles.water;
     const float atTop =
         lackOf(worst, parameters.habits, ambientAt(around, water.centre.y + water.halfExtent.y));
@@ -431,8 +446,9 @@ void feelClimate(const surroundings::Surroundings& around,
 
 namespace {
 
-constexpr float kTakenDearness = 1.5F;  // of one that courts another
-constexpr float kDevotion = 3;          // of anybody else to one whose courtship is answered
+// Factors for a mate that courts another, and for any other one when the courtship is answered.
+constexpr float kTakenDearness = 1.5F;
+constexpr float kDevotion = 3;
 
 }  // namespace
 
@@ -440,6 +456,7 @@ bool suitsAsMate(const fish::FishView& view,
                  std::uint8_t likes,
                  std::uint32_t fish,
                  std::uint32_t other) {
+    assert(fish < view.size() && other < view.size());
     if (other == fish || view.kind[other] != view.kind[fish]) return false;
     if (!view.shows(other, fish::kWilling) || view.shows(other, fish::kAway)) return false;
     if (view.shows(other, fish::kFemale) == ((likes & fish::kIsFemale) != 0)) return false;
@@ -457,7 +474,8 @@ float dearnessOfMate(const fish::FishView& view,
     float dearness = theirs != fish::kNobody && theirs != fish ? kTakenDearness : 1.0F;
     if (isCourted && own != other) dearness = kDevotion;
     if ((likes & fish::kIsFemale) == 0) return dearness;
-    // Nothing may cost less than its distance: so the smaller are dearer.
+    // A cost must not be less than the distance (cheapestIn()), so smaller males cost more instead
+    // of larger ones less.
     const float smaller = view.fish[fish].length / (kLeastSizeRatio * view.fish[other].length);
     return dearness * std::max(1.0F, smaller * smaller);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/points_within.h"
 
+#include <cassert>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "master/behaviour/points_within.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
@@ -11,9 +13,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace aquarama::behaviour::HWY_NAMESPACE {
 
+// Tests all points of the block of cells around the place, a vector at a time.
 void takeVectorsWithin(
     const SpatialGrid& grid, glm::vec3 place, float reachSquared, TakePoints take, void* job) {
-    constexpr float kFarther = 1.001F;  // more than rounding can take off a reach
+    // Enlarges the block by more than rounding can take off the reach.
+    constexpr float kFarther = 1.001F;
     const glm::vec3 reach{std::sqrt(reachSquared) * kFarther};
     const SpatialGrid::Cell from = grid.cellOf(place - reach);
     const SpatialGrid::Cell to = grid.cellOf(place + reach);
@@ -47,6 +51,7 @@ HWY_EXPORT(takeVectorsWithin);
 
 void takePointsWithin(
     const SpatialGrid& grid, glm::vec3 place, float reachSquared, TakePoints take, void* job) {
+    assert(reachSquared >= 0 && take != nullptr);
     HWY_DYNAMIC_DISPATCH(takeVectorsWithin)(grid, place, reachSquared, take, job);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All points of a grid within reach of a place, found by vectors: for a search that looks at each
-// of them anyhow.
+// Visits all points of a grid within reach of a place, by vectors. For searches that look at each
+// of them in any case.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace aquarama::behaviour {
 
-// Slots of the grid, and how far off they are.
+// A batch of points: their slots in the grid and squared distances. Behind kRoom a vector may be
+// written.
 struct PointsWithin {
     static constexpr std::size_t kRoom = 64;
     std::array<std::uint32_t, kRoom + kMostLanes> slot;
@@ -19,12 +20,12 @@ struct PointsWithin {
     std::size_t count = 0;
 };
 
-// Calls take(job, points) with some of them at a time, until all were taken.
+// Calls take(job, points) with batches until all points were taken; a batch may be empty.
 using TakePoints = void (*)(void* job, const PointsWithin& points);
 void takePointsWithin(
     const SpatialGrid& grid, glm::vec3 place, float reachSquared, TakePoints take, void* job);
 
-// visit(index, offset, distanceSquared) for each.
+// Calls visit(index, offset, distanceSquared) for each point; offset leads from the place to it.
 template <class Visit>
 void visitPointsWithin(const SpatialGrid& grid, glm::vec3 place, float reachSquared, Visit visit) {
     struct Job {

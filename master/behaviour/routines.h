@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The behaviour routines (Tu 1996, section 5.6), one step of each. A routine answers with a course,
-// may move its own stage in `mind`, and reports events that others must learn of. What it is given
-// does not change meanwhile: fish may act in any order, on any thread.
+// The behaviour routines (Tu 1996, section 5.6), one step of each. A routine returns a course, may
+// change the stage in `mind`, and reports events that change other things than the fish. Its input
+// is constant meanwhile: fish may act in any order and on any thread. Speeds of courses are in body
+// lengths a second.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@
 
 namespace aquarama::behaviour {
 
-// What every routine is given.
+// Input of every routine; refers to objects of think().
 struct Situation {
     const Environment& environment;
     const fish::SpeciesParameters& parameters;
@@ -27,74 +28,72 @@ struct Situation {
     const fish::Feelings& feelings;
 };
 
-// With room for one of each fish of a chunk.
+// Events of the thoughts of one job, in the order of thinking.
 using DeferredEvents = std::vector<fish::DeferredEvent>;
 
-// The last stage of a thought: a step of the routine of the intention.
+// The last stage of a thought: one step of the routine of mind.intention.
 [[nodiscard]] fish::Course act(const Situation& situation,
                                fish::Mind& mind,
                                DeferredEvents& events);
 
-// Slows, or turns away from the fish that is in its sensitivity box, by where that one is and where
-// it heads (section 5.6.1).
+// Slows, or turns away from the fish in its sensitivity box, depending on where that one is and
+// where it heads (section 5.6.1).
 [[nodiscard]] fish::Course avoidFish(const Situation& situation, const fish::Mind& mind);
 
-// Turns away from sand, rock, plant, surface or submarine. A member of a school keeps company
-// meanwhile; others look to their way alone.
+// Turns away from sand, rock, plant, surface or submarine. A schooling fish goes on schooling
+// meanwhile; others attend to their way alone.
 [[nodiscard]] fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind);
-// Where the surroundings push, as a way round: what would only throw the fish back turns it to the
-// side on which it gets past sooner.
+// The push of the surroundings as a way round the obstacle: a push straight back, which would only
+// stop the fish, turns it to the side on which it gets past sooner.
 [[nodiscard]] glm::vec3 wayRound(const Situation& situation);
 
-// Goes for the particle of its intention and snaps at it: what is in a small cone before the mouth
-// is drawn in with the water (section 5.6.3).
+// Pursues the particle of its intention and snaps at it: what is in a small cone before the mouth
+// is drawn in with the water (section 5.6.3). The fish must sense food.
 [[nodiscard]] fish::Course eat(const Situation& situation,
                                fish::Mind& mind,
                                DeferredEvents& events);
-// Whether a thing is where the mouth's suction reaches; offset is from the body frame's origin,
-// metres.
+// Whether suction reaches an object. `offset` is from the origin of the body frame, metres.
 [[nodiscard]] bool isBeforeTheMouth(const Senses& senses, glm::vec3 offset);
 
-// Flees from all predators in sight, the nearer the more, as fast as it can, out of the way of all
-// who flee beside it (section 5.6.4). A fish of a school leaves it only as the predator comes near,
-// so that a hollow opens about the attacker and closes behind it.
+// Flees from all predators in sight, from nearer ones more, at full speed, and keeps clear of fish
+// that flee beside it (section 5.6.4). A schooling fish leaves its school only as the predator
+// comes near, so that a hollow opens about the attacker and closes behind it.
 [[nodiscard]] fish::Course escape(const Situation& situation, const fish::Mind& mind);
 
-// Of Mind::stage while a predator is about a prey.
+// Values of Mind::stage while a predator hunts.
 enum class HuntStage : std::uint8_t { Stalk, Rush };
-// A predator's meal (section 5.6.5): it goes slowly for its prey, rushes at it from near, and snaps
-// when it is at the mouth. Prey that turns more sharply gets away.
+// Hunting (section 5.6.5): a predator approaches its prey slowly, rushes at it from near, and snaps
+// when it is at the mouth. Prey that turns more sharply escapes. The fish must see prey.
 [[nodiscard]] fish::Course hunt(const Situation& situation,
                                 fish::Mind& mind,
                                 DeferredEvents& events);
 
-// Leaves for water whose light and warmth suit its habits: in our sea both change with height
-// alone, so it climbs or dives.
+// Leaves for water whose light and temperature suit its habits. Both change with height alone, so
+// it climbs or dives.
 [[nodiscard]] fish::Course leave(const Situation& situation);
-// The nearest height (y, negative) within the water at which light and warmth suit the species, or
-// where they do least ill.
+// The nearest height (y, negative) within the water at which light and temperature suit the
+// species, or are least bad.
 [[nodiscard]] float suitableHeight(const Situation& situation);
 
-// Mating (section 5.6.6): a fish follows one that courts nobody, shows itself to one that courts
-// another, and with one that courts it goes through a courtship. Each has its time; then the fish
-// gives up.
+// Mating (section 5.6.6): a fish follows one that courts nobody, displays to one that courts
+// another, and goes through a courtship with one that courts it. Each stage has its time; then the
+// fish gives up. The target of the mind must be a fish.
 [[nodiscard]] fish::Course mate(const Situation& situation,
                                 fish::Mind& mind,
                                 DeferredEvents& events);
 
-// Swims with the school: separation, alignment and cohesion with the nearest seen, the school's
-// common way, and no global control.
+// Swims with the school: separation, alignment and cohesion with the nearest fish seen, and the
+// common way of the school. No fish is controlled from outside.
 [[nodiscard]] fish::Course school(const Situation& situation);
-// How far from its goal a school of so many fish reaches at ease.
+// Radius of a school of so many fish at ease, about its goal.
 [[nodiscard]] float schoolRadiusMetres(std::size_t fish);
-// Of a bait ball every fish keeps a level of its own, -1 at its bottom to 1 at its top, more of
-// them near the middle; else all would mill in one flat ring.
+// The level that a fish keeps in a bait ball: -1 at its bottom, 1 at its top, more often near the
+// middle. Without levels all would mill in one flat ring.
 [[nodiscard]] float levelInBall(std::uint32_t seed, std::uint32_t fish);
 
-// Goes about as its species does at ease (Habits): its paces, its home, its partner, its turns for
-// no reason.
+// What a fish does at ease, by its Habits: its paces, home and partner, and random turns.
 [[nodiscard]] fish::Course wander(const Situation& situation);
-// Body lengths a second, by the shares of Habits::paces; another every five seconds.
+// The pace of a fish at ease, drawn by the shares of Habits::paces; a new one every five seconds.
 [[nodiscard]] float paceOf(const fish::SpeciesParameters& parameters,
                            std::uint32_t seed,
                            std::uint32_t fish,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goes over the points that are near, as many at a time as the processor has lanes. What is done
-// with them is a rule: a functor of a vector of points and a mask of those that are meant.
+// Loops over points near a place, as many at a time as a vector has lanes. What is done with them
+// is a rule: a functor of a vector of slots and a mask of those meant.
 
 // Included once for each instruction set.
 #if defined(AQUARAMA_SWEEP_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -32,15 +32,17 @@ using LaneMask = hn::Mask<Floats>;
 constexpr Floats kFloats;
 constexpr Indices kIndices;
 
+// One vector in space for each lane.
 struct OffsetLanes {
     Lanes x, y, z;
 };
 
-// In the order of dot() in angle.h, so that every width gives the same bits.
+// Adds in the order of place::dot(), so that every width of vectors gives the same bits.
 HWY_INLINE Lanes dotLanes(const OffsetLanes& a, const OffsetLanes& b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
+// Offsets to the points of the next slots; reads a whole vector.
 HWY_INLINE OffsetLanes offsetsFrom(
     const OffsetLanes& from, const float* x, const float* y, const float* z, std::size_t slot) {
     return {hn::Sub(hn::LoadU(kFloats, x + slot), from.x),
@@ -52,7 +54,7 @@ HWY_INLINE OffsetLanes everyLane(float x, float y, float z) {
     return {hn::Set(kFloats, x), hn::Set(kFloats, y), hn::Set(kFloats, z)};
 }
 
-// rule(slot, mask) for the vectors of slots [first, last); behind `last` a whole vector is
+// Calls rule(slot, mask) for the vectors of slots [first, last); a whole vector behind `last` is
 // readable.
 template <class Rule>
 HWY_INLINE void sweep(std::size_t first, std::size_t last, const Rule& rule) {
@@ -60,7 +62,7 @@ HWY_INLINE void sweep(std::size_t first, std::size_t last, const Rule& rule) {
         rule(slot, hn::FirstN(kFloats, last - slot));
 }
 
-// The rows of a block of cells that hold any point, as runs of slots: rule(slots, y, z).
+// Calls rule(slots, y, z) for each row of a block of cells that holds any point.
 template <class Rule>
 HWY_INLINE void forRows(const SpatialGrid& grid,
                         const SpatialGrid::Cell& from,
@@ -73,7 +75,7 @@ HWY_INLINE void forRows(const SpatialGrid& grid,
         }
 }
 
-// Appends the lanes of a mask, moved together; behind them a whole vector is written.
+// Appends the masked lanes, compressed; a whole vector is written at `end`.
 template <class Tag>
 HWY_INLINE void append(Tag tag, hn::Vec<Tag> lanes, hn::Mask<Tag> mask, hn::TFromD<Tag>* end) {
     hn::StoreU(hn::Compress(lanes, mask), tag, end);

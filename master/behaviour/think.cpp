@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/think.h"
 
+#include <cassert>
+
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive.h"
@@ -14,6 +16,7 @@ void think(const Environment& environment,
            fish::Minds& minds,
            fish::Courses& courses,
            DeferredEvents& events) {
+    assert(fish < minds.size() && fish < courses.size() && fish < environment.view->size());
     const fish::SpeciesParameters& parameters =
         environment.speciesParameters[environment.view->kind[fish]];
     fish::Mind mind = minds[fish];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thought of one fish: perceive, feel, decide, act. Four stages, each a folder.
+// One thought of one fish in four stages: perceive(), feel(), decide(), act().
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@
 
 namespace aquarama::behaviour {
 
-// Writes the fish's own mind and course, and adds to the events; nothing else changes.
+// Writes the mind and the course of this fish and appends its events; reads everything else. Fish
+// with events of their own may think on several threads.
 void think(const Environment& environment,
            std::uint32_t fish,
            fish::Minds& minds,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/behaviour/vision.h"
 
 #include <algorithm>
@@ -12,12 +11,15 @@ namespace aquarama::behaviour {
 
 namespace {
 
-constexpr float kSolidRock = 0.75F;          // of the radius that holds all that grows on it
-constexpr float kHighestSandMetres = -8.0F;  // no dune is higher
+// Solid part of the radius of a rock; the rest is growth.
+constexpr float kSolidRock = 0.75F;
+// Height that no dune exceeds.
+constexpr float kHighestSandMetres = -8.0F;
 constexpr int kSandSamples = 6;
-constexpr float kBetweenCornersMetres = 0.05F;  // more than sand rises between a chart's corners
+// Sand rises less than this between the corners of a chart.
+constexpr float kBetweenCornersMetres = 0.05F;
 
-// A large body hides what is behind these balls along its middle line, in its lengths.
+// A large body hides what is behind these balls along its middle line; in body lengths.
 constexpr std::array kTrunk{0.2F, -0.05F, -0.3F};
 constexpr float kTrunkRadius = 0.1F;
 
@@ -27,6 +29,7 @@ bool rocksHide(const surroundings::Obstacles& obstacles, const SightLine& ray) {
     return false;
 }
 
+// Samples the line; skipped where it stays above all sand.
 bool sandHides(const surroundings::Obstacles& obstacles, const SightLine& ray) {
     const float highest =
         std::min(kHighestSandMetres, obstacles.chart.highestSand() + kBetweenCornersMetres);
@@ -45,7 +48,7 @@ bool bodiesHide(const Environment& environment,
                 std::uint32_t object,
                 const SightLine& ray) {
     const fish::FishView& view = *environment.view;
-    // Every body that the ray meets has its middle near the ray's.
+    // Bodies whose middle is near enough to the middle of the line to be on it.
     const float reach = 0.5F * place::lengthOf(ray.offset) + kLargeBodyMetres;
     const float reachSquared = reach * reach;
     bool hidden = false;
@@ -107,11 +110,15 @@ namespace {
 constexpr float kNoseAhead = 0.385F;
 constexpr float kTailBehind = 1 - kNoseAhead;
 
-constexpr float kBoxBehind = 0.5F;       // body lengths; the file says the other sides
-constexpr float kEnlarged = 1.5F;        // for a replica that is less agile (paper, section 5.2)
-constexpr float kHoldOn = 1.25F;         // for the fish that is being avoided already
-constexpr float kPartingLengths = 0.1F;  // a second: who goes away so fast is no threat
-// In formation the box shrinks to the body (Tu 1996, section 5.6), in body lengths, and is felt
+// In body lengths; the other sides come from the habits of the species.
+constexpr float kBoxBehind = 0.5F;
+// Factor on the box for a replica that is less agile (paper, section 5.2).
+constexpr float kEnlarged = 1.5F;
+// Factor on the box for the fish that is being avoided already (hysteresis).
+constexpr float kHoldOn = 1.25F;
+// Body lengths a second: a fish that moves away so fast is no threat.
+constexpr float kPartingLengths = 0.1F;
+// In formation the box shrinks to the body (Tu 1996, section 5.6), in body lengths. It is tested
 // where a schoolmate will be after these seconds if neither turns.
 constexpr Box kBody{0.45F, 0.5F, 0.17F, 0.12F};
 constexpr float kSoon[] = {0.2F, 0.4F};
@@ -136,13 +143,14 @@ Box scaled(const Box& box, float scale) {
     return {box.ahead * scale, box.behind * scale, box.up * scale, box.aside * scale};
 }
 
-// Whether a middle line has a part between two planes; all along one axis.
+// Whether a middle line meets the slab between two planes; all along one axis, from the origin.
 bool reaches(float at, float extent, float least, float most) {
     const float nose = at + extent * kNoseAhead;
     const float tail = at - extent * kTailBehind;
     return (std::max(nose, tail) >= least) & (std::min(nose, tail) <= most);
 }
 
+// The search for the most dangerous fish, and what it compares with.
 struct Watch {
     const Environment& environment;
     const fish::SpeciesParameters& parameters;
@@ -163,7 +171,8 @@ struct Watch {
                 parameters.habits.box.asideBodyLengths * scale};
     }
 
-    // Whom it courts, hunts or follows it wants near; from its hunter prey flees instead.
+    // Whether another fish counts. One that it courts, hunts or follows it wants near; from its
+    // hunters prey flees instead.
     [[nodiscard]] bool isHeeded(std::uint32_t other) const {
         if (other == aim.target && aim.intention == fish::Intention::Mate) return false;
         std::uint64_t unheeded = parameters.hunts | parameters.shadows;
@@ -171,6 +180,8 @@ struct Watch {
         return (unheeded >> view.kind[other] & 1U) == 0;
     }
 
+    // A fish that is not in formation: the share of its middle line in the box, unless it moves
+    // away.
     void heed(std::uint32_t other) {
         if (!isHeeded(other)) return;
         const glm::vec3 offset = view.position(other) - senses.position;
@@ -178,7 +189,7 @@ struct Watch {
         const float length = view.fish[other].length;
         const float hold =
             other == mind.target && mind.intention == fish::Intention::AvoidFish ? kHoldOn : 1.0F;
-        // From farther off no part of the other is in the box.
+        // Quick test: from farther away no part of the other fish is in the box.
         const float reach =
             hold * (std::max(box.ahead, box.behind) + box.aside + box.up) + kTailBehind * length;
         if (squared > reach * reach) return;
@@ -188,13 +199,14 @@ struct Watch {
         note(other, offset, shareOf(view.heading(other) * length, scaled(box, hold), offset));
     }
 
+    // A fish in formation: the share in the body at the times of kSoon.
     void heedSchoolmate(std::uint32_t other) {
         const glm::vec3 offset = view.position(other) - senses.position;
         const glm::vec3 drift = view.heading(other) * view.fish[other].speed - velocity;
         const Box body = scaled(kBody, senses.length);
         const glm::vec3 along = view.heading(other) * view.fish[other].length;
-        // Most part, or pass beside, above or behind: that is known before the rest is worked out,
-        // and all of it asked at once, as it is not to be foretold which.
+        // Most schoolmates part or pass beside, above or below. That is tested first, by all tests
+        // at once without branches, because which one fails cannot be predicted.
         const auto meets = [&](glm::vec3 axis, float least, float most) {
             const float at = place::dot(offset, axis);
             const float moves = place::dot(drift, axis);
@@ -218,7 +230,7 @@ struct Watch {
         return shareInside(within, at + extent * kNoseAhead, at - extent * kTailBehind);
     }
 
-    // Keeps the most dangerous; of equal ones the lower index.
+    // Keeps the fish with the largest share; of equal ones the lower index.
     void note(std::uint32_t other, glm::vec3 offset, float share) {
         const bool worse = share > senses.collisionShare ||
                            (share == senses.collisionShare && other < senses.collision.object);
@@ -229,7 +241,7 @@ struct Watch {
 };
 
 void heedLargeBodies(Watch& watch, std::uint32_t fish) {
-    // The longest fish of the sea is shorter than twice this.
+    // Half of a length that no fish reaches.
     constexpr float kLongestHalf = 1.0F;
     const float reach = std::max(watch.box.ahead, watch.box.behind) + kLongestHalf;
     const float reachSquared = reach * reach;
@@ -247,6 +259,7 @@ float shareInside(const Box& box, glm::vec3 nose, glm::vec3 tail) {
     const glm::vec3 along = tail - nose;
     float enters = 0;
     float leaves = 1;
+    // Clips the line to the slab of one axis: it is inside for [enters, leaves] of its length.
     const auto clip = [&](float from, float step, float least, float most) {
         if (std::abs(step) < 1.0e-6F) {
             if (from < least || from > most) leaves = -1;
@@ -270,7 +283,7 @@ void feelCollision(const Environment& environment,
                    const fish::Mind& mind,
                    Senses& senses) {
     Watch watch{environment, parameters, mind, senses};
-    // Those who like to school bear one another near: also while they feed among the others.
+    // Fish that like to school tolerate schoolmates near, also while they feed among others.
     const bool bearsMates =
         parameters.habits.role == config::Role::Prey && (mind.likes & fish::kLikesSchooling) != 0;
     for (std::size_t i = 0; i < senses.schoolmates.count; ++i) {

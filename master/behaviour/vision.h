@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far and past what a fish sees (Tu 1996, section 4.2): one eye in the middle of the head, a
-// field of 300 degrees, a radius that the water's clarity bounds.
+// Vision (Tu 1996, section 4.2): one eye in the middle of the head, a field of view of 300 degrees,
+// a radius bounded by the clarity of the water; and the sense of a collision to come.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +13,39 @@
 
 namespace aquarama::behaviour {
 
-// What is large is seen from farther off: 1 for the small, its length per kLargeBodyMetres for
+// Factor on the distance from which a body is seen: 1 for small ones, length / kLargeBodyMetres for
 // others, at most kMostConspicuous.
 inline constexpr float kMostConspicuous = 2.5F;
 [[nodiscard]] float conspicuousness(float lengthMetres);
 
-// From how far a fish of this length sees what is so conspicuous, metres.
+// Distance from which a fish of this length sees a body so conspicuous, metres.
 [[nodiscard]] float sightMetres(const fish::SpeciesParameters& parameters,
                                 float lengthMetres,
                                 float conspicuous,
                                 float clarityMetres);
 
-// From an eye to what it looks at. Rays are costly: they are cast only to predators and to the
-// focus of attention.
+// The line from an eye to an object. Testing what hides an object is costly: it is done only for
+// predators and the focus of attention.
 struct SightLine {
     glm::vec3 from, offset;
-    // Whether it comes so near to a point.
+    // Whether it passes a point nearer than `radius`.
     [[nodiscard]] bool passes(glm::vec3 centre, float radius) const;
 };
+// Whether rock or sand, or below one body, stands on the line. O(rocks) and O(1).
 [[nodiscard]] bool terrainHides(const surroundings::Obstacles& obstacles, const SightLine& ray);
 [[nodiscard]] bool bodyHides(const fish::FishView& view, std::uint32_t body, const SightLine& ray);
 
-// Whether rock, sand or a large body stands between a fish and what it looks at.
+// Whether rock, sand or a large body stands between a fish and an object, which may be a fish.
 [[nodiscard]] bool isHidden(const Environment& environment,
                             std::uint32_t fish,
                             std::uint32_t object,
                             const SightLine& ray);
 
-// Which fish is about to be in the way (Tu 1996, section 5.4): the one most of whose middle line
-// lies in the box about this fish to which it is sensitive.
+// Which fish is about to be in the way (Tu 1996, section 5.4): the one with the largest share of
+// its middle line in the sensitivity box about this fish.
 
-// About the origin of a body frame: ahead (x), above and below (y), aside (z); metres.
+// A box about the origin of a body frame, in metres: ahead and behind (x), up and down (y), aside
+// (z).
 struct Box {
     float ahead = 0, behind = 0, up = 0, aside = 0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A species as its fish's minds use it: its habits, and names resolved to indices of the cast.
+// What fish know of one another: the parameters of a species, and the view of all fish at the start
+// of a tick. World frame, metres.
 #pragma once
 
 #include <cstddef>
@@ -13,45 +14,63 @@
 
 namespace aquarama::fish {
 
+// A species as the minds of its fish use it. Made once per world by world::makeSpeciesParameters();
+// read by all threads. Sets of kinds are bit masks: bit i stands for species i of the cast.
 struct SpeciesParameters {
-    std::uint8_t kind = 0;                 // its own index in the cast
-    std::uint32_t first = 0, last = 0;     // its fish are [first, last) of all
-    std::uint64_t hunts = 0;               // a bit for each kind that it eats
-    std::uint64_t huntedBy = 0;            // a bit for each kind that eats it
-    std::uint64_t shadows = 0;             // a bit for each kind that it likes to follow
-    float slow = 1, medium = 2, fast = 3;  // body lengths a second, of its repertoire
+    // Index of the species in the cast.
+    std::uint8_t kind = 0;
+    // Its fish have the indices [first, last).
+    std::uint32_t first = 0, last = 0;
+    // The kinds that it eats, that eat it, and that it likes to follow.
+    std::uint64_t hunts = 0;
+    std::uint64_t huntedBy = 0;
+    std::uint64_t shadows = 0;
+    // Speeds of the three forward gaits of its repertoire, in body lengths a second.
+    float slow = 1, medium = 2, fast = 3;
     config::Habits habits;
 };
 
-// What fish can see of one another at the start of a tick, world frame. Nothing in it changes while
-// the fish think.
+// What fish can see of one another at the start of a tick. The world writes it before the fish
+// think; while they think it is constant, so that all threads may read it.
 
-inline constexpr std::uint32_t kNobody = 0xffffffffU;  // no fish, no particle
+// Index that stands for no fish, or no particle of food.
+inline constexpr std::uint32_t kNobody = 0xffffffffU;
 
-// What a fish shows of its mood, as bits of FishView::signs.
+// Signs of a fish's mood that others can see, as bits of FishView::signs.
 enum Sign : std::uint8_t {
-    kAway = 1,     // eaten, or not yet come: nobody sees it
-    kWilling = 2,  // would mate
+    // Eaten, or not yet come: nobody sees it.
+    kAway = 1,
+    // Would mate.
+    kWilling = 2,
     kFemale = 4,
     kHunting = 8,
     kSchooling = 16,  // swims in a school
 };
 
-// A fish as it swims. Who looks at a neighbour needs all of it, and finds it in one line of memory.
+// Position and motion of one fish. It is 32 bytes long and aligned, so that all of it lies in one
+// cache line.
 struct alignas(32) VisibleFish {
-    glm::vec3 position{};  // body frame's origin, metres
-    glm::vec3 heading{};   // course without the sway of the tail beat
-    float speed = 0;       // metres a second
-    float length = 0;      // metres
+    // Origin of the body frame, metres.
+    glm::vec3 position{};
+    // Mean direction of swimming, a unit vector, without the sway of the tail beat.
+    glm::vec3 heading{};
+    float speed = 0;   // metres a second
+    float length = 0;  // metres
 };
 
+// Columns with one element for each fish of the world, away or not, in the order of the cast.
 struct FishView {
     std::vector<VisibleFish> fish;
-    std::vector<std::uint8_t> kind;      // its species, an index into the cast
-    std::vector<std::uint8_t> signs;     // of Sign
-    std::vector<std::uint32_t> partner;  // whom it courts; kNobody
-    std::vector<std::uint8_t> stage;     // of its courtship or hunt: Mind::stage
+    // Species, as an index into the cast.
+    std::vector<std::uint8_t> kind;
+    // Bits of Sign.
+    std::vector<std::uint8_t> signs;
+    // The fish that it courts, or kNobody.
+    std::vector<std::uint32_t> partner;
+    // Mind::stage: the stage of its courtship or hunt.
+    std::vector<std::uint8_t> stage;
 
+    // Fish that are added have no partner and no signs.
     void resize(std::size_t count) {
         fish.resize(count);
         kind.resize(count);
@@ -62,16 +81,18 @@ struct FishView {
     [[nodiscard]] std::size_t size() const { return fish.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return fish[i].position; }
     [[nodiscard]] glm::vec3 heading(std::size_t i) const { return fish[i].heading; }
-    // Asks memory for a fish that will be looked at soon.
+    // Prefetches a fish that will be read soon.
     void fetch(std::size_t i) const { __builtin_prefetch(&fish[i]); }
     [[nodiscard]] bool shows(std::size_t i, Sign sign) const { return (signs[i] & sign) != 0; }
 };
 
-// Where a fish's mouth is.
+// Position of the mouth.
 
-// Of the mouth before the origin of the body frame: nodal point 0 of every species' rest shape.
+// Distance from the origin of the body frame forward to the mouth, in body lengths: nodal point 0
+// of every rest shape.
 inline constexpr float kMouthBodyLengths = 0.385F;
 
+// World frame, metres.
 [[nodiscard]] inline glm::vec3 mouthOf(const FishView& view, std::uint32_t fish) {
     return view.position(fish) + view.heading(fish) * (kMouthBodyLengths * view.fish[fish].length);
 }

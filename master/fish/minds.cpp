@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/fish/minds.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "common/units/digest.h"
@@ -11,7 +11,7 @@
 
 namespace aquarama::fish {
 
-// Member by member: what lies between them has no meaning.
+// Folds in member by member: padding bytes between members are undefined and may differ.
 std::uint64_t Minds::hash() const {
     std::uint64_t hash = 1;
     const auto fold = [&](auto member) { hash = folded(hash, minds_, member); };
@@ -44,12 +44,13 @@ float seconds(std::uint32_t ticks) {
     return static_cast<float>(ticks) / kTicksASecond;
 }
 
+// Limited to half of kLongAgo, so that the clock can still advance.
 std::uint32_t ticksOf(float seconds) {
     return static_cast<std::uint32_t>(
         std::min(seconds * kTicksASecond, static_cast<float>(kLongAgo) / 2));
 }
 
-// R of the thesis: 1 after a meal, 0 when it is digested.
+// R of the thesis: 1 right after a meal, falling linearly to 0 when it is digested.
 float undigested(const SpeciesParameters& parameters, const Mind& mind) {
     return std::max(0.0F, 1 - parameters.habits.digestionPerSecond * seconds(mind.sinceMeal));
 }
@@ -57,6 +58,7 @@ float undigested(const SpeciesParameters& parameters, const Mind& mind) {
 }  // namespace
 
 float innerHunger(const SpeciesParameters& parameters, const Mind& mind) {
+    assert(parameters.habits.appetiteParticles > 0);
     const float stomach = static_cast<float>(mind.eaten) * undigested(parameters, mind);
     return std::clamp(1 - stomach / parameters.habits.appetiteParticles, 0.0F, 1.0F);
 }
@@ -88,24 +90,28 @@ void passTime(const SpeciesParameters& parameters, Mind& mind) {
 }
 
 void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mind& mind) {
+    assert(hunger >= 0 && hunger <= 1 && libido >= 0 && libido <= 1);
+    // A meal of whole particles, digested so far that n_e R / alpha = 1 - hunger.
     const float meal = std::max(1.0F, std::ceil(parameters.habits.appetiteParticles));
     const float left =
         std::clamp((1 - hunger) * parameters.habits.appetiteParticles / meal, 0.0F, 1.0F);
     mind.eaten = static_cast<std::uint16_t>(meal);
     mind.sinceMeal = ticksOf((1 - left) / parameters.habits.digestionPerSecond);
+    // Inverts innerLibido() for the time since spawning.
     const float growth = parameters.habits.libidoPerSecond * std::max(1 - hunger, 0.0F);
     mind.sinceSpawning = growth > 0 ? ticksOf(libido / growth) : 0;
 }
 
 namespace {
 
+// Whether the fish shows that it is willing: it courts already, or its inner libido is high.
 bool wouldMate(const SpeciesParameters& parameters, const Mind& mind, Intention aim) {
     if (!mates(parameters)) return false;
     return aim == Intention::Mate ||
            innerLibido(parameters, mind, innerHunger(parameters, mind)) > kDesire;
 }
 
-// Of a kind that neither mates nor hunts only this much differs from fish to fish.
+// The signs that every species has. Prey, which neither mates nor hunts, has no others.
 unsigned moodOf(std::uint8_t likes, Intention aim) {
     return ((likes & kIsFemale) != 0 ? unsigned{kFemale} : 0U) |
            (aim == Intention::School ? unsigned{kSchooling} : 0U);
@@ -117,6 +123,7 @@ void showMood(const SpeciesParameters& parameters,
               const Minds& minds,
               std::uint32_t fish,
               FishView& view) {
+    assert(fish < minds.size() && minds.size() <= view.size());
     const unsigned away = view.signs[fish] & unsigned{kAway};
     const Mind& mind = minds[fish];
     if (parameters.habits.role ==

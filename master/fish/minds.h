@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each fish remembers from one thought to the next, and what it did that others must learn of.
+// What each fish remembers from one thought to the next, its drives, and the events by which it
+// changes other fish or the food.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,8 @@
 
 namespace aquarama::fish {
 
-// The routines of Tu & Terzopoulos 1994. Wander also stands for an empty memory.
+// The behaviour routines of Tu & Terzopoulos 1994, which a mind chooses from. Those from Escape on
+// always interrupt (see interrupts()). Wander also stands for an empty memory.
 enum class Intention : std::uint8_t {
     Wander,
     Leave,
@@ -23,39 +25,49 @@ enum class Intention : std::uint8_t {
 };
 inline constexpr std::size_t kIntentions = 8;
 
-// Times are in ticks, counted up at every thought, and stop at kLongAgo.
+// Upper limit of the clocks of a mind. They are in ticks, advance at every thought and stop here.
 inline constexpr std::uint32_t kLongAgo = 0x7fffffffU;
 
-// Fear that is heeded, kept from one thought to the next so that it ends later than it began.
+// Whether a fish heeds its fear. It is kept from one thought to the next, because fear ends at a
+// lower value than it begins at (kHysteresis).
 enum class Alarm : std::uint8_t {
     Calm,
-    Together,  // afraid, in the shelter of the school
-    Alone,     // more afraid: it flees by itself
+    // Afraid, but shelters in its school.
+    Together,
+    // More afraid: flees by itself.
+    Alone,
 };
 
+// The memory of one fish. Only the thought of that fish writes it, except for the world's events:
+// meals, catches, spawning and the arrival of a new fish.
 struct Mind {
     Intention intention = Intention::Wander;
-    // What it is about: a fish (Mate, Eat of a predator, School, AvoidFish), or a particle of food
-    // (Eat of the others).
+    // Target of the intention: a fish (Mate, AvoidFish, Escape, Eat of a predator) or a particle of
+    // food (Eat of the others); kNobody where the routine has none.
     std::uint32_t target = kNobody;
-    std::uint32_t pursued = 0;  // its aim, for so long; interruptions count in
+    // Ticks for which it has had the present aim (aimOf()); interruptions count too.
+    std::uint32_t pursued = 0;
     // The one-item memory: what was interrupted and will be resumed.
     Intention remembered = Intention::Wander;
     std::uint32_t rememberedTarget = kNobody;
     std::uint32_t sinceRemembered = kLongAgo;
     std::uint32_t sinceMeal = kLongAgo;
     std::uint32_t sinceSpawning = kLongAgo;
-    // Of a predator: since its chase began, or since the last one ended, whichever was later.
+    // Predators: since the present chase began, or since the last one ended.
     std::uint32_t sinceChase = kLongAgo;
     Alarm alarm = Alarm::Calm;
-    std::uint16_t eaten = 0;       // particles since the last one was digested
-    std::uint8_t likes = 0;        // of Like
-    std::uint8_t stage = 0;        // of the routine that has stages: courtship, hunt
-    std::uint32_t sinceStage = 0;  // ticks in it
+    // Particles or prey eaten since the last meal was digested; n_e of the thesis.
+    std::uint16_t eaten = 0;
+    // Bits of Like.
+    std::uint8_t likes = 0;
+    // Stage of a routine that has stages: CourtshipStage, HuntStage, or that of eat().
+    std::uint8_t stage = 0;
+    // Ticks in that stage.
+    std::uint32_t sinceStage = 0;
 };
 
-// Habits that a fish drew for itself, as bits of Mind::likes; it never draws two that contradict
-// each other.
+// Habits of a single fish, drawn at its beginning (behaviour::likesOf()), as bits of Mind::likes. A
+// fish never has two that contradict each other.
 enum Like : std::uint8_t {
     kLikesBrightness = 1,
     kLikesDarkness = 2,
@@ -65,87 +77,102 @@ enum Like : std::uint8_t {
     kIsFemale = 32,
 };
 
-// Collision and fear interrupt what a fish is about; the other intentions are aims of its own.
+// Whether an intention interrupts another one: collision and fear do. The other intentions are
+// aims, which the fish resumes afterwards.
 [[nodiscard]] constexpr bool interrupts(Intention intention, Alarm alarm) {
     return intention >= Intention::Escape ||
            (intention == Intention::School && alarm == Alarm::Together);
 }
 
+// What a fish pursues: a routine and its target.
 struct Aim {
     Intention intention = Intention::Wander;
     std::uint32_t target = kNobody;
     friend bool operator==(const Aim&, const Aim&) = default;
 };
-// What a fish is about, seen through an interruption.
+// The aim of a fish. While it is interrupted this is the remembered aim, if there is one.
 [[nodiscard]] constexpr Aim aimOf(const Mind& mind) {
     if (interrupts(mind.intention, mind.alarm) && mind.remembered != Intention::Wander)
         return {mind.remembered, mind.rememberedTarget};
     return {mind.intention, mind.target};
 }
 
-// Of all fish: each mind by itself, as a thought needs the whole of it.
+// The minds of all fish, by index. Stored as an array of structures, because a thought needs the
+// whole of one mind.
 class Minds {
   public:
     void resize(std::size_t fish) { minds_.resize(fish); }
     [[nodiscard]] std::size_t size() const { return minds_.size(); }
     [[nodiscard]] const Mind& operator[](std::size_t fish) const { return minds_[fish]; }
     [[nodiscard]] Mind& operator[](std::size_t fish) { return minds_[fish]; }
+    // Equal for equal minds on every machine.
     [[nodiscard]] std::uint64_t hash() const;
+    // Memory in use.
     [[nodiscard]] std::size_t bytes() const;
 
   private:
     std::vector<Mind> minds_;
 };
 
-// What a fish did at this tick to something that others see too. Events are applied after all have
-// thought, in the order of the fish; of two that want the same the first has it.
+// An action that changes more than the fish itself. A thought only reports it. The world applies
+// all events of a tick afterwards, in the order of the fish: of two fish that want the same thing
+// the first gets it.
 enum class DeferredEventKind : std::uint8_t { EatParticle, EatFish, Spawn };
 struct DeferredEvent {
     DeferredEventKind kind = DeferredEventKind::EatParticle;
     std::uint32_t fish = kNobody;
-    std::uint32_t object = kNobody;  // particle, prey or mate
+    // The particle, the prey or the mate.
+    std::uint32_t object = kNobody;
 };
 
-// What a fish's body asks for by itself, before anything in sight adds to it (Tu 1996, section
-// 5.2): perception searches only for what is wanted, and a fish shows whether it would mate.
+// Inner drives (Tu 1996, section 5.2): what the body asks for, before any stimulus in sight adds to
+// it. Perception uses them to search only for what is wanted, and they decide whether a fish shows
+// that it would mate.
 
-// What a fish feels at one thought, each 0 to 1: feel() of master/behaviour/mental_state.h.
+// The feelings of one thought, each 0 to 1. Computed by behaviour::feel(), not kept.
 struct Feelings {
     float hunger = 0, libido = 0;
-    float fear = 0;          // of all predators in sight together
-    float greatestFear = 0;  // of the most dangerous one
+    // The sum over all predators in sight.
+    float fear = 0;
+    // Of the most dangerous predator alone.
+    float greatestFear = 0;
 };
 
-// r of Tu & Terzopoulos 1994: hunger or libido above this is heeded.
+// Threshold r of Tu & Terzopoulos 1994: a fish heeds hunger or libido above this value.
 inline constexpr float kDesire = 0.25F;
 
-// A threshold that was passed holds until the value falls below this share of it, so that no fish
-// dithers about it.
+// Hysteresis of all thresholds of feelings: once passed, a threshold is lowered to this share, so
+// that a fish does not switch back and forth.
 inline constexpr float kHysteresis = 0.8F;
 
-// 1 - n_e R / alpha, within 0 to 1: R is the share of the last meal that is not digested.
+// Inner hunger 1 - n_e R / alpha, clamped to 0 to 1 (Tu 1996, section 5.2). n_e is Mind::eaten,
+// alpha the appetite, R the share of the last meal that is not digested yet.
 [[nodiscard]] float innerHunger(const SpeciesParameters& parameters, const Mind& mind);
 
-// More than twice the appetite in the stomach: nothing makes it hungry.
+// Whether the fish ate more than twice its appetite: then no food tempts it.
 [[nodiscard]] bool isGorged(const SpeciesParameters& parameters, const Mind& mind);
 
-// p1 dt (1 - H), within 0 to 1; always 0 for those who never mate.
+// Inner libido p1 dt (1 - H), at most 1: dt is the time since it spawned, in seconds, H the given
+// hunger. Always 0 for species that do not mate.
 [[nodiscard]] float innerLibido(const SpeciesParameters& parameters,
                                 const Mind& mind,
                                 float hunger);
 
-// Only pacifists mate (Tu & Terzopoulos 1994).
+// Whether the species mates: only pacifists do (Tu & Terzopoulos 1994).
 [[nodiscard]] bool mates(const SpeciesParameters& parameters);
 
-// Lets one thought's time pass: all clocks of the mind go on, a digested meal is forgotten.
+// Advances all clocks of the mind by one thought (kTicksBetweenThoughts); forgets a meal that is
+// digested. Called once per thought, before perception.
 void passTime(const SpeciesParameters& parameters, Mind& mind);
 
-// So hungry and in such a mood, both 0 to 1, as a scene may want it to begin.
+// Sets stomach and clocks so that inner hunger and libido have the given values, both 0 to 1. A
+// scene may begin a fish so. A libido above 1 - hunger cannot be reached.
 void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mind& mind);
 
-// From a fish's mind to what others see of its mood.
+// The signs of a mood, derived from the mind.
 
-// Writes all signs of a fish but kAway, which is kept, and whom it courts.
+// Writes the signs of a fish, except kAway, which is kept; for species other than prey also its
+// stage and the fish that it courts. Touches only this fish's elements.
 void showMood(const SpeciesParameters& parameters,
               const Minds& minds,
               std::uint32_t fish,

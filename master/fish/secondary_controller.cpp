@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/fish/secondary_controller.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/place/place.h"
 #include "common/units/random_streams.h"
@@ -16,6 +16,7 @@ Gaits gaitsOf(const motion::MotorTables& tables) {
         const auto action = static_cast<motion::Action>(i);
         gaits.phaseRate[i] = motion::recordedPhaseRate(tables, action);
         gaits.speed[i] = motion::recordedSpeedBodyLengths(tables, action);
+        // A phase is 16 bits: 65536 steps are one cycle.
         const float secondsOfCycle = 65536.0F / (static_cast<float>(gaits.phaseRate[i]) *
                                                  static_cast<float>(kTicksPerSecond));
         gaits.turn[i] = motion::recordedTurnRate(tables, action) * secondsOfCycle;
@@ -25,38 +26,50 @@ Gaits gaitsOf(const motion::MotorTables& tables) {
 
 namespace {
 
-// Streams of one seed: what a number is drawn for.
-constexpr float kGradualFrom = 22.0F * kRadiansPerDegree<float>;  // error at which a turn begins
+// Yaw errors at which turns begin. Beyond kSideIsOpen the target is nearly straight behind, and a
+// turn under way keeps its side.
+constexpr float kGradualFrom = 22.0F * kRadiansPerDegree<float>;
 constexpr float kSharpFrom = 70.0F * kRadiansPerDegree<float>;
 constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree<float>;
-constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree<float>;  // beyond, either side serves
+constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree<float>;
 
-constexpr float kYawGain = 1.6F;                              // radians a second for a radian
-constexpr float kMostYaw = 30.0F * kRadiansPerDegree<float>;  // a second: beyond, a turn is played
-constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);         // MotorCommands::yawRate
-constexpr float kUnitsOfPitchSine = 32768.0F;                 // MotorCommands::pitch
-constexpr float kRateMargin = 0.15F;                          // of the recorded phase rate
-constexpr float kTempoMargin = 0.08F;                         // about a fish's own tempo
-constexpr float kSpeedHysteresis = 0.12F;                     // body lengths a second
-constexpr float kBrakeFrom = 0.6F;       // of these too fast; by one more, wholly
-constexpr float kHoverBelow = 0.25F;     // of the slow gait's speed
-constexpr float kHoverBrakeGain = 4.0F;  // wholly from a quarter body length a second
+// Small errors are corrected by a yaw rate that is added to the played segment (MotorCommands).
+constexpr float kYawGain = 1.6F;
+// Radians a second. A larger error is corrected by a turn segment instead.
+constexpr float kMostYaw = 30.0F * kRadiansPerDegree<float>;
+constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);  // MotorCommands::yawRate
+constexpr float kUnitsOfPitchSine = 32768.0F;          // MotorCommands::pitch
+// Limits of the phase rate: as shares of the recorded rate, and about the tempo of the fish.
+constexpr float kRateMargin = 0.15F;
+constexpr float kTempoMargin = 0.08F;
+// Body lengths a second by which a speed must pass the border between two gaits to change gait.
+constexpr float kSpeedHysteresis = 0.12F;
+// Braking begins when the fish is this much too fast, in body lengths a second, and is full at 1
+// more.
+constexpr float kBrakeFrom = 0.6F;
+constexpr float kHoverBelow = 0.25F;  // of the slow gait's speed
+// A hovering fish brakes fully from a quarter of a body length a second on.
+constexpr float kHoverBrakeGain = 4.0F;
+// A forward gait is kept for at least so long, unless there is danger.
 constexpr std::uint64_t kShortestGaitTicks = 36;
-constexpr float kSpeedMayDiffer = 0.9F;  // of a recommended gait, body lengths a second
+// How far a recommended segment may differ from the wanted speed and course.
+constexpr float kSpeedMayDiffer = 0.9F;
 constexpr float kCourseMayDiffer = 40.0F * kRadiansPerDegree<float>;
-constexpr std::uint32_t kShortestHoldTicks = 30, kHoldSpreadTicks = 46;  // of a recommended one
+// A recommended gait is kept for 30 to 75 ticks.
+constexpr std::uint32_t kShortestHoldTicks = 30, kHoldSpreadTicks = 46;
 
+// A random number for one fish, stream and tick.
 std::uint32_t drawn(std::uint32_t seed, std::size_t fish, Stream draw, std::uint64_t tick) {
     return hashOf(hashOf(hashOf(seed, static_cast<std::uint32_t>(fish)), draw),
                   static_cast<std::uint32_t>(tick));
 }
 
-// U(4, 10) seconds.
+// Uniform in 4 to 10 seconds: 240 to 600 ticks.
 std::uint16_t patienceOf(std::uint32_t seed, std::size_t fish, std::uint64_t tick) {
     return static_cast<std::uint16_t>(240 + drawn(seed, fish, Stream::Patience, tick) % 361);
 }
 
-// Any of the other patterns.
+// One of the actions other than the present one, each as likely.
 motion::Action otherThan(motion::Action present, std::uint32_t hash) {
     const std::size_t step = 1 + hash % (motion::kActions - 1);
     return static_cast<motion::Action>((indexOf(present) + step) % motion::kActions);
@@ -70,6 +83,7 @@ motion::Action sharp(bool left) {
     return left ? motion::Action::TurnLeftSharp : motion::Action::TurnRightSharp;
 }
 
+// The forward gait whose speed is nearest, with hysteresis about the present gait.
 motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) {
     const float slowToMedium = 0.5F * (gaits.speed[0] + gaits.speed[1]);
     const float mediumToFast = 0.5F * (gaits.speed[1] + gaits.speed[2]);
@@ -84,26 +98,34 @@ motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) 
 
 }  // namespace
 
-// The situation of one fish at its decision.
+// What one fish wants and does at its decision.
 struct SecondaryController::Moment {
-    motion::Action present;  // segment that was asked for last
-    float yawError;          // radians, left positive
-    float speed;             // wanted, body lengths a second
-    float swims;             // at present
-    float urgency;           // of the surroundings
-    std::uint64_t since;     // ticks that the present segment has been pursued
-    bool isOpen;             // to what is recommended
+    // Segment that was commanded last.
+    motion::Action present;
+    // From the heading to the wanted course, radians, left positive.
+    float yawError;
+    // Wanted and present speed, body lengths a second.
+    float speed;
+    float swims;
+    // Course::urgency.
+    float urgency;
+    // Ticks since the present segment was chosen.
+    std::uint64_t since;
+    // Course::openToChange.
+    bool isOpen;
 };
 
 namespace {
 
 using Moment = SecondaryController::Moment;
 
-// Wants to be where it is: its fins brake and turn it.
+// Whether the fish wants to stay in its place. It then glides, and its fins brake and turn it.
 bool hovers(const Gaits& gaits, const Moment& moment) {
     return moment.speed < kHoverBelow * gaits.speed[indexOf(motion::Action::ForwardSlow)];
 }
 
+// The segment for the wanted course, without recommendations. The order matters: a sharp turn for a
+// large error, then hovering, then a gradual turn, then a forward gait.
 motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const float error = std::abs(moment.yawError);
     const bool turning = isTurn(moment.present);
@@ -117,19 +139,21 @@ motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     return tooSoon ? moment.present : gait;
 }
 
+// Proportional control, in units of MotorCommands::yawRate.
 std::int16_t yawRateFor(float yawError) {
     const float radiansPerSecond = std::clamp(kYawGain * yawError, -kMostYaw, kMostYaw);
     return static_cast<std::int16_t>(radiansPerSecond / static_cast<float>(kTicksPerSecond) /
                                      kRadiansOfYawUnit);
 }
 
+// Share of full braking, 0 to 255, by how much the fish is too fast.
 std::uint8_t brakeFor(const Gaits& gaits, const Moment& moment) {
     const float excess = moment.swims - moment.speed;
     const float share = hovers(gaits, moment) ? excess * kHoverBrakeGain : excess - kBrakeFrom;
     return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0F, 1.0F));
 }
 
-// Whether a pattern still leads about where the fish wants to go, about as fast.
+// Whether a recommended segment keeps roughly to the wanted course and speed. Sharp turns never do.
 bool serves(const Gaits& gaits, const Moment& moment, motion::Action recommended) {
     if (isSharp(recommended)) return false;
     if (isTurn(recommended))
@@ -158,6 +182,7 @@ void startCommands(const Gaits& gaits,
                    std::size_t last,
                    motion::MotorCommands& commands,
                    ControllerMemory& memory) {
+    assert(first <= last && last <= commands.segment.size());
     for (std::size_t fish = first; fish < last; ++fish) {
         commands.segment[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
         commands.phaseRate[fish] = gaits.phaseRate[indexOf(motion::Action::ForwardMedium)];
@@ -171,6 +196,9 @@ void startCommands(const Gaits& gaits,
 }
 
 void SecondaryController::run(std::size_t first, std::size_t last) const {
+    assert(gaits != nullptr && view != nullptr && courses != nullptr && states != nullptr);
+    assert(commands != nullptr && memory != nullptr);
+    assert(first <= last && last <= courses->size() && last <= states->size());
     for (std::size_t fish = first; fish < last; ++fish)
         if (thinksAt(tick, fish) || endsTurn(fish)) decide(fish);
 }
@@ -179,6 +207,8 @@ bool SecondaryController::endsTurn(std::size_t fish) const {
     const std::size_t playing = states->segment[fish];
     if (!isTurn(static_cast<motion::Action>(playing)))
         return false;  // one byte is read of most fish
+    // The motor plays the turn at the commanded rate if the turn is still commanded, else at the
+    // recorded rate. The turn ends when the 16-bit phase overflows.
     const bool goesOn = commands->segment[fish] == playing;
     const int rate = goesOn ? commands->phaseRate[fish] : gaits->phaseRate[playing];
     return states->phase[fish] + rate > 0xffff;
@@ -213,6 +243,9 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
     return moment;
 }
 
+// Recommendation (paper, section 5.1): after `patience` ticks of one segment another is drawn, and
+// taken if the course is open to it and it serves. A gait is then held for a while; a turn is
+// played to its end anyway. Without recommendations this is turnOrSwim().
 motion::Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
     const motion::Action chosen = turnOrSwim(*gaits, moment);
     if (tick.value < memory->heldUntil[fish])
@@ -229,6 +262,8 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
     return recommended;
 }
 
+// A forward gait is played faster or slower to reach the wanted speed; the rate stays within
+// kRateMargin of the recording and kTempoMargin of the fish's own tempo.
 std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
                                                motion::Action chosen,
                                                const Moment& moment) const {

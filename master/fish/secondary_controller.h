@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each fish's mind asks of its motor: which way it wants to go, how fast and how urgently
-// (the motor controller parameters of the paper, section 5.1).
+// The secondary controller (paper, section 5.1): turns the course that a mind wants into a motor
+// command, that is, an action segment, its phase rate and small corrections. It also changes the
+// segment when a fish has swum one pattern for too long.
 #pragma once
 
 #include <array>
@@ -17,24 +18,31 @@
 
 namespace aquarama::fish {
 
-// A fish thinks every eighth tick (Reynolds 2006), each in its turn.
+// A fish thinks every eighth tick (Reynolds 2006). Its index shifts the tick, so that an eighth of
+// all fish think at each tick.
 inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
 [[nodiscard]] constexpr bool thinksAt(Tick tick, std::size_t fish) {
     return (tick.value + fish) % kTicksBetweenThoughts == 0;
 }
 
+// What a mind asks of its motor: direction, speed and urgency (the motor controller parameters of
+// the paper, section 5.1). Written at every thought, kept until the next.
 struct Course {
     glm::vec3 direction{1, 0, 0};  // unit vector
-    float speed = 0;               // body lengths a second; under a quarter of slow: hover
-    float urgency = 0;             // 0 in the open; from 1 on it turns sharply
-    // Whether another swim pattern for a while is welcome; set for all routines alike, after them.
+    // Body lengths a second. Below a quarter of the slow gait's speed the fish hovers.
+    float speed = 0;
+    // 0 in open water; from 1 on the fish turns sharply.
+    float urgency = 0;
+    // Whether the controller may try another swim pattern for a while. think() sets it after the
+    // routine, alike for all routines.
     bool openToChange = false;
 };
 
-using Courses = std::vector<Course>;  // of all fish
+// One for each fish of the world, by index.
+using Courses = std::vector<Course>;
 
-// How the mind makes up for a motor that is weaker than the biomechanical fish (paper, sections 5.1
-// and 5.2). All are on in the show; a study takes each away to see what it gives.
+// Three changes of the mind that make up for a motor weaker than the biomechanical fish (paper,
+// sections 5.1 and 5.2). All are on in a show; the study switches them off to measure their effect.
 
 struct Adaptation {
     bool recommendations = true;  // another swim pattern when one was pursued for too long
@@ -42,24 +50,28 @@ struct Adaptation {
     bool earlierPursuit = true;   // careful steering begins farther from a target
 };
 
-// What a repertoire can do, in the numbers by which the secondary controller chooses.
+// The numbers of a repertoire that the controller chooses by.
 
-// Indexed by Action.
+// The action segments of one species, indexed by Action.
 struct Gaits {
-    std::array<std::int16_t, motion::kActions>
-        phaseRate{};                              // as recorded, 1/65536 of a cycle in a tick
-    std::array<float, motion::kActions> speed{};  // body lengths a second
-    std::array<float, motion::kActions> turn{};   // radians from start to end, left positive
+    // Phase rate as recorded, in 1/65536 of a cycle per tick.
+    std::array<std::int16_t, motion::kActions> phaseRate{};
+    // Mean speed, body lengths a second.
+    std::array<float, motion::kActions> speed{};
+    // Change of course from start to end of the segment, in radians, left positive.
+    std::array<float, motion::kActions> turn{};
 };
 [[nodiscard]] Gaits gaitsOf(const motion::MotorTables& tables);
 
+// Index of an action in the arrays of Gaits.
 [[nodiscard]] constexpr std::size_t indexOf(motion::Action action) {
     return static_cast<std::size_t>(action);
 }
 [[nodiscard]] constexpr bool isForward(motion::Action action) {
     return action <= motion::Action::ForwardFast;
 }
-// Played from the first phase to the last.
+// Whether an action is a turn. A turn is played from its first phase to its last and not
+// interrupted; the other actions are cycles.
 [[nodiscard]] constexpr bool isTurn(motion::Action action) {
     return action >= motion::Action::TurnLeftGradual && action <= motion::Action::TurnRightSharp;
 }
@@ -70,19 +82,23 @@ struct Gaits {
     return action == motion::Action::TurnLeftGradual || action == motion::Action::TurnLeftSharp;
 }
 
-// From intention to motor command (paper, section 5.1): which action segment, how fast it plays,
-// and a change of it when a fish has swum one pattern for too long.
+// The controller and its memory.
 
-// What the controller remembers of each fish from one decision to the next.
+// What the controller remembers of each fish from one decision to the next. Owned by the world; a
+// thread writes only the elements of the fish that it controls.
 struct ControllerMemory {
-    std::vector<std::uint64_t> chosenAt;   // tick at which the present segment was chosen
-    std::vector<std::uint64_t> heldUntil;  // tick up to which a recommendation is followed
-    std::vector<std::uint16_t> patience;   // ticks of one segment before another is recommended
+    // Tick at which the present segment was chosen.
+    std::vector<std::uint64_t> chosenAt;
+    // Tick until which a recommended segment is kept.
+    std::vector<std::uint64_t> heldUntil;
+    // Ticks of one segment after which another is recommended.
+    std::vector<std::uint16_t> patience;
 
     void resize(std::size_t fish);
 };
 
-// Commands at rest: each of fish [first, last) swims on at medium speed, with its own patience.
+// Initial commands of fish [first, last): medium forward gait, straight on; draws the patience of
+// each fish.
 void startCommands(const Gaits& gaits,
                    std::uint32_t seed,
                    std::size_t first,
@@ -90,10 +106,12 @@ void startCommands(const Gaits& gaits,
                    motion::MotorCommands& commands,
                    ControllerMemory& memory);
 
-// Each fish has its own tempo, within 10 % of the recorded: 51 fish of one cycle would look cloned.
+// Factor on the recorded phase rates, 0.9 to 1.1, drawn for each fish: with equal tempi a school
+// would look cloned.
 [[nodiscard]] float tempoOf(std::uint32_t seed, std::size_t fish);
 
-// Commands those among fish [first, last) that think at this tick.
+// Decides for the fish of one species that think at this tick. Points to columns of the world, owns
+// nothing; run() may be called from several threads for disjoint ranges.
 struct SecondaryController {
     const Gaits* gaits = nullptr;
     const FishView* view = nullptr;
@@ -104,12 +122,15 @@ struct SecondaryController {
     motion::MotorCommands* commands = nullptr;
     ControllerMemory* memory = nullptr;
 
+    // Writes commands and memory of those fish [first, last) that decide at this tick.
     void run(std::size_t first, std::size_t last) const;
 
+    // The situation of one fish at its decision; defined in the source file.
     struct Moment;
 
   private:
-    // What follows a turn begins in this tick, whoever's time it is to think.
+    // Whether the fish's turn ends in this tick. Then it decides at once, also between two
+    // thoughts, so that the next segment begins without a gap.
     [[nodiscard]] bool endsTurn(std::size_t fish) const;
     void decide(std::size_t fish) const;
     [[nodiscard]] Moment momentOf(std::size_t fish) const;

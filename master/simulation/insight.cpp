@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/simulation/insight.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -34,6 +34,7 @@ std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish
     insight.phase = static_cast<float>(states.phase[fish]) / 65536.0F;
     insight.swims = motion::speedBodyLengths(states, fish);
     if (insight.away) return insight;
+    // The stages of a thought, as think() runs them, but with nothing written back.
     insight.senses = behaviour::perceive(environment, insight.parameters, fish, insight.mind);
     insight.feelings = behaviour::feel(insight.parameters, insight.mind, insight.senses);
     insight.reasoning =
@@ -51,17 +52,20 @@ double seconds(std::uint32_t ticks) {
     return static_cast<double>(ticks) / kTicksPerSecond;
 }
 
+// Indexed by Intention.
 const char* wordFor(fish::Intention intention) {
     constexpr std::array<const char*, fish::kIntentions> kWords{
         "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
     return kWords[static_cast<std::size_t>(intention)];
 }
 
+// Indexed by Role.
 const char* wordFor(config::Role role) {
     constexpr std::array<const char*, 3> kWords{"prey", "pacifist", "predator"};
     return kWords[static_cast<std::size_t>(role)];
 }
 
+// Sex and likes, as a list of words.
 std::string likesOf(const fish::Mind& mind) {
     std::string words = (mind.likes & fish::kIsFemale) != 0 ? "female" : "male";
     constexpr std::array<std::pair<fish::Like, const char*>, 5> kWords{
@@ -79,10 +83,12 @@ std::string likesOf(const fish::Mind& mind) {
     return words;
 }
 
+// From the heading to a direction, about the world's up; negative is to the right.
 double degreesLeft(glm::vec3 heading, glm::vec3 direction) {
     return static_cast<double>(place::yawBetween(heading, direction)) * kDegreesPerRadian;
 }
 
+// Where an offset lies, in words: eight sectors about the heading.
 std::string whereabouts(glm::vec3 heading, glm::vec3 offset) {
     const double degrees = degreesLeft(heading, offset);
     const double aside = std::abs(degrees);
@@ -93,7 +99,8 @@ std::string whereabouts(glm::vec3 heading, glm::vec3 offset) {
     return aside < 155 ? format("behind {}", side) : std::string("behind");
 }
 
-// The screen grows line by line; a head stands in the margin of its first line.
+// Composes the screen section by section. The title of a section stands in the left margin of its
+// first line, nine characters wide.
 class Screen {
   public:
     Screen(const Insight& insight, const Acquaintances& others) : of_(insight), others_(others) {}
@@ -109,27 +116,33 @@ class Screen {
         intends();
         does();
         why();
+        assert(lines_.size() <= kScreenLines);
         return std::move(lines_);
     }
 
   private:
+    // Appends a line, cut to the width of the screen.
     void add(const char* head, const std::string& text) {
         lines_.push_back(format("{:<9}{}", head, text).substr(0, kScreenColumns));
     }
 
+    // In body lengths of the fish; its length may be 0 in an empty insight.
     [[nodiscard]] double lengths(double metres) const {
         return metres / std::max(1e-3, static_cast<double>(of_.lengthMetres));
     }
 
+    // Name of the species of a fish that exists.
     [[nodiscard]] const std::string& speciesOf(std::uint32_t fish) const {
         return others_.species[others_.view.kind[fish]];
     }
 
+    // Number and species; the number alone where there is no such fish.
     [[nodiscard]] std::string named(std::uint32_t fish) const {
         if (fish >= others_.view.size()) return format("#{}", fish);
         return format("#{} {}", fish, speciesOf(fish));
     }
 
+    // A sighting in words: who, how far in body lengths (L), and where.
     [[nodiscard]] std::string at(const behaviour::Sighting& sighting,
                                  const std::string& who) const {
         if (!sighting.seen()) return "-";
@@ -148,6 +161,7 @@ class Screen {
                    likesOf(of_.mind)));
     }
 
+    // As many neighbours as fit into kListColumns, nearest first.
     [[nodiscard]] std::string listed(const behaviour::Neighbours& near) const {
         std::string list = near.count == 0 ? "-" : "";
         for (std::size_t i = 0; i < near.count; ++i) {
@@ -160,6 +174,7 @@ class Screen {
         return list;
     }
 
+    // The nearest predator, and how many more are in sight.
     [[nodiscard]] std::string predators() const {
         const behaviour::Senses& senses = of_.senses;
         if (senses.predatorCount == 0) return "-";
@@ -186,6 +201,7 @@ class Screen {
                    senses.celsius));
     }
 
+    // A bar of 20 cells for a value of 0 to 1.
     [[nodiscard]] static std::string bar(float value) {
         constexpr std::size_t kCells = 20;
         const auto full =
@@ -199,6 +215,7 @@ class Screen {
         add("", "fear   " + bar(of_.feelings.fear));
     }
 
+    // The target is a particle for those that eat food, a fish for all others.
     [[nodiscard]] std::string targeted(fish::Intention intention, std::uint32_t target) const {
         if (target == fish::kNobody) return wordFor(intention);
         const bool isParticle = intention == fish::Intention::Eat &&
@@ -208,6 +225,7 @@ class Screen {
                       isParticle ? format("particle {}", target) : named(target));
     }
 
+    // The intention, and the aim that it interrupted, if any.
     void intends() {
         const fish::Mind& mind = of_.mind;
         add("INTENDS",
@@ -221,6 +239,7 @@ class Screen {
                        seconds(mind.sinceRemembered)));
     }
 
+    // What the body plays and what the course asks of it. Angles are relative to the heading.
     void does() {
         const fish::Course& course = of_.course;
         const double climb =
@@ -246,15 +265,18 @@ class Screen {
                                         const behaviour::Weighed& weighed) const;
     void why();
 
+    // Width of a list of neighbours, in characters.
     static constexpr std::size_t kListColumns = 54;
     const Insight& of_;
     const Acquaintances& others_;
     std::vector<std::string> lines_;
 };
 
+// Indexed by PriorityRule.
 constexpr std::array<const char*, behaviour::kPriorityRules> kPriorityRuleNames{
     "obstacle", "other fish", "fear", "memory", "hunger", "libido", "climate", "company", "ease"};
 
+// Words for Verdict::NoTarget of a rule.
 std::string notInView(behaviour::PriorityRule rule) {
     switch (rule) {
         case behaviour::PriorityRule::OtherFish:
@@ -268,6 +290,7 @@ std::string notInView(behaviour::PriorityRule rule) {
     }
 }
 
+// Why a rule won or did not: one phrase for each verdict.
 std::string Screen::verdictOn(behaviour::PriorityRule rule,
                               const behaviour::Weighed& weighed) const {
     const bool shelters =
@@ -300,6 +323,8 @@ std::string Screen::verdictOn(behaviour::PriorityRule rule,
     return rule == behaviour::PriorityRule::Hunger ? "yields to libido" : "yields to hunger";
 }
 
+// One line for each rule in order of priority. If the decision differs from the present intention,
+// the winner only takes effect at the next thought.
 void Screen::why() {
     const bool changes = of_.reasoning.decision.intention != of_.mind.intention;
     for (std::size_t i = 0; i < behaviour::kPriorityRules; ++i)
@@ -315,6 +340,7 @@ void Screen::why() {
 }  // namespace
 
 std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others) {
+    assert(insight.fish < others.view.size());
     return Screen(insight, others).drawn();
 }
 

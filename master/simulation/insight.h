@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A look into one mind: what the fish senses, feels, intends and does at this tick, and why it does
-// nothing else. Looking changes nothing: the stages of a thought run once more on the world as it
-// is, and what they give is thrown away.
+// nothing else. It repeats the stages of a thought on the present world and writes nothing to it.
+// The text is for `aquarama explain`.
 #pragma once
 
 #include <cstddef>
@@ -23,23 +23,31 @@
 
 namespace aquarama::simulation {
 
+// All that is shown of one fish; copies, which do not depend on the world any more.
 struct Insight {
     std::uint32_t fish = 0;
     Tick tick;
+    // Of its species.
     fish::SpeciesParameters parameters;
     float lengthMetres = 0;
-    bool away = false;  // eaten, or not yet come: it thinks nothing
-    fish::Mind mind;    // as its last thought left it
+    // Eaten, or not yet come: it does not think, and senses, feelings and reasoning are empty.
+    bool away = false;
+    // As its last thought left it.
+    fish::Mind mind;
     behaviour::Senses senses;
     fish::Feelings feelings;
-    behaviour::Reasoning reasoning;  // of a thought now; the mind may not have come to it yet
-    fish::Course course;             // that it asks its motor for
-    motion::Action segment = motion::Action::ForwardMedium;  // that is playing
-    float phase = 0;                                         // of it, 0 to 1
-    float swims = 0;                                         // body lengths a second
+    // Of a thought at this tick; the fish may not have decided so yet.
+    behaviour::Reasoning reasoning;
+    // The course that it asks its motor for.
+    fish::Course course;
+    // The segment that is playing, its phase (0 to 1) and the present speed (body lengths a
+    // second).
+    motion::Action segment = motion::Action::ForwardMedium;
+    float phase = 0;
+    float swims = 0;
 };
 
-// Empty where the world has no such fish.
+// Empty where the world has no such fish. Call it between two ticks, from the thread of the world.
 [[nodiscard]] std::optional<Insight> insightInto(const world::World& world, std::uint32_t fish);
 
 // An insight as a screen of text: at most 24 lines of 78 characters, printable ASCII.
@@ -47,12 +55,14 @@ struct Insight {
 inline constexpr std::size_t kScreenLines = 24;
 inline constexpr std::size_t kScreenColumns = 78;
 
-// Of whom the fish is aware: where all are, and what their species are called, by FishView::kind.
+// What the text needs of the other fish: the view, and the names of the species by FishView::kind.
+// Refers to both; used during one call only.
 struct Acquaintances {
     const fish::FishView& view;
     std::span<const std::string> species;
 };
 
+// The lines of the screen, without line ends.
 [[nodiscard]] std::vector<std::string> linesOf(const Insight& insight, const Acquaintances& others);
 
 }  // namespace aquarama::simulation

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/simulation/living_world.h"
 
 #include <algorithm>
@@ -24,6 +23,7 @@ namespace aquarama::simulation {
 
 namespace {
 
+// The kind of a particle as the wire names it.
 wire::FoodRecord::Kind kindOf(surroundings::FoodKind kind) {
     switch (kind) {
         case surroundings::FoodKind::Plankton:
@@ -42,7 +42,8 @@ LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
     for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
 }
 
-// As the nodes are told of it.
+// All particles as they are published: relative to the middle of the water, so that few bits
+// suffice.
 void LivingWorld::food(wire::FoodCloud& cloud) const {
     const surroundings::Food& food = world_.surroundings().food;
     cloud.originMetres = world_.surroundings().obstacles.water.centre;
@@ -52,6 +53,7 @@ void LivingWorld::food(wire::FoodCloud& cloud) const {
             kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
 }
 
+// The wall is the submarine's window: its attitude is that of the wall.
 wire::Eye LivingWorld::eye() const {
     const surroundings::Vessel& vessel = world_.pilot().vessel;
     const motion::Quaternion q = surroundings::worldFromBody(vessel.attitude);
@@ -68,23 +70,25 @@ wire::Explanation LivingWorld::explain(std::uint32_t fish) const {
 
 namespace {
 
-// One core moves a few thousand fish well inside a tick; more threads would only wait for each
-// other.
+// Fish for each thread. One core moves a few thousand fish well within a tick; with more threads
+// each would mostly wait for the others.
 constexpr std::uint32_t kFishOfAThread = 2000;
 
-// The first show of a species on this machine simulates it; later ones find what it swam.
+// The repertoires of the cast, from the cache or by simulation. Throws Error with the first
+// failure.
 std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Species>& species) {
     capture::ProgressBar bar("capturing");
     std::vector<capture::RepertoireFile> files =
         capture::repertoiresFor(species,
                                 files::cacheFolder() / "repertoires",
                                 {.progress = [&](double share) { bar.show(share); }});
+    // A species that cannot be captured has an error instead of bytes.
     for (const capture::RepertoireFile& file : files)
         if (!file.error.empty()) throw Error(file.error);
     return files;
 }
 
-// The scene with the number of fish that is asked for.
+// The scene, with the chosen number of fish of its first species.
 config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
     config::Scene scene = config::readScene(path);
     config::CastMember& school = scene.cast.front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world as the conductor knows it.
+// The living world as the conductor knows it, and how it is made from files.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,10 @@
 
 namespace aquarama::simulation {
 
+// A world::World behind the conductor's interface. Called from the tick thread only.
 class LivingWorld : public conductor::Simulation {
   public:
+    // Throws Error where the options make no world.
     explicit LivingWorld(const world::WorldOptions& options);
     void advance() override { world_.advance(); }
     void apply(const world::WorldInput& input) override { world_.apply(input); }
@@ -31,30 +33,36 @@ class LivingWorld : public conductor::Simulation {
 
   private:
     world::World world_;
-    std::vector<std::string> species_;  // their names, in the order of the cast
+    // Names of the species, in the order of the cast.
+    std::vector<std::string> species_;
 };
 
-// From files to a world: what a show is made of is read once, as bytes, and the same bytes make the
-// world of the show, of its replay and of a study.
+// From files to a world. The files are read once, as bytes; a show, its replay and a study all make
+// their world from such bytes, so that they get the same one.
 
-// What the command line asks for.
+// What a command line may choose beside the scene.
 struct AssetChoice {
     std::uint32_t seed = 1;
-    std::optional<std::uint32_t> fish;  // of the first species, instead of the scene's number
+    // Number of fish of the first species, instead of the scene's.
+    std::optional<std::uint32_t> fish;
 };
 
 // A show's files, each parsed once.
 struct Assets {
-    wire::AssetBundle bytes;               // as they are recorded, and sent to the nodes
-    config::Scene scene;                   // with as many fish as the bytes' cast
-    std::vector<config::Species> species;  // of the cast, in its order
+    // As they are recorded, and sent to the nodes.
+    wire::AssetBundle bytes;
+    // With as many fish as the cast of the bytes.
+    config::Scene scene;
+    // Of the cast, in its order.
+    std::vector<config::Species> species;
 };
 
-// Reads the scene and the files of its cast; a species that was never shown on this machine is
-// captured, behind a bar of progress. Throws Error with file:line:column.
+// Reads the scene and the files of its cast. A species that is new on this machine is simulated
+// first, which takes minutes and shows a progress bar. Throws Error with file:line:column.
 [[nodiscard]] Assets readAssets(const std::string& scenePath, const AssetChoice& choice);
 
-// Throws Error where a repertoire is wrong. Threads: as many as serve so many fish.
+// Options of a world from its files. The number of threads suits the number of fish. Throws Error
+// where a repertoire is wrong.
 [[nodiscard]] world::WorldOptions worldOptionsOf(const Assets& assets);
 // Of a recording: parses its files first, and throws Error where one is wrong, too.
 [[nodiscard]] world::WorldOptions worldOptionsOf(const wire::AssetBundle& recorded);

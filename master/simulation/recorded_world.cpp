@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/simulation/recorded_world.h"
 
+#include <cassert>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -13,12 +13,14 @@ namespace aquarama::simulation {
 
 namespace {
 
+// Writes and flushes; false where either fails.
 bool wrote(std::ofstream& file, const wire::Packet& bytes) {
     file.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
     return static_cast<bool>(file.flush());
 }
 
+// The system's message for the last failed call.
 std::string reason() {
     return std::system_category().message(errno);
 }
@@ -44,6 +46,7 @@ void RecordingFile::add(const wire::Packet& entry) {
     file_.close();
 }
 
+// A recording begins and ends with a hash, so that even a short one can be compared.
 RecordedWorld::RecordedWorld(conductor::Simulation& world, RecordingFile& file)
     : SimulationDecorator(world), file_(file) {
     file_.add(wire::entryOf(now()));
@@ -54,6 +57,7 @@ RecordedWorld::~RecordedWorld() {
 }
 
 void RecordedWorld::advance() {
+    // Inputs are recorded with the tick at whose beginning they apply.
     for (const world::WorldInput& input : std::exchange(pending_, {})) {
         file_.add(wire::entryOf(recorded(world_.tick(), input)));
         world_.apply(input);
@@ -64,9 +68,11 @@ void RecordedWorld::advance() {
 
 Playback::Playback(const wire::Recording& recording, conductor::Simulation& world)
     : recording_(recording), world_(world) {
+    assert(world.tick() == Tick{});
     compare();
 }
 
+// Same order as RecordedWorld::advance(): inputs first, then the tick.
 void Playback::advance() {
     const auto& inputs = recording_.inputs;
     while (nextInput_ < inputs.size() && inputs[nextInput_].tick <= world_.tick())
@@ -75,6 +81,7 @@ void Playback::advance() {
     compare();
 }
 
+// Compares with all checkpoints up to this tick, and with the end of the recording at its tick.
 void Playback::compare() {
     const auto& checkpoints = recording_.checkpoints;
     while (nextCheckpoint_ < checkpoints.size() &&
@@ -86,6 +93,7 @@ void Playback::compare() {
 void Playback::compareWith(const wire::RecordedHash& expected) {
     ++compared_;
     const std::uint64_t hash = world_.hash();
+    // Only the first difference is kept: a world that differs once never comes back.
     if (hash != expected.hash && !difference_)
         difference_ = {expected.tick, expected.hash, hash, lastSame_};
     if (hash == expected.hash) lastSame_ = expected.tick;
@@ -94,13 +102,16 @@ void Playback::compareWith(const wire::RecordedHash& expected) {
 ReplayedWorld::ReplayedWorld(const wire::Recording& recording,
                              conductor::Simulation& world,
                              std::function<void()> onEnd)
-    : SimulationDecorator(world), playback_(recording, world), onEnd_(std::move(onEnd)) {}
+    : SimulationDecorator(world), playback_(recording, world), onEnd_(std::move(onEnd)) {
+    assert(onEnd_ != nullptr);
+}
 
 void ReplayedWorld::advance() {
     playback_.advance();
     if (playback_.difference() && !std::exchange(toldOfDifference_, true))
         logWarning("from tick {} on the replay is another world than the recorded one",
                    playback_.difference()->tick.value);
+    // The world may be advanced further; onEnd_ is called only once.
     if (playback_.over() && !std::exchange(ended_, true)) onEnd_();
 }
 
@@ -111,6 +122,7 @@ void ReplayedWorld::apply(const world::WorldInput& /*input*/) {
 
 namespace {
 
+// One pair of functions for each kind of input.
 wire::RecordedFood recordedOne(const world::DropFood& food) {
     return {food.position, food.pellets};
 }

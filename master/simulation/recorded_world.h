@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What recorder and playback have in common: another simulation stands behind them and is seen
-// through them; they differ in how it advances and in what reaches it.
+// Recording and replaying a world. Both are decorators: they stand in front of another simulation
+// and differ in how it advances and which inputs reach it.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +17,8 @@
 
 namespace aquarama::simulation {
 
+// Passes every question on to the simulation behind it, which it does not own and which outlives
+// it.
 class SimulationDecorator : public conductor::Simulation {
   public:
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
@@ -34,23 +36,25 @@ class SimulationDecorator : public conductor::Simulation {
     conductor::Simulation& world_;
 };
 
-// Records a show as it goes: every input with its tick, and now and then a hash of the world.
+// Recording: every input with its tick, and a hash of the world from time to time.
 
+// Ticks between two recorded hashes: ten seconds.
 inline constexpr std::uint64_t kTicksBetweenCheckpoints = 600;
 
-// Throws Error where there is a file already.
+// Throws Error where a file of this name exists.
 void requireNewRecording(const std::string& path);
 
-// A recording that grows. Every entry reaches the system at once: whatever ends the program, the
-// file is whole up to its last entry.
+// A recording that grows. Each entry is flushed at once: however the program ends, the file is
+// whole up to its last entry.
 class RecordingFile {
   public:
-    // Throws Error where there is such a file already, and where it cannot be written.
+    // Throws Error where the file exists or cannot be written.
     RecordingFile(std::string path, const wire::AssetBundle& assets);
 
-    // A show does not end because a disk is full: the first entry that cannot be written is
-    // reported, and nothing is recorded from then on.
+    // Appends an entry. Never throws, as a full disk must not end a show: the first entry that
+    // cannot be written is reported in the log, and recording stops.
     void add(const wire::Packet& entry);
+    // Whether entries are still written.
     [[nodiscard]] bool recording() const { return file_.is_open(); }
 
   private:
@@ -58,12 +62,13 @@ class RecordingFile {
     std::ofstream file_;
 };
 
-// A world whose inputs are recorded. They reach it as its next tick begins, here as in a replay, so
-// that no snapshot tells the two apart.
+// A world whose inputs are recorded. An input waits until the next tick begins, here as in a
+// replay, so that a snapshot between two ticks is the same in both.
 class RecordedWorld final : public SimulationDecorator {
   public:
     RecordedWorld(conductor::Simulation& world, RecordingFile& file);
-    ~RecordedWorld() override;  // writes the end
+    // Writes the end of the recording.
+    ~RecordedWorld() override;
     RecordedWorld(const RecordedWorld&) = delete;
     RecordedWorld& operator=(const RecordedWorld&) = delete;
 
@@ -71,34 +76,40 @@ class RecordedWorld final : public SimulationDecorator {
     void apply(const world::WorldInput& input) override { pending_.push_back(input); }
 
   private:
+    // The present tick and hash.
     [[nodiscard]] wire::RecordedHash now() const { return {world_.tick(), world_.hash()}; }
 
     RecordingFile& file_;
     std::vector<world::WorldInput> pending_;
 };
 
-// Replays a recording: the same inputs reach the world at the same ticks, and it is compared with
-// what it was.
+// Replaying: the same inputs reach the world at the same ticks, and its hashes are compared with
+// the recorded ones.
 
-// Where a replay first was another world than the recorded one.
+// The first tick at which the hash of a replay differs from the recorded one.
 struct Difference {
     Tick tick;
     std::uint64_t recorded = 0, replayed = 0;
-    std::optional<Tick> lastSame;  // without: it never was the same
+    // The last tick before it with equal hashes, if any.
+    std::optional<Tick> lastSame;
 };
 
+// Drives a world through a recording and compares hashes on the way.
 class Playback {
   public:
-    // `recording` outlives it; `world` is at tick 0.
+    // Both outlive it; `world` is at tick 0.
     Playback(const wire::Recording& recording, conductor::Simulation& world);
 
-    void advance();  // by one tick, with what reached the world before it
+    // Advances by one tick, after the inputs recorded for it.
+    void advance();
     [[nodiscard]] bool over() const { return world_.tick() >= recording_.lastTick(); }
-    [[nodiscard]] std::size_t inputs() const { return nextInput_; }  // that have reached the world
+    // Number of inputs applied, and of hashes compared, so far.
+    [[nodiscard]] std::size_t inputs() const { return nextInput_; }
     [[nodiscard]] std::size_t compared() const { return compared_; }
     [[nodiscard]] const std::optional<Difference>& difference() const { return difference_; }
 
   private:
+    // Compares the present hash with every recorded one that is due.
     void compare();
     void compareWith(const wire::RecordedHash& expected);
 
@@ -109,10 +120,10 @@ class Playback {
     std::optional<Difference> difference_;
 };
 
-// The replay as the conductor shows it. What visitors do meanwhile does not reach the world.
+// The replay as the conductor shows it. Inputs of visitors are dropped, with one warning.
 class ReplayedWorld final : public SimulationDecorator {
   public:
-    // onEnd is called once, from the tick thread, when all that was recorded has been replayed.
+    // `onEnd` is called once, from the tick thread, after the last recorded tick.
     ReplayedWorld(const wire::Recording& recording,
                   conductor::Simulation& world,
                   std::function<void()> onEnd);
@@ -123,10 +134,11 @@ class ReplayedWorld final : public SimulationDecorator {
   private:
     Playback playback_;
     std::function<void()> onEnd_;
+    // Each warning is given once.
     bool toldOfInput_ = false, toldOfDifference_ = false, ended_ = false;
 };
 
-// What reaches the world, as a recording has it, and back.
+// Inputs as a recording stores them, and back.
 
 [[nodiscard]] wire::RecordedInput recorded(Tick tick, const world::WorldInput& input);
 [[nodiscard]] world::WorldInput inputOf(const wire::RecordedInput& recorded);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/study/chronicle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -17,18 +17,23 @@ namespace aquarama::study {
 
 namespace {
 
-constexpr int kSamples = 32;  // along the shorter middle line
+// Intervals along a middle line between sampled points.
+constexpr int kSamples = 32;
 
+// A point of the middle line; `behindNose` is a share of the length.
 glm::vec3 pointOf(const Rod& rod, float behindNose) {
     return rod.origin + rod.heading * (rod.length * (kNoseAhead - behindNose));
 }
 
+// From a point to the middle line of a rod.
 float distanceTo(const Rod& rod, glm::vec3 point) {
     const float along = glm::dot(point - rod.origin, rod.heading);
     const float nearest = std::clamp(along, (kNoseAhead - 1) * rod.length, kNoseAhead * rod.length);
     return glm::distance(point, rod.origin + rod.heading * nearest);
 }
 
+// Quick test by the distance of the origins. The tail is the longer part behind the origin, so that
+// nothing of a body is farther away than it.
 bool mayTouch(const Rod& a, const Rod& b, float room) {
     const float reach = (1 - kNoseAhead) * (a.length + b.length) + room;
     const glm::vec3 apart = b.origin - a.origin;
@@ -68,6 +73,7 @@ float overlapOf(const Rod& a, const Rod& b) {
 std::span<const BodyOverlap> OverlapLog::note(Tick tick,
                                               std::span<const Rod> rods,
                                               std::span<const fish::Intention> intentions) {
+    assert(rods.size() == intentions.size());
     fresh_.clear();
     for (std::uint32_t a = 0; a < rods.size(); ++a)
         for (std::uint32_t b = a + 1; b < rods.size(); ++b)
@@ -78,6 +84,7 @@ std::span<const BodyOverlap> OverlapLog::note(Tick tick,
                       .intentionOfB = intentions[b],
                       .from = tick},
                      share);
+    // Pairs that did not meet at this glance have ended.
     std::erase_if(open_, [&](const auto& entry) {
         if (entry.second.last.value == tick.value) return false;
         ended_.push_back(entry.second.overlap);
@@ -86,6 +93,7 @@ std::span<const BodyOverlap> OverlapLog::note(Tick tick,
     return fresh_;
 }
 
+// Begins or continues the overlap of a pair; a glance stands for all ticks since the last one.
 void OverlapLog::meet(const BodyOverlap& overlap, float share) {
     const auto [entry, isNew] =
         open_.try_emplace({overlap.a, overlap.b}, Open{overlap, 0, overlap.from});
@@ -111,6 +119,7 @@ constexpr std::uint64_t kTicksBetweenGlances = 5;
 
 }  // namespace
 
+// The surface is at y = 0; the half-width keeps the back of the fish under it.
 bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod) {
     if (rod.length == 0) return false;
     const glm::vec3 at = rod.origin;
@@ -129,6 +138,8 @@ Diary::Diary(const world::World& world, std::vector<float> halfWidths)
       target_(world.view().size()),
       rushes_(world.view().size()),
       before_(world.counts()) {
+    assert(!world.speciesParameters().empty());
+    assert(halfWidths_.size() == world.speciesParameters().size());
     for (std::size_t fish = 0; fish < intention_.size(); ++fish) {
         intention_[fish] = world.minds()[fish].intention;
         target_[fish] = world.minds()[fish].target;
@@ -136,6 +147,7 @@ Diary::Diary(const world::World& world, std::vector<float> halfWidths)
 }
 
 void Diary::note(const world::World& world) {
+    assert(world.view().size() == intention_.size());
     ++tally_.ticks;
     tally_.particles = world.counts().meals - before_.meals;
     tally_.catches = world.counts().catches - before_.catches;
@@ -153,6 +165,7 @@ void Diary::noteMind(const world::World& world, std::size_t fish) {
     const bool hunts =
         world.speciesParameters()[world.view().kind[fish]].habits.role == config::Role::Predator;
     const bool isNew = intention != intention_[fish];
+    // A try is a new target, also when the intention stays.
     const bool another = isNew || minds[fish].target != target_[fish];
     ++tally_.fishTicks;
     ++tally_.intentionTicks.at(static_cast<std::size_t>(intention));
@@ -162,6 +175,7 @@ void Diary::noteMind(const world::World& world, std::size_t fish) {
     }
     const bool rushes = hunts && intention == fish::Intention::Eat &&
                         minds[fish].stage == static_cast<std::uint8_t>(behaviour::HuntStage::Rush);
+    // Counts the beginning of a rush, not its ticks.
     tally_.rushes += rushes && rushes_[fish] == 0 ? 1 : 0;
     rushes_[fish] = rushes ? 1 : 0;
     intention_[fish] = intention;
@@ -194,13 +208,16 @@ void Diary::noteSchool(const world::World& world) {
 
 namespace {
 
-constexpr std::uint64_t kTicksBetweenSteps = 30;  // at which places are noted
+// Ticks between two notes of the places of all fish.
+constexpr std::uint64_t kTicksBetweenSteps = 30;
 constexpr double kTicksOfMinute = 60.0 * kTicksPerSecond;
 
+// Cells of a cubic metre along each axis, at least one.
 glm::ivec3 cubicMetres(const place::Region& water) {
     return glm::max(glm::ivec3(glm::ceil(2.0F * water.halfExtent)), 1);
 }
 
+// Index of the cubic metre that a place is in; places outside count to the border.
 std::size_t cellOf(const place::Region& water, glm::vec3 place) {
     const glm::ivec3 size = cubicMetres(water);
     const glm::ivec3 cell = glm::clamp(
@@ -224,6 +241,7 @@ Chronicle::Chronicle(const world::World& world,
       ticksOfHour_(ticksOfHour),
       counts_(world.counts()),
       ways_(world.view().size()) {
+    assert(ticksOfHour_ > 0);
     for (std::size_t fish = 0; fish < ways_.size(); ++fish)
         ways_[fish].last = ways_[fish].anchor = world.view().position(fish);
     beginHour(world);
@@ -251,6 +269,7 @@ void Chronicle::note(const world::World& world) {
     beginHour(world);
 }
 
+// Spread and way of all fish. The middle is that of the fish that are there.
 void Chronicle::notePlaces(const world::World& world) {
     const fish::FishView& view = world.view();
     std::uint32_t there = 0;
@@ -271,6 +290,7 @@ void Chronicle::notePlaces(const world::World& world) {
     }
 }
 
+// A fish that is away makes no way, and starts anew where it comes back.
 void Chronicle::noteWay(const world::World& world, std::size_t fish) {
     Way& way = ways_[fish];
     const glm::vec3 place = world.view().position(fish);
@@ -281,6 +301,7 @@ void Chronicle::noteWay(const world::World& world, std::size_t fish) {
         way.anchoredAt = tick;
         return;
     }
+    // Length of the way from steps of half a second.
     way.metres += static_cast<double>(glm::distance(place, way.last));
     way.last = place;
     if (glm::distance(place, way.anchor) > kStayMetres) {
@@ -297,6 +318,7 @@ void Chronicle::noteWay(const world::World& world, std::size_t fish) {
     visited_[cellOf(water, place)] = 1;
 }
 
+// Figures of an hour from the differences of sums since it began.
 Hour Chronicle::finished(const Hour& hour) const {
     Hour whole = hour;
     const Tally& tally = diary_.tally();

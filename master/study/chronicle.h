@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fish as straight round rods: whether two of them are in each other.
+// Measuring a world from outside: overlaps of bodies, a diary of all that happens, and a chronicle
+// hour by hour. Everything here only reads the world, after a tick, on the thread of the world.
+// Bodies are taken as straight rods with round ends.
 #pragma once
 
 #include <array>
@@ -19,54 +21,68 @@
 
 namespace aquarama::study {
 
-// The body frame's origin is this share of the length behind the nose.
+// The origin of the body frame is this share of the length behind the nose.
 inline constexpr float kNoseAhead = 0.385F;
 
+// A body as a straight line with a half-width around it. A fish that is away has length 0.
 struct Rod {
-    glm::vec3 origin{};          // of the body frame, metres
+    // Of the body frame, metres.
+    glm::vec3 origin{};
     glm::vec3 heading{1, 0, 0};  // unit vector
     float length = 0;            // metres
-    float halfWidth = 0;         // metres, the greatest of the body
+    // Half of the greatest width of the body, metres.
+    float halfWidth = 0;
 };
 
-// Of all fish but those that are away, whose length is 0. Half-widths are given by kind, in body
-// lengths.
+// Writes the rods of all fish; those of fish that are away get length 0. `halfWidths` are by kind,
+// in body lengths.
 void rodsOf(const fish::FishView& view, std::span<const float> halfWidths, std::vector<Rod>& rods);
 
-// Between the middle lines from nose to tail, metres.
+// Distance between the middle lines from nose to tail, metres; sampled at 33 points of `a`.
 [[nodiscard]] float distanceBetween(const Rod& a, const Rod& b);
 
-// Of the shorter one's middle line, the share that is nearer to the other's than their half-widths
-// together; 0 where they do not overlap.
+// Share of the shorter body that is inside the other: of the points sampled along its middle line
+// those nearer to the other middle line than both half-widths. 0 where they do not overlap.
 [[nodiscard]] float overlapOf(const Rod& a, const Rod& b);
 
-// Who overlapped whom, how deep and for how long.
+// Overlaps: which fish, how deep and for how long.
 
+// One time for which two fish overlapped.
 struct BodyOverlap {
-    std::uint32_t a = 0, b = 0;  // fish, a < b
-    fish::Intention intentionOfA = fish::Intention::Wander,
-                    intentionOfB = fish::Intention::Wander;  // as it began
+    // The two fish, a < b.
+    std::uint32_t a = 0, b = 0;
+    // Their intentions when the overlap began.
+    fish::Intention intentionOfA = fish::Intention::Wander, intentionOfB = fish::Intention::Wander;
     Tick from;
-    std::uint64_t ticks = 0;      // in which any of them was in the other
-    std::uint64_t deepTicks = 0;  // in which more than kDeepShare was, the longest run of them
-    float deepest = 0;            // share of the shorter body
+    // How long they overlapped at all.
+    std::uint64_t ticks = 0;
+    // Longest run with a share over kDeepShare.
+    std::uint64_t deepTicks = 0;
+    // Greatest share of the shorter body.
+    float deepest = 0;
 };
 
+// An overlap over this share of the shorter body is a deep one.
 inline constexpr float kDeepShare = 0.25F;
 
-// Looks every few ticks; what is shorter than that may be missed.
+// Tracks overlaps from one glance to the next. A glance is O(fish^2). Overlaps shorter than the
+// time between two glances may be missed.
 class OverlapLog {
   public:
     explicit OverlapLog(std::uint64_t ticksBetweenGlances) : between_(ticksBetweenGlances) {}
-    // Answers the overlaps that are new.
+    // Notes one glance and returns the overlaps that began at it, valid until the next call. Rods
+    // and intentions are by fish.
     std::span<const BodyOverlap> note(Tick tick,
                                       std::span<const Rod> rods,
                                       std::span<const fish::Intention> intentions);
 
-    [[nodiscard]] std::vector<BodyOverlap> all() const;  // those that go on as well
+    // All overlaps, those that have ended first.
+    [[nodiscard]] std::vector<BodyOverlap> all() const;
+    // Ticks of overlap, summed over pairs.
     [[nodiscard]] std::uint64_t pairTicks() const { return pairTicks_; }
 
   private:
+    // An overlap that still goes on.
     struct Open {
         BodyOverlap overlap;
         std::uint64_t deepRun = 0;
@@ -81,34 +97,44 @@ class OverlapLog {
     std::vector<BodyOverlap> fresh_;
 };
 
-// What happened in a world while it was watched.
+// A diary: what happened in a world while it was watched.
 
-// Sums over the time watched.
+// Sums over the time watched. Means and rates are formed by figuresOf().
 struct Tally {
+    // Ticks summed over the fish that were there, and ticks of the world.
     double fishTicks = 0;
     std::uint64_t ticks = 0;
 
-    std::uint64_t touches = 0;  // overlaps that began
-    double overlapTicks = 0;    // fish of it
-    std::uint64_t bumps = 0;    // into rock, sand or surface, that began
-    double nearestNeighbour = 0, polarisation = 0, rotation = 0;  // of the school, at each glance
-    double resultant = 0, sameSegment = 0, inStep = 0;            // likewise
+    // Overlaps that began.
+    std::uint64_t touches = 0;
+    // Ticks of overlap, summed over fish: each pair counts twice.
+    double overlapTicks = 0;
+    // Times that a fish got into rock, sand or surface.
+    std::uint64_t bumps = 0;
+    // Sums of SchoolFigures and Synchrony of the school over all glances.
+    double nearestNeighbour = 0, polarisation = 0, rotation = 0;
+    double resultant = 0, sameSegment = 0, inStep = 0;
     std::uint64_t glances = 0;
 
+    // Ticks of each intention, summed over fish.
     std::array<double, fish::kIntentions> intentionTicks{};
-    std::uint64_t changes = 0;  // of intention
-    // By fish that eat what drifts: targets that they went for, and particles that they had.
+    // Changes of intention.
+    std::uint64_t changes = 0;
+    // Fish that eat particles: targets that they pursued, and particles that they got.
     std::uint64_t tries = 0, particles = 0;
-    // By predators.
+    // Predators: rushes that began, and prey that they got.
     std::uint64_t rushes = 0, catches = 0;
 };
 
+// Watches one world. Minds are noted after every tick; bodies and school at a glance every five
+// ticks.
 class Diary {
   public:
-    // Half-widths in body lengths, by kind. The school is the first kind.
+    // `halfWidths` are in body lengths, one for each kind. The school is the first kind.
     Diary(const world::World& world, std::vector<float> halfWidths);
 
-    void note(const world::World& world);  // after each tick
+    // Call it after every tick.
+    void note(const world::World& world);
     [[nodiscard]] const Tally& tally() const { return tally_; }
     [[nodiscard]] const OverlapLog& overlaps() const { return overlaps_; }
 
@@ -121,51 +147,69 @@ class Diary {
     Tally tally_;
     OverlapLog overlaps_;
     std::vector<Rod> rods_;
-    std::vector<std::uint8_t> bumps_;  // at the last glance
-    // As they were at the last tick.
+    // By fish: whether it was in terrain at the last glance.
+    std::vector<std::uint8_t> bumps_;
+    // By fish, as they were after the last tick.
     std::vector<fish::Intention> intention_;
     std::vector<std::uint32_t> target_;
     std::vector<std::uint8_t> rushes_;
     world::WorldCounts before_;
 };
 
-// Whether the middle of its body is in rock, under the sand with its half-width, or in the air.
+// Whether the origin of the body is inside a rock, less than its half-width over the sand, or at
+// the surface. A fish that is away is not.
 [[nodiscard]] bool isInTerrain(const surroundings::Obstacles& obstacles, const Rod& rod);
 
-// A long life of a world, hour by hour: whether it stays as it should.
+// A chronicle: a long life of a world, hour by hour.
 
-// A piece of it; the last one may be shorter.
+// Figures of one piece of a chronicle, an hour or what the caller takes for one. The last piece may
+// be shorter.
 struct Hour {
     std::uint64_t ticks = 0;
-    world::WorldCounts counts;  // what happened in it
-    std::uint32_t fewest = 0;   // fish that were there at once
+    // What happened in it.
+    world::WorldCounts counts;
+    // Smallest number of fish that were there at once.
+    std::uint32_t fewest = 0;
+    // Share of the time of all fish, by intention.
     std::array<double, fish::kIntentions> intentionShare{};
-    double changes = 0;         // of intention, a fish and minute
-    double touches = 0;         // overlaps that began, a fish and minute
-    double overlapPercent = 0;  // of the time of a fish
-    std::uint64_t bumps = 0;    // into rock, sand or surface
+    // Changes of intention, for each fish and minute.
+    double changes = 0;
+    // Overlaps that began, for each fish and minute.
+    double touches = 0;
+    // Of the time of a fish.
+    double overlapPercent = 0;
+    // Times that a fish got into rock, sand or surface.
+    std::uint64_t bumps = 0;
 
-    float shortestWayMetres = 0;    // of the fish that swam least
-    double longestStaySeconds = 0;  // of a fish within kStayMetres of where it was
+    // Way of the fish that swam least.
+    float shortestWayMetres = 0;
+    // Longest time that a fish stayed within kStayMetres, and which fish.
+    double longestStaySeconds = 0;
     std::uint32_t whoStayed = 0;
-    float farthestOutMetres = 0;  // of the water; negative while all are inside
-    float spreadMetres = 0;       // root mean square distance of all fish from their middle
-    double waterUsedPercent = 0;  // of its cubic metres, those that some fish was in
+    // Farthest that a fish was outside the water; negative while all were inside.
+    float farthestOutMetres = 0;
+    // Root mean square distance of all fish from their middle.
+    float spreadMetres = 0;
+    // Share of the cubic metres of the water that some fish was in.
+    double waterUsedPercent = 0;
 };
 inline constexpr float kStayMetres = 0.1F;
 
+// Watches one world and cuts its life into hours. Its memory grows with hours and overlaps only.
 class Chronicle {
   public:
-    // Half-widths in body lengths, by kind.
+    // `halfWidths` are in body lengths, one for each kind.
     Chronicle(const world::World& world, std::vector<float> halfWidths, std::uint64_t ticksOfHour);
 
-    void note(const world::World& world);  // after each tick
-    // With the hour under way, unless it has only begun.
+    // Call it after every tick.
+    void note(const world::World& world);
+    // All hours that are complete, and the present one if it is more than half over.
     [[nodiscard]] std::vector<Hour> hours() const;
     [[nodiscard]] const OverlapLog& overlaps() const { return diary_.overlaps(); }
 
   private:
-    struct Way {  // of a fish
+    // Way of one fish in this hour, and the place where it last left the radius of a stay.
+    struct Way {
         glm::vec3 last{}, anchor{};
         std::uint64_t anchoredAt = 0;
         double metres = 0;
@@ -179,12 +223,15 @@ class Chronicle {
     std::uint64_t ticksOfHour_;
     std::vector<Hour> done_;
     Hour now_;
-    Tally before_;  // as the hour began
+    // Sums when the present hour began.
+    Tally before_;
     world::WorldCounts countsBefore_;
     world::WorldCounts counts_;
     std::vector<Way> ways_;
-    std::vector<std::uint8_t> visited_;  // of the cubic metres of the water
-    double squares_ = 0, samples_ = 0;   // of distances from the middle
+    // For each cubic metre of the water: whether some fish was in it.
+    std::vector<std::uint8_t> visited_;
+    // Sum and number of squared distances from the middle of all fish.
+    double squares_ = 0, samples_ = 0;
 };
 
 }  // namespace aquarama::study

@@ -15,8 +15,7 @@ from scipy import stats
 sys.path.append(str(Path(__file__).resolve().parents[1] / "capture/report"))
 from figures import PX, QUIET, markdown_table, plt, read_csv, save
 
-# The quantities of the tables, by the column of the CSV: words with the unit, digits after the point, published
-# values of living fish.
+# For each column of adaptation.csv: words with the unit, digits after the point, published value.
 QUANTITIES = {
     "touches_per_fish_minute": ("overlaps that begin, a fish and minute", 3, ""),
     "deep_touches_per_fish_minute": ("of them deeper than a quarter of a body", 4, ""),
@@ -35,8 +34,8 @@ QUANTITIES = {
     "rotation": ("rotation", 2, "> 0.65 milling (Tunstrom 2013)"),
     "intention_changes_per_minute": ("changes of intention, a fish and minute", 2, ""),
 }
-# The panels of the figure: an adaptation, the condition without it, the scenario where it is measured, and the
-# quantity that it is meant to improve.
+# Panels of the figure: the adaptation, the condition without it, and the scenario and quantity in
+# which its effect should show.
 PANELS = [("recommendations", "no recommendations", "school", "same_segment_percent"),
           ("recommendations", "no recommendations", "school", "in_step_percent"),
           ("enlarged regions", "regions not enlarged", "crowded tank", "touches_per_fish_minute"),
@@ -49,7 +48,7 @@ WITHOUT, WITH = "#b4472f", "#1f6f8b"
 
 def is_clear(without, with_all):
     """Whether runs differ, seed by seed, by more than chance would do in 95 of 100 studies."""
-    # Student's paired t-test, two-sided, at a significance level of 5 %. NaN marks a seed without a value.
+    # A paired t-test: both runs of a seed begin with the same fish.
     differences = with_all - without
     differences = differences[~np.isnan(differences)]
     # One difference has no standard error.
@@ -104,8 +103,8 @@ def draw_adaptation(runs):
         if scenario not in runs:
             axes.set_visible(False)
             continue
-        # One line for each seed, a point for each run, a bar for the mean.
         without, with_all = runs[scenario][condition][quantity], runs[scenario]["all"][quantity]
+        # Left without the adaptation, right with it; a line joins the two runs of one seed.
         axes.plot([1, 2], [without, with_all], color="#c3cdd4", linewidth=0.8)
         for place, values, colour in [(1, without, WITHOUT), (2, with_all, WITH)]:
             axes.plot(np.full(len(values), place), values, "o", color=colour, markersize=4.5, alpha=0.6,
@@ -122,9 +121,9 @@ def draw_adaptation(runs):
 
 # A row for each hour of a chronicle. The shares of time in each routine stand in one column, separated by slashes.
 def print_hours(hours):
+    # hoursCsv() names these columns by routine; their order is that of the intentions.
     routines = [key for key in hours[0] if key.endswith(" share")]
     shares = " / ".join(key.removesuffix(" share") for key in routines) + ", %"
-    # Columns of routines are recognised by their names, so that a new routine needs no change here.
     head = ["hour", "fewest fish", "meals", "catches", "returns", "spawnings", shares,
             "changes of intention, a fish and minute", "overlaps, a fish and minute", "in another fish, %",
             "into terrain", "shortest way, m", "longest stay, s (fish)", "farthest out, m", "spread, m",
@@ -142,7 +141,7 @@ def print_overlaps(overlaps, key, words, hours):
     """By the pair of what `key` names; those that lasted longest together first."""
     groups = defaultdict(list)
     for row in overlaps:
-        # The pair is unordered.
+        # The order of the two fish does not matter.
         groups[", ".join(sorted([row[f"{key}_a"], row[f"{key}_b"]]))].append(row)
     head = [words, "overlaps an hour", "seconds an hour", "longest, s", "longest over a quarter of a body, s",
             "deepest, % of the shorter body"]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/study/quantities.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,10 +17,12 @@ namespace aquarama::study {
 
 namespace {
 
+// Pellets of a pinch.
 constexpr std::uint32_t kPellets = 12;
-constexpr std::uint32_t kPinches = 701;  // stream of the seed
+// Stream of the seed for the places of pinches.
+constexpr std::uint32_t kPinches = 701;
 
-// In the upper half of the water, not at its borders.
+// A random place in the upper half of the water, away from its borders.
 glm::vec3 placeOf(const place::Region& water, std::uint32_t hash) {
     const glm::vec3 share{
         signedUnitOf(hash), unitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
@@ -31,17 +33,20 @@ glm::vec3 placeOf(const place::Region& water, std::uint32_t hash) {
 
 void Feeding::before(world::World& world) {
     if (between_ == 0 || world.tick().value % between_ != 0) return;
+    // The last pinch was not half eaten in time.
     if (waits_) ticks_ += between_;
     const place::Region& water = world.surroundings().obstacles.water;
     world.apply(
         world::DropFood{placeOf(water, hashOf(hashOf(seed_, kPinches), pinches_)), kPellets});
     ++pinches_;
     waits_ = true;
+    // From here the new pinch is timed; particles eaten before do not count.
     thrownAt_ = world.tick().value;
     eatenBefore_ = eaten_;
 }
 
 void Feeding::after(const world::World& world, std::uint64_t particlesEaten) {
+    assert(particlesEaten >= eaten_);
     eaten_ = particlesEaten;
     if (!waits_ || eaten_ - eatenBefore_ < kPellets / 2) return;
     ticks_ += world.tick().value - thrownAt_;
@@ -49,6 +54,7 @@ void Feeding::after(const world::World& world, std::uint64_t particlesEaten) {
 }
 
 double Feeding::meanSeconds() const {
+    // The last pinch does not count while it waits.
     const std::uint32_t timed = pinches_ - (waits_ ? 1 : 0);
     if (timed == 0) return std::numeric_limits<double>::quiet_NaN();
     return static_cast<double>(ticks_) / timed / static_cast<double>(kTicksPerSecond);
@@ -58,6 +64,7 @@ namespace {
 
 constexpr double kTicksOfMinute = 60.0 * kTicksPerSecond;
 
+// Indexed by Quantity.
 constexpr std::array<const char*, kQuantities> kKeys{
     "touches_per_fish_minute",
     "deep_touches_per_fish_minute",
@@ -76,6 +83,7 @@ constexpr std::array<const char*, kQuantities> kKeys{
     "intention_changes_per_minute",
 };
 
+// NaN where the whole is 0.
 double share(double part, double whole) {
     return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
 }
@@ -123,11 +131,12 @@ namespace {
 constexpr double kRadiansOfPhase = 2 * std::numbers::pi / 65536;
 constexpr int kInStepPhase = 65536 / 16;
 
-// Around the cycle.
+// Smallest difference of two phases, around the cycle: 16-bit subtraction wraps as phases do.
 int phaseBetween(std::uint16_t a, std::uint16_t b) {
     return std::abs(static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)));
 }
 
+// Those of fish [first, last) that are not away.
 std::vector<std::size_t> present(const fish::FishView& view, std::size_t first, std::size_t last) {
     std::vector<std::size_t> fish;
     for (std::size_t i = first; i < last; ++i)
@@ -148,10 +157,12 @@ float distanceToNearest(const fish::FishView& view,
 }  // namespace
 
 SchoolFigures schoolFigures(const fish::FishView& view, std::size_t first, std::size_t last) {
+    assert(first <= last && last <= view.size());
     const std::vector<std::size_t> fish = present(view, first, last);
     SchoolFigures figures;
     if (fish.size() < 2) return figures;
     const float share = 1 / static_cast<float>(fish.size());
+    // Means over the fish: each term is weighted by 1 / n.
     glm::vec3 middle{}, heading{}, momentum{};
     for (const std::size_t i : fish) middle += view.position(i) * share;
     for (const std::size_t i : fish) {
@@ -170,6 +181,7 @@ SchoolFigures schoolFigures(const fish::FishView& view, std::size_t first, std::
 }
 
 Synchrony synchronyOf(const motion::MotionStates& states, std::size_t first, std::size_t last) {
+    assert(first <= last && last <= states.size());
     double sine = 0, cosine = 0;
     double alike = 0, inStep = 0;
     for (std::size_t i = first; i < last; ++i) {

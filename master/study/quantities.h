@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A visitor who feeds at regular times, with a watch.
+// What the study measures of a run: a simulated visitor who feeds, the quantities and their names,
+// and the figures of a school.
 #pragma once
 
 #include <array>
@@ -13,14 +14,17 @@
 
 namespace aquarama::study {
 
+// A visitor who drops a pinch of pellets at regular times and measures how fast it is eaten.
 class Feeding {
   public:
-    // Between pinches; 0: never feeds.
+    // `ticksBetween` two pinches; 0: never feeds.
     Feeding(std::uint64_t ticksBetween, std::uint32_t seed) : between_(ticksBetween), seed_(seed) {}
-    void before(world::World& world);  // each tick
+    // Call it before each tick: drops a pinch when one is due.
+    void before(world::World& world);
+    // Call it after each tick, with the number of particles eaten since the beginning.
     void after(const world::World& world, std::uint64_t particlesEaten);
-    // Until half of a pinch was eaten; a pinch of which less was eaten counts with all its time.
-    // NaN where none was thrown.
+    // Mean time until half of a pinch was eaten. A pinch of which less was eaten counts with the
+    // whole time to the next one. NaN where none was dropped.
     [[nodiscard]] double meanSeconds() const;
 
   private:
@@ -28,11 +32,13 @@ class Feeding {
     std::uint32_t seed_;
     std::uint32_t pinches_ = 0;
     std::uint64_t eaten_ = 0, eatenBefore_ = 0, thrownAt_ = 0;
-    bool waits_ = false;  // for the half
+    // Whether half of the last pinch is still uneaten.
+    bool waits_ = false;
     std::uint64_t ticks_ = 0;
 };
 
-// What the study measures of a run.
+// The quantities of a run. Those that are rates are for each fish and minute; overlaps count for
+// both fish.
 
 enum class Quantity : std::uint8_t {
     Touches,
@@ -53,34 +59,46 @@ enum class Quantity : std::uint8_t {
 };
 inline constexpr std::size_t kQuantities = 15;
 
-// Its column in the CSV file; draw_study.py knows the words for it.
+// Name of its column in the CSV file; draw_study.py has the words for it.
 [[nodiscard]] const char* keyOf(Quantity quantity);
 
-// NaN where a run has none of it: a share of no tries, the seconds of a pinch that nobody threw.
+// Values of one run, indexed by Quantity. NaN where a run has no value, such as a share of no
+// tries.
 using Figures = std::array<double, kQuantities>;
 
-// pinchSeconds: until half of a pinch of pellets was eaten, mean of those thrown.
+// `pinchSeconds` is Feeding::meanSeconds().
 [[nodiscard]] Figures figuresOf(const Diary& diary, double pinchSeconds);
 
-// How a group of fish holds together, as biologists measure it, and how alike its members beat.
+// How a group of fish holds together, as biologists measure it, and how synchronously its fish
+// beat.
 
-// Of fish [first, last) that are there.
+// Figures of those of fish [first, last) that are there; all 0 for fewer than two.
 struct SchoolFigures {
-    double nearestNeighbour = 0;  // mean distance, body lengths of the fish itself
-    double polarisation = 0;      // length of the mean heading (Tunstrom et al. 2013)
-    double rotation = 0;          // of the mean angular momentum about the group's middle (same)
-    double radiusMetres = 0;      // root mean square distance from the group's middle
+    // Mean distance to the nearest neighbour, in body lengths of the fish itself.
+    double nearestNeighbour = 0;
+    // Length of the mean heading, 0 to 1 (Tunstrom et al. 2013).
+    double polarisation = 0;
+    // Length of the mean angular momentum about the group's middle, 0 to 1 (same).
+    double rotation = 0;
+    // Root mean square distance from the group's middle.
+    double radiusMetres = 0;
 };
+// O(fish^2).
 [[nodiscard]] SchoolFigures schoolFigures(const fish::FishView& view,
                                           std::size_t first,
                                           std::size_t last);
 
-// Two are in step if they play one segment within a sixteenth of a cycle of each other.
+// Synchrony of tail beats. Two fish are in step if they play the same segment within a sixteenth of
+// a cycle of each other.
 struct Synchrony {
-    double resultant = 0;    // mean resultant length of the phases; of n at random sqrt(pi / 4n)
-    double sameSegment = 0;  // share of pairs that play the same segment
-    double inStep = 0;       // share of pairs
+    // Mean resultant length of the phases, 0 to 1; for n random phases about sqrt(pi / 4n).
+    double resultant = 0;
+    // Share of pairs that play the same segment.
+    double sameSegment = 0;
+    // Share of pairs that are in step.
+    double inStep = 0;
 };
+// Of all fish [first, last), whether away or not. O(fish^2).
 [[nodiscard]] Synchrony synchronyOf(const motion::MotionStates& states,
                                     std::size_t first,
                                     std::size_t last);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/study/study.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -21,13 +21,16 @@ namespace aquarama::study {
 
 namespace {
 
-constexpr std::uint64_t kSettlingTicks = 30 * kTicksPerSecond;  // from the start, not watched
+// A run is not watched before these ticks, while its fish settle.
+constexpr std::uint64_t kSettlingTicks = 30 * kTicksPerSecond;
 
+// One run.
 struct Task {
     std::size_t scenario, condition;
     std::uint32_t seed;
 };
 
+// All runs of a plan, in the order of its tables.
 std::vector<Task> tasksOf(const StudyPlan& plan) {
     std::vector<Task> tasks;
     for (std::size_t scenario = 0; scenario < plan.scenarios.size(); ++scenario)
@@ -43,6 +46,7 @@ Figures runOnce(const Scenario& scenario,
                 const fish::Adaptation& adaptation,
                 std::uint32_t seed,
                 double minutes) {
+    assert(minutes >= 0);
     world::WorldOptions options = scenario.world;
     options.seed = seed;
     options.threads = 1;
@@ -62,6 +66,7 @@ Figures runOnce(const Scenario& scenario,
 }
 
 std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(double)>& done) {
+    assert(done != nullptr);
     const std::vector<Task> tasks = tasksOf(plan);
     std::vector<Sample> samples(plan.scenarios.size());
     for (Sample& sample : samples)
@@ -69,6 +74,7 @@ std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(dou
     std::atomic<std::size_t> finished = 0;
     WorkerPool(plan.threads).run(tasks.size(), [&](std::size_t i) {
         const Task& task = tasks[i];
+        // Each task writes an element of its own: no lock is needed.
         samples[task.scenario].at(task.condition)[task.seed - 1] =
             runOnce(plan.scenarios[task.scenario],
                     kConditions.at(task.condition).adaptation,
@@ -89,7 +95,8 @@ Scenario readScenario(const std::filesystem::path& scene) {
     const simulation::Assets assets = simulation::readAssets(scene.string(), {});
     Scenario scenario;
     scenario.world = simulation::worldOptionsOf(assets);
-    scenario.world.scene.tour.reset();  // fish are measured, not how they make way
+    // Fish are to be measured undisturbed, not how they make way.
+    scenario.world.scene.tour.reset();
     scenario.name = scenario.world.scene.name;
     for (const config::Species& species : assets.species)
         scenario.halfWidths.push_back(std::ranges::max(species.profile.halfWidth));
@@ -102,12 +109,14 @@ std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder) {
          {"reef", "study/school", "study/crowded_tank", "study/feeding"})
         scenarios.push_back(
             readScenario(configFolder / "scenes" / (std::string(scene) + ".txtpb")));
+    // Only the last scenario is one of feeding.
     scenarios.back().ticksBetweenPinches = kTicksBetweenPinches;
     return scenarios;
 }
 
 namespace {
 
+// Indexed by Intention.
 constexpr std::array<const char*, fish::kIntentions> kRoutines{
     "wander", "leave", "school", "eat", "mate", "escape", "avoid fish", "avoid obstacle"};
 
@@ -118,6 +127,7 @@ double secondsOf(std::uint64_t ticks) {
 }  // namespace
 
 std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples) {
+    assert(samples.size() == plan.scenarios.size());
     std::ostringstream csv;
     csv << "scenario,condition,seed";
     for (std::size_t i = 0; i < kQuantities; ++i) csv << ',' << keyOf(static_cast<Quantity>(i));

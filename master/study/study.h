@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same scenes with and without each adaptation of the mind to its weaker motor (paper, sections
-// 5.1 and 5.2), over several seeds.
+// The study of adaptation: the same scenes with and without each adaptation of the mind to its
+// weaker motor (paper, sections 5.1 and 5.2), over several seeds.
 #pragma once
 
 #include <array>
@@ -18,10 +18,12 @@
 
 namespace aquarama::study {
 
+// A set of adaptations, with its name in tables.
 struct Condition {
     const char* name;
     fish::Adaptation adaptation;
 };
+// The first condition is the reference for the others: the show itself.
 inline constexpr std::array kConditions{
     Condition{"all", {}},
     Condition{"no recommendations", {.recommendations = false}},
@@ -31,51 +33,59 @@ inline constexpr std::array kConditions{
               {.recommendations = false, .enlargedRegions = false, .earlierPursuit = false}},
 };
 
+// A scene that is run under every condition and seed.
 struct Scenario {
     std::string name;
-    world::WorldOptions world;              // its seed and adaptation are the run's
-    std::vector<float> halfWidths;          // body lengths, by kind of the cast
-    std::uint64_t ticksBetweenPinches = 0;  // of food; 0: nobody feeds
+    // Its seed, threads and adaptation are replaced for each run.
+    world::WorldOptions world;
+    // Greatest half-width of the body in body lengths, by kind of the cast.
+    std::vector<float> halfWidths;
+    // Ticks between two pinches of food; 0: nobody feeds.
+    std::uint64_t ticksBetweenPinches = 0;
 };
 
-// Figures of one scenario: [condition][seed].
+// Figures of one scenario, by condition and by seed less 1.
 using Sample = std::array<std::vector<Figures>, kConditions.size()>;
 
+// What a study runs: every scenario under every condition with seeds 1 to `seeds`.
 struct StudyPlan {
     std::vector<Scenario> scenarios;
-    double minutes = 10;  // of each run
+    // Simulated time of each run, after 30 s of settling.
+    double minutes = 10;
     std::uint32_t seeds = 5;
     unsigned threads = 1;
 };
 
+// One run, on one thread: a new world that settles for 30 s and is then watched for `minutes`.
 [[nodiscard]] Figures runOnce(const Scenario& scenario,
                               const fish::Adaptation& adaptation,
                               std::uint32_t seed,
                               double minutes);
 
-// A sample for each scenario. `done` hears after each run which share is done, from any thread.
+// Runs all of a plan and returns a sample for each scenario. After each run `done` gets the share
+// that is done, 0 to 1, from any of the threads.
 [[nodiscard]] std::vector<Sample> runStudy(const StudyPlan& plan,
                                            const std::function<void(double)>& done);
 
-// Where adaptation is put to the test: scenes of the show and of config/scenes/study.
+// The scenarios: scenes of the show and of config/scenes/study.
 
-// A scene's file, whose own name the scenario bears. Throws Error.
+// Reads a scene as a scenario of the same name. Its tour is left out: the submarine would disturb
+// the fish. Throws Error.
 [[nodiscard]] Scenario readScenario(const std::filesystem::path& scene);
 
-// The reef as on the wall; its school alone; fish in a tank where they must keep out of each
-// other's way; and hungry ones that are fed.
+// The four scenarios of the study: the reef as shown; its school alone; fish in a tank where they
+// must avoid each other; hungry fish that are fed.
 [[nodiscard]] std::vector<Scenario> scenariosOf(const std::filesystem::path& configFolder);
 
-// What the study and the chronicle write as CSV; draw_study.py makes their tables and the figure of
-// it.
+// CSV files of the study and the chronicle; draw_study.py draws tables and a figure from them.
 
-// A line for each scenario, condition and seed; empty where a run has none of a quantity.
+// A line for each scenario, condition and seed; a cell is empty where a run has no value.
 [[nodiscard]] std::string runsCsv(const StudyPlan& plan, const std::vector<Sample>& samples);
 
-// A line an hour; the shares are of the routines that the fish followed.
+// A line for each hour; shares are of the time of all fish, by routine.
 [[nodiscard]] std::string hoursCsv(std::span<const Hour> hours);
 
-// A line for each time that two fish overlapped, with what both were about as it began.
+// A line for each overlap of two fish, with what both intended when it began.
 [[nodiscard]] std::string overlapsCsv(const OverlapLog& log,
                                       const world::World& world,
                                       std::span<const world::WorldSpecies> cast);

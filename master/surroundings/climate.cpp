@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/surroundings/climate.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace aquarama::surroundings {
 
 namespace {
 
+// Margin of the chart around the water, and the width of a cell of its lists.
 constexpr float kAboutMetres = 1.5F;
 constexpr float kCellMetres = 1.0F;
 
+// Cells of width `step` that cover a length.
 int steps(float metres, float step) {
     return static_cast<int>(metres / step) + 1;
 }
 
+// In plan, from a point to the nearest point of a cell; 0 inside.
 float squaredDistanceToCell(glm::vec2 point, glm::vec2 least) {
     const float dx = point.x - std::clamp(point.x, least.x, least.x + kCellMetres);
     const float dz = point.y - std::clamp(point.y, least.y, least.y + kCellMetres);
@@ -33,11 +36,13 @@ Chart::Chart(const place::PlaceKey& place,
     list(footprints);
 }
 
+// An open sea has a flat floor: no heights are stored, only one.
 void Chart::measure(const place::PlaceKey& place) {
     if (place.kind == config::PlaceKind::OpenSea) {
         highest_ = -place::kOpenSeaFloorDepthMetres;
         return;
     }
+    // One corner more than cells, so that every place has four corners around it.
     corners_ = steps(extent_.x, kChartStepMetres) + 1;
     const int rows = steps(extent_.y, kChartStepMetres) + 1;
     for (int z = 0; z < rows; ++z)
@@ -49,6 +54,8 @@ void Chart::measure(const place::PlaceKey& place) {
     highest_ = *std::ranges::max_element(sand_);
 }
 
+// O(cells x footprints), once per scene. Each cell lists the obstacles whose circle, enlarged by
+// the reach, meets it.
 void Chart::list(std::span<const Footprint> footprints) {
     cells_ = steps(extent_.x, kCellMetres);
     const int rows = steps(extent_.y, kCellMetres);
@@ -65,7 +72,9 @@ void Chart::list(std::span<const Footprint> footprints) {
     starts_.push_back(static_cast<std::uint32_t>(listed_.size()));
 }
 
+// Bilinear interpolation between the four corners of the cell.
 float Chart::sand(glm::vec2 xz) const {
+    assert(sand_.empty() || covers(xz));
     if (sand_.empty()) return highest_;
     const glm::vec2 at = (xz - origin_) * (1 / kChartStepMetres);
     const int x = static_cast<int>(at.x);
@@ -79,6 +88,7 @@ float Chart::sand(glm::vec2 xz) const {
 }
 
 std::span<const std::uint32_t> Chart::near(glm::vec2 xz) const {
+    assert(covers(xz));
     const glm::vec2 at = (xz - origin_) * (1 / kCellMetres);
     const auto cell =
         static_cast<std::size_t>(static_cast<int>(at.y) * cells_ + static_cast<int>(at.x));
@@ -87,8 +97,8 @@ std::span<const std::uint32_t> Chart::near(glm::vec2 xz) const {
 
 namespace {
 
-// What is left of the light after a metre of clear water, to the eye of a fish; e^-0.06 by its
-// series would do as well.
+// Share of the surface light that a metre of water takes away. A straight line in place of the
+// exponential law, because the master uses no libm.
 constexpr float kLostPerMetre = 0.02F;
 
 }  // namespace
@@ -100,6 +110,7 @@ Climate climateOf(const config::Scene& scene) {
 }
 
 float daylight(const config::Day& day, Tick tick) {
+    // Time of day: 0 and 1 are midnight, 0.5 is noon.
     double time = day.startsAt;
     if (day.lengthSeconds > 0)
         time += static_cast<double>(tick.value) /

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chart of the water: the height of the sand and which rocks and plants are near, looked up
-// instead of worked out. World frame, metres.
+// A chart of the water: sand heights and lists of near obstacles, precomputed on a grid, so that a
+// fish looks them up instead of computing them. Also the light and temperature of the water. World
+// frame, metres.
 #pragma once
 
 #include <cstddef>
@@ -17,64 +18,81 @@
 
 namespace aquarama::surroundings {
 
-// A kelp plant, as fish pass it: upright, from the sand to its top.
+// A kelp plant as an obstacle: a vertical stem from the sand to its top.
 struct Stem {
-    glm::vec2 foot{};  // x, z
+    // x and z of its root.
+    glm::vec2 foot{};
+    // Height y of its top.
     float topMetres = 0;
 };
 
-// How far from its footprint an obstacle is listed.
+// An obstacle is listed in every cell that is this near to its footprint, metres.
 inline constexpr float kChartReachMetres = 2.7F;
-// Between the corners at which the sand is measured. Interpolated, it is within 5 mm.
+// Spacing of the grid of sand heights, metres. Heights interpolated between its corners are exact
+// to 5 mm.
 inline constexpr float kChartStepMetres = 0.25F;
 
+// Made once per scene and constant afterwards: any thread may read it. A lookup is O(1).
 class Chart {
   public:
+    // The circle that an obstacle covers in plan (x, z).
     struct Footprint {
         glm::vec2 xz{};
         float radiusMetres = 0;
     };
     Chart() = default;
-    // Covers the water and a metre and a half about it.
+    // Covers the water and 1.5 m around it. Footprints are numbered in the order given.
     Chart(const place::PlaceKey& place,
           const place::Region& water,
           std::span<const Footprint> footprints);
 
-    // Whether a place is on the chart; only there may it be asked.
+    // Whether a place (x, z) is on the chart; sand() and near() may be called only for such.
     [[nodiscard]] bool covers(glm::vec2 xz) const {
         const glm::vec2 at = xz - origin_;
         return at.x >= 0 && at.y >= 0 && at.x < extent_.x && at.y < extent_.y;
     }
+    // Height of the sand by bilinear interpolation. In an open sea it is constant.
     [[nodiscard]] float sand(glm::vec2 xz) const;
+    // The greatest height at any corner of the grid.
     [[nodiscard]] float highestSand() const { return highest_; }
-    // Those footprints, ascending, that come within kChartReachMetres of the place; and some more.
+    // Numbers, ascending, of all footprints within kChartReachMetres of the place. The list is that
+    // of the cell, so some are farther.
     [[nodiscard]] std::span<const std::uint32_t> near(glm::vec2 xz) const;
 
   private:
+    // Fills sand_ and highest_; fills starts_ and listed_.
     void measure(const place::PlaceKey& place);
     void list(std::span<const Footprint> footprints);
 
+    // Corner of least x and z.
     glm::vec2 origin_{};
-    glm::vec2 extent_{};  // 0: nothing is covered
-    int corners_ = 0;     // along x
-    int cells_ = 0;       // along x
+    // Width in x and z; 0 where the chart covers nothing.
+    glm::vec2 extent_{};
+    // Grid corners and cells in a row along x; rows follow one another in z.
+    int corners_ = 0;
+    int cells_ = 0;
     float highest_ = 0;
     std::vector<float> sand_;
+    // Footprints of cell i: listed_[starts_[i]] to listed_[starts_[i + 1]].
     std::vector<std::uint32_t> starts_, listed_;
 };
 
-// Light and warmth of the water, as fish sense them (Tu 1996, section 5.1).
+// Light and temperature of the water, as fish sense them (Tu 1996, section 5.1).
 
+// Constant during a show. Both light and temperature depend on height and time alone.
 struct Climate {
     config::Day day;
+    // Temperature at the surface, and its decrease for each metre of depth.
     float surfaceCelsius = 28, celsiusPerMetre = -0.15F;
 };
 [[nodiscard]] Climate climateOf(const config::Scene& scene);
 
-// 1 at noon, Day::night at midnight, a smooth wave between; the sky's, before the water takes any.
+// Light of the sky at a tick, before it enters the water: 1 at noon, Day::night at midnight, a
+// smooth curve in between. A day of length 0 stands still.
 [[nodiscard]] float daylight(const config::Day& day, Tick tick);
-// At a height y (negative), 0 to 1.
+// Light at height y (negative under water), 0 to 1. `daylight` is that of the sky.
 [[nodiscard]] float lightAt(const Climate& climate, float daylight, float y);
+// Temperature at height y.
 [[nodiscard]] float celsiusAt(const Climate& climate, float y);
 
 }  // namespace aquarama::surroundings

@@ -2,6 +2,7 @@
 #include "master/surroundings/food.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "common/place/place.h"
@@ -11,27 +12,39 @@ namespace aquarama::surroundings {
 
 namespace {
 
-constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
-// Particles are looked after in turns: each about once in four seconds.
+// Ticks before eaten plankton is replaced: this, and up to as much again.
+constexpr std::uint32_t kShortestAbsence = 20 * 60;
+// Each tick checks one of kTurns parts of the plankton against sand, rocks and borders: each
+// particle about once in four seconds.
 constexpr std::uint64_t kTurns = 256;
+// Places drawn for a particle until one is clear of rocks; the last one is used anyway.
 constexpr int kPlacesTried = 8;
 
-constexpr float kShoreMetres = 0.5F;      // no plankton so near to a border: fish turn back there
-constexpr float kRockRoomMetres = 0.6F;   // nor so near to a rock
-constexpr float kFloorRoomMetres = 0.7F;  // nor to the sand
+// Room that plankton keeps from what fish turn back at: borders, rocks, sand and surface.
+constexpr float kShoreMetres = 0.5F;
+constexpr float kRockRoomMetres = 0.6F;
+constexpr float kFloorRoomMetres = 0.7F;
 constexpr float kSurfaceRoomMetres = 0.9F;
 
-constexpr float kSinkMetres = 0.05F / 60;      // a tick: feed of some millimetres
-constexpr std::uint32_t kLiesTicks = 20 * 60;  // on the sand
-constexpr float kDeepMetres = 3;               // under the water of the fish
-constexpr float kPelletOnSandMetres = 0.02F;   // of its middle over the sand
-constexpr float kSpreadMetres = 0.3F;          // of pellets that are dropped together
-constexpr float kCurrentMetres = 0.03F;        // a second
-constexpr float kCurrentUpMetres = 0.008F;     // a second
-constexpr std::uint64_t kSwellTicks = 12'288;  // of its longest period, some three minutes
+// Metres a tick that a pellet sinks: feed of some millimetres.
+constexpr float kSinkMetres = 0.05F / 60;
+// Ticks for which a pellet lies on the sand.
+constexpr std::uint32_t kLiesTicks = 20 * 60;
+// Sand this far below the water of the fish is too deep for a pellet to reach.
+constexpr float kDeepMetres = 3;
+// Height of a pellet's middle over the sand on which it lies.
+constexpr float kPelletOnSandMetres = 0.02F;
+// Pellets dropped together spread by this much to each side.
+constexpr float kSpreadMetres = 0.3F;
+// Greatest velocity of the swell, metres a second: level, and up or down.
+constexpr float kCurrentMetres = 0.03F;
+constexpr float kCurrentUpMetres = 0.008F;
+// Longest period of the swell: some three minutes.
+constexpr std::uint64_t kSwellTicks = 12'288;
+// Seconds in a tick.
 constexpr float kPerTick = 1.0F / static_cast<float>(kTicksPerSecond);
 
-// Where plankton may be.
+// The water less a margin, where plankton may be; in small water half of it.
 place::Region reachable(const place::Region& water) {
     const auto within = [](float half) { return std::max(half - kShoreMetres, 0.5F * half); };
     return {water.centre,
@@ -48,12 +61,15 @@ bool isWithin(const place::Region& water, glm::vec3 place) {
            std::abs(from.z) < water.halfExtent.z;
 }
 
+// O(rocks).
 bool isClear(const Obstacles& obstacles, glm::vec3 place) {
     return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
     });
 }
 
+// A random place for a particle; `turn` distinguishes its appearances. Heights are limited by sand
+// and surface.
 glm::vec3 strewn(std::uint32_t seed,
                  const Obstacles& obstacles,
                  std::uint32_t particle,
@@ -73,6 +89,7 @@ glm::vec3 strewn(std::uint32_t seed,
     return place;
 }
 
+// Fills an element with a new particle.
 void put(Food& food, std::size_t i, FoodKind kind, glm::vec3 position, float lowest) {
     food.x[i] = position.x;
     food.y[i] = position.y;
@@ -92,14 +109,15 @@ void strew(Food& food,
     put(food, i, FoodKind::Plankton, place, lowestAt(obstacles, place.x, place.z));
 }
 
-// A wave between -1 and 1 of parabolas, period 1: it stands for a sine.
+// A periodic wave between -1 and 1, of parabolas, with period 1. It replaces a sine, because libm
+// differs between machines. Adding 4096 rounds negative arguments down too.
 inline float wave(float cycles) {
     const float t = cycles - static_cast<float>(static_cast<std::int32_t>(cycles + 4096.0F) - 4096);
     const float half = 2 * t - 1;
     return -4 * half * (1 - std::abs(half));
 }
 
-// The swell of one tick.
+// The swell of one tick: three products of a wave and a factor that vanishes at the border.
 struct Swell {
     glm::vec3 centre, perHalf;
     float time;  // cycles of the longest period
@@ -109,8 +127,8 @@ struct Swell {
           perHalf(1 / water.halfExtent.x, 1 / water.halfExtent.y, 1 / water.halfExtent.z),
           time(static_cast<float>(tick.value % kSwellTicks) / static_cast<float>(kSwellTicks)) {}
 
-    // Whole cycles in the longest period, so that nothing jumps when it begins anew; no way out at
-    // a border, as the flow across it ends there.
+    // Each component has a whole number of cycles in the longest period, so that nothing jumps when
+    // the period starts again. At a border the flow across it is 0: no particle leaves.
     [[nodiscard]] float alongX(float x, float y, float z) const {
         return kCurrentMetres * calm(x, centre.x, perHalf.x) *
                wave(0.11F * z + 0.17F * y + 3 * time);
@@ -125,14 +143,14 @@ struct Swell {
     }
     [[nodiscard]] static float calm(float at, float centre, float perHalf) {
         const float share = (at - centre) * perHalf;
-        // Not cut off beyond the border: what gets there is strewn anew.
+        // Not clamped beyond the border: a particle that gets there is placed anew.
         return 1 - share * share;
     }
 };
 
-// All plankton, there or not: a loop without branches.
-// The swell by value and the arrays apart: else the compiler could not know that storing a place
-// changes neither, and would not vectorise.
+// Moves all plankton, present or absent, in a loop without branches, so that it vectorises. The
+// swell is passed by value and the arrays are __restrict: else the compiler must assume that
+// storing a position changes them.
 void drift(Food& food, std::size_t count, const Swell swell) {
     float* const __restrict x = food.x.data();
     float* const __restrict y = food.y.data();
@@ -147,11 +165,13 @@ void drift(Food& food, std::size_t count, const Swell swell) {
     }
 }
 
+// Whether the tick has come. The difference is signed, so that 32-bit overflow does not matter.
 bool isDue(const Food& food, std::size_t i, std::uint32_t now) {
     return static_cast<std::int32_t>(now - food.absentUntil[i]) >= 0;
 }
 
-// The sand under it has changed as it drifted, or it is due again.
+// Brings one element of plankton up to date: its lowest height where it drifted to, a new place
+// where it left the clear water, and a new particle where it is due.
 void lookAfter(Food& food,
                std::uint32_t seed,
                const Obstacles& obstacles,
@@ -168,6 +188,7 @@ void lookAfter(Food& food,
     }
 }
 
+// One tick of a pellet; removes it when it is due. One in a mouth stays.
 void sink(Food& food, std::size_t i, std::uint32_t now) {
     if (food.taken[i] != 0) return;
     food.y[i] = std::max(food.y[i] - kSinkMetres, food.lowest[i]);
@@ -179,6 +200,7 @@ void sink(Food& food, std::size_t i, std::uint32_t now) {
 }  // namespace
 
 Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plankton) {
+    // Plankton first, pellets behind.
     const std::size_t room = plankton + kMostPellets;
     Food food{std::vector<float>(room),
               std::vector<float>(room),
@@ -193,6 +215,8 @@ Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plan
 }
 
 void driftFood(Food& food, std::uint32_t seed, const Obstacles& obstacles, Tick tick) {
+    assert(food.size() >= kMostPellets);
+    // Behind the plankton are the elements of pellets.
     const std::size_t plankton = food.size() - kMostPellets;
     const auto now = static_cast<std::uint32_t>(tick.value);
     drift(food, plankton, Swell(reachable(obstacles.water), tick));
@@ -210,6 +234,7 @@ void dropPellets(Food& food,
                  glm::vec3 position,
                  std::uint32_t pellets,
                  Tick tick) {
+    assert(food.size() >= kMostPellets);
     const auto now = static_cast<std::uint32_t>(tick.value);
     for (std::size_t i = food.size() - kMostPellets; i < food.size() && pellets > 0; ++i) {
         if (food.isThere(i)) continue;
@@ -223,7 +248,8 @@ void dropPellets(Food& food,
         place.y = std::min(std::max(place.y, sand), 0.0F);
         put(food, i, FoodKind::Pellet, place, sand);
         ++food.pellets;
-        // Where the sand is far below the fish it dissolves as it leaves their water.
+        // It dissolves when it has lain on the sand; where the sand is far below the fish, as it
+        // leaves their water.
         const bool lies = sand > deepest - kDeepMetres;
         const float sinks = std::max(0.0F, place.y - (lies ? sand : deepest));
         food.absentUntil[i] =
@@ -238,6 +264,7 @@ bool takeFood(Food& food, std::uint32_t particle) {
 }
 
 void removeFood(Food& food, std::uint32_t particle, Tick tick) {
+    assert(particle < food.size());
     if (food.kind[particle] == FoodKind::Pellet) --food.pellets;
     food.kind[particle] = FoodKind::None;
     food.taken[particle] = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What drifts in the water to be eaten: plankton, and pellets that visitors drop.
+// Food in the water: plankton that drifts, and pellets that visitors drop.
 #pragma once
 
 #include <cstddef>
@@ -13,50 +13,66 @@
 
 namespace aquarama::surroundings {
 
+// None: the element is free at present.
 enum class FoodKind : std::uint8_t { None, Plankton, Pellet };
 
-// Structure of arrays, one element a particle; its index is its name for as long as it is there.
+// All particles of a world as a structure of arrays. Plankton comes first, then kMostPellets
+// elements for pellets. The index of a particle is its name while it exists. Owned by the world;
+// changed by one thread at a time.
 struct Food {
-    std::vector<float> x, y, z;              // metres
-    std::vector<float> lowest;               // height under which it does not sink, metres
-    std::vector<FoodKind> kind;              // None: eaten, or not yet come
-    std::vector<std::uint8_t> taken;         // 1: on its way into a mouth
-    std::vector<std::uint8_t> generation;    // counts up when another takes the place
-    std::vector<std::uint32_t> absentUntil;  // tick, low 32 bits; of a pellet when it dissolves
-    std::uint32_t pellets = 0;               // in the water
+    std::vector<float> x, y, z;  // metres
+    // Height y below which it does not sink, metres.
+    std::vector<float> lowest;
+    // None: eaten, dissolved, or not there yet.
+    std::vector<FoodKind> kind;
+    // 1 while it is drawn into a mouth: no other fish can take it.
+    std::vector<std::uint8_t> taken;
+    // Counts up when a new particle takes the element, so that viewers do not interpolate between
+    // the two.
+    std::vector<std::uint8_t> generation;
+    // Low 32 bits of a tick. A free element of plankton is filled again at it; a pellet dissolves
+    // at it.
+    std::vector<std::uint32_t> absentUntil;
+    // Number of pellets in the water.
+    std::uint32_t pellets = 0;
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
     [[nodiscard]] bool isThere(std::size_t i) const { return kind[i] != FoodKind::None; }
-    // A fish may go for it: nobody has it, and it is not so near to the sand that a fish would
-    // turn back before.
+    // Whether a fish may pursue the particle: no fish has it, and it does not lie so near to the
+    // sand that a fish would turn back before it.
     [[nodiscard]] bool isFree(std::size_t i) const {
         return isThere(i) && taken[i] == 0 &&
                (kind[i] == FoodKind::Plankton || y[i] > lowest[i] + kOutOfReachMetres);
     }
-    static constexpr float kOutOfReachMetres = 0.4F;  // of a pellet over the sand
+    // Height over the sand up to which a pellet is out of reach.
+    static constexpr float kOutOfReachMetres = 0.4F;
 };
 
-inline constexpr std::size_t kMostPellets = 256;  // in the water at a time
+// Largest number of pellets in the water at a time; more are not dropped.
+inline constexpr std::size_t kMostPellets = 256;
 
-// Plankton strewn through the water where fish can reach it, and room for pellets.
+// Makes `plankton` particles at random places that fish can reach, and room for pellets. Functions
+// below use only the seed, the tick and the particle as sources of chance.
 [[nodiscard]] Food makeFood(std::uint32_t seed, const Obstacles& obstacles, std::uint32_t plankton);
-// One tick of drifting and sinking; what was eaten drifts in again elsewhere after a while.
+// Advances all particles by one tick: plankton drifts, pellets sink. What was eaten appears again
+// elsewhere after a while. O(particles); allocates nothing.
 void driftFood(Food& food, std::uint32_t seed, const Obstacles& obstacles, Tick tick);
-// Pellets about a point, while there is room. They sink, lie on the sand for a while and dissolve.
+// Drops pellets around a point, as many as there is room for. They sink, lie on the sand for 20 s
+// and dissolve.
 void dropPellets(Food& food,
                  std::uint32_t seed,
                  const Obstacles& obstacles,
                  glm::vec3 position,
                  std::uint32_t pellets,
                  Tick tick);
-// From now on nobody else can have it. False where somebody has, or it is gone.
+// Reserves a particle for one fish. False where another fish has it or it is gone.
 bool takeFood(Food& food, std::uint32_t particle);
-// It is swallowed.
+// Removes a particle that was swallowed; it stays absent for 20 to 40 s.
 void removeFood(Food& food, std::uint32_t particle, Tick tick);
 
-// The water's own motion at a place, metres a second: a slow swell of the whole sea that dies away
-// towards the borders. Exact arithmetic.
+// Velocity of the water at a place, metres a second: a slow swell that dies away towards the
+// borders. No libm, so that all machines agree.
 [[nodiscard]] glm::vec3 currentAt(const place::Region& water, glm::vec3 position, Tick tick);
 
 }  // namespace aquarama::surroundings

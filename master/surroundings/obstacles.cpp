@@ -2,6 +2,7 @@
 #include "master/surroundings/obstacles.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/place/place.h"
 
@@ -9,29 +10,36 @@ namespace aquarama::surroundings {
 
 namespace {
 
-constexpr float kSideMarginMetres = 0.8F;     // where the push of an upright border begins
-constexpr float kHeightMarginMetres = 0.45F;  // of the floor, the surface and the water's own
+// A push begins at the margin before a limit and is 1.5 at the limit. The limit lies the clearance
+// away from the obstacle itself.
+// Margin of an upright border of the water.
+constexpr float kSideMarginMetres = 0.8F;
+// Margin of the sand, the surface, and the lower and upper border of the water.
+constexpr float kHeightMarginMetres = 0.45F;
 constexpr float kFloorClearanceMetres = 0.35F;
 constexpr float kSurfaceClearanceMetres = 0.5F;
 constexpr float kRockClearanceMetres = 0.3F;
 constexpr float kRockMarginMetres = 0.6F;
-constexpr float kStemRadiusMetres = 0.15F;  // of a kelp plant with its fronds
+// Radius of a kelp plant with its fronds.
+constexpr float kStemRadiusMetres = 0.15F;
 constexpr float kStemMarginMetres = 0.35F;
+// No single push is stronger.
 constexpr float kStrongest = 6.0F;
 
-// 0 at the margin's beginning, 1.5 at the limit, growing with the square beyond.
+// Strength of a push: 0 where the margin begins, 1.5 at the limit, growing with the square.
 float ramp(float beyondMarginMetres, float marginMetres) {
     if (beyondMarginMetres <= 0) return 0;
     const float share = beyondMarginMetres / marginMetres;
     return std::min(1.5F * share * share, kStrongest);
 }
 
+// Push of the two borders across one axis, towards the middle.
 float borderPush(float fromCentre, float halfExtent, float margin) {
     const float inner = halfExtent - margin;
     return fromCentre > 0 ? -ramp(fromCentre - inner, margin) : ramp(-fromCentre - inner, margin);
 }
 
-// Of the sides and heights that the water itself has; the surface too.
+// Push of the borders of the water and of the surface.
 glm::vec3 bordersAt(const Obstacles& obstacles, glm::vec3 position) {
     const glm::vec3 from = position - obstacles.water.centre;
     const glm::vec3 half = obstacles.water.halfExtent;
@@ -42,6 +50,7 @@ glm::vec3 bordersAt(const Obstacles& obstacles, glm::vec3 position) {
             borderPush(from.z, half.z, kSideMarginMetres)};
 }
 
+// Straight up, by the height over the sand.
 glm::vec3 sandPush(float sand, glm::vec3 position) {
     const float lowest = sand + kFloorClearanceMetres + kHeightMarginMetres;
     return {0, ramp(lowest - position.y, kHeightMarginMetres), 0};
@@ -51,7 +60,8 @@ float plainSand(const Obstacles& obstacles, glm::vec3 position) {
     return place::floorHeight(obstacles.place, {position.x, position.z});
 }
 
-// From something of a radius. What is near counts more than what the path meets later.
+// Push of a round obstacle; `away` leads from its middle to the path's nearest point. `share` says
+// how far along the path that is, 0 to 1: what is near counts more.
 glm::vec3 pushAway(glm::vec3 away, float radius, float margin, float share) {
     const float felt = radius + margin;
     if (place::dot(away, away) >= felt * felt) return {};
@@ -60,7 +70,7 @@ glm::vec3 pushAway(glm::vec3 away, float radius, float margin, float share) {
            ((1 - 0.5F * share) * ramp(felt - distance, margin));
 }
 
-// A stem is passed in plan, below its top.
+// Push of a stem. Only the distance in plan counts, and only below the top of the stem.
 glm::vec3 stemPush(const Stem& stem, glm::vec3 position, glm::vec3 heading, float reachMetres) {
     if (position.y > stem.topMetres) return {};
     const glm::vec3 to{stem.foot.x - position.x, 0, stem.foot.y - position.z};
@@ -70,6 +80,7 @@ glm::vec3 stemPush(const Stem& stem, glm::vec3 position, glm::vec3 heading, floa
     return pushAway(away, kStemRadiusMetres, kStemMarginMetres, along / reachMetres);
 }
 
+// Push of obstacle `index` as the chart numbers them: rocks, then stems.
 glm::vec3 pushOf(const Obstacles& obstacles,
                  std::size_t index,
                  glm::vec3 position,
@@ -91,6 +102,7 @@ float distanceToWater(const place::Region& water, glm::vec3 point) {
     return place::lengthOf(from - nearest);
 }
 
+// The kelp whose push reaches into the water.
 std::vector<Stem> stemsIn(const place::PlaceKey& place, const place::Region& water) {
     std::vector<Stem> stems;
     for (const place::Plant& plant : place::plantsOf(place)) {
@@ -104,6 +116,7 @@ std::vector<Stem> stemsIn(const place::PlaceKey& place, const place::Region& wat
     return stems;
 }
 
+// Footprints enlarged to where the push begins.
 Chart chartOf(const Obstacles& obstacles) {
     std::vector<Chart::Footprint> footprints;
     for (const place::Rock& rock : obstacles.rocks)
@@ -118,7 +131,7 @@ Chart chartOf(const Obstacles& obstacles) {
 
 glm::vec3 ballPush(
     glm::vec3 centre, float radius, glm::vec3 position, glm::vec3 heading, float reachMetres) {
-    // Most rocks are low, and most fish swim well above them.
+    // Quick test: most rocks are low, and most fish swim well above them.
     const float lowest = position.y + std::min(0.0F, heading.y * reachMetres);
     if (lowest - centre.y >= radius + kRockMarginMetres) return {};
     const float along = std::clamp(place::dot(centre - position, heading), 0.0F, reachMetres);
@@ -141,6 +154,7 @@ glm::vec3 plainAvoidance(const Obstacles& obstacles,
                          glm::vec3 position,
                          glm::vec3 heading,
                          float reachMetres) {
+    assert(reachMetres > 0);
     const glm::vec3 ahead = position + heading * reachMetres;
     glm::vec3 push = bordersAt(obstacles, position) + bordersAt(obstacles, ahead) +
                      sandPush(plainSand(obstacles, position), position) +
@@ -154,14 +168,17 @@ glm::vec3 avoidance(const Obstacles& obstacles,
                     glm::vec3 position,
                     glm::vec3 heading,
                     float reachMetres) {
+    assert(reachMetres > 0);
     const Chart& chart = obstacles.chart;
     const glm::vec3 ahead = position + heading * reachMetres;
     const glm::vec2 here{position.x, position.z};
     const glm::vec2 there{ahead.x, ahead.z};
+    // The chart lists what is within its reach of the position, and knows the sand only where it
+    // covers both ends.
     if (reachMetres > kChartReachMetres || !chart.covers(here) || !chart.covers(there))
         return plainAvoidance(obstacles, position, heading, reachMetres);
     glm::vec3 push = bordersAt(obstacles, position) + bordersAt(obstacles, ahead);
-    // In open water no sand is near.
+    // Skips the sand where even the highest sand is too low to push.
     if (std::min(position.y, ahead.y) <
         chart.highestSand() + kFloorClearanceMetres + kHeightMarginMetres)
         push += sandPush(chart.sand(here), position) + sandPush(chart.sand(there), ahead);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a fish must not swim into: sand, rocks, kelp, the borders of its water and the surface.
+// World frame, metres.
 #pragma once
 
 #include <vector>
@@ -11,31 +12,36 @@
 
 namespace aquarama::surroundings {
 
+// Made once per scene and constant afterwards: any thread may read it.
 struct Obstacles {
     place::PlaceKey place;
     place::Region water;
-    std::vector<place::Rock> rocks;  // only those that reach into the water
-    std::vector<Stem> stems = {};    // likewise
-    Chart chart = {};                // of all that; without one all is looked at each time
+    // Only rocks and stems that reach into the water of the fish.
+    std::vector<place::Rock> rocks;
+    std::vector<Stem> stems = {};
+    // Chart of sand, rocks and stems, rocks first. An empty one covers nothing: then all are
+    // tested.
+    Chart chart = {};
 };
+// Gathers the obstacles of a place in the given water and charts them.
 [[nodiscard]] Obstacles obstaclesOf(const place::PlaceKey& place, const place::Region& water);
 
-// Where the obstacles push a fish that swims from `position` along `heading`. Its length is 0 in
-// the open and grows past 1 where only turning away matters; the path is felt `reachMetres` ahead,
-// further than a biomechanical fish would need (paper, section 5.2).
+// The push of the obstacles on a fish that swims from `position` along `heading` (unit vector). The
+// result has length 0 in open water; at 1 and more only turning away matters. The path is tested
+// `reachMetres` (above 0) ahead, farther than a biomechanical fish would need (paper, section 5.2).
 [[nodiscard]] glm::vec3 avoidance(const Obstacles& obstacles,
                                   glm::vec3 position,
                                   glm::vec3 heading,
                                   float reachMetres);
 
-// The same without the chart; it differs by 0.1 at most, where the sand pushes hardest, and not at
-// all away from the sand.
+// The same by testing every obstacle. It differs by at most 0.1, where the sand pushes hardest, and
+// not at all away from the sand. The reference for tests, and used off the chart.
 [[nodiscard]] glm::vec3 plainAvoidance(const Obstacles& obstacles,
                                        glm::vec3 position,
                                        glm::vec3 heading,
                                        float reachMetres);
 
-// Away from where the path passes nearest to a ball, as above.
+// The push away from a ball, from the point where the path passes nearest to it; units as above.
 [[nodiscard]] glm::vec3 ballPush(
     glm::vec3 centre, float radius, glm::vec3 position, glm::vec3 heading, float reachMetres);
 

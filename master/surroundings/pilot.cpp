@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/surroundings/pilot.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -36,8 +36,10 @@ void steer(Pilot& pilot, const Voyage& voyage, const Steering& steering, Tick no
 
 void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now) {
     const bool steered = now < pilot.heldUntil;
+    // No hand steers, and none has for the idle time.
     const bool alone = !steered && now >= pilot.autopilotFrom;
-    // Where it stays, nothing moves it: not even water that it would be led out of.
+    // A submarine that nobody ever steered and that has no tour stays exactly at its eye, even
+    // where moveHull() would push it out of an obstacle.
     if (!pilot.everSteered && (voyage.stays || !alone)) return;
     if (alone && !pilot.touring) pilot.along = nearestAlong(voyage.tour, pilot.vessel.position);
     pilot.touring = alone;
@@ -68,19 +70,28 @@ std::uint64_t foldedPilot(std::uint64_t hash, const Pilot& pilot) {
 
 namespace {
 
+// Speeds in metres a second, angles in radians, gains a second.
 constexpr float kFastestMetresPerSecond = 0.6F;
-constexpr float kCorrectionPerSecond = 0.25F;  // of what is missing to the path
+// Share of the distance to the path that is made up in a second.
+constexpr float kCorrectionPerSecond = 0.25F;
 constexpr float kTimeToSpeedSeconds = 2;
-constexpr float kMostThrust = 0.6F;      // of the thrusters'
-constexpr float kFastestLook = 0.14F;    // radians a second
-constexpr float kLookPerSecond = 0.35F;  // of what is missing to the direction
-constexpr float kMostTilt = 0.6F;        // of the steepest pitch
-// So far behind the place that it makes for, it waits for the submarine wholly.
+// Share of full thrust that the autopilot uses at most.
+constexpr float kMostThrust = 0.6F;
+// Fastest turn of the view, radians a second.
+constexpr float kFastestLook = 0.14F;
+// Share of the missing angle that is turned in a second.
+constexpr float kLookPerSecond = 0.35F;
+// Share of the steepest pitch that the autopilot uses at most.
+constexpr float kMostTilt = 0.6F;
+// When the submarine is farther behind its point than the first distance, the point slows; at the
+// second it waits.
 constexpr float kWaitsFromMetres = 0.5F;
 constexpr float kWaitsWhollyMetres = 1.5F;
-constexpr float kOverSeconds = 0.25F;  // rises so much faster than it is kept from going on
+// Metres a second. When the submarine is slower than it wants to be by more than this, something
+// blocks it: then it rises by the rest.
+constexpr float kOverSeconds = 0.25F;
 
-// The circle about the middle of the water that leads through the eye.
+// A level circle of stops around the middle of the water, through the eye.
 std::vector<Tour::Stop> circleOf(const config::Scene& scene) {
     constexpr int kStops = 12;
     const glm::vec3 middle{scene.water.centre.x, scene.eye.y, scene.water.centre.z};
@@ -94,7 +105,8 @@ std::vector<Tour::Stop> circleOf(const config::Scene& scene) {
     return stops;
 }
 
-// Cubic between b and c (Catmull & Rom 1974): value and derivative at u, 0 to 1.
+// Catmull-Rom spline (Catmull & Rom 1974) between p[1] and p[2]: value, and below its derivative,
+// at u from 0 to 1.
 glm::vec3 between(const std::array<glm::vec3, 4>& p, float u) {
     const glm::vec3 cube = (p[1] - p[2]) * 3.0F + p[3] - p[0];
     const glm::vec3 square = p[0] * 2.0F - p[1] * 5.0F + p[2] * 4.0F - p[3];
@@ -112,11 +124,13 @@ glm::vec3 atMost(glm::vec3 v, float most) {
     return length > most ? v * (most / length) : v;
 }
 
+// Clamped to -most to most.
 float share(float value, float most) {
     return std::clamp(value, -most, most);
 }
 
-// Pushes that bring the velocity to what is wanted, against the drag.
+// Sets the three pushes that bring the velocity to the wanted one in kTimeToSpeedSeconds, against
+// the drag.
 void makeFor(glm::vec3 wanted, const Vessel& vessel, Push& push) {
     const float drag = kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * place::lengthOf(wanted);
     const glm::vec3 newtons =
@@ -128,10 +142,12 @@ void makeFor(glm::vec3 wanted, const Vessel& vessel, Push& push) {
     push.up = share(newtons.y / kSideThrustNewtons, kMostThrust);
 }
 
+// Sets the pushes that turn and tilt the submarine towards a place.
 void lookAt(glm::vec3 place, const Vessel& vessel, Push& push) {
     const glm::vec3 to = place - vessel.position;
     const float level = std::sqrt(to.x * to.x + to.z * to.z);
-    constexpr float kTooNear = 0.5F;  // to say where it is
+    // Metres: at a nearer place the direction is not defined well enough.
+    constexpr float kTooNear = 0.5F;
     if (level < kTooNear) return;
     const float missing = wrapped(place::angleOf(-to.x, -to.z) - vessel.attitude.yaw);
     push.turn = share(kLookPerSecond * missing, kFastestLook) / kFastestTurn;
@@ -151,6 +167,7 @@ Tour tourOf(const config::Scene& scene) {
 }
 
 TourPoint pointOf(const Tour& tour, float along, glm::vec3 school) {
+    assert(!tour.stops.empty() && along >= 0);
     const std::size_t count = tour.stops.size();
     const auto first = static_cast<std::size_t>(along);
     const float u = along - static_cast<float>(first);
@@ -161,7 +178,7 @@ TourPoint pointOf(const Tour& tour, float along, glm::vec3 school) {
         at[i] = stop.at;
         seen[i] = stop.lookAt.value_or(school);
     }
-    // What is looked at changes from stop to stop without swinging past.
+    // The point to look at fades from stop to stop (smoothstep), so that it does not overshoot.
     const float faded = u * u * (3 - 2 * u);
     return {between(at, u), slopeBetween(at, u), seen[1] + (seen[2] - seen[1]) * faded};
 }
@@ -184,12 +201,13 @@ Push followTour(const Tour& tour, const Vessel& vessel, glm::vec3 school, float&
     const TourPoint point = pointOf(tour, along, school);
     const glm::vec3 missing = point.at - vessel.position;
     const float behind = place::lengthOf(missing);
+    // 1 near the path, 0 where the point has to wait.
     const float pace = std::clamp(
         (kWaitsWhollyMetres - behind) / (kWaitsWhollyMetres - kWaitsFromMetres), 0.0F, 1.0F);
     const float metresPerStop = place::lengthOf(point.perStop);
     const glm::vec3 course = place::directionOf(point.perStop, {}) * (tour.metresPerSecond * pace);
     glm::vec3 wanted = atMost(course + missing * kCorrectionPerSecond, kFastestMetresPerSecond);
-    // What stands in the way is gone over.
+    // Rises over what blocks the way.
     wanted.y +=
         std::max(0.0F, place::lengthOf(wanted) - place::lengthOf(vessel.velocity) - kOverSeconds);
     Push push;

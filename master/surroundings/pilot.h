@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the submarine goes by itself: a smooth closed path, and what it looks at on the way. World
-// frame, metres.
+// Who steers the submarine: the autopilot, which follows a smooth closed path, or a visitor's hand.
+// World frame, metres. Every function here is pure and exact: equal inputs give equal bits on every
+// machine.
 #pragma once
 
 #include <cstdint>
@@ -16,70 +17,88 @@
 
 namespace aquarama::surroundings {
 
-// Stops in order, the last leads to the first; a single one is a place to stay at.
+// A closed path through stops in order; the last leads to the first. With one stop the submarine
+// stays there.
 struct Tour {
     struct Stop {
         glm::vec3 at{};
-        std::optional<glm::vec3> lookAt;  // without: at the school
+        // Point to look at; without one the submarine looks at the school.
+        std::optional<glm::vec3> lookAt;
     };
     std::vector<Stop> stops;
+    // Speed along the path.
     float metresPerSecond = 0;
 };
 
-// The scene's tour; without stops of its own, round the middle of the water through the eye. A
-// scene without a tour: to its eye, looking along -z.
+// The tour of a scene. A tour without stops is a circle around the middle of the water through the
+// eye. A scene without a tour gives one stop: its eye, looking along -z.
 [[nodiscard]] Tour tourOf(const config::Scene& scene);
 
-// Of the path, at a number of stops from the first.
+// The path at a parameter: its whole part is a stop, its fraction the share of the way to the next.
 struct TourPoint {
     glm::vec3 at{};
-    glm::vec3 perStop{};  // derivative of the place
+    // Derivative of the position by the parameter.
+    glm::vec3 perStop{};
+    // Point that the submarine looks at there.
     glm::vec3 lookAt{};
 };
+// `along` is 0 or more; `school` stands in for stops that name no point to look at.
 [[nodiscard]] TourPoint pointOf(const Tour& tour, float along, glm::vec3 school);
-// Where the path passes nearest to a place.
+// Parameter of the sampled point of the path that is nearest to a place.
 [[nodiscard]] float nearestAlong(const Tour& tour, glm::vec3 place);
 
-inline constexpr float kAutopilotSlew = 0.25F;  // of its pushes, a second: nobody feels them begin
+// Rate at which the autopilot changes its pushes, a second: so slowly that nobody feels it begin.
+inline constexpr float kAutopilotSlew = 0.25F;
 
-// What the autopilot asks for now; moves `along`, the place that it makes for. Gentle: no turn
-// faster than 8 degrees a second, never faster than 0.6 m/s.
+// The pushes that the autopilot wants now; advances `along`, the parameter of the point that it
+// makes for. It turns by at most 8 degrees a second and wants at most 0.6 m/s along its path.
 [[nodiscard]] Push followTour(const Tour& tour,
                               const Vessel& vessel,
                               glm::vec3 school,
                               float& along);
 
-// Who steers the submarine: the hand that spoke last, or after a while without any the autopilot.
-// One pure step a tick; same inputs, same bits on every machine.
+// The last hand steers while it holds; when none has steered for a while, the autopilot takes over.
+// One step a tick.
 
-// What does not change during a show.
+// The constant part: where the submarine may go and what its tour is. Read by any thread.
 struct Voyage {
     Waters waters;
     Tour tour;
-    bool stays = true;            // at the eye, until somebody steers
-    std::uint64_t idleTicks = 0;  // without a hand, until the autopilot takes over
+    // The scene has no tour: it stays at the eye until somebody steers.
+    bool stays = true;
+    // Ticks without a hand until the autopilot takes over.
+    std::uint64_t idleTicks = 0;
 };
+// `fishWater` is the water of the fish; the submarine may go somewhat farther.
 [[nodiscard]] Voyage voyageOf(const config::Scene& scene,
                               std::uint32_t seed,
                               const place::Region& fishWater);
 
-// What a world remembers of its submarine.
+// The state of the submarine and its steering. Owned by the world; part of its hash.
 struct Pilot {
     Vessel vessel;
-    Steering steering;         // of the last hand
-    Tick heldUntil;            // by it
-    Tick autopilotFrom;        // when nobody steers until then
-    float along = 0;           // where on its tour the autopilot makes for, in stops
-    bool touring = false;      // the autopilot steers
-    bool everSteered = false;  // by hand
+    // What the last hand asked for, and the tick until which it holds.
+    Steering steering;
+    Tick heldUntil;
+    // Tick from which the autopilot steers if no hand does before.
+    Tick autopilotFrom;
+    // Parameter of the point of the tour that the autopilot makes for.
+    float along = 0;
+    // Whether the autopilot steers now.
+    bool touring = false;
+    // Whether a hand ever steered.
+    bool everSteered = false;
 };
+// At rest at the eye.
 [[nodiscard]] Pilot pilotOf(const Voyage& voyage, glm::vec3 eye);
 
-// Between two ticks. A hand that holds nothing lets go.
+// Takes a hand's steering, between two ticks. A steering of zeros lets go.
 void steer(Pilot& pilot, const Voyage& voyage, const Steering& steering, Tick now);
-// One tick; the autopilot looks at the school where its tour names nothing else.
+// Advances the submarine by one tick. `school` is where the autopilot looks if its tour names no
+// other point.
 void advancePilot(Pilot& pilot, const Voyage& voyage, glm::vec3 school, Tick now);
 
+// The hash with all of the state folded in.
 [[nodiscard]] std::uint64_t foldedPilot(std::uint64_t hash, const Pilot& pilot);
 
 }  // namespace aquarama::surroundings

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/surroundings/surroundings.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "common/place/water.h"
@@ -14,6 +14,7 @@ namespace aquarama::surroundings {
 
 namespace {
 
+// Drops the food that the scene has scheduled up to this tick.
 void dropWhatIsDue(Surroundings& surroundings, Tick tick) {
     const double now = static_cast<double>(tick.value) / static_cast<double>(kTicksPerSecond);
     for (; surroundings.nextDrop < surroundings.drops.size(); ++surroundings.nextDrop) {
@@ -65,17 +66,22 @@ std::uint64_t foldedSurroundings(std::uint64_t hash, const Surroundings& surroun
 
 namespace {
 
+// A point of the round that the school passes.
 struct Station {
-    glm::vec3 position;   // metres, before its shift
-    float shiftMetres;    // how far a seed may move it along x and z
-    std::uint32_t ticks;  // to the next station
-    bool mills = false;   // the school circles on the way there
+    // Metres, before the shift.
+    glm::vec3 position;
+    // How far the seed may shift it along x and z.
+    float shiftMetres;
+    // Ticks to the next station.
+    std::uint32_t ticks;
+    // Whether the school circles on the way there.
+    bool mills = false;
 };
 
-// One round, as an author would stage it: from far off the school comes along one side into the
-// wings, passes close before the eye, goes through the other wing, mills in the middle distance and
-// withdraws. Legs are swum at 0.3 to 0.5 m/s. A round may be mirrored, so the first and the last
-// station stand near the middle.
+// One round of the school, staged: it comes from far off along one side into the wings, passes
+// close before the eye, goes through the other wing, circles in the middle distance and withdraws.
+// Legs are swum at 0.3 to 0.5 m/s. A round may be mirrored in x; so that this makes no jump, the
+// first and the last station are near x = 0.
 constexpr std::array kRound{
     Station{{0.0F, -5.7F, -7.7F}, 0.4F, 12 * 60},
     Station{{-4.2F, -6.2F, -6.0F}, 0.3F, 7 * 60},
@@ -86,8 +92,9 @@ constexpr std::array kRound{
     Station{{0.6F, -5.4F, -4.6F}, 0.3F, 16 * 60, true},
     Station{{-0.2F, -5.5F, -5.2F}, 0.3F, 7 * 60},
 };
-// The curtain rises as the school comes close: what a visitor sees first, and the first picture.
+// A show begins this far into the round, when the school comes close: visitors see it at once.
 constexpr std::uint64_t kOpeningTicks = 26 * 60;
+// How far the seed may shift a station up or down.
 constexpr float kHeightShiftMetres = 0.35F;
 
 constexpr std::uint64_t ticksOfRound() {
@@ -96,6 +103,7 @@ constexpr std::uint64_t ticksOfRound() {
     return sum;
 }
 
+// Station `index`, counted over all rounds, with the shifts of its round.
 glm::vec3 stationAt(std::uint32_t seed, std::uint64_t index) {
     const auto round = static_cast<std::uint32_t>(index / kRound.size());
     const Station& station = kRound[index % kRound.size()];
@@ -121,13 +129,14 @@ glm::vec3 velocityAt(std::uint32_t seed, std::uint64_t index) {
 }  // namespace
 
 Goal journeyGoal(std::uint32_t seed, Tick tick) {
+    // Rounds count from 1, so that there is always a station before.
     const std::uint64_t played = tick.value + kOpeningTicks;
     std::uint64_t index = (played / ticksOfRound() + 1) * kRound.size();
     std::uint64_t ticks = played % ticksOfRound();
     while (ticks >= kRound[index % kRound.size()].ticks)
         ticks -= kRound[index++ % kRound.size()].ticks;
 
-    // Cubic Hermite over the leg.
+    // Cubic Hermite interpolation over the leg, with the velocities at both stations.
     const float seconds = secondsOfLeg(index);
     const float u =
         static_cast<float>(ticks) / static_cast<float>(kRound[index % kRound.size()].ticks);
@@ -139,6 +148,7 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
     const glm::vec3 cube = leaving + arriving - step * 2.0F;
     const float side =
         (hashOf(seed, static_cast<std::uint32_t>(index / kRound.size())) & 2U) != 0 ? 1.0F : -1.0F;
+    // Circling fades in and out at the ends of its leg.
     const float fade = std::min(1.0F, 12 * u * (1 - u));
     const float mill = kRound[index % kRound.size()].mills ? side * fade : 0.0F;
     return {from + (leaving + (square + cube * u) * u) * u,
@@ -148,20 +158,25 @@ Goal journeyGoal(std::uint32_t seed, Tick tick) {
 
 namespace {
 
-constexpr float kHeightOfMill = 0.75F;           // of the water's, at most
-constexpr std::uint64_t kTicksOfMill = 20 * 60;  // up and down once
-constexpr float kRiseMetres = 0.5F;              // above the middle and below it
-// A fish of a dense ball has 0.36 body lengths of room about it; a living one is half as wide again
-// and more, as it is stirred.
+// Greatest share of the half height of the water that the ball takes.
+constexpr float kHeightOfMill = 0.75F;
+// Period of rising and sinking.
+constexpr std::uint64_t kTicksOfMill = 20 * 60;
+// Above and below the middle.
+constexpr float kRiseMetres = 0.5F;
+// Radius of a ball of one fish, in body lengths: 0.36 in a dense ball, times 1.6, because a living
+// ball is stirred and takes more room.
 constexpr float kRoomOfMill = 0.36F * 1.6F;
 
-// By Newton's steps: exact arithmetic on every machine.
+// Cube root by Newton's method with a fixed number of steps: libm differs between machines. 60
+// steps reach float precision for up to kMostFish.
 float cubeRoot(float x) {
     float root = std::max(1.0F, x);
     for (int i = 0; i < 60; ++i) root -= (root - x / (root * root)) / 3;
     return root;
 }
 
+// Of a round ball; its volume grows with the number of fish.
 float ballRadius(std::size_t fish, float lengthMetres) {
     return kRoomOfMill * lengthMetres * cubeRoot(static_cast<float>(fish));
 }
@@ -169,14 +184,17 @@ float ballRadius(std::size_t fish, float lengthMetres) {
 }  // namespace
 
 float millRadiusMetres(const place::Region& water, std::size_t fish, float lengthMetres) {
+    assert(lengthMetres > 0 && water.halfExtent.y > 0);
     const float ball = ballRadius(fish, lengthMetres);
+    // A ball too high for the water keeps its volume: it is flattened and gets broader.
     const float high = std::min(ball, kHeightOfMill * water.halfExtent.y);
     return ball * std::sqrt(ball / high);
 }
 
 Goal millGoal(std::uint32_t seed, const place::Region& water, float radius, Tick tick) {
+    assert(radius > 0);
     const float u = static_cast<float>(tick.value % kTicksOfMill) / float{kTicksOfMill};
-    // Smoothstep up and down again.
+    // Smoothstep up in the first half of the period and down in the second.
     const float half = u < 0.5F ? 2 * u : 2 - 2 * u;
     const float risen = half * half * (3 - 2 * half);
     const float slope = (u < 0.5F ? 1.0F : -1.0F) * 12 * half * (1 - half);  // a round

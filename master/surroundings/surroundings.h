@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world that the fish live in: what they must not swim into, light and warmth, food, the
-// submarine.
+// The world that the fish live in: obstacles, climate, food and submarine; and the goal of the
+// school.
 #pragma once
 
 #include <cstddef>
@@ -18,53 +18,69 @@
 
 namespace aquarama::surroundings {
 
+// The submarine as fish perceive it.
 struct Submarine {
-    glm::vec3 position{};  // of the eye, metres
+    // Of the eye, metres, world frame.
+    glm::vec3 position{};
     glm::vec3 velocityMetresPerSecond{};
-    float radiusMetres = 0.9F;  // no fish comes nearer: it would fill the wall
+    // No fish comes nearer: it would fill the wall.
+    float radiusMetres = 0.9F;
 };
 
+// Owned by the world. advanceSurroundings() and inputs change it between thoughts; while fish think
+// it is constant.
 struct Surroundings {
     std::uint32_t seed = 0;
     Obstacles obstacles;
     Climate climate;
     Food food;
     Submarine submarine;
-    float clarityMetres = 12;             // no fish sees farther
-    float daylight = 1;                   // of this tick
-    std::vector<config::FoodDrop> drops;  // of the scene, in their order
+    // No fish sees farther than this.
+    float clarityMetres = 12;
+    // Light of the sky at this tick, 0 to 1.
+    float daylight = 1;
+    // Food that the scene drops, in order of time, and the index of the next one.
+    std::vector<config::FoodDrop> drops;
     std::size_t nextDrop = 0;
 };
 
+// Surroundings at tick 0 for a scene with so many fish of this mean length; the water grows with
+// them (place::waterFor()).
 [[nodiscard]] Surroundings makeSurroundings(const config::Scene& scene,
                                             std::uint32_t seed,
                                             std::size_t fish,
                                             float meanLengthMetres);
-// One tick of what goes on without the fish.
+// Advances daylight, scheduled food and drifting food by one tick.
 void advanceSurroundings(Surroundings& surroundings, Tick tick);
-// The hash with all folded in that fish and visitors have changed.
+// The hash with everything folded in that fish or visitors can change.
 [[nodiscard]] std::uint64_t foldedSurroundings(std::uint64_t hash,
                                                const Surroundings& surroundings);
 
-// Where the school is drawn to, a function of seed and tick alone: a slow wandering path through
+// The goal that draws the school: a function of seed and tick alone. Either a slow path through
 // what the wall shows, or the middle of a bait ball.
 
 struct Goal {
-    glm::vec3 position{};                 // metres
-    glm::vec3 velocityMetresPerSecond{};  // of the goal itself
-    float mill = 0;      // 1: circle the goal, left about; -1: right about; 0: follow it
-    float flatness = 1;  // the school's height per its breadth
+    glm::vec3 position{};  // metres
+    // Velocity of the goal itself.
+    glm::vec3 velocityMetresPerSecond{};
+    // How far the school circles the goal instead of following it: 1 circles to the left, -1 to the
+    // right, 0 follows.
+    float mill = 0;
+    // Height of the school divided by its breadth.
+    float flatness = 1;
 };
 
+// A round of stations, repeated with variations; every round takes the same time.
 [[nodiscard]] Goal journeyGoal(std::uint32_t seed, Tick tick);
 
-// A bait ball: the middle of the water, which rises and sinks by a metre in 20 s.
+// A bait ball: the middle of the water. It rises and sinks by up to a metre every 20 s. `radius` is
+// millRadiusMetres(), above 0.
 [[nodiscard]] Goal millGoal(std::uint32_t seed,
                             const place::Region& water,
                             float radius,
                             Tick tick);
-// How far out a ball of so many fish of a mean length reaches at ease; broader than high where the
-// water is shallow.
+// Radius, in plan, of a ball at ease of so many fish of a mean length. In shallow water it is
+// broader than high.
 [[nodiscard]] float millRadiusMetres(const place::Region& water,
                                      std::size_t fish,
                                      float lengthMetres);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/surroundings/vessel.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -15,10 +15,14 @@ namespace aquarama::surroundings {
 
 namespace {
 
-constexpr float kPitchFrequency = 1.2F;  // radians a second of the critically damped spring by
-constexpr float kRollFrequency = 1.5F;   // which a hull that is heavy below rights itself
-constexpr float kBankPerTurn = 0.2F;     // radians a (radian a second times metre a second)
+// Radians a second of the critically damped springs by which pitch and roll settle: the hull is
+// heavy below and rights itself.
+constexpr float kPitchFrequency = 1.2F;
+constexpr float kRollFrequency = 1.5F;
+// Bank, in radians, for a turn of 1 rad/s at 1 m/s.
+constexpr float kBankPerTurn = 0.2F;
 
+// -128 counts as -127: both are full steering.
 float shareOf(std::int8_t axis) {
     return std::max(static_cast<float>(axis) / float{kFullSteering}, -1.0F);
 }
@@ -27,12 +31,13 @@ float towards(float from, float to, float most) {
     return from + std::clamp(to - from, -most, most);
 }
 
-// One tick of a critically damped spring.
+// One tick of a critically damped spring that draws the angle to the target; semi-implicit Euler.
 void settle(float target, float frequency, float& angle, float& rate) {
     rate += (frequency * (target - angle) - 2 * rate) * frequency * kTickSeconds;
     angle += rate * kTickSeconds;
 }
 
+// One tick of yaw, pitch and roll. The hull banks into its turns.
 void turn(Vessel& vessel) {
     Attitude& is = vessel.attitude;
     Attitude& rate = vessel.rate;
@@ -57,6 +62,7 @@ Push pushOf(const Steering& steering) {
 }
 
 void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
+    assert(slew > 0);
     Push& push = vessel.push;
     const float most = slew * kTickSeconds;
     push = {towards(push.ahead, wanted.ahead, most),
@@ -68,7 +74,7 @@ void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
     const glm::vec3 newtons = noseOf(vessel.attitude) * (kThrustNewtons * push.ahead) +
                               rightOf(vessel.attitude) * (kSideThrustNewtons * push.aside) +
                               glm::vec3{0, kSideThrustNewtons * push.up, 0};
-    // Drag is taken at the end of the tick: whatever the speed, it brakes and never turns back.
+    // Drag is integrated implicitly: at any speed it brakes and never reverses the motion.
     const float drag =
         kDragNewtonsPerSpeed + kDragNewtonsPerSpeedSquared * place::lengthOf(vessel.velocity);
     constexpr float kSecondsPerKilogram = kTickSeconds / kVesselKilograms;
@@ -76,7 +82,9 @@ void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
         (vessel.velocity + newtons * kSecondsPerKilogram) / (1 + drag * kSecondsPerKilogram);
 }
 
+// The positive root of b v^2 + a v = thrust.
 float terminalSpeed(float newtons) {
+    assert(newtons >= 0);
     constexpr float a = kDragNewtonsPerSpeed;
     constexpr float b = kDragNewtonsPerSpeedSquared;
     return (std::sqrt(a * a + 4 * b * newtons) - a) / (2 * b);
@@ -84,18 +92,22 @@ float terminalSpeed(float newtons) {
 
 namespace {
 
-constexpr float kStemRadiusMetres = 0.15F;         // of a kelp plant with its fronds, as for fish
-constexpr float kFeltMetres = 2;                   // of obstacles: what is farther is not asked
-constexpr float kLeadAwayMetresPerSecond = 0.12F;  // within the stand-off, at most
-constexpr int kPasses = 4;                         // where several obstacles meet, each once more
+// Radius of a kelp plant with its fronds, as for fish.
+constexpr float kStemRadiusMetres = 0.15F;
+// Obstacles farther from the hull than this are not considered.
+constexpr float kFeltMetres = 2;
+// Greatest speed at which the hull is led away within the stand-off.
+constexpr float kLeadAwayMetresPerSecond = 0.12F;
+// Passes over all faces: where several obstacles meet, holding off one may lead towards another.
+constexpr int kPasses = 4;
 
-// An obstacle's nearest face: unit vector away from it, and how far from it the hull is.
+// The nearest face of an obstacle: unit vector away from it, and the distance of the hull from it.
 struct Face {
     glm::vec3 away{0, 1, 0};
     float gapMetres = 0;
 };
 
-// The sand as a plane through the point below: dunes are long.
+// The sand as a plane through the point below, with the slope over 25 cm: dunes are long.
 Face sandFace(const Waters& waters, glm::vec3 at) {
     constexpr float kStep = 0.25F;
     const float here = place::floorHeight(waters.place, {at.x, at.z});
@@ -111,13 +123,14 @@ Face ballFace(glm::vec3 centre, float radius, glm::vec3 at) {
             place::lengthOf(from) - radius - kHullRadiusMetres};
 }
 
-// A post with a round top.
+// A post with a round top: the nearest point of its axis as a ball.
 Face stemFace(const Stem& stem, glm::vec3 at) {
     const glm::vec3 nearest{stem.foot.x, std::min(at.y, stem.topMetres), stem.foot.y};
     return ballFace(nearest, kStemRadiusMetres, at);
 }
 
-// Each face that the hull may feel; in a fixed order.
+// Visits the faces that the hull may feel, always in the same order: borders, sand, rocks, stems.
+// Rocks and stems that are far in plan are skipped.
 template <class Visit>
 void visitFaces(const Waters& waters, glm::vec3 at, const Visit& visit) {
     const glm::vec3 from = at - waters.region.centre;
@@ -139,16 +152,17 @@ void visitFaces(const Waters& waters, glm::vec3 at, const Visit& visit) {
         if (isNear(stem.foot.x, stem.foot.y, kStemRadiusMetres)) visit(stemFace(stem, at));
 }
 
-// All faces that are near, found once a tick.
+// The faces within kFeltMetres, gathered once per tick into a fixed array. At most 128 are kept;
+// further ones would be ignored.
 class Faces {
   public:
     Faces(const Waters& waters, glm::vec3 at) {
         visitFaces(waters, at, [this](const Face& face) {
-            // Where there are more, the movement itself is refused at last.
             if (face.gapMetres < kFeltMetres && count_ < faces_.size()) faces_[count_++] = face;
         });
     }
     [[nodiscard]] std::span<const Face> near() const { return {faces_.data(), count_}; }
+    // Distance to the nearest face, at most kFeltMetres.
     [[nodiscard]] float gap() const {
         float least = kFeltMetres;
         for (const Face& face : near()) least = std::min(least, face.gapMetres);
@@ -160,13 +174,14 @@ class Faces {
     std::size_t count_ = 0;
 };
 
-// How fast a hull may come nearer to a face: so that a constant braking ends at the stand-off, and
-// never farther in a tick than half the way that is left.
+// Greatest speed towards a face: from it constant braking ends at the stand-off, and in one tick
+// the hull never goes farther than half the remaining way.
 float allowedInward(float gapMetres) {
     const float left = std::max(0.0F, gapMetres - kStandOffMetres);
     return std::min(std::sqrt(2 * kBrakingMetres * left), 0.5F * left / kTickSeconds);
 }
 
+// The velocity with its part towards the face limited to what is allowed.
 glm::vec3 heldOff(const Face& face, glm::vec3 velocity) {
     const float outward = place::dot(velocity, face.away);
     const float least = -allowedInward(face.gapMetres);
@@ -174,6 +189,7 @@ glm::vec3 heldOff(const Face& face, glm::vec3 velocity) {
     return velocity;
 }
 
+// Within the stand-off: the velocity with some speed away from the face, the more the deeper it is.
 glm::vec3 ledAway(const Face& face, glm::vec3 velocity) {
     const float depth = std::clamp(1 - face.gapMetres / kStandOffMetres, 0.0F, 1.0F);
     const float missing = kLeadAwayMetresPerSecond * depth - place::dot(velocity, face.away);
@@ -197,8 +213,11 @@ float gapAt(const Waters& waters, glm::vec3 position) {
     return Faces(waters, position).gap();
 }
 
-// A tick's way is a twentieth of the hull's radius: to look at its end is to look along all of it.
+// In a tick the hull moves a twentieth of its radius at most, so that testing the end of the way
+// tests all of it. Where the end is still inside an obstacle the move is refused.
 void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity) {
+    assert(std::isfinite(place::dot(position, position)) &&
+           std::isfinite(place::dot(velocity, velocity)));
     const Faces faces(waters, position);
     for (const Face& face : faces.near()) velocity = ledAway(face, velocity);
     for (int pass = 0; pass < kPasses; ++pass)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rotations by exact arithmetic: two machines' libm do not agree to the bit. Radians.
+// The submarine as a body: its rotations, its thrusters and drag, and what it must not run into.
+// All by exact arithmetic without libm, because two machines' libm differ in the last bits.
+// Radians.
 #pragma once
 
 #include <cmath>
@@ -14,12 +16,13 @@
 
 namespace aquarama::surroundings {
 
+// Sine and cosine of one angle.
 struct SineCosine {
     float sine = 0;
     float cosine = 1;
 };
 
-// Of angles up to some turns, within 1e-6: Taylor's series about the nearest quarter turn.
+// Within 1e-6 for angles up to some turns: Taylor's series about the nearest quarter turn.
 [[nodiscard]] inline SineCosine sineAndCosine(float radians) {
     const float quarters = motion::roundToEven(radians * (2 / place::kPi));
     const float x = radians - quarters * (place::kPi / 2);
@@ -38,18 +41,23 @@ struct SineCosine {
     }
 }
 
-// The same angle, -pi to pi.
+// The equal angle in -pi to pi.
 [[nodiscard]] inline float wrapped(float radians) {
     return radians - motion::roundToEven(radians / (2 * place::kPi)) * (2 * place::kPi);
 }
 
-// How the submarine stands in the world. Without any it looks along -z.
+// Orientation of the submarine. All 0: it looks along -z. Applied as yaw, then pitch, then roll.
+// Radians; of a rate, radians a second.
 struct Attitude {
-    float yaw = 0;    // about the world's up, to the left
-    float pitch = 0;  // nose up
-    float roll = 0;   // right side up
+    // About the world's up, to the left.
+    float yaw = 0;
+    // Nose up.
+    float pitch = 0;
+    // Right side up.
+    float roll = 0;
 };
 
+// From half angles.
 [[nodiscard]] inline motion::Quaternion worldFromBody(const Attitude& attitude) {
     const auto [ys, yc] = sineAndCosine(attitude.yaw / 2);
     const auto [ps, pc] = sineAndCosine(attitude.pitch / 2);
@@ -58,7 +66,7 @@ struct Attitude {
                               motion::Quaternion{rc, 0, 0, rs});
 }
 
-// Along the nose; to the right, level.
+// Unit vectors in the world frame: along the nose, and below it to the right and level.
 [[nodiscard]] inline glm::vec3 noseOf(const Attitude& attitude) {
     const auto [ys, yc] = sineAndCosine(attitude.yaw);
     const auto [ps, pc] = sineAndCosine(attitude.pitch);
@@ -69,70 +77,85 @@ struct Attitude {
     return {yc, 0, -ys};
 }
 
-// The submarine as a body: thrusters push it, water holds it back. World frame: metres, Y up;
-// radians, seconds, kilograms, newtons.
+// Thrust, mass and drag. World frame: metres, Y up; radians, seconds, kilograms, newtons.
 
 inline constexpr float kTickSeconds = 1.0F / 60.0F;
 
-// With the water that it carries along.
+// Mass including the water that it carries along (added mass).
 inline constexpr float kVesselKilograms = 1800;
-inline constexpr float kThrustNewtons = 1440;     // along the nose
-inline constexpr float kSideThrustNewtons = 800;  // to the side, up and down
-// Drag is a v + b v^2: slow water clings, fast water is pushed away.
+// Full thrust along the nose.
+inline constexpr float kThrustNewtons = 1440;
+// Full thrust to the side, up and down.
+inline constexpr float kSideThrustNewtons = 800;
+// Drag at speed v is a v + b v^2: the linear part acts at low speed, the square at high speed.
 inline constexpr float kDragNewtonsPerSpeed = 720;
 inline constexpr float kDragNewtonsPerSpeedSquared = 400;
-inline constexpr float kFastestTurn = 0.35F;     // radians a second
-inline constexpr float kTurnDamping = 2;         // a second
+// Radians a second at full turn.
+inline constexpr float kFastestTurn = 0.35F;
+// A second: how fast the rate of turn follows the push.
+inline constexpr float kTurnDamping = 2;
 inline constexpr float kSteepestPitch = 0.436F;  // 25 degrees
 inline constexpr float kStrongestBank = 0.087F;  // 5 degrees
-inline constexpr float kHandsSlew = 2.5F;        // how fast a push may change, a second
+// Fastest change of a push that a hand asks for, a second.
+inline constexpr float kHandsSlew = 2.5F;
 
-// What thrusters and rudders give, each -1 to 1; as Steering has them.
+// Pushes of thrusters and rudders, each -1 to 1; axes and signs as in Steering.
 struct Push {
     float ahead = 0, aside = 0, up = 0, turn = 0, tilt = 0;
 };
+// From whole numbers of the wire to shares of full push.
 [[nodiscard]] Push pushOf(const Steering& steering);
 
+// State of the submarine's body.
 struct Vessel {
-    glm::vec3 position{};  // of the eye
-    glm::vec3 velocity{};  // metres a second
+    // Of the eye.
+    glm::vec3 position{};
+    // Metres a second.
+    glm::vec3 velocity{};
     Attitude attitude;
-    Attitude rate;  // of the attitude, a second
+    // Rate of the attitude, radians a second.
+    Attitude rate;
+    // Pushes in effect now.
     Push push;
 };
 
-// What the thrusters do in one tick, and the drag: velocity, attitude and its rate afterwards. The
-// push follows what is wanted by at most `slew` a second, so that no hand jerks. The place stays:
-// what stands in the way is asked first (hull.h).
+// Applies thrusters, rudders and drag for one tick: changes velocity, attitude and its rate. The
+// pushes follow the wanted ones by at most `slew` (above 0) a second, so that no hand jerks. The
+// position stays: moveHull() changes it.
 void pushVessel(Vessel& vessel, const Push& wanted, float slew);
 
-// The speed that so much thrust comes to, metres a second.
+// Speed at which the drag equals this thrust, metres a second.
 [[nodiscard]] float terminalSpeed(float newtons);
 
-// What the submarine must not run into: sand, rocks, kelp, the surface and the borders of the
-// scene. World frame, metres.
+// Obstacles of the submarine: sand, rocks, kelp, the surface and the borders of the scene. World
+// frame, metres.
 
-inline constexpr float kHullRadiusMetres = 0.5F;  // about the eye: nothing comes nearer to it
-inline constexpr float kStandOffMetres = 0.25F;   // off the hull, where it is pushed back
-inline constexpr float kBrakingMetres = 1.1F;     // a second squared, before an obstacle
+// Radius of the hull, a ball around the eye.
+inline constexpr float kHullRadiusMetres = 0.5F;
+// Distance off the hull within which it is pushed back.
+inline constexpr float kStandOffMetres = 0.25F;
+// Braking before an obstacle, metres a second squared.
+inline constexpr float kBrakingMetres = 1.1F;
 
-// Where the submarine may go.
+// Where the submarine may go. Made once per scene, constant.
 struct Waters {
     place::PlaceKey place;
     place::Region region;
     std::vector<place::Rock> rocks;
     std::vector<Stem> stems;
 };
+// The region is that of the fish, extended around the eye (place::roamingRegion()).
 [[nodiscard]] Waters watersOf(const place::PlaceKey& place,
                               const place::Region& fishWater,
                               glm::vec3 eye);
 
-// How far the hull is from all of it; negative inside something.
+// Distance from the hull to the nearest obstacle; negative inside one. Distances beyond 2 m are
+// given as 2 m.
 [[nodiscard]] float gapAt(const Waters& waters, glm::vec3 position);
 
-// One tick of movement. What leads at an obstacle is braked in time, so that it comes to rest at
-// the stand-off, and within that it is led away gently. Never ends inside anything that the hull
-// was outside of.
+// Moves the hull by one tick. Velocity towards an obstacle is braked in time, so that the hull
+// comes to rest at the stand-off; within the stand-off it is led away gently. A hull that was
+// outside every obstacle never ends inside one.
 void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity);
 
 }  // namespace aquarama::surroundings

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/world/beginning.h"
 
 #include <algorithm>
@@ -21,15 +20,16 @@ namespace aquarama::world {
 
 namespace {
 
-// Streams of one seed: what a number is drawn for.
-// Irwin-Hall: four uniform numbers make a bell curve of deviation 1 / sqrt(3), without libm.
+// Irwin-Hall distribution: the sum of four uniform numbers approximates a normal one. Scaled to
+// standard deviation 1 by sqrt(3); no libm.
 float bell(std::uint32_t hash) {
     float sum = 0;
     for (std::uint32_t i = 0; i < 4; ++i) sum += unitOf(hashOf(hash, i));
     return (sum - 2) * 1.7320508F;
 }
 
-// The rotation about the world's up that lets x look along `course` (half-angle by square roots).
+// The rotation about the world's up that turns the x axis towards `course`. Sine and cosine of half
+// the angle follow from square roots; no libm.
 glm::quat facing(glm::vec3 course) {
     const glm::vec3 level = place::directionOf({course.x, 0, course.z}, {1, 0, 0});
     const float cosine = std::sqrt(std::max(0.0F, 0.5F * (1 + level.x)));
@@ -37,15 +37,19 @@ glm::quat facing(glm::vec3 course) {
     return {cosine, 0, level.z > 0 ? -sine : sine, 0};
 }
 
-// Places of a school, about its middle, in units of the distance between neighbours: as many cells
-// of a close packing as there are fish, those nearest to the middle of an ellipsoid that is long
-// along x. The packing is turned, so that no row of it lies level or along the way.
+// Places of a school about its middle, in units of the distance between neighbours. The points of a
+// face-centred cubic lattice, the closest packing, are sorted by their distance from the middle in
+// the norm of an ellipsoid that is long along x; the nearest ones are taken. The lattice is turned,
+// so that no row of it is level or along the way.
 std::vector<glm::vec3> schoolCells(std::size_t fish) {
-    constexpr float kStep = 0.70710678F;  // of the lattice, whose points have an even sum
+    // Lattice constant: points whose coordinates have an even sum then have nearest neighbours at
+    // 1.
+    constexpr float kStep = 0.70710678F;
     constexpr glm::vec3 kAxes{1.7F, 0.85F, 1.0F};
     constexpr glm::quat kTurn{0.8F, 0.3F, 0.4F, 0.331662479F};
     const auto most = static_cast<float>(fish) * 1.2F + 30.0F;
-    float radius = 1.0F;  // of an ellipsoid with more cells than fish, over its axes
+    // Grows until the ellipsoid is sure to hold more lattice points than there are fish.
+    float radius = 1.0F;
     while (6.0F * kAxes.x * kAxes.y * kAxes.z * radius * radius * radius < most * 1.2F)
         radius += 0.25F;
     const auto reach = static_cast<int>(radius * kAxes.x / kStep) + 1;
@@ -65,12 +69,14 @@ std::vector<glm::vec3> schoolCells(std::size_t fish) {
     return places;
 }
 
+// A point drawn uniformly from the cube -1 to 1.
 glm::vec3 signedUnits(std::uint32_t hash) {
     return {signedUnitOf(hashOf(hash, 0)),
             signedUnitOf(hashOf(hash, 1)),
             signedUnitOf(hashOf(hash, 2))};
 }
 
+// Writes the motion state of one fish: medium gait, no warp under way, a phase of its own.
 void begin(std::uint32_t seed,
            std::size_t fish,
            const motion::BodyFrame& frame,
@@ -86,16 +92,18 @@ void begin(std::uint32_t seed,
     states.warpLength[fish] = 0;
 }
 
-// A school about the goal, loosely spaced, each fish a little off its cell and off the common
-// course; a large one is moved into the water.
+// A loosely spaced school about the goal. Each fish is a little off its lattice point and off the
+// common course. A school that reaches out of the water is moved into it.
 void placeSchool(std::uint32_t seed,
                  const surroundings::Goal& goal,
                  const place::Region& water,
                  std::size_t fish,
                  motion::MotionStates& states) {
     constexpr float kSpacingMetres = 0.25F;
-    constexpr float kOffCell = 0.22F;    // of the spacing
-    constexpr float kOffCourse = 0.16F;  // of the course, at most 9 degrees
+    // Share of the spacing.
+    constexpr float kOffCell = 0.22F;
+    // Share of the unit vector of the course: 9 degrees at most.
+    constexpr float kOffCourse = 0.16F;
     const glm::quat rotation = facing(goal.velocityMetresPerSecond);
     std::vector<glm::vec3> offsets = schoolCells(fish);
     glm::vec3 reach{1.0e-6F};
@@ -121,7 +129,7 @@ void placeSchool(std::uint32_t seed,
     }
 }
 
-// A bait ball that mills already: in rings about the goal, each fish on its level.
+// A bait ball that circles already: every fish on a ring about the goal, at its own level.
 void placeBall(std::uint32_t seed,
                const surroundings::Goal& goal,
                float radius,
@@ -145,7 +153,8 @@ void placeBall(std::uint32_t seed,
     }
 }
 
-// At home, or at the first place that they are bound for.
+// Where a fish that does not school begins: near its home, or at the first place that it would go
+// to.
 glm::vec3 restingPlace(std::uint32_t seed,
                        const config::Habits& habits,
                        const surroundings::Obstacles& obstacles,
@@ -163,6 +172,7 @@ glm::vec3 restingPlace(std::uint32_t seed,
            share * (0.5F * static_cast<float>(habits.home.radiusMetres));
 }
 
+// Places the fish of a species each by itself, heading for the middle of the water.
 void placeWanderers(std::uint32_t seed,
                     const config::Habits& habits,
                     const surroundings::Obstacles& obstacles,
@@ -180,6 +190,7 @@ void placeWanderers(std::uint32_t seed,
     }
 }
 
+// Places fish at random within a cube about a Start, all with its heading.
 void placeAbout(std::uint32_t seed,
                 const config::Start& start,
                 std::size_t first,
@@ -247,6 +258,7 @@ void placeFishAt(motion::MotionStates& states,
                  std::size_t fish,
                  glm::vec3 place,
                  glm::vec3 course) {
+    assert(fish < states.size());
     motion::setBodyFrame(states, fish, {place, facing(course)});
 }
 
@@ -256,6 +268,7 @@ bool names(const std::vector<std::string>& list, const std::string& name) {
     return std::ranges::find(list, name) != list.end();
 }
 
+// Bits of the species of the cast that the list names.
 std::uint64_t kindsNamed(const std::vector<WorldSpecies>& cast,
                          const std::vector<std::string>& list) {
     std::uint64_t kinds = 0;
@@ -264,6 +277,7 @@ std::uint64_t kindsNamed(const std::vector<WorldSpecies>& cast,
     return kinds;
 }
 
+// Bits of the species of the cast that hunt this one.
 std::uint64_t huntersOf(const std::vector<WorldSpecies>& cast, const std::string& name) {
     std::uint64_t kinds = 0;
     for (std::size_t i = 0; i < cast.size(); ++i)
@@ -278,6 +292,7 @@ fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& c
                                               const fish::Gaits& gaits,
                                               std::size_t first,
                                               std::size_t last) {
+    assert(kind < cast.size() && kind < kMostSpecies && first <= last);
     const config::Habits& habits = cast[kind].habits;
     return {.kind = static_cast<std::uint8_t>(kind),
             .first = static_cast<std::uint32_t>(first),

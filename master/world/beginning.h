@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fish stand in the water at tick 0.
+// The state of a world at tick 0: lengths and places of all fish, and the parameters of their
+// species.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +15,24 @@
 
 namespace aquarama::world {
 
+// Id and length of every fish, in the order of the cast. Lengths are drawn from a bell curve within
+// the range of the species.
 [[nodiscard]] std::vector<motion::FishTraits> traitsOf(const WorldOptions& options);
 
-// Where every fish is at tick 0, each at its own phase of the tail beat (else they beat as one): a
-// member with a start about that; the school about its goal, heading along its way; the others each
-// at a place of its own.
+// Places every fish at tick 0, at a phase of the tail beat of its own. A species with a Start is
+// placed around it; the school around its goal, heading along the goal's way; every other fish at a
+// place of its own. `states` has one element for each fish of the cast.
 void placeFish(const WorldOptions& options,
                const surroundings::Goal& goal,
                const surroundings::Surroundings& surroundings,
                motion::MotionStates& states);
 
-// One fish at a place, level and along `course`; its tail beats on.
+// Moves one fish to a place, level and heading along `course` (any length). Its tail beat goes on.
 void placeFishAt(motion::MotionStates& states, std::size_t fish, glm::vec3 place, glm::vec3 course);
 
-// From a species' file to what its fish's minds use.
+// Parameters of a species as minds use them: names become bits of the cast's indices.
 
-// Of cast[kind], whose fish are [first, last). Names that nobody of the cast bears are passed over.
+// For cast[kind], whose fish are [first, last). Names of species outside the cast are ignored.
 [[nodiscard]] fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& cast,
                                                             std::size_t kind,
                                                             const fish::Gaits& gaits,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/world/events.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "common/place/place.h"
 #include "common/units/hash.h"
@@ -16,10 +16,12 @@ namespace aquarama::world {
 
 namespace {
 
-constexpr std::uint32_t kSwallowTicks = 6;  // a tenth of a second, as suction feeders do
+// A tenth of a second, as in suction feeders; shorter than the time between two thoughts.
+constexpr std::uint32_t kSwallowTicks = 6;
 static_assert(kSwallowTicks < fish::kTicksBetweenThoughts);
 
-// The share of the way that is left grows with every tick: it is gulped, not fetched.
+// Moves the particle by 1 / ticksLeft of the remaining way: the last step ends in the mouth, and
+// the particle follows a mouth that moves.
 void drawIn(surroundings::Food& food,
             std::uint32_t particle,
             glm::vec3 mouth,
@@ -40,13 +42,15 @@ Meals makeMeals(std::size_t fish) {
 }
 
 void beginSwallow(Meals& meals, std::uint32_t fish, std::uint32_t particle) {
+    assert(meals.swallows.size() < meals.swallows.capacity());
     meals.swallows.push_back({fish, particle, kSwallowTicks});
 }
 
 void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& food, Tick tick) {
     for (Meals::Swallow& swallow : meals.swallows) {
         if (view.shows(swallow.fish, fish::kAway))
-            swallow.ticksLeft = 1;  // eaten itself: what it had in its mouth goes with it
+            // A fish that was eaten itself: what it had in its mouth goes with it.
+            swallow.ticksLeft = 1;
         else
             drawIn(food, swallow.particle, fish::mouthOf(view, swallow.fish), swallow.ticksLeft);
         if (--swallow.ticksLeft == 0) surroundings::removeFood(food, swallow.particle, tick);
@@ -55,10 +59,11 @@ void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& 
                   [](const Meals::Swallow& swallow) { return swallow.ticksLeft == 0; });
 }
 
-// What the fish did to one another and to the food, done one after the other: of two that want the
-// same the first has it.
+// Events of a tick, applied one after the other on one thread. Of two fish that want the same thing
+// the first in order gets it; the event of the other has no effect.
 
 void World::perform(const fish::DeferredEvent& event) {
+    assert(event.fish < traits_.size());
     switch (event.kind) {
         case fish::DeferredEventKind::EatParticle:
             if (!surroundings::takeFood(surroundings_.food, event.object)) return;
@@ -72,11 +77,12 @@ void World::perform(const fish::DeferredEvent& event) {
             view_.signs[event.object] = fish::kAway;
             absences_.push_back(absenceFrom(seed_, event.object, tick_));
             feed(event.fish);
-            minds_[event.fish].sinceChase = fish::kLongAgo;  // one is enough for a chase
+            // A chase ends with one catch.
+            minds_[event.fish].sinceChase = fish::kLongAgo;
             ++counts_.catches;
             return;
         case fish::DeferredEventKind::Spawn:
-            // Whoever spawned in this very tick has no more to give.
+            // A fish spawns once a tick at most: 0 ticks since spawning means that it just did.
             if (minds_[event.fish].sinceSpawning == 0 || minds_[event.object].sinceSpawning == 0)
                 return;
             minds_[event.fish].sinceSpawning = 0;
@@ -86,12 +92,13 @@ void World::perform(const fish::DeferredEvent& event) {
     }
 }
 
+// Adds one particle or prey to the stomach; the counter saturates.
 void World::feed(std::uint32_t fish) {
     if (minds_[fish].eaten < 0xffffU) ++minds_[fish].eaten;
     minds_[fish].sinceMeal = 0;
 }
 
-// Those whose time it is come back as others: with a mind and likes of their own.
+// Lets fish return whose absence is over, each with a new mind and new habits.
 void World::receive() {
     std::erase_if(absences_, [this](const Absence& absence) {
         if (absence.until.value > tick_.value) return false;
@@ -100,6 +107,8 @@ void World::receive() {
     });
 }
 
+// The place of an eaten fish is taken by a new one of its species: it swims in from afar at medium
+// speed, towards the middle.
 void World::arrive(std::uint32_t fish) {
     const fish::SpeciesParameters& parameters = speciesParameters_[view_.kind[fish]];
     const glm::vec3 place = arrivalPlace(surroundings_, fish, tick_);

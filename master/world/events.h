@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reaches the world from outside: the only things beside seed and scene that change it, and
-// so all that a recording must hold.
+// Inputs of the world. Beside seed and scene they are the only things that change it, so a
+// recording holds just these. Also the particles of food that are being swallowed.
 #pragma once
 
 #include <cstddef>
@@ -16,37 +16,44 @@
 
 namespace aquarama::world {
 
-// A visitor feeds the fish.
+// A visitor drops food.
 struct DropFood {
     glm::vec3 position{};  // metres, world frame
+    // How many; fewer where there is no room for more.
     std::uint32_t pellets = 12;
 };
 
-// Puts the submarine somewhere else: on a stage, not by hand (that is a Steering).
+// Sets position and velocity of the submarine, world frame. For stages and tests; a visitor steers
+// it by Steering.
 struct MoveSubmarine {
     glm::vec3 position{};
     glm::vec3 velocityMetresPerSecond{};
 };
 
+// World::apply() takes it, between two ticks.
 using WorldInput = std::variant<DropFood, MoveSubmarine, Steering>;
 
 // Food on its way into a mouth: a fish that snaps draws it in with the water (Tu 1996, section
-// 5.6.3), which takes a few ticks in which all can see it go.
+// 5.6.3). That takes a few ticks, in which the particle can be seen to move.
 
+// All particles being swallowed. Owned by the world.
 struct Meals {
+    // One particle and the fish that swallows it.
     struct Swallow {
         std::uint32_t fish = fish::kNobody;
         std::uint32_t particle = fish::kNobody;
         std::uint32_t ticksLeft = 0;
     };
-    std::vector<Swallow> swallows;  // in the order in which they began
+    // In the order in which they began.
+    std::vector<Swallow> swallows;
 };
 
-// With room for one of each fish: none snaps again before it has swallowed.
+// Reserves room for one swallow of each fish, so that none allocates later: no fish snaps again
+// before it has swallowed.
 [[nodiscard]] Meals makeMeals(std::size_t fish);
-// Of a particle that the fish has taken.
+// Begins a swallow. The fish must have taken the particle (takeFood()).
 void beginSwallow(Meals& meals, std::uint32_t fish, std::uint32_t particle);
-// One tick: each particle comes nearer to the mouth, and vanishes in it.
+// Advances all swallows by one tick: each particle comes nearer to the mouth and vanishes in it.
 void advanceMeals(Meals& meals, const fish::FishView& view, surroundings::Food& food, Tick tick);
 
 }  // namespace aquarama::world

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "master/world/world.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -22,16 +22,20 @@ namespace aquarama::world {
 
 namespace {
 
-// Streams of one seed: what a number is drawn for.
-constexpr std::uint32_t kShortestAbsence = 20 * 60;  // ticks
+// Limits of an absence, in ticks.
+constexpr std::uint32_t kShortestAbsence = 20 * 60;
 constexpr std::uint32_t kLongestAbsence = 60 * 60;
-constexpr float kHazeMetres = 12;        // beyond, the haze has swallowed a fish of the school
-constexpr float kShore = 0.85F;          // of the water's half extent
-constexpr float kSurfaceRoomMetres = 1;  // under the surface
-constexpr float kFloorRoomMetres = 1;    // over the sand
+// Beyond this distance haze hides a fish of the size of the school.
+constexpr float kHazeMetres = 12;
+// Share of the half extent of the water in which places are drawn.
+constexpr float kShore = 0.85F;
+// Distance of such a place from surface, sand and rocks.
+constexpr float kSurfaceRoomMetres = 1;
+constexpr float kFloorRoomMetres = 1;
 constexpr float kRockRoomMetres = 1;
 constexpr std::uint32_t kPlacesTried = 16;
 
+// A random place in the water, over the sand and under the surface; rocks are not considered.
 glm::vec3 placeDrawn(const surroundings::Obstacles& obstacles, std::uint32_t hash) {
     const glm::vec3 share{
         signedUnitOf(hash), signedUnitOf(hashOf(hash, 1)), signedUnitOf(hashOf(hash, 2))};
@@ -85,17 +89,20 @@ glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
 
 namespace {
 
-// Chunks and slices depend on the number of fish alone, never on the number of threads.
+// Sizes of the parts of a tick's work. They depend on the number of fish alone, never on the number
+// of threads, so that the order of events is always the same.
 constexpr std::size_t kFishInChunk = 512;
 constexpr std::size_t kSlotsInSlice = 1024;
-constexpr std::size_t kFetchedAhead = 3;  // thoughts
+// A thinker is prefetched this many thoughts ahead.
+constexpr std::size_t kFetchedAhead = 3;
 
+// Of the school; of a scad where there is no cast.
 float meanLengthMetres(const WorldOptions& options) {
     return options.cast.empty() ? 0.24F : options.cast.front().size.meanMetres;
 }
 
-// Of a fish that will think soon, what lies apart from all that others of its cell have: so that it
-// is near when it is asked for.
+// Prefetches the data of a fish that will think soon. The rest of what it needs it shares with the
+// fish of its cell, which are in the cache already.
 void fetch(const fish::Minds& minds,
            const fish::FishView& view,
            const fish::Courses& courses,
@@ -105,6 +112,7 @@ void fetch(const fish::Minds& minds,
     __builtin_prefetch(&courses[fish]);
 }
 
+// A fresh mind, in the mood that the scene asks for.
 fish::Mind beginningMind(const fish::SpeciesParameters& parameters,
                          const std::optional<config::Start>& start,
                          std::uint32_t seed,
@@ -154,6 +162,7 @@ World::World(const WorldOptions& options)
 }
 
 void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast) {
+    assert(species.tables != nullptr);
     const std::size_t first = kinds_.empty() ? 0 : kinds_.back().last;
     const std::size_t last = first + species.fish;
     for (std::size_t at = first; at < last; at += kFishInChunk) {
@@ -164,6 +173,7 @@ void World::addKind(const WorldSpecies& species, const std::vector<WorldSpecies>
         makeSpeciesParameters(cast, kinds_.size() - 1, kinds_.back().gaits, first, last));
 }
 
+// Places all fish and gives them commands, minds and a first view, so that tick 0 can be shown.
 void World::begin(const WorldOptions& options) {
     placeFish(options, goal_, surroundings_, states_);
     for (const fish::SpeciesParameters& parameters : speciesParameters_) {
@@ -182,7 +192,8 @@ void World::begin(const WorldOptions& options) {
         courses_[fish] = {view_.heading(fish), 1, 0};
 }
 
-// A tick's thoughts are about an eighth of the fish; each does one thing at most.
+// Reserves room for the events of a tick, so that thoughts allocate nothing: an eighth of the fish
+// think at a tick, and each reports one event at most.
 void World::makeRoomForEvents() {
     constexpr std::size_t kSlack = 32;
     slices_.resize((traits_.size() + kSlotsInSlice - 1) / kSlotsInSlice);
@@ -213,12 +224,13 @@ void World::moveSubmarine() {
     showSubmarine();
 }
 
-// To the fish.
+// Copies the state of the submarine to where fish perceive it.
 void World::showSubmarine() {
     surroundings_.submarine.position = pilot_.vessel.position;
     surroundings_.submarine.velocityMetresPerSecond = pilot_.vessel.velocity;
 }
 
+// The goal of the school at this tick.
 surroundings::Goal World::goal() const {
     if (gathering_ == config::Gathering::None) return {.position = middle_};
     return gathering_ == config::Gathering::Mill
@@ -238,8 +250,9 @@ void World::advance() {
     ++tick_.value;
 }
 
-// What goes on without the fish, what they show, and who is where. While one thread lets the food
-// drift, others look at the fish: neither asks the other.
+// Advances the surroundings, looks at all fish and rebuilds the grids. The thread that has the
+// first part also advances the surroundings, while others look at fish: neither reads what the
+// other writes.
 void World::beginTick() {
     grids_.rebuild(
         view_,
@@ -253,7 +266,8 @@ void World::beginTick() {
         });
 }
 
-// What all see of fish [first, last).
+// Writes the view of fish [first, last) from their motion states and minds. Headings are computed
+// for 256 fish at a time, by vectors.
 void World::look(const Kind& kind, std::size_t first, std::size_t last) {
     constexpr std::size_t kAtATime = 256;
     std::array<float, kAtATime> x;
@@ -292,8 +306,9 @@ behaviour::Environment World::environment() const {
             .adaptation = adaptation_};
 }
 
-// In the order in which the fish stand in the grid: those who think one after the other look at the
-// same neighbours. As a thought changes nothing that another sees, any order will do.
+// Thoughts of this tick. Fish think in the order in which they stand in the grid, because
+// consecutive thinkers then read the same neighbours. The result does not depend on the order: a
+// thought changes nothing that another reads.
 void World::thinkAll() {
     const behaviour::SpatialGrid& grid = grids_.fish;
     const behaviour::Environment around = environment();
@@ -303,6 +318,7 @@ void World::thinkAll() {
         std::array<std::uint32_t, kSlotsInSlice + kFetchedAhead> thinkers{};
         std::size_t count = 0;
         for (std::size_t slot = first; slot < last; ++slot) {
+            // Collected without a branch: the next slot overwrites a fish that does not think now.
             thinkers[count] = grid.index()[slot];
             count += fish::thinksAt(tick_, thinkers[count]) ? 1 : 0;
         }
@@ -316,7 +332,7 @@ void World::thinkAll() {
     });
 }
 
-// Motor commands and motion of a chunk.
+// Commands and moves the fish of one chunk; chunks are independent.
 void World::swim(const Chunk& chunk) {
     const Kind& own = kinds_[chunk.kind];
     fish::SecondaryController{
@@ -326,16 +342,18 @@ void World::swim(const Chunk& chunk) {
         .run();
 }
 
-// In the order of the fish.
+// Applies the events of all slices sorted by fish, so that the result does not depend on the order
+// of the grid.
 void World::performEvents() {
     events_.clear();
     for (const Slice& slice : slices_)
         events_.insert(events_.end(), slice.events.begin(), slice.events.end());
+    assert(events_.size() <= traits_.size() / fish::kTicksBetweenThoughts + 1);
     std::ranges::sort(events_, {}, &fish::DeferredEvent::fish);
     for (const fish::DeferredEvent& event : events_) perform(event);
 }
 
-// All that decides how the world goes on and is no function of seed, scene and tick.
+// Folds in all that decides how the world goes on and is no function of seed, scene and tick.
 std::uint64_t World::hash() const {
     std::uint64_t hash = foldedOne(motion::hashOf(states_) ^ minds_.hash(), tick_.value);
     hash = folded(hash, commands_.segment);
@@ -353,7 +371,8 @@ std::uint64_t World::hash() const {
     hash = folded(hash, memory_.chosenAt);
     hash = folded(hash, memory_.heldUntil);
     hash = folded(hash, memory_.patience);
-    hash = folded(hash, view_.signs);  // of them kAway is nowhere else
+    // The only place where kAway is kept as a sign.
+    hash = folded(hash, view_.signs);
     for (const Absence& absence : absences_)
         hash = foldedOne(foldedOne(hash, absence.fish), absence.until.value);
     for (const Meals::Swallow& swallow : meals_.swallows)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many live: who was eaten is away for a while, then another of its species comes from afar in
-// its place, so that no species dies out. It bears the same index and length.
+// The living world: every fish perceives, feels, decides and moves, one tick at a time. Equal
+// options and inputs give the same world on any number of threads.
+// A fish that was eaten is absent for a while; then another of its species takes its index and
+// length and comes in from afar, so that no species dies out.
 #pragma once
 
 #include <cstddef>
@@ -30,60 +32,74 @@
 
 namespace aquarama::world {
 
-// What happened since tick 0.
+// Counters of what happened since tick 0.
 struct WorldCounts {
-    std::uint64_t meals = 0;    // particles of food that were eaten
-    std::uint64_t catches = 0;  // fish that were
+    // Particles of food that were eaten.
+    std::uint64_t meals = 0;
+    // Fish that were eaten.
+    std::uint64_t catches = 0;
     std::uint64_t spawnings = 0;
-    std::uint64_t returns = 0;  // others that came instead of those eaten
+    // Fish that came in place of those eaten.
+    std::uint64_t returns = 0;
     friend bool operator==(const WorldCounts&, const WorldCounts&) = default;
 };
 
+// A fish that was eaten, and the tick at which its place is taken.
 struct Absence {
     std::uint32_t fish = 0;
     Tick until;
 };
 
-// With room for all fish that somebody hunts; in the order in which they were eaten.
+// An empty list with room for all fish that some species hunts. It is kept in the order in which
+// they were eaten.
 [[nodiscard]] std::vector<Absence> makeAbsences(
     std::span<const fish::SpeciesParameters> speciesParameters);
-// 20 to 60 seconds from now.
+// An absence that ends 20 to 60 seconds from now, drawn by the seed.
 [[nodiscard]] Absence absenceFrom(std::uint32_t seed, std::uint32_t fish, Tick now);
 
-// Where one comes into sight: of places in the water, clear of rocks and sand, one that is as far
-// from the eye as the water reaches, or in the haze more than 12 m away.
+// Where a new fish begins: a place in the water, clear of rocks and sand; of several drawn the one
+// farthest from the eye, where all beyond 12 m count as hidden by haze.
 [[nodiscard]] glm::vec3 arrivalPlace(const surroundings::Surroundings& surroundings,
                                      std::uint32_t fish,
                                      Tick tick);
 
-// The living world: every fish perceives, feels, decides and moves, one tick at a time. Same
-// options and inputs, same world, on any number of threads.
-
-// The fish of one species.
+// One species of a world and the number of its fish.
 struct WorldSpecies {
+    // Never null; shared, as several worlds may use one repertoire.
     std::shared_ptr<const motion::MotorTables> tables;
     std::uint32_t fish = 0;
+    // Lengths of its fish, in metres.
     config::SizeRange size = {};
-    std::string name = {};  // as Habits::hunts has it
+    // The name by which Habits::hunts and shadows refer to it.
+    std::string name = {};
     config::Habits habits = {};
+    // Where its fish begin, and in which mood, if the scene says so.
     std::optional<config::Start> start = {};
 };
 
+// All that a world is made of.
 struct WorldOptions {
     std::uint32_t seed = 1;
     unsigned threads = 1;
-    config::Scene scene;             // all of it but the cast
-    std::vector<WorldSpecies> cast;  // the school first; may be without fish
+    // All of the scene is used except its cast.
+    config::Scene scene;
+    // The first species is the school; it may have no fish.
+    std::vector<WorldSpecies> cast;
     fish::Adaptation adaptation;
 };
 
+// Owns everything that a tick changes. Called from one thread; its pool shares out the work of a
+// tick. References that it returns stay valid; what they show changes with advance() and apply().
 class World {
   public:
-    // Throws Error for a cast of more kinds than kMostSpecies.
+    // Throws Error for more than kMostSpecies species.
     explicit World(const WorldOptions& options);
 
-    void apply(const WorldInput& input);  // between two ticks
-    void advance();                       // one tick; allocates nothing
+    // Applies an input, between two ticks.
+    void apply(const WorldInput& input);
+    // One tick. Order: food and view, thoughts, motion, events. Allocates nothing in a steady
+    // world.
+    void advance();
 
     [[nodiscard]] Tick tick() const { return tick_; }
     [[nodiscard]] const motion::MotionStates& states() const { return states_; }
@@ -95,32 +111,38 @@ class World {
     [[nodiscard]] std::span<const fish::SpeciesParameters> speciesParameters() const {
         return speciesParameters_;
     }
-    [[nodiscard]] const fish::FishView& view() const { return view_; }  // as the last tick began
-    // As the fish saw it that thought in the last tick.
+    // As it was when the last tick began.
+    [[nodiscard]] const fish::FishView& view() const { return view_; }
+    // What the fish that thought in the last tick saw. Points into this world.
     [[nodiscard]] behaviour::Environment environment() const;
     [[nodiscard]] std::span<const motion::FishTraits> traits() const { return traits_; }
     [[nodiscard]] const WorldCounts& counts() const { return counts_; }
-    [[nodiscard]] std::size_t bytes() const;  // of all that grows with the school
+    // Memory of all that grows with the number of fish.
+    [[nodiscard]] std::size_t bytes() const;
 
-    // States, commands and all that minds remember; equal worlds have equal hashes.
+    // Hash of all state that decides how the world goes on: equal worlds have equal hashes.
     [[nodiscard]] std::uint64_t hash() const;
+    // What is published of every fish, by index.
     void records(std::vector<motion::FishRecord>& records) const;
 
   private:
-    // Fish [first, last) are of one species; of the first kind is the school.
+    // A species: its fish are [first, last). The first kind is the school.
     struct Kind {
         std::shared_ptr<const motion::MotorTables> tables;
         fish::Gaits gaits;
         std::size_t first = 0, last = 0;
     };
-    struct Chunk {  // a part of a kind, small enough to share out among threads
+    // Part of a kind, small enough to share out among threads.
+    struct Chunk {
         std::size_t kind = 0;
         std::size_t first = 0, last = 0;
     };
-    struct Slice {  // a part of those in the grid, as they stand there
+    // Events of one part of the fish, in the order of the grid.
+    struct Slice {
         behaviour::DeferredEvents events;
     };
     void addKind(const WorldSpecies& species, const std::vector<WorldSpecies>& cast);
+    // Steps of construction and of a tick; each says at its definition what it does.
     void begin(const WorldOptions& options);
     void beginTick();
     void look(const Kind& kind, std::size_t first, std::size_t last);
@@ -139,13 +161,15 @@ class World {
     std::uint32_t seed_;
     Tick tick_;
     config::Gathering gathering_;
-    glm::vec3 middle_;  // of the scene's own water, before it grew
+    // Middle of the scene's own water, before it grew with the fish.
+    glm::vec3 middle_;
     fish::Adaptation adaptation_;
     std::vector<Kind> kinds_;
     std::vector<fish::SpeciesParameters> speciesParameters_;  // one for each kind
     std::vector<Chunk> chunks_;
     std::vector<Slice> slices_;
-    behaviour::DeferredEvents events_;  // of all slices
+    // Events of all slices together.
+    behaviour::DeferredEvents events_;
     std::vector<motion::FishTraits> traits_;
     surroundings::Surroundings surroundings_;
     surroundings::Voyage voyage_;
