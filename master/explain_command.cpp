@@ -2,8 +2,10 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
@@ -13,7 +15,7 @@
 #include "common/units/error.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
-#include "master/conductor/ask.h"
+#include "master/conductor/requests.h"
 #include "master/simulation/assets.h"
 #include "master/simulation/living_world.h"
 #include "master/simulation/playback.h"
@@ -34,13 +36,12 @@ struct ExplainOptions {
     std::uint64_t tick = 0;
 };
 
-void print(const wire::Explanation& explanation) {
-    if (explanation.fish >= explanation.school)
-        throw Error(
-            "there is no fish " + std::to_string(explanation.fish) + ": the world has " +
-            std::to_string(explanation.school) +
-            (explanation.school == 0 ? "" : ", 0 to " + std::to_string(explanation.school - 1)));
-    for (const std::string& line : explanation.lines) std::cout << line << '\n';
+void print(std::uint32_t fish, std::size_t school, std::span<const std::string> lines) {
+    if (fish >= school)
+        throw Error("there is no fish " + std::to_string(fish) + ": the world has " +
+                    std::to_string(school) +
+                    (school == 0 ? "" : ", 0 to " + std::to_string(school - 1)));
+    for (const std::string& line : lines) std::cout << line << '\n';
     std::cout.flush();
 }
 
@@ -49,9 +50,11 @@ void explainLive(const ExplainOptions& options) {
         options.address.empty() ? config::readRig(options.rig).controlAddress : options.address);
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
     do {
-        const auto explanation = master.ask<wire::Explanation>(wire::ExplainRequest{options.fish});
+        const v1::Explanation explanation = master.explain(options.fish);
         if (onScreen) std::cout << kClearScreen;
-        print(explanation);
+        const std::vector<std::string> lines{explanation.lines().begin(),
+                                             explanation.lines().end()};
+        print(options.fish, explanation.school(), lines);
         if (options.follow) std::this_thread::sleep_for(kBetweenLooks);
     } while (options.follow);
 }
@@ -69,7 +72,7 @@ void explainReplay(const ExplainOptions& options) {
     if (playback.difference())
         std::cerr << options.recording << ": from tick " << playback.difference()->tick.value
                   << " on this is another world than the recorded one\n";
-    print(world.explain(options.fish));
+    print(options.fish, world.world().traits().size(), world.explain(options.fish));
 }
 
 }  // namespace

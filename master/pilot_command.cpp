@@ -13,15 +13,14 @@
 
 #include "common/config/rig.h"
 #include "master/commands.h"
-#include "master/conductor/ask.h"
-#include "master/conductor/status.h"
-#include "master/conductor/terminal_steering.h"
+#include "master/conductor/requests.h"
+#include "master/conductor/steering.h"
 
 namespace aquarama {
 
 namespace {
 
-// Often enough that the submarine never takes the hand for gone.
+// Often enough that the submarine never takes the pilot for gone.
 constexpr auto kBetweenWords = std::chrono::milliseconds(100);
 
 // A terminal that gives every key as it is pressed, without showing it; as before afterwards.
@@ -66,10 +65,9 @@ void steer(const std::string& address) {
     for (std::string keys; keyboard.read(keys) && !terminal.ended();) {
         terminal.press(keys);
         const Steering& held = terminal.steering();
-        if (held != said || held != Steering{})
-            master.tell(wire::Input{wire::InputKind::Steer, {}, held});
+        if (held != said || held != Steering{}) master.steer(held);
         said = held;
-        const auto status = master.ask<wire::StatusReply>(wire::StatusRequest{});
+        const v1::StatusReply status = master.status();
         // On a screen one line that changes, else one after the other.
         std::cout << fmt::format("{}{}   {}{}",
                                  onScreen ? "\r\x1b[K" : "",
@@ -78,8 +76,8 @@ void steer(const std::string& address) {
                                  onScreen ? "" : "\n")
                   << std::flush;
     }
-    master.tell(wire::Input{wire::InputKind::Steer, {}, {}});
-    master.ask<wire::StatusReply>(wire::StatusRequest{});  // it has heard that as well
+    master.steer({});
+    master.status();  // it has heard that as well
     if (onScreen) std::cout << '\n';
 }
 

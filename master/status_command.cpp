@@ -7,7 +7,7 @@
 
 #include "common/config/rig.h"
 #include "master/commands.h"
-#include "master/conductor/status.h"
+#include "master/conductor/requests.h"
 
 namespace aquarama {
 
@@ -22,9 +22,10 @@ void addStatus(CLI::App& app, cli::Job& job) {
     status.add_option("--master", options->address, "its control address, instead of the rig's");
     status.callback([options, &job] {
         job = [options] {
-            std::cout << conductor::runStatus(options->address.empty()
-                                                  ? config::readRig(options->rig).controlAddress
-                                                  : options->address);
+            conductor::RequestClient master(options->address.empty()
+                                                ? config::readRig(options->rig).controlAddress
+                                                : options->address);
+            std::cout << conductor::statusText(master.status());
             return 0;
         };
     });

@@ -6,7 +6,7 @@
 
 #include "common/cli/outputs.h"
 #include "common/cli/program.h"
-#include "common/net/address.h"
+#include "common/net/channels.h"
 #include "common/units/error.h"
 #include "render_node/show/node_options.h"
 #include "render_node/show/run_node.h"

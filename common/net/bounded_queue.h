@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where two threads meet: one puts, one takes, and neither can pile up more than the capacity.
+// A queue between two threads, of bounded length.
 #pragma once
 
 #include <condition_variable>
@@ -11,7 +11,8 @@
 
 namespace aquarama::net {
 
-// The lock is held for a move only, never across a call into a socket or a driver.
+// One thread puts, one takes; a queue that is full holds up or refuses whoever puts. The lock is
+// held for a move only, never across a call into a socket or a driver.
 template <class T>
 class BoundedQueue {
   public:

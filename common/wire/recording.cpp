@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "common/units/error.h"
+#include "common/units/limits.h"
+#include "common/wire/messages.h"
 #include "common/wire/recording.pb.h"
 
 namespace aquarama::wire {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/simulation/living_world.h"
 
-#include "common/wire/food_record.h"
 #include "master/simulation/insight.h"
 #include "master/simulation/lines.h"
 
@@ -21,34 +20,42 @@ wire::FoodRecord::Kind kindOf(surroundings::FoodKind kind) {
     return wire::FoodRecord::Kind::None;
 }
 
+// As the nodes are told of it.
+wire::FoodCloud foodOf(const surroundings::Surroundings& around) {
+    const surroundings::Food& food = around.food;
+    wire::FoodCloud cloud{around.obstacles.water.centre, {}};
+    cloud.particles.reserve(food.size());
+    for (std::size_t i = 0; i < food.size(); ++i)
+        cloud.particles.push_back(wire::foodRecord(
+            kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]));
+    return cloud;
+}
+
+wire::Eye eyeOf(const pilot::Vessel& vessel) {
+    const motion::Quaternion q = pilot::worldFromBody(vessel.attitude);
+    return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
+}
+
 }  // namespace
 
 LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
     for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
 }
 
-// As the nodes are told of it.
-void LivingWorld::food(wire::FoodCloud& cloud) const {
-    const surroundings::Food& food = world_.surroundings().food;
-    cloud.originMetres = world_.surroundings().obstacles.water.centre;
-    cloud.particles.resize(food.size());
-    for (std::size_t i = 0; i < food.size(); ++i)
-        cloud.particles[i] = wire::foodRecord(
-            kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
+conductor::Snapshot LivingWorld::snapshot() const {
+    conductor::Snapshot snapshot{.tick = world_.tick(),
+                                 .hash = world_.hash(),
+                                 .eye = eyeOf(world_.pilot().vessel),
+                                 .daylight = world_.surroundings().daylight,
+                                 .fish = {},
+                                 .food = foodOf(world_.surroundings())};
+    world_.records(snapshot.fish);
+    return snapshot;
 }
 
-wire::Eye LivingWorld::eye() const {
-    const pilot::Vessel& vessel = world_.pilot().vessel;
-    const motion::Quaternion q = pilot::worldFromBody(vessel.attitude);
-    return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
-}
-
-wire::Explanation LivingWorld::explain(std::uint32_t fish) const {
-    wire::Explanation explanation{
-        fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    if (const auto insight = insightInto(world_, fish))
-        explanation.lines = linesOf(*insight, {world_.view(), species_});
-    return explanation;
+std::vector<std::string> LivingWorld::explain(std::uint32_t fish) const {
+    const auto insight = insightInto(world_, fish);
+    return insight ? linesOf(*insight, {world_.view(), species_}) : std::vector<std::string>{};
 }
 
 }  // namespace aquarama::simulation

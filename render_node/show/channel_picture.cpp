@@ -54,7 +54,7 @@ std::vector<Label> helpLabels(float dot) {
 
 std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) {
     std::vector<surface::SchoolSpecies> cast;
-    std::span<const motion::FishTraits> rest = admission.welcome.school;
+    std::span<const motion::FishTraits> rest = admission.school;
     for (const wire::SpeciesAssets& assets : admission.cast) {
         const config::Species species = config::parseSpecies(assets.text, assets.file);
         const auto own = rest.first(std::min<std::size_t>(assets.fish, rest.size()));
@@ -94,9 +94,9 @@ ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
 ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::size_t channel,
                                config::QualityTier quality)
-    : pattern_{admission.welcome.pattern},
+    : pattern_{admission.pattern},
       stereo_{wall::stereoOf(admission.rig, channel)},
-      school_{admission.welcome.school} {
+      school_{admission.school} {
     const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
     const wall::WarpMap warp = wall::warpMap(rig, channel);
@@ -115,7 +115,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
     if (world)
-        scene_.emplace(scene::SceneOptions{.seed = admission.welcome.seed,
+        scene_.emplace(scene::SceneOptions{.seed = admission.seed,
                                            .place = admission.scene.place,
                                            .water = admission.scene.water.jerlov,
                                            .quality = quality,

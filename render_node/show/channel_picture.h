@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/motion/reconstruct.h"
-#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 #include "render_node/gl/target.h"
 #include "render_node/project/pattern_pass.h"
 #include "render_node/project/projection.h"

@@ -4,9 +4,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
-#include "common/wall/frame_pipe.h"
+#include "common/net/channels.h"
 #include "render_node/context/context.h"
 #include "render_node/gl/target.h"
 #include "render_node/session/session.h"
@@ -39,6 +40,7 @@ class ChannelShow {
     [[nodiscard]] session::Release play();
     void draw(const wire::StateFrame& frame);
     void project(const Overlays& overlays, Shown shown);
+    void film(Frame frame);
     void refuseLoss() const;
     void feed(const wire::Eye& eye);
     // Where in the picture a place of the window lies; where there is none, its middle.
@@ -52,7 +54,7 @@ class ChannelShow {
     Controls& controls_;
     NodeOptions options_;
     Trace trace_;
-    std::optional<wall::FramePipeWriter> film_;
+    std::unique_ptr<net::FrameSender> film_;
     std::optional<session::Admission> built_;                 // what picture_ was built for
     config::QualityTier quality_ = config::QualityTier::Low;  // of picture_
     config::QualityTier bears_ =

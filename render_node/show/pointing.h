@@ -9,7 +9,7 @@
 
 #include "common/config/rig.h"
 #include "common/wall/eyes.h"
-#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 
 namespace aquarama::show {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/motion/reconstruct.h"
-#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 #include "render_node/scene/scene.h"
 
 namespace aquarama::show {
