@@ -35,12 +35,13 @@ class BoundedQueue {
         return true;
     }
 
-    // To the only thread that puts, false stays false.
+    // For the thread that puts: once false, it stays false until that thread puts again.
     [[nodiscard]] bool full() const {
         const std::lock_guard lock(mutex_);
         return items_.size() >= capacity_;
     }
 
+    // The oldest; empty where there is none. Also after close(), until nothing is left.
     std::optional<T> tryTake() {
         const std::lock_guard lock(mutex_);
         if (items_.empty()) return std::nullopt;
@@ -50,6 +51,7 @@ class BoundedQueue {
         return first;
     }
 
+    // Ends every wait; nothing is put from now on.
     void close() {
         const std::lock_guard lock(mutex_);
         closed_ = true;

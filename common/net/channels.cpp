@@ -16,6 +16,7 @@ constexpr int kNodeLingerMs = 200;
 constexpr int kMostRequests = 256;  // to the state channel in one turn: a flood stops no frame
 constexpr std::size_t kSubscriptionBytes = 256;  // the longest that the state channel listens to
 
+// Control on a ROUTER, which names its peers; states on an XPUB, which shows us subscriptions.
 class ZmqMasterChannels final : public MasterChannels {
   public:
     ZmqMasterChannels(const std::string& controlAddress,
@@ -42,6 +43,7 @@ class ZmqMasterChannels final : public MasterChannels {
         sendOrDrop(control_, bytes);
     }
 
+    // A peer's name without a message reads as empty bytes.
     std::optional<FromPeer> receiveControl() override {
         zmq::message_t peer;
         if (!receive(control_, peer)) return std::nullopt;
@@ -94,6 +96,7 @@ class ZmqMasterChannels final : public MasterChannels {
     std::size_t noise_ = 0;
 };
 
+// Control on a DEALER, states on a SUB.
 class ZmqNodeChannels final : public NodeChannels {
   public:
     ZmqNodeChannels(const std::string& controlAddress, const PacketLimits& limits)

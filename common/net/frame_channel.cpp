@@ -3,6 +3,7 @@
 // end watches the connection, so that one that ends in whatever way never holds up the other.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -23,6 +24,7 @@ struct FrameHeader {
     std::int32_t width = 0, height = 0;
 };
 
+// Three codes a pixel; the header has been checked for negative sizes.
 std::size_t codesIn(const FrameHeader& header) {
     return 3 * static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
 }
@@ -48,17 +50,21 @@ class PeerWatch {
             watched.handle(), kAddress, ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED);
         events_.connect(kAddress);
     }
+    // The peer has connected, now or earlier.
     [[nodiscard]] bool hasCome() {
         readEvents();
         return come_;
     }
+    // It has connected, and its end is closed: by itself, or because its process has ended.
     [[nodiscard]] bool hasGone() {
         readEvents();
         return gone_;
     }
+    // To be polled beside the watched socket.
     [[nodiscard]] void* handle() { return events_.handle(); }
 
   private:
+    // Each event has two parts: its number, and the address, which does not matter here.
     void readEvents() {
         zmq::message_t number;
         zmq::message_t address;
@@ -96,6 +102,7 @@ class ZmqFrameSender final : public FrameSender {
     }
 
     void send(const RawFrame& frame) override {
+        assert(frame.rgb.size() == codesIn({0, frame.width, frame.height}));
         const FrameHeader header{frame.frame, frame.width, frame.height};
         zmq::message_t message(sizeof header + frame.rgb.size());
         std::memcpy(message.data(), &header, sizeof header);
@@ -116,6 +123,7 @@ class ZmqFrameSender final : public FrameSender {
         throw Error(path.string() + ": no frames can be sent there (" + why +
                     "); start aquarama-calibrate clip first");
     }
+    // False where the queue is full, or a signal came; the message is still whole then.
     bool trySend(zmq::message_t& message) {
         try {
             return socket_.send(message, zmq::send_flags::dontwait).has_value();
@@ -159,6 +167,7 @@ class ZmqFrameReceiver final : public FrameReceiver {
     }
 
   private:
+    // The size is compared with the header's before memory is taken.
     [[nodiscard]] RawFrame frameIn(const zmq::message_t& message) const {
         FrameHeader header;
         std::memcpy(&header, message.data(), std::min(message.size(), sizeof header));

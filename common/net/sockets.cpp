@@ -20,6 +20,7 @@ constexpr int kReconnectMs = 50;  // a master that restarts is found at once
 constexpr int kReconnectMaxMs = 500;
 constexpr std::string_view kTcp = "tcp://";
 
+// An address "tcp://HOST:PORT" in its parts.
 struct Endpoint {
     std::string host, port;
 };
@@ -46,6 +47,7 @@ std::optional<std::string> ipv6In(const std::string& host) {
     return inner;
 }
 
+// Throws Error where it has no such parts; the port is left to the caller.
 Endpoint split(const std::string& address) {
     const std::size_t colon = address.rfind(':');
     if (!address.starts_with(kTcp) || colon == std::string::npos || colon < kTcp.size()) {
@@ -62,6 +64,7 @@ Endpoint split(const std::string& address) {
     throw Error("\"" + address + "\" has no valid port; use a number from 1 to 65535");
 }
 
+// All of 127.0.0.0/8, and ::1; names are not resolved.
 bool isLoopback(const std::string& host) {
     in_addr parsed{};
     if (inet_pton(AF_INET, host.c_str(), &parsed) == 1) return ntohl(parsed.s_addr) >> 24U == 127;
@@ -117,6 +120,7 @@ void WakeEvent::clear() const {
     [[maybe_unused]] const auto taken = read(descriptor_, &count, sizeof count);
 }
 
+// Both queues have the same bound; zero would mean none.
 zmq::socket_t openSocket(zmq::context_t& context,
                          zmq::socket_type type,
                          int queue,

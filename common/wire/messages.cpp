@@ -15,16 +15,19 @@
 namespace aquarama::wire {
 namespace {
 
-constexpr int kEyeNumbers = 7;
+constexpr int kEyeNumbers = 7;  // position and rotation
+// In the order of Input.steering.
 constexpr std::array kAxes{
     &Steering::ahead, &Steering::aside, &Steering::up, &Steering::turn, &Steering::tilt};
 
+// The plain enums are cast to and from the generated ones.
 static_assert(int{v1::PACE_LIVE} == static_cast<int>(Pace::Live) &&
               int{v1::PACE_LOCKSTEP} == static_cast<int>(Pace::Lockstep));
 static_assert(int{v1::PATTERN_WORLD} == static_cast<int>(Pattern::World) &&
               int{v1::PATTERN_GRID} == static_cast<int>(Pattern::Grid) &&
               int{v1::PATTERN_GREY} == static_cast<int>(Pattern::Grey));
 
+// No control characters, so that no peer can write lines of its own into a log.
 bool isText(const std::string& text, std::size_t maxBytes) {
     return text.size() <= maxBytes && std::ranges::none_of(text, [](char c) {
                const auto byte = static_cast<unsigned char>(c);
@@ -32,6 +35,7 @@ bool isText(const std::string& text, std::size_t maxBytes) {
            });
 }
 
+// Of a channel, a node or a build.
 bool isName(const std::string& text) {
     return !text.empty() && isText(text, kMostNameBytes);
 }
@@ -60,6 +64,7 @@ bool isValid(const v1::Dismissed& m) {
     return m.has_reason() && isText(m.reason(), kMostReasonBytes);
 }
 
+// As many lengths as fish, each of 16 bits as in motion::FishTraits.
 bool isSchool(const v1::Welcome& m) {
     return m.fish_ids_size() <= int{kMostFish} &&
            m.length_millimetres_size() == m.fish_ids_size() &&
@@ -90,6 +95,7 @@ bool isValid(const v1::BlobRequest& m) {
     return isDigest(m.digest()) && m.has_offset() && m.offset() <= kMostBlobBytes;
 }
 
+// The content lies within the blob; written so that no sum overflows.
 bool isValid(const v1::BlobChunk& m) {
     return isDigest(m.digest()) && m.has_offset() && m.has_total() &&
            m.content().size() <= kBlobChunkBytes && m.total() <= kMostBlobBytes &&
@@ -100,10 +106,12 @@ bool isValid(const v1::Prepared& m) {
     return m.has_quality() && config::tierAt(m.quality());
 }
 
+// An earlier release is reported as a whole or not at all.
 bool isValid(const v1::Ready& m) {
     return m.has_frame() && m.has_released_frame() == m.has_released_ns();
 }
 
+// Only food has a position, only a steering has axes.
 bool isValid(const v1::Input& m) {
     const bool isFood = m.kind() == v1::INPUT_DROP_FOOD;
     const bool isSteering = m.kind() == v1::INPUT_STEER;
@@ -211,6 +219,7 @@ bool isBounded(std::span<const std::byte> packet) {
 
 }  // namespace
 
+// Fields are written in the order of their numbers: the same message is the same bytes.
 Packet encode(std::uint64_t session, v1::Envelope envelope) {
     envelope.set_session(session);
     Packet packet(envelope.ByteSizeLong());

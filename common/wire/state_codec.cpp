@@ -16,6 +16,7 @@ namespace {
 // The records are copied as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
 
+// Of FishRecord and FoodRecord; a receiver refuses any other.
 constexpr std::uint32_t kLayoutVersion = 3;
 constexpr std::size_t kStride = sizeof(motion::FishRecord);
 constexpr int kPlaceNumbers = 3;
@@ -25,6 +26,8 @@ void writeRecords(std::span<const Record> records, std::string& bytes) {
     bytes.assign(reinterpret_cast<const char*>(records.data()), records.size_bytes());
 }
 
+// Empty where the bytes are no whole records, more than `most`, or one of them is not good. Memory
+// is taken after the size was checked.
 template <class Record, class Check>
 std::optional<std::vector<Record>> readRecords(const std::string& bytes,
                                                std::size_t most,
@@ -55,6 +58,7 @@ bool isShare(float number) {
     return number >= 0.0F && number <= 1.0F;
 }
 
+// Unset is never taken for zero.
 bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_before() && message.has_after() &&
@@ -65,6 +69,7 @@ bool hasAllScalars(const v1::State& message) {
 
 }  // namespace
 
+// A comparison with a number that is none is false: such a place is not there either.
 FoodRecord foodRecord(FoodRecord::Kind kind, glm::vec3 offsetMetres, unsigned generation) {
     constexpr float kFarthestUnits = 524287.0F;
     const glm::vec3 units = glm::round(offsetMetres / kFoodUnitMetres);

@@ -190,7 +190,7 @@ bool Conductor::isLast(Frame frame) const {
 void Conductor::conduct(net::Instant now) {
     for (const std::size_t node : barrier_.expelSilent(now)) {
         ++slots_[node].dropped;
-        vacate(node, "you were silent for too long");
+        vacate(node);
     }
     const auto decision = barrier_.decide(now);
     if (decision.verdict == PresentBarrier::Verdict::Silent) {

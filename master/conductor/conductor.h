@@ -96,34 +96,48 @@ class Conductor {
         net::Instant lastFed{};  // when a visitor last dropped food in its window
     };
 
-    void hear(net::Instant now);
+    // Messages (reception.cpp). `node` is a place in slots_; a peer may be none of them.
+    void hear(net::Instant now);  // all that has arrived, within bounds
     void take(const net::PeerId& peer, const v1::Envelope& message, net::Instant now);
+    // Of a node that takes part in this run.
     void takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now);
+    // Answers a hello: welcome, refusal, or a dismissal while another node has the channel.
     void greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now);
     [[nodiscard]] std::string objectionTo(const v1::Hello& hello) const;
     void pong(std::size_t node, std::int64_t sentNs);
+    // Its picture of a frame is finished.
     void ready(std::size_t node, const v1::Ready& ready, net::Instant now);
+    // It has built all it needs: from the next frame on it is waited for.
     void admit(std::size_t node);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
     void dismiss(const net::PeerId& peer, const std::string& why);
-    void vacate(std::size_t node, const std::string& why);
+    // The node is counted no more: it has fallen silent, or has said farewell.
+    void vacate(std::size_t node);
     void leave(std::size_t node);
     void handle(std::size_t node, const v1::Input& input, net::Instant now);
+    // Inputs, passed on to the tick thread where they are in bounds.
     void feed(std::size_t node, glm::vec3 positionMetres, net::Instant now);
     void steer(const net::PeerId& peer, const Steering& steering, net::Instant now);
+    // A question about a mind goes to the tick thread; answer() sends what came back.
     void ask(const net::PeerId& peer, std::uint32_t fish);
     void answer();
     [[nodiscard]] v1::Envelope status(net::Instant now) const;
+    // The channel of the window that steers, "pilot" for anybody else, empty for nobody.
     [[nodiscard]] std::string pilotName(net::Instant now) const;
+    // The tier of the whole wall: as chosen, or the finest that every node bears.
     [[nodiscard]] config::QualityTier quality() const;
 
+    // Frames. `now` is the moment at which this turn of the loop began.
     void noteEye(const wire::StateView& state);
-    void takeTicks();
-    void conduct(net::Instant now);
-    void beginNext(net::Instant now);
-    void release(net::Instant now);
+    void takeTicks();                  // from the tick thread into snapshots_
+    void conduct(net::Instant now);    // asks the barrier, and does what it decides
+    void beginNext(net::Instant now);  // as soon as there is somebody to draw it
+    void release(net::Instant now);    // of the frame that is drawn, to all prepared nodes
     bool publish(Frame frame, net::Instant now);
+    // The last two states, for whoever may lack them.
     void publishAgain(net::Instant now);
+    // When a frame that is ready now is shown: one refresh after the last, and not before every
+    // node can have heard of it.
     [[nodiscard]] net::Instant nextRelease(net::Instant now) const;
     [[nodiscard]] bool isLast(Frame frame) const;
 
@@ -139,7 +153,7 @@ class Conductor {
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;
-    wire::Packet welcome_, beacon_;
+    wire::Packet welcome_, beacon_;  // encoded once: they never change
     std::vector<ChannelSlot> slots_;
     PresentBarrier barrier_;
     net::Instant refresh_;

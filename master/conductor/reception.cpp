@@ -191,10 +191,10 @@ void Conductor::dismiss(const net::PeerId& peer, const std::string& why) {
     say(peer, std::move(message));
 }
 
-void Conductor::vacate(std::size_t node, const std::string& why) {
+void Conductor::vacate(std::size_t node) {
     ChannelSlot& slot = slots_[node];
     logWarning("node {} is not counted any more: silent", slot.name);
-    dismiss(slot.peer, why);
+    dismiss(slot.peer, "you were silent for too long");
     slot.peer.clear();
     slot.prepared = false;
 }

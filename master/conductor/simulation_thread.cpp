@@ -19,6 +19,7 @@ constexpr net::Instant kMostCatchUp = 15 * kTickPeriod;
 // Between two ticks: nobody who asks for more holds up the world.
 constexpr std::size_t kMostJobs = 64;
 
+// The tick itself: nothing before it is needed.
 wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
     return {frame,
             snapshot.tick,
@@ -33,6 +34,7 @@ wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
             snapshot.daylight};
 }
 
+// Where the eye is at a fraction of the way between two ticks.
 wire::Eye between(const wire::Eye& before, const wire::Eye& after, float fraction) {
     return {glm::mix(before.positionMetres, after.positionMetres, fraction),
             glm::slerp(before.worldFromWall, after.worldFromWall, fraction)};
@@ -158,6 +160,7 @@ void SimulationThread::serveUntilStopped() {
     }
 }
 
+// Waits while the queue is full. False: stopped.
 bool SimulationThread::put(net::Instant due) {
     Snapshot snapshot = simulation_.snapshot();
     snapshot.due = due;

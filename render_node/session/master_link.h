@@ -115,10 +115,12 @@ class MasterLink {
     void run();
 
   private:
+    // From outside to member: says hello, fetches blobs, builds (the render thread does), waits for
+    // the first state, and is waited for.
     enum class Phase : std::uint8_t { Outside, Greeting, Fetching, Building, Listening, Member };
 
-    void turn();
-    void say(v1::Envelope message);
+    void turn();                     // all requests and messages that are there, then what is due
+    void say(v1::Envelope message);  // of the run that welcomed us
     void sayFarewell();
     void handle(const Join& join);
     void handle(const Built& built);
@@ -126,10 +128,12 @@ class MasterLink {
     void handle(const v1::Input& input);
     void handle(const v1::ExplainRequest& request);
 
+    // Whatever cannot be decoded is ignored.
     void readControl(const net::ByteVector& bytes);
     void readState(const net::ByteVector& bytes);
     void take(const v1::Envelope& message);
     void beWelcomed(const v1::Envelope& message);
+    // From the run of the master that welcomed us.
     void takeOfRun(const v1::Envelope& message);
     void takeChunk(const v1::BlobChunk& chunk);
     void beReleased(const v1::Present& present);
@@ -138,8 +142,9 @@ class MasterLink {
 
     void fetchNext();
     void requestChunk();
-    void admit();
+    void admit();  // every blob is there
     void sayReady();
+    // The master is gone or another: joins again.
     void lose(const std::string& why);
     void keepTime(net::Instant now);
     void greet(net::Instant now);

@@ -14,6 +14,7 @@ std::string textOf(const net::ByteVector& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// The species with the blobs that were fetched for them.
 std::vector<wire::SpeciesAssets> castOf(const Admitted& admitted) {
     std::vector<wire::SpeciesAssets> cast;
     for (const v1::SpeciesBlobs& member : admitted.welcome.cast())
@@ -40,6 +41,7 @@ Digest showOf(v1::Welcome welcome) {
     return digestOf(welcome.SerializeAsString());
 }
 
+// Throws Error where the master's rig or scene cannot be read.
 Admission admissionOf(const Admitted& admitted) {
     const v1::Welcome& welcome = admitted.welcome;
     return {.show = showOf(welcome),
@@ -52,6 +54,7 @@ Admission admissionOf(const Admitted& admitted) {
             .cast = castOf(admitted)};
 }
 
+// The render thread's side of a mailbox whose other side is a net thread.
 class LinkSession final : public Session {
   public:
     LinkSession(const std::string& name, net::Connect connect, const std::filesystem::path& blobs)
