@@ -142,7 +142,9 @@ void describeClip(CLI::App& app, Clip& options, cli::Job& job) {
         "clip", "make FILE.mp4 or FILE.webp of the frames that running nodes send (--film)");
     clip.add_option("RIG", options.rig, "rig file that is shown")->required();
     clip.add_option("FILE", options.filming.clipPath, "the clip")->required();
-    clip.add_option("--pipes", options.filming.pipes, "folder of the nodes' named pipes")
+    clip.add_option("--pipes",
+                    options.filming.pipes,
+                    "folder of the sockets by which the nodes send frames")
         ->required();
     clip.add_option("--of", options.filming.of, "panorama, hall or a channel's name");
     clip.add_option("--every", options.filming.ticksBetween, "frames of the show to one picture")

@@ -3,8 +3,10 @@
 #include <array>
 #include <chrono>
 #include <iostream>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <poll.h>
@@ -17,9 +19,8 @@
 #include "common/units/log.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
-#include "master/conductor/ask.h"
-#include "master/conductor/status.h"
-#include "master/conductor/terminal_steering.h"
+#include "master/conductor/requests.h"
+#include "master/conductor/steering.h"
 #include "master/simulation/living_world.h"
 #include "master/simulation/recorded_world.h"
 
@@ -43,7 +44,8 @@ void describeMaster(CLI::App& command, AskedMaster& asked) {
 }
 
 void showStatus(const AskedMaster& asked) {
-    std::cout << conductor::runStatus(asked.controlAddress());
+    conductor::RequestClient master(asked.controlAddress());
+    std::cout << conductor::statusText(master.status());
 }
 
 // So short that the submarine never takes its pilot for gone.
@@ -93,10 +95,9 @@ void steer(const AskedMaster& asked) {
     for (std::string keys; keyboard.read(keys) && !terminal.ended();) {
         terminal.press(keys);
         const Steering& held = terminal.steering();
-        if (held != said || held != Steering{})
-            master.tell(wire::Input{wire::InputKind::Steer, {}, held});
+        if (held != said || held != Steering{}) master.steer(held);
         said = held;
-        const auto status = master.ask<wire::StatusReply>(wire::StatusRequest{});
+        const v1::StatusReply status = master.status();
         // On a screen one line that changes, else one after the other.
         std::cout << fmt::format("{}{}   {}{}",
                                  onScreen ? "\r\x1b[K" : "",
@@ -105,8 +106,8 @@ void steer(const AskedMaster& asked) {
                                  onScreen ? "" : "\n")
                   << std::flush;
     }
-    master.tell(wire::Input{wire::InputKind::Steer, {}, {}});
-    master.ask<wire::StatusReply>(wire::StatusRequest{});  // an answer: the master has had both
+    master.steer({});
+    master.status();  // an answer: the master has had both
     if (onScreen) std::cout << '\n';
 }
 
@@ -122,13 +123,12 @@ struct ExplainOptions {
 };
 
 // Throws Error where the world has no such fish.
-void print(const wire::Explanation& explanation) {
-    if (explanation.fish >= explanation.school)
-        throw Error(
-            "there is no fish " + std::to_string(explanation.fish) + ": the world has " +
-            std::to_string(explanation.school) +
-            (explanation.school == 0 ? "" : ", 0 to " + std::to_string(explanation.school - 1)));
-    for (const std::string& line : explanation.lines) std::cout << line << '\n';
+void print(std::uint32_t fish, std::size_t school, std::span<const std::string> lines) {
+    if (fish >= school)
+        throw Error("there is no fish " + std::to_string(fish) + ": the world has " +
+                    std::to_string(school) +
+                    (school == 0 ? "" : ", 0 to " + std::to_string(school - 1)));
+    for (const std::string& line : lines) std::cout << line << '\n';
     std::cout.flush();
 }
 
@@ -136,9 +136,11 @@ void explainLive(const ExplainOptions& options) {
     conductor::RequestClient master(options.asked.controlAddress());
     const bool onScreen = options.follow && isatty(STDOUT_FILENO) != 0;
     do {
-        const auto explanation = master.ask<wire::Explanation>(wire::ExplainRequest{options.fish});
+        const v1::Explanation explanation = master.explain(options.fish);
         if (onScreen) std::cout << kClearScreen;
-        print(explanation);
+        const std::vector<std::string> lines{explanation.lines().begin(),
+                                             explanation.lines().end()};
+        print(options.fish, explanation.school(), lines);
         if (options.follow) std::this_thread::sleep_for(kBetweenLooks);
     } while (options.follow);
 }
@@ -157,7 +159,7 @@ void explainReplay(const ExplainOptions& options) {
     if (playback.difference())
         std::cerr << options.recording << ": from tick " << playback.difference()->tick.value
                   << " on this is another world than the recorded one\n";
-    print(world.explain(options.fish));
+    print(options.fish, world.world().traits().size(), world.explain(options.fish));
 }
 
 void explain(const ExplainOptions& options) {

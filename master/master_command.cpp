@@ -53,21 +53,8 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
                         : options.show.pattern == "grey" ? wire::Pattern::Grey
                                                          : wire::Pattern::World;
     conductor.frames = options.show.frames;
-    conductor.seed = options.show.seed;
     conductor.traceDirectory = options.show.traceFolder;
     return conductor;
-}
-
-// What the nodes are told of the cast; adds to `blobs` what they may then ask for.
-std::vector<wire::SpeciesBlobs> castOf(const wire::AssetBundle& assets, conductor::Blobs& blobs) {
-    std::vector<wire::SpeciesBlobs> cast;
-    for (const wire::SpeciesAssets& species : assets.cast) {
-        const auto text = std::as_bytes(std::span{species.text});
-        cast.push_back({digestOf(text), digestOf(species.repertoire), species.fish});
-        blobs.emplace(cast.back().species, net::ByteVector{text.begin(), text.end()});
-        blobs.emplace(cast.back().repertoire, species.repertoire);
-    }
-    return cast;
 }
 
 // What is shown: the living world, or `simulation` as a decorator of it, which records or replays.
@@ -83,15 +70,12 @@ void show(const config::Rig& rig,
           const Shown& shown,
           std::unique_ptr<net::MasterChannels> channels,
           conductor::Conductor** running = nullptr) {
-    conductor::Blobs blobs;
-    wire::Welcome welcome;
-    welcome.rigText = rig.text;
-    welcome.sceneText = shown.assets.scene;
-    welcome.cast = castOf(shown.assets, blobs);
-    const auto school = shown.world.world().traits();
-    welcome.school.assign(school.begin(), school.end());
-    conductor::Conductor conductor(
-        rig, options, shown.simulation, std::move(welcome), std::move(blobs), std::move(channels));
+    conductor::Conductor conductor(rig,
+                                   options,
+                                   shown.simulation,
+                                   shown.assets,
+                                   shown.world.world().traits(),
+                                   std::move(channels));
     if (running != nullptr) *running = &conductor;
     const cli::SignalWatch watch([&] { conductor.stop(); });
     conductor.run();
@@ -123,7 +107,6 @@ void showAgain(const config::Rig& rig,
         logWarning("{}: {}", options.show.replayPath, doubt);
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
-    conducting.seed = recording.assets.seed;
     // In lockstep the world runs ahead of the frames, so the frames are counted instead.
     conductor::Conductor* running = nullptr;
     std::function<void()> onEnd = [&running] { running->stop(); };

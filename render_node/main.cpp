@@ -6,7 +6,7 @@
 
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
-#include "common/net/address.h"
+#include "common/net/channels.h"
 #include "common/units/log.h"
 #include "render_node/show/run_node.h"
 
@@ -48,7 +48,7 @@ void describe(CLI::App& app, aquarama::show::NodeOptions& options) {
     app.add_flag("--deep", options.deep, "16 bits in the snapshot instead of 8 dithered ones")
         ->needs("--snapshot");
     CLI::Option* film = app.add_option(
-        "--film", options.filmPipe, "named pipe to aquarama-calibrate clip, for every frame");
+        "--film", options.filmPipe, "socket of aquarama-calibrate clip, for every frame");
     app.add_option("--film-every", options.filmEvery, "with --film: for every so many frames")
         ->needs(film)
         ->check(aquarama::cli::wholeNumber(1, 10000));

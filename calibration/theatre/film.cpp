@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <deque>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -16,8 +16,8 @@
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
 #include "common/cli/signals.h"
+#include "common/net/channels.h"
 #include "common/units/log.h"
-#include "common/wall/frame_pipe.h"
 
 namespace aquarama::theatre {
 
@@ -35,6 +35,12 @@ std::vector<config::Channel> filmedChannels(const config::Rig& rig, const std::s
     return {*named};
 }
 
+// A frame of one channel.
+struct FilmedFrame {
+    std::uint64_t frame = 0;
+    wall::Picture picture;  // 8 bits
+};
+
 // Makes a picture of the clip of a frame of each filmed channel. Keeps a reference to the rig.
 class Camera {
   public:
@@ -45,7 +51,7 @@ class Camera {
         if (!map_) return filmed.front().sizePixels;
         return of_ == kHall ? kHallPixels : rig_.panoramaPixels;
     }
-    [[nodiscard]] wall::Picture pictureOf(const std::vector<wall::PipedFrame>& frames) const {
+    [[nodiscard]] wall::Picture pictureOf(const std::vector<FilmedFrame>& frames) const {
         if (!map_) return frames.front().picture;
         const wall::Light panorama = panoramaOf(frames);
         const auto seed = static_cast<std::uint32_t>(frames.front().frame);
@@ -53,8 +59,7 @@ class Camera {
             of_ == kHall ? composeHall(rig_, panorama, kHallPixels) : panorama, 8, seed);
     }
     // The panorama and the hall of one frame; needs the frames of all channels.
-    void writePictures(const std::vector<wall::PipedFrame>& frames,
-                       const std::string& folder) const {
+    void writePictures(const std::vector<FilmedFrame>& frames, const std::string& folder) const {
         const wall::Light panorama = panoramaOf(frames);
         writePanoramaAndHall(rig_, panorama, folder, 8);
         std::cout << "first picture: " << folder << "/panorama.png, " << folder << "/hall.png"
@@ -62,10 +67,9 @@ class Camera {
     }
 
   private:
-    [[nodiscard]] wall::Light panoramaOf(const std::vector<wall::PipedFrame>& frames) const {
+    [[nodiscard]] wall::Light panoramaOf(const std::vector<FilmedFrame>& frames) const {
         std::vector<wall::Light> channels;
-        for (const wall::PipedFrame& frame : frames)
-            channels.push_back(wall::lightOf(frame.picture));
+        for (const FilmedFrame& frame : frames) channels.push_back(wall::lightOf(frame.picture));
         return map_->compose(channels);
     }
 
@@ -112,40 +116,62 @@ class Progress {
     Clock::time_point shown_ = begun_;
 };
 
-// The next frame of every channel; none as soon as one channel has ended.
-std::optional<std::vector<wall::PipedFrame>> nextFrame(
-    std::deque<wall::FramePipeReader>& pipes, const std::vector<config::Channel>& channels) {
-    std::vector<wall::PipedFrame> frames;
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        auto frame = pipes[i].read(channels[i].sizePixels);
-        if (!frame) return std::nullopt;
-        if (!frames.empty() && frame->frame != frames.front().frame)
-            throw Error("channel \"" + channels[i].name + "\" sent frame " +
-                        std::to_string(frame->frame) + " where others sent " +
-                        std::to_string(frames.front().frame) + "; film in lockstep");
-        frames.push_back(std::move(*frame));
+// What the nodes of some channels send.
+class FilmedChannels {
+  public:
+    FilmedChannels(const std::filesystem::path& folder, std::vector<config::Channel> channels)
+        : channels_{std::move(channels)} {
+        for (const config::Channel& channel : channels_)
+            receivers_.push_back(net::bindFrames(net::frameSocket(folder, channel.name)));
     }
-    return frames;
-}
+    // The next frame of every channel; nothing as soon as one has ended.
+    std::optional<std::vector<FilmedFrame>> nextFrame() {
+        std::vector<FilmedFrame> frames;
+        for (std::size_t i = 0; i < channels_.size(); ++i) {
+            auto frame = nextOf(i);
+            if (!frame) return std::nullopt;
+            if (!frames.empty() && frame->frame != frames.front().frame)
+                throw Error("channel \"" + channels_[i].name + "\" sent frame " +
+                            std::to_string(frame->frame) + " where others sent " +
+                            std::to_string(frames.front().frame) + "; film in lockstep");
+            frames.push_back(std::move(*frame));
+        }
+        return frames;
+    }
+
+  private:
+    std::optional<FilmedFrame> nextOf(std::size_t place) {
+        auto raw = receivers_[place]->receive();
+        if (!raw) return std::nullopt;
+        const config::Channel& channel = channels_[place];
+        const glm::ivec2 size(raw->width, raw->height);
+        if (size != channel.sizePixels)
+            throw Error("channel \"" + channel.name + "\" sent a frame of " +
+                        std::to_string(size.x) + " x " + std::to_string(size.y) +
+                        " pixels; film with the rig of the show");
+        return FilmedFrame{raw->frame, {size, 8, std::move(raw->rgb)}};
+    }
+
+    std::vector<config::Channel> channels_;
+    std::vector<std::unique_ptr<net::FrameReceiver>> receivers_;
+};
 
 }  // namespace
 
 void film(const config::Rig& rig, const Filming& filming) {
     assert(filming.ticksBetween > 0);
     const std::vector<config::Channel> channels = filmedChannels(rig, filming.of);
-    std::deque<wall::FramePipeReader> pipes;
-    for (const config::Channel& channel : channels)
-        pipes.emplace_back(wall::framePipe(filming.pipes, channel.name));
+    FilmedChannels filmed(filming.pipes, channels);
     cli::holdSignals();  // the clip ends with its nodes: what was shown until then is kept
     const Camera camera(rig, filming.of);
     const auto clip =
         makeClip({filming.clipPath, camera.sizePixels(channels), filming.ticksBetween});
-    auto frames = nextFrame(pipes, channels);
+    auto frames = filmed.nextFrame();
     if (!frames) throw Error(filming.clipPath + ": no frame was shown; let the show run for more");
     if (!filming.firstPictures.empty()) camera.writePictures(*frames, filming.firstPictures);
     Progress progress(filming);
     std::uint64_t pictures = 0;
-    for (; frames; frames = nextFrame(pipes, channels)) {
+    for (; frames; frames = filmed.nextFrame()) {
         clip->add(camera.pictureOf(*frames), frames->front().frame);
         progress.show(++pictures);
     }

@@ -18,7 +18,7 @@ inline constexpr const char* kHall = "hall";
 // What is filmed, and into which files.
 struct Filming {
     std::string of = kPanorama;   // or kHall, or a channel's name
-    std::filesystem::path pipes;  // folder with a named pipe for each channel that is filmed
+    std::filesystem::path pipes;  // folder of the sockets by which the nodes send frames
     std::string clipPath;         // .mp4 or .webp
     int ticksBetween = 1;
     std::optional<std::uint64_t> frames = {};  // of the show, where it is known
@@ -27,10 +27,9 @@ struct Filming {
     std::string firstPictures = {};
 };
 
-// Makes the clip until the nodes close their pipes, and says what it made. Shows its progress on
-// standard output: in one line of a terminal, or a line every ten seconds. Throws Error: frames
-// that are not the rig's or not the same ones of all channels, no frame at all, a clip that cannot
-// be written.
+// Makes the clip until a node has ended, and says what it made. Shows its progress on standard
+// output: in one line of a terminal, or a line every ten seconds. Throws Error: frames that are not
+// the rig's or not the same ones of all channels, no frame at all, a clip that cannot be written.
 void film(const config::Rig& rig, const Filming& filming);
 
 }  // namespace aquarama::theatre

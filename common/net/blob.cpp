@@ -23,6 +23,7 @@ std::span<const std::byte> chunkAt(std::span<const std::byte> blob,
     return blob.subspan(start, std::min(chunkBytes, blob.size() - start));
 }
 
+// An empty chunk is only taken of an empty blob: else a peer could keep us asking for ever.
 bool BlobAssembly::take(std::uint64_t offset,
                         std::uint64_t total,
                         std::span<const std::byte> content) {
@@ -33,6 +34,7 @@ bool BlobAssembly::take(std::uint64_t offset,
     return true;
 }
 
+// The bytes are given away, whether they are good or not: what is spoilt is fetched again.
 std::optional<std::vector<std::byte>> BlobAssembly::checked() {
     if (!whole()) return std::nullopt;
     total_.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where two threads meet: one puts, one takes, and neither can pile up more than the capacity.
+// A queue between two threads, of bounded length.
 #pragma once
 
 #include <condition_variable>
@@ -11,7 +11,8 @@
 
 namespace aquarama::net {
 
-// The lock is held for a move only, never across a call into a socket or a driver.
+// One thread puts, one takes; a queue that is full holds up or refuses whoever puts. The lock is
+// held for a move only, never across a call into a socket or a driver.
 template <class T>
 class BoundedQueue {
   public:
@@ -34,12 +35,13 @@ class BoundedQueue {
         return true;
     }
 
-    // To the only thread that puts, false stays false.
+    // For the thread that puts: once false, it stays false until that thread puts again.
     [[nodiscard]] bool full() const {
         const std::lock_guard lock(mutex_);
         return items_.size() >= capacity_;
     }
 
+    // The oldest; empty where there is none. Also after close(), until nothing is left.
     std::optional<T> tryTake() {
         const std::lock_guard lock(mutex_);
         if (items_.empty()) return std::nullopt;
@@ -49,6 +51,7 @@ class BoundedQueue {
         return first;
     }
 
+    // Ends every wait; nothing is put from now on.
     void close() {
         const std::lock_guard lock(mutex_);
         closed_ = true;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two ends of a cluster's network, as bytes: control in both directions, states one way. Over
-// ZeroMQ (zmq_channels.cpp), or in memory in tests.
+// The channels of a show, as bytes: control in both directions and states one way between master
+// and nodes, over ZeroMQ or in memory in tests; frames one way from a node to the program that
+// encodes a clip.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,6 +24,7 @@ using ByteVector = std::vector<std::byte>;
 // A connection to the master, named by the master's socket; a new connection has a new name.
 using PeerId = std::string;
 
+// A packet that the master received.
 struct FromPeer {
     PeerId peer;
     ByteVector bytes;
@@ -46,7 +49,8 @@ class MasterChannels {
     // Returns when something has arrived, after wake(), or after `atMost`.
     virtual void wait(Instant atMost) = 0;
     virtual void wake() = 0;
-    [[nodiscard]] virtual std::string controlAddress() const = 0;  // as bound
+    // As bound, with the port that was chosen.
+    [[nodiscard]] virtual std::string controlAddress() const = 0;
     [[nodiscard]] virtual std::string stateAddress() const = 0;
 };
 
@@ -65,11 +69,54 @@ class NodeChannels {
 // Makes a fresh connection to the master.
 using Connect = std::function<std::unique_ptr<NodeChannels>()>;
 
+// Throws Error where an address such as "tcp://127.0.0.1:7400" is malformed, before a socket sees
+// it.
+void requireConnectAddress(const std::string& address);
+// The address to bind: port "*" is any free one, and "localhost", which may mean anything to a
+// resolver, is 127.0.0.1. Throws Error where it is malformed, or reaches past this machine: nothing
+// is encrypted or authenticated yet.
+[[nodiscard]] std::string bindAddress(const std::string& address);
+
 // Over ZeroMQ. Throws Error: malformed address, occupied port, an address past the loopback.
 [[nodiscard]] std::unique_ptr<MasterChannels> bindMaster(const std::string& controlAddress,
                                                          const std::string& stateAddress,
                                                          const PacketLimits& limits = {});
 [[nodiscard]] std::unique_ptr<NodeChannels> connectNode(const std::string& controlAddress,
                                                         const PacketLimits& limits = {});
+
+// A frame of a channel on its way to a clip.
+struct RawFrame {
+    std::uint64_t frame = 0;
+    std::int32_t width = 0, height = 0;  // pixels
+    std::vector<std::uint16_t> rgb;      // codes of 8 bits, red green blue, top row first
+};
+
+// The file of the socket through which the frames of a channel pass, in a private folder of the
+// run.
+[[nodiscard]] std::filesystem::path frameSocket(const std::filesystem::path& folder,
+                                                const std::string& channel);
+
+// A node's end. Nothing waits on the disk: whoever draws waits for whoever encodes.
+class FrameSender {
+  public:
+    virtual ~FrameSender() = default;
+    // Waits while two frames are on their way. Throws Error when the receiver has gone.
+    virtual void send(const RawFrame& frame) = 0;
+};
+
+// The end of the program that encodes the clip.
+class FrameReceiver {
+  public:
+    virtual ~FrameReceiver() = default;
+    // Waits for the next frame; empty when the sender has gone, however it ended, and all that it
+    // sent was received. Throws Error where something that is no frame has come.
+    [[nodiscard]] virtual std::optional<RawFrame> receive() = 0;
+};
+
+// Both take the path of frameSocket(); the order of starting does not matter. The sender waits up
+// to half a minute for a receiver and throws Error where none comes. The receiver throws Error
+// where it cannot listen there.
+[[nodiscard]] std::unique_ptr<FrameSender> connectFrames(const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<FrameReceiver> bindFrames(const std::filesystem::path& path);
 
 }  // namespace aquarama::net

@@ -16,6 +16,7 @@ void ClockOffset::add(Instant sent, Instant master, Instant received) {
     if (samples_.size() > kSamples) samples_.pop_front();
 }
 
+// The sample with the shortest round trip; null where there is none yet.
 const ClockOffset::Sample* ClockOffset::best() const {
     const auto shortest = std::ranges::min_element(samples_, {}, &Sample::roundTrip);
     return shortest == samples_.end() ? nullptr : &*shortest;

@@ -9,12 +9,15 @@
 
 namespace aquarama::net {
 
+// A moment or a duration of the monotonic clock.
 using Instant = std::chrono::nanoseconds;  // since the epoch of CLOCK_MONOTONIC
 
+// Now, on CLOCK_MONOTONIC of this machine.
 [[nodiscard]] Instant monotonicNow();
 
 // The master's clock minus the node's, from round trips. A reply tells the offset to within half
-// its round trip, and queues only ever add to one: so the shortest of the last few is believed.
+// its round trip, and queues only ever add to one: so the shortest of the last few is believed. Of
+// the net thread.
 class ClockOffset {
   public:
     // A ping left at `sent`, was answered at `master` (master's clock) and came back at `received`.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What master and nodes say to each other, as plain data. Protobuf's types stay inside this
-// folder's .cpp files.
+// The control packets between master and nodes: generated messages (aquarama.proto), one encoder,
+// and one decoder that checks every message against the bounds below. Included only by who speaks
+// to a peer: master/conductor, render_node/session and the commands that ask a master.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -15,58 +17,55 @@
 #include "common/motion/motion_state.h"
 #include "common/units/digest.h"
 #include "common/units/units.h"
-#include "common/wire/food_record.h"
+#include "common/wire/aquarama.pb.h"
+#include "common/wire/state_codec.h"
 
 namespace aquarama::wire {
 
-// The submarine: where the wall's origin is in the world.
-struct Eye {
-    glm::vec3 positionMetres{};
-    glm::quat worldFromWall{1, 0, 0, 0};
-};
+// Peers of another major version are refused.
+inline constexpr std::uint32_t kProtocolMajor = 1;
 
-// All that a frame shows; nothing before it is needed to draw it. `before` and `foodBefore` are
-// empty where fraction is 1: the frame shows the tick itself. Else the frame shows the moment
-// between tick - 1 (before) and tick (after).
-struct StateFrame {
-    Frame frame;
-    Tick tick;
-    float fraction = 1.0F;
-    Eye eye;
-    std::uint64_t worldHash = 0;
-    std::vector<motion::FishRecord> before;
-    std::vector<motion::FishRecord> after;
-    glm::vec3 foodOriginMetres{};  // of FoodRecord::offsetMetres
-    std::vector<FoodRecord> foodBefore;
-    std::vector<FoodRecord> foodAfter;
-    float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
-    config::QualityTier quality = config::QualityTier::Low;  // of the whole wall
-};
+// Bounds. Larger or longer values are refused on arrival; text has no control characters, since it
+// is printed in logs and terminals.
+inline constexpr std::size_t kMostNameBytes = 64;
+inline constexpr std::size_t kMostReasonBytes = 1024;
+inline constexpr std::size_t kMostRigTextBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMostSceneTextBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMostBlobBytes = std::size_t{64} << 20U;
+inline constexpr std::size_t kBlobChunkBytes = std::size_t{256} << 10U;
+inline constexpr int kMostNodes = 256;
+inline constexpr float kMostInputMetres = 10'000;  // of a position, on each axis
+inline constexpr int kMostExplanationLines = 48;
+inline constexpr std::size_t kMostExplanationLineBytes = 120;
+// All messages but welcomes, states and chunks, which alone hold their content as plain bytes or
+// numbers. Nothing larger goes from a node to the master.
+inline constexpr std::size_t kMostSmallPacketBytes = std::size_t{64} << 10U;
+inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // two states of kMostFish
 
-enum class Pace : std::uint8_t { Live, Lockstep };
-// What the channels show: the world, or a pattern for setting up and for tests.
-enum class Pattern : std::uint8_t { World, Grid, Grey };
+// The packet of a message of the master's run `session`; 0 from a node that has not been welcomed.
+[[nodiscard]] Packet encode(std::uint64_t session, v1::Envelope envelope);
 
-// The fish of one species: in the school they follow those of the species before it.
-struct SpeciesBlobs {
-    Digest species;     // blob: the species file
-    Digest repertoire;  // blob: encodeRepertoire
-    std::uint32_t fish = 0;
-    friend bool operator==(const SpeciesBlobs&, const SpeciesBlobs&) = default;
-};
+// The message in a packet, within all bounds; empty where it is truncated, malformed or out of
+// bounds. Of a state only the outside is checked, its content by readState(). Takes no more memory
+// than a small multiple of the packet's own size. A hello of another major version is accepted: its
+// sender is to be told.
+[[nodiscard]] std::optional<v1::Envelope> decode(std::span<const std::byte> packet);
 
-// What a node needs to take part, sent in answer to its hello.
-struct Welcome {
-    std::string rigText;       // of the rig's file
-    std::string sceneText;     // of the scene's file; how many fish there are: see cast
-    std::string stateAddress;  // where the states are published
-    std::uint32_t seed = 0;
-    Pace pace = Pace::Live;
-    Pattern pattern = Pattern::World;
-    std::vector<motion::FishTraits> school;
-    std::vector<SpeciesBlobs> cast;  // of all fish of the school, in its order
-    std::optional<config::QualityTier> quality =
-        {};  // of the whole wall; nothing: the node measures its own
-};
+// Position x y z in metres, then w x y z of worldFromWall. Reading: empty where it is not seven
+// finite numbers.
+void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
+[[nodiscard]] std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& numbers);
+
+// Whether no number is infinite or not a number.
+[[nodiscard]] bool areFinite(const google::protobuf::RepeatedField<float>& numbers);
+
+// The five axes of a steering input of a pilot.
+[[nodiscard]] v1::Input steeringInput(const Steering& steering);
+// The steering of a decoded input of kind INPUT_STEER.
+[[nodiscard]] Steering steeringOf(const v1::Input& input);
+
+// A digest as the bytes of a field, and back; the bytes are 32, as decode() has checked.
+[[nodiscard]] std::string bytesOf(const Digest& digest);
+[[nodiscard]] Digest digestIn(const std::string& bytes);
 
 }  // namespace aquarama::wire

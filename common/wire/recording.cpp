@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "common/units/log.h"
+#include "common/units/units.h"
+#include "common/wire/messages.h"
 #include "common/wire/recording.pb.h"
 
 namespace aquarama::wire {
@@ -26,6 +28,7 @@ constexpr std::uint64_t kMostTick = std::uint64_t{1} << 32U;  // two years
 constexpr float kMostMetres = 10'000;
 constexpr std::uint32_t kMostPellets = 65'535;
 
+// An entry after its length as a varint, as protobuf's own tools delimit messages.
 Packet delimited(const v1::RecordingEntry& entry) {
     const std::size_t size = entry.ByteSizeLong();
     Packet bytes;
@@ -135,6 +138,7 @@ class Reader {
         return true;
     }
 
+    // The version is checked before anything that may differ between versions.
     void readHeader() {
         if (!isRecording(bytes_)) throw Error(source_ + ": is not a recording of a show");
         if (!nextEntry() || !entry_.has_header()) fail("ends within its first entry");
@@ -155,6 +159,7 @@ class Reader {
         speciesCount_ = header.species_count();
     }
 
+    // Names are shown with the recording's own, since the file of a species lies elsewhere.
     void readSpecies() {
         if (!nextEntry()) fail("ends before it has all its species");
         const v1::RecordedSpecies& species = entry_.species();
@@ -170,6 +175,7 @@ class Reader {
                                           species.fish()});
     }
 
+    // What happened after the species: inputs, hashes, and the end.
     void readEvent() {
         if (entryBytes_ > kMostSmallEntryBytes) fail("is damaged");
         switch (entry_.entry_case()) {
@@ -199,6 +205,7 @@ class Reader {
         return {tickIn(message.has_tick(), message.tick()), message.hash()};
     }
 
+    // A place or a velocity within bounds.
     glm::vec3 vectorIn(const std::array<float, 3>& numbers) const {
         // A number that is none is not below the bound.
         if (!std::ranges::all_of(numbers, [](float n) { return std::abs(n) <= kMostMetres; }))
@@ -309,6 +316,7 @@ Recording decodeRecording(std::span<const std::byte> bytes, const std::string& s
     return Reader(bytes, source).read();
 }
 
+// The size is checked before memory is taken; a file that shrinks meanwhile reads as cut short.
 Recording readRecording(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::error_code problem;

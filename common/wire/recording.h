@@ -15,17 +15,19 @@
 #include <glm/vec3.hpp>
 
 #include "common/units/units.h"
-#include "common/wire/envelope.h"
+#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 
 namespace aquarama::wire {
 
 inline constexpr std::uint32_t kRecordingVersion = 1;
-// Nothing larger is read or written.
+// Bounds of what is read and written.
 inline constexpr std::size_t kMostSceneBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostSpeciesBytes = std::size_t{1} << 20U;
 inline constexpr std::size_t kMostRecordingBytes = std::size_t{1} << 30U;
 
-// One species of a show: its file, the repertoire that moves it, and how many there are.
+// One species of a show: its file, the repertoire that moves it, and how many there are. The same
+// on the master, in a recording and on a node.
 struct SpeciesAssets {
     std::string file;  // for messages: in which file the text is
     std::string text;
@@ -41,29 +43,32 @@ struct AssetBundle {
     std::vector<SpeciesAssets> cast;  // as the scene's, the school first
 };
 
+// Pellets that a visitor dropped.
 struct RecordedFood {
     glm::vec3 position{};  // metres, world frame
     std::uint32_t pellets = 0;
 };
+// The submarine was put elsewhere.
 struct RecordedSubmarine {
-    glm::vec3 position{};
+    glm::vec3 position{};  // metres, world frame
     glm::vec3 velocityMetresPerSecond{};
 };
-// Reached the world after `tick` and before the next.
+// An input that reached the world after `tick` and before the next.
 struct RecordedInput {
     Tick tick;
     std::variant<RecordedFood, RecordedSubmarine, Steering> input;
 };
 
-// Of the world at the tick, before any input that reaches it then.
+// A hash of the world at the tick, before any input that reaches it then.
 struct RecordedHash {
     Tick tick;
     std::uint64_t hash = 0;
     friend bool operator==(const RecordedHash&, const RecordedHash&) = default;
 };
 
+// A show as it was read from a file.
 struct Recording {
-    std::uint32_t protocol = kProtocolMajor;
+    std::uint32_t protocol = 0;  // kProtocolMajor of the program that wrote it
     std::string build;
     AssetBundle assets;
     std::vector<RecordedInput> inputs;      // in the order in which they came
@@ -74,22 +79,23 @@ struct Recording {
     [[nodiscard]] Tick lastTick() const;  // up to which anything is known
 };
 
-// The file, piece by piece: first beginningOf(), at last endOf().
+// The pieces of the file in order: first beginningOf(), at last endOf().
 [[nodiscard]] Packet beginningOf(const AssetBundle& assets);
 [[nodiscard]] Packet entryOf(const RecordedInput& input);
 [[nodiscard]] Packet entryOf(const RecordedHash& checkpoint);
 [[nodiscard]] Packet endOf(const RecordedHash& end);
 
-// By its first bytes.
+// Whether a file with these first bytes is a recording.
 [[nodiscard]] bool isRecording(std::span<const std::byte> firstBytes);
 
 // Throws Error where it is no recording, of another version, or damaged. One that stops in the
 // middle of an entry is read up to there. Takes no more memory than a small multiple of its size.
 [[nodiscard]] Recording decodeRecording(std::span<const std::byte> bytes,
                                         const std::string& source);
+// As above, of a file. Throws Error also where it cannot be read or is too large.
 [[nodiscard]] Recording readRecording(const std::string& path);
 
-// What may keep a replay from being the same, a line each; none where all agrees.
+// Reasons why a replay may differ from the show, a line each; none where all agrees.
 [[nodiscard]] std::vector<std::string> doubtsAbout(const Recording& recording);
 
 }  // namespace aquarama::wire

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <string>
-#include <vector>
 
-#include "common/wire/aquarama.pb.h"
-#include "common/wire/envelope.h"
+#include "common/wire/messages.h"
 
 namespace aquarama::wire {
 namespace {
@@ -17,17 +16,18 @@ namespace {
 // The records are copied as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
 
+// Of FishRecord and FoodRecord; a receiver refuses any other.
 constexpr std::uint32_t kLayoutVersion = 3;
 constexpr std::size_t kStride = sizeof(motion::FishRecord);
-constexpr int kEyeNumbers = 7;
 constexpr int kPlaceNumbers = 3;
 
 template <class Record>
-void writeRecords(const std::vector<Record>& records, std::string& bytes) {
-    bytes.resize(records.size() * sizeof(Record));
-    if (!records.empty()) std::memcpy(bytes.data(), records.data(), bytes.size());
+void writeRecords(std::span<const Record> records, std::string& bytes) {
+    bytes.assign(reinterpret_cast<const char*>(records.data()), records.size_bytes());
 }
 
+// Empty where the bytes are no whole records, more than `most`, or one of them is not good. Memory
+// is taken after the size was checked.
 template <class Record, class Check>
 std::optional<std::vector<Record>> readRecords(const std::string& bytes,
                                                std::size_t most,
@@ -45,26 +45,20 @@ auto readFish(const std::string& bytes) {
 }
 
 auto readFood(const std::string& bytes) {
-    return readRecords<FoodRecord>(
-        bytes, kMostFood, [](const FoodRecord& record) { return record.isPossible(); });
+    return readRecords<FoodRecord>(bytes, kMostFood, &FoodRecord::isPossible);
 }
 
 // Between two ticks both are needed; where there is nothing, both are empty.
-template <class Record>
-bool arePaired(const std::vector<Record>& before,
-               const std::vector<Record>& after,
-               float fraction) {
+template <class Records>
+bool arePaired(const Records& before, const Records& after, float fraction) {
     return before.size() == after.size() || (before.empty() && fraction == 1.0F);
-}
-
-bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {
-    return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
 }
 
 bool isShare(float number) {
     return number >= 0.0F && number <= 1.0F;
 }
 
+// Unset is never taken for zero.
 bool hasAllScalars(const v1::State& message) {
     return message.has_frame() && message.has_tick() && message.has_fraction() &&
            message.has_world_hash() && message.has_before() && message.has_after() &&
@@ -75,19 +69,39 @@ bool hasAllScalars(const v1::State& message) {
 
 }  // namespace
 
-void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers) {
-    const auto& position = eye.positionMetres;
-    const auto& rotation = eye.worldFromWall;
-    for (const float number : {position.x, position.y, position.z}) numbers.Add(number);
-    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z}) numbers.Add(number);
+// A comparison with a number that is none is false: such a place is not there either.
+FoodRecord foodRecord(FoodRecord::Kind kind, glm::vec3 offsetMetres, unsigned generation) {
+    constexpr float kFarthestUnits = 524287.0F;
+    const glm::vec3 units = glm::round(offsetMetres / kFoodUnitMetres);
+    const glm::vec3 size = glm::abs(units);
+    const bool isThere = kind != FoodRecord::Kind::None && size.x <= kFarthestUnits &&
+                         size.y <= kFarthestUnits && size.z <= kFarthestUnits;
+    if (!isThere) return {};
+    const auto axis = [](float value) {
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)) & 0xFFFFFU;
+    };
+    return {axis(units.x) | axis(units.y) << 20U | axis(units.z) << 40U |
+            static_cast<std::uint64_t>(kind) << 60U | std::uint64_t{generation & 3U} << 62U};
 }
 
-std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& e) {
-    if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
-    return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
+StateView viewOf(const StateFrame& state) {
+    return {state.frame,
+            state.tick,
+            state.fraction,
+            state.eye,
+            state.worldHash,
+            state.before,
+            state.after,
+            state.foodOriginMetres,
+            state.foodBefore,
+            state.foodAfter,
+            state.daylight,
+            state.quality};
 }
 
-void writeState(const StateFrame& state, v1::State& message) {
+Packet encodeState(std::uint64_t session, const StateView& state) {
+    v1::Envelope envelope;
+    v1::State& message = *envelope.mutable_state();
     message.set_frame(state.frame.value);
     message.set_tick(state.tick.value);
     message.set_fraction(state.fraction);
@@ -103,6 +117,7 @@ void writeState(const StateFrame& state, v1::State& message) {
     writeRecords(state.foodAfter, *message.mutable_food_after());
     message.set_daylight(state.daylight);
     message.set_quality(static_cast<std::uint32_t>(state.quality));
+    return encode(session, std::move(envelope));
 }
 
 std::optional<StateFrame> readState(const v1::State& message) {

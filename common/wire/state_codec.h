@@ -1,24 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
-// The school's state to and from its message: packed records, checked one by one on arrival.
+// The state of the world as it crosses the wire, as plain data, and its codec: packed records of
+// 32 bytes a fish and 8 bytes a particle of food, each checked on arrival. No protobuf type leaves
+// the .cpp file; the small control packets are in messages.h.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
-#include <google/protobuf/repeated_field.h>
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
 
-#include "common/wire/messages.h"
+#include "common/config/rig.h"
+#include "common/config/scene.h"
+#include "common/motion/motion_state.h"
+#include "common/units/units.h"
 
 namespace aquarama::v1 {
-class State;  // generated; its header stays inside the .cpp files
+class State;  // generated from aquarama.proto
 }
 
 namespace aquarama::wire {
 
-// x y z in metres, then w x y z of worldFromWall.
-void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers);
-[[nodiscard]] std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& numbers);
+// The bytes of one message on a channel.
+using Packet = std::vector<std::byte>;
 
-void writeState(const StateFrame& state, v1::State& message);
+// How a show advances: by the clock, or frame by frame. Numbered as in aquarama.proto.
+enum class Pace : std::uint8_t { Live = 1, Lockstep = 2 };
+// What the channels show: the world, or a pattern for setting up and for tests. As above.
+enum class Pattern : std::uint8_t { World = 1, Grid = 2, Grey = 3 };
+
+// Resolution of a position of food.
+inline constexpr float kFoodUnitMetres = 1.0F / 8192.0F;
+// Records of food in one state: plankton, and pellets.
+inline constexpr std::size_t kMostFood = config::kMostPlankton + 256;
+
+// Position from the cloud's origin, x | y << 20 | z << 40, each in 20-bit two's complement and
+// units of 2^-13 m (64 m to each side; a finer step than a particle drifts in a tick, so that none
+// is seen to stutter); kind << 60 | generation << 62. All zero: nothing is there.
+struct FoodRecord {
+    enum class Kind : std::uint8_t { None, Plankton, Pellet };
+
+    std::uint64_t bits = 0;
+
+    [[nodiscard]] Kind kind() const { return static_cast<Kind>(bits >> 60U & 3U); }
+    // Modulo 4: another number is another particle in the same place of the list.
+    [[nodiscard]] unsigned generation() const { return static_cast<unsigned>(bits >> 62U); }
+    [[nodiscard]] glm::vec3 offsetMetres() const {
+        const auto axis = [this](unsigned shift) {
+            const auto signedBits = static_cast<std::int64_t>(bits << (44U - shift)) >> 44U;
+            return static_cast<float>(signedBits) * kFoodUnitMetres;
+        };
+        return {axis(0), axis(20), axis(40)};
+    }
+    // A decoder refuses any other.
+    [[nodiscard]] bool isPossible() const {
+        return kind() <= Kind::Pellet && (kind() != Kind::None || bits == 0);
+    }
+    friend bool operator==(const FoodRecord&, const FoodRecord&) = default;
+};
+static_assert(sizeof(FoodRecord) == 8);
+
+// The record of a particle at `offsetMetres` from the cloud's origin; an empty record where that is
+// out of range or not a number. Of the generation the lowest two bits are kept.
+[[nodiscard]] FoodRecord foodRecord(FoodRecord::Kind kind,
+                                    glm::vec3 offsetMetres,
+                                    unsigned generation);
+
+// All food of one tick. A particle keeps its place in the list for as long as it is there.
+struct FoodCloud {
+    glm::vec3 originMetres{};  // world frame; the same in every tick of a show
+    std::vector<FoodRecord> particles;
+};
+
+// The submarine: where the wall's origin is in the world.
+struct Eye {
+    glm::vec3 positionMetres{};
+    glm::quat worldFromWall{1, 0, 0, 0};
+};
+
+// All that a frame shows; nothing before it is needed to draw it. `before` and `foodBefore` are
+// empty where fraction is 1: the frame shows the tick itself. Else the frame shows the moment
+// between tick - 1 (before) and tick (after).
+template <class FishRecords, class FoodRecords>
+struct BasicState {
+    Frame frame;
+    Tick tick;
+    float fraction = 1.0F;
+    Eye eye;
+    std::uint64_t worldHash = 0;
+    FishRecords before;
+    FishRecords after;
+    glm::vec3 foodOriginMetres{};  // of FoodRecord::offsetMetres
+    FoodRecords foodBefore;
+    FoodRecords foodAfter;
+    float daylight = 1.0F;  // of the sky: 1 at noon, less towards the night, never below 0
+    config::QualityTier quality = config::QualityTier::Low;  // of the whole wall
+};
+// What a node has received: owns its records.
+using StateFrame = BasicState<std::vector<motion::FishRecord>, std::vector<FoodRecord>>;
+// What the master sends: views of the records of its snapshots.
+using StateView = BasicState<std::span<const motion::FishRecord>, std::span<const FoodRecord>>;
+
+// A view of all of `state`, which outlives it.
+[[nodiscard]] StateView viewOf(const StateFrame& state);
+
+// The packet of a state, of the master's run `session`.
+[[nodiscard]] Packet encodeState(std::uint64_t session, const StateView& state);
+
+// The state in a decoded message; empty where a field is missing, a record is impossible, or a
+// number is not finite or out of range.
 [[nodiscard]] std::optional<StateFrame> readState(const v1::State& message);
 
 }  // namespace aquarama::wire

@@ -3,19 +3,21 @@
 #include "master/conductor/conductor.h"
 
 #include <algorithm>
+#include <cassert>
 #include <random>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "common/units/log.h"
+#include "common/wire/messages.h"
 
 namespace aquarama::conductor {
 namespace {
 
 using std::chrono::milliseconds;
 
-// Time for the word to reach every node: ten times the median of a busy machine's loopback.
+// Time for a release to reach every node: ten times the median of a busy machine's loopback.
 constexpr net::Instant kLead = milliseconds(2);
 // A frame shows the world two ticks before it is released: both are simulated by then.
 constexpr net::Instant kShownAge = 2 * kTickPeriod;
@@ -27,7 +29,7 @@ net::Instant fromSeconds(double seconds) {
     return std::chrono::duration_cast<net::Instant>(std::chrono::duration<double>(seconds));
 }
 
-net::BarrierLimits limitsOf(const config::Timing& timing, const ConductorOptions& options) {
+BarrierLimits limitsOf(const config::Timing& timing, const ConductorOptions& options) {
     const double deadline = timing.presentDeadlineSeconds > 0 ? timing.presentDeadlineSeconds
                                                               : 1.0 / timing.refreshHertz;
     return {options.pace == wire::Pace::Lockstep,
@@ -43,7 +45,7 @@ std::vector<std::string> namesOf(const config::Rig& rig, const ConductorOptions&
     return names;
 }
 
-// Two runs must not be taken for one another, so this is no matter for a seed.
+// From no seed: two runs must not be taken for one another.
 std::uint64_t freshSession() {
     std::random_device device;
     const std::uint64_t high = device();
@@ -61,27 +63,63 @@ std::ofstream openTrace(const std::filesystem::path& directory) {
 
 }  // namespace
 
+Blobs blobsOf(const wire::AssetBundle& assets) {
+    Blobs blobs;
+    for (const wire::SpeciesAssets& species : assets.cast) {
+        const auto text = std::as_bytes(std::span{species.text});
+        blobs.emplace(digestOf(text), net::ByteVector{text.begin(), text.end()});
+        blobs.emplace(digestOf(species.repertoire), species.repertoire);
+    }
+    return blobs;
+}
+
+v1::Welcome welcomeTo(const config::Rig& rig,
+                      const wire::AssetBundle& assets,
+                      std::span<const motion::FishTraits> school) {
+    v1::Welcome welcome;
+    welcome.set_rig_text(rig.text);
+    welcome.set_scene_text(assets.scene);
+    welcome.set_seed(assets.seed);
+    for (const motion::FishTraits& fish : school) {
+        welcome.add_fish_ids(fish.id);
+        welcome.add_length_millimetres(fish.lengthMillimetres);
+    }
+    for (const wire::SpeciesAssets& species : assets.cast) {
+        v1::SpeciesBlobs& member = *welcome.add_cast();
+        member.set_species(wire::bytesOf(digestOf(species.text)));
+        member.set_repertoire(wire::bytesOf(digestOf(species.repertoire)));
+        member.set_fish(species.fish);
+    }
+    return welcome;
+}
+
 Conductor::Conductor(const config::Rig& rig,
                      ConductorOptions options,
                      Simulation& simulation,
-                     wire::Welcome welcome,
-                     Blobs blobs,
+                     const wire::AssetBundle& assets,
+                     std::span<const motion::FishTraits> school,
                      std::unique_ptr<net::MasterChannels> channels)
     : options_(std::move(options)),
       simulation_(simulation),
-      welcome_(std::move(welcome)),
-      blobs_(std::move(blobs)),
+      fishOfSchool_(static_cast<std::uint32_t>(school.size())),
+      blobs_(blobsOf(assets)),
       channels_(std::move(channels)),
       session_(freshSession()),
       barrier_(namesOf(rig, options_).size(), limitsOf(rig.timing, options_), net::monotonicNow()),
       refresh_(fromSeconds(1.0 / rig.timing.refreshHertz)),
       trace_(openTrace(options_.traceDirectory)) {
     for (const std::string& name : namesOf(rig, options_)) slots_.emplace_back().name = name;
-    welcome_.stateAddress = channels_->stateAddress();
-    welcome_.seed = options_.seed;
-    welcome_.pace = options_.pace;
-    welcome_.pattern = options_.pattern;
-    welcome_.quality = options_.quality;
+    v1::Envelope message;
+    v1::Welcome& welcome = *message.mutable_welcome();
+    welcome = welcomeTo(rig, assets, school);
+    welcome.set_state_address(channels_->stateAddress());
+    welcome.set_pace(static_cast<v1::Pace>(options_.pace));
+    welcome.set_pattern(static_cast<v1::Pattern>(options_.pattern));
+    if (options_.quality) welcome.set_quality(static_cast<std::uint32_t>(*options_.quality));
+    welcome_ = wire::encode(session_, std::move(message));
+    v1::Envelope beacon;
+    beacon.mutable_beacon();
+    beacon_ = wire::encode(session_, std::move(beacon));
 }
 
 void Conductor::stop() {
@@ -102,7 +140,7 @@ ShowReport Conductor::run() {
         answer();
         conduct(now);
         if (now - lastPublished_ > kBeacon) {
-            channels_->publishState(wire::encode({session_, wire::Beacon{}}));
+            channels_->publishState(beacon_);
             lastPublished_ = now;
         }
         channels_->wait(kLongestWait);
@@ -113,19 +151,22 @@ ShowReport Conductor::run() {
     return report_;
 }
 
-// Until every node has answered, or long enough: closing a connection on what a node still says to
-// us would throw away what we said last.
+// Repeats the farewell until every node has answered, two seconds at most: closing a connection
+// while a node still sends would discard our last message to it.
 void Conductor::sayFarewell() {
     constexpr net::Instant kLongest = std::chrono::seconds(2);
     constexpr net::Instant kRepeat = std::chrono::milliseconds(100);
     const net::Instant begin = net::monotonicNow();
     net::Instant lastSaid = begin - kRepeat;
+    v1::Envelope farewell;
+    farewell.mutable_farewell();
     while (
         std::ranges::any_of(slots_, [](const ChannelSlot& slot) { return !slot.peer.empty(); })) {
         const net::Instant now = net::monotonicNow();
         if (now - begin > kLongest) return;
         if (now - lastSaid >= kRepeat) {
-            sayToAll(wire::Farewell{});
+            for (const ChannelSlot& slot : slots_)
+                if (!slot.peer.empty()) say(slot.peer, farewell);
             lastSaid = now;
         }
         channels_->wait(kRepeat / 4);
@@ -149,10 +190,10 @@ bool Conductor::isLast(Frame frame) const {
 void Conductor::conduct(net::Instant now) {
     for (const std::size_t node : barrier_.expelSilent(now)) {
         ++slots_[node].dropped;
-        vacate(node, "you were silent for too long");
+        vacate(node);
     }
     const auto decision = barrier_.decide(now);
-    if (decision.verdict == net::PresentBarrier::Verdict::Silent) {
+    if (decision.verdict == PresentBarrier::Verdict::Silent) {
         failure_ = "node \"" + slots_[decision.node].name + "\" has been silent for " +
                    std::to_string(options_.patience / std::chrono::seconds(1)) +
                    " s; see its own output, and start the show again";
@@ -162,8 +203,8 @@ void Conductor::conduct(net::Instant now) {
     if (!drawing_) return beginNext(now);
     // As late as possible, so that what it shows is fresh; early enough to be there on time.
     if (barrier_.anyReady() && !isLast(next_)) publish({next_.value + 1}, now);
-    if (decision.verdict == net::PresentBarrier::Verdict::Present) return release(now);
-    if (decision.verdict == net::PresentBarrier::Verdict::Idle) {
+    if (decision.verdict == PresentBarrier::Verdict::Present) return release(now);
+    if (decision.verdict == PresentBarrier::Verdict::Idle) {
         if (const auto awaited = barrier_.nextAwaited()) {
             next_ = *awaited;
             beginNext(now);
@@ -183,11 +224,13 @@ net::Instant Conductor::nextRelease(net::Instant now) const {
 }
 
 void Conductor::release(net::Instant now) {
-    lastPresent_ = wire::Present{next_, 0};
     const net::Instant at = nextRelease(now);
-    if (!isLockstep()) lastPresent_->atNs = at.count();
+    v1::Envelope message;
+    message.mutable_present()->set_frame(next_.value);
+    message.mutable_present()->set_at_ns(isLockstep() ? 0 : at.count());
+    lastPresent_.emplace(next_, wire::encode(session_, std::move(message)));
     for (const ChannelSlot& slot : slots_) {
-        if (slot.prepared) say(slot.peer, *lastPresent_);
+        if (slot.prepared) channels_->sendControl(slot.peer, lastPresent_->second);
     }
     if (report_.frames++ > 0) frameTimes_.add(at - lastRelease_);
     lastRelease_ = at;
@@ -217,7 +260,7 @@ bool Conductor::publish(Frame frame, net::Instant now) {
     return true;
 }
 
-void Conductor::noteEye(const wire::StateFrame& state) {
+void Conductor::noteEye(const wire::StateView& state) {
     const double ticks =
         static_cast<double>(state.tick.value) - 1 + static_cast<double>(state.fraction);
     const double seconds = (ticks - std::exchange(eyeTicks_, ticks)) / kTicksPerSecond;
@@ -232,14 +275,9 @@ void Conductor::publishAgain(net::Instant now) {
     lastRepeat_ = now;
 }
 
-void Conductor::say(const net::PeerId& peer, const wire::Message& message) {
-    channels_->sendControl(peer, wire::encode({session_, message}));
-}
-
-void Conductor::sayToAll(const wire::Message& message) {
-    for (const ChannelSlot& slot : slots_) {
-        if (!slot.peer.empty()) say(slot.peer, message);
-    }
+void Conductor::say(const net::PeerId& peer, v1::Envelope message) {
+    assert(!peer.empty());
+    channels_->sendControl(peer, wire::encode(session_, std::move(message)));
 }
 
 }  // namespace aquarama::conductor

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,21 +17,29 @@
 #include "common/config/rig.h"
 #include "common/net/bounded_queue.h"
 #include "common/net/channels.h"
-#include "common/net/present_barrier.h"
-#include "common/wire/envelope.h"
-#include "master/conductor/input_arbitration.h"
-#include "master/conductor/meters.h"
+#include "common/units/digest.h"
+#include "common/wire/recording.h"
+#include "master/conductor/present_barrier.h"
 #include "master/conductor/simulation.h"
 #include "master/conductor/simulation_thread.h"
-#include "master/conductor/snapshot_buffer.h"
+#include "master/conductor/steering.h"
+
+namespace aquarama::v1 {  // generated: only the sources of this folder see more of them
+class BlobRequest;
+class Envelope;
+class Hello;
+class Input;
+class Ready;
+class Welcome;
+}  // namespace aquarama::v1
 
 namespace aquarama::conductor {
 
+// How a show is conducted.
 struct ConductorOptions {
     wire::Pace pace = wire::Pace::Live;
     wire::Pattern pattern = wire::Pattern::World;
     std::optional<std::uint64_t> frames;   // the show ends after so many
-    std::uint32_t seed = 1;                // of what the nodes draw by themselves
     std::vector<std::string> expected;     // the channels that take part; empty: all of the rig
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
     std::optional<config::QualityTier>
@@ -41,7 +50,16 @@ struct ConductorOptions {
 
 // What nodes fetch, by digest.
 using Blobs = std::map<Digest, net::ByteVector>;
+// The species files and repertoires of a show.
+[[nodiscard]] Blobs blobsOf(const wire::AssetBundle& assets);
 
+// What nodes are told of a show in answer to their hello; the conductor adds how it is conducted.
+// `school` has the fish of all species of the assets, in their order.
+[[nodiscard]] v1::Welcome welcomeTo(const config::Rig& rig,
+                                    const wire::AssetBundle& assets,
+                                    std::span<const motion::FishTraits> school);
+
+// What a show came to.
 struct ShowReport {
     std::uint64_t frames = 0;  // presented
     Tick tick;                 // the last that was shown
@@ -49,18 +67,20 @@ struct ShowReport {
     std::uint64_t refusedPackets = 0;
 };
 
+// Conducts one show in the thread that calls run(); the world advances in a thread of its own.
 class Conductor {
   public:
-    // Of the welcome only rig text, school and digests are taken; the rest is filled in here.
+    // `simulation` is the world of these assets and this school, and outlives the conductor. Throws
+    // Error where the trace cannot be written.
     Conductor(const config::Rig& rig,
               ConductorOptions options,
               Simulation& simulation,
-              wire::Welcome welcome,
-              Blobs blobs,
+              const wire::AssetBundle& assets,
+              std::span<const motion::FishTraits> school,
               std::unique_ptr<net::MasterChannels> channels);
 
     // Until the frames are done, a node asks to quit, or stop(). Throws Error where a node of a
-    // lockstep show stays silent, and where the trace cannot be written.
+    // lockstep show stays silent.
     ShowReport run();
     void stop();  // from any thread
 
@@ -76,34 +96,52 @@ class Conductor {
         net::Instant lastFed{};  // when a visitor last dropped food in its window
     };
 
-    void hear(net::Instant now);
-    void greet(const net::PeerId& peer, const wire::Hello& hello, net::Instant now);
-    void heed(std::size_t node, const wire::Message& message, net::Instant now);
-    void heed(std::size_t node, const wire::Ready& ready, net::Instant now);
+    // Messages (reception.cpp). `node` is a place in slots_; a peer may be none of them.
+    void hear(net::Instant now);  // all that has arrived, within bounds
+    void take(const net::PeerId& peer, const v1::Envelope& message, net::Instant now);
+    // Of a node that takes part in this run.
+    void takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now);
+    // Answers a hello: welcome, refusal, or a dismissal while another node has the channel.
+    void greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now);
+    [[nodiscard]] std::string objectionTo(const v1::Hello& hello) const;
+    void pong(std::size_t node, std::int64_t sentNs);
+    // Its picture of a frame is finished.
+    void ready(std::size_t node, const v1::Ready& ready, net::Instant now);
+    // It has built all it needs: from the next frame on it is waited for.
     void admit(std::size_t node);
-    void giveChunk(const net::PeerId& peer, const wire::BlobRequest& request);
-    void vacate(std::size_t node, const std::string& why);
-    void handle(std::size_t node, const wire::Input& input, net::Instant now);
+    void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
+    void dismiss(const net::PeerId& peer, const std::string& why);
+    // The node is counted no more: it has fallen silent, or has said farewell.
+    void vacate(std::size_t node);
+    void leave(std::size_t node);
+    void handle(std::size_t node, const v1::Input& input, net::Instant now);
+    // Inputs, passed on to the tick thread where they are in bounds.
     void feed(std::size_t node, glm::vec3 positionMetres, net::Instant now);
     void steer(const net::PeerId& peer, const Steering& steering, net::Instant now);
-    void ask(const net::PeerId& peer, const wire::ExplainRequest& question);
+    // A question about a mind goes to the tick thread; answer() sends what came back.
+    void ask(const net::PeerId& peer, std::uint32_t fish);
     void answer();
-    [[nodiscard]] wire::StatusReply status(net::Instant now) const;
+    [[nodiscard]] v1::Envelope status(net::Instant now) const;
+    // The channel of the window that steers, "pilot" for anybody else, empty for nobody.
     [[nodiscard]] std::string pilotName(net::Instant now) const;
+    // The tier of the whole wall: as chosen, or the finest that every node bears.
     [[nodiscard]] config::QualityTier quality() const;
 
-    void noteEye(const wire::StateFrame& state);
-    void takeTicks();
-    void conduct(net::Instant now);
-    void beginNext(net::Instant now);
-    void release(net::Instant now);
+    // Frames. `now` is the moment at which this turn of the loop began.
+    void noteEye(const wire::StateView& state);
+    void takeTicks();                  // from the tick thread into snapshots_
+    void conduct(net::Instant now);    // asks the barrier, and does what it decides
+    void beginNext(net::Instant now);  // as soon as there is somebody to draw it
+    void release(net::Instant now);    // of the frame that is drawn, to all prepared nodes
     bool publish(Frame frame, net::Instant now);
+    // The last two states, for whoever may lack them.
     void publishAgain(net::Instant now);
+    // When a frame that is ready now is shown: one refresh after the last, and not before every
+    // node can have heard of it.
     [[nodiscard]] net::Instant nextRelease(net::Instant now) const;
     [[nodiscard]] bool isLast(Frame frame) const;
 
-    void say(const net::PeerId& peer, const wire::Message& message);
-    void sayToAll(const wire::Message& message);
+    void say(const net::PeerId& peer, v1::Envelope message);
     void sayFarewell();
     [[nodiscard]] std::optional<std::size_t> seatNamed(const std::string& name) const;
     [[nodiscard]] std::optional<std::size_t> seatOf(const net::PeerId& peer) const;
@@ -111,12 +149,13 @@ class Conductor {
 
     ConductorOptions options_;
     Simulation& simulation_;
-    wire::Welcome welcome_;
+    std::uint32_t fishOfSchool_;
     Blobs blobs_;
     std::unique_ptr<net::MasterChannels> channels_;
     std::uint64_t session_;
+    wire::Packet welcome_, beacon_;  // encoded once: they never change
     std::vector<ChannelSlot> slots_;
-    net::PresentBarrier barrier_;
+    PresentBarrier barrier_;
     net::Instant refresh_;
     std::ofstream trace_;
     std::atomic<bool> stopped_ = false;
@@ -124,7 +163,7 @@ class Conductor {
     std::string failure_;
 
     // From the tick thread; whoever hears no answer asks again.
-    net::BoundedQueue<std::pair<net::PeerId, wire::Explanation>> explanations_{256};
+    net::BoundedQueue<std::pair<net::PeerId, wire::Packet>> explanations_{256};
     std::unique_ptr<SimulationThread> simulationThread_;
     SnapshotBuffer snapshots_;
     Frame next_;                               // is drawn, or will be as soon as it can
@@ -137,7 +176,7 @@ class Conductor {
     wire::Eye eye_;        // of the last state that was published
     double eyeTicks_ = 0;  // when it was there, in ticks and parts of them
     float speedMetresPerSecond_ = 0;
-    std::optional<wire::Present> lastPresent_;
+    std::optional<std::pair<Frame, wire::Packet>> lastPresent_;
     net::Instant lastRelease_{};
     ShowReport report_;
     RecentTimes frameTimes_;

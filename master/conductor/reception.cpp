@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who comes, who goes, and what they want.
+// What nodes and other peers say to the conductor.
 #include <algorithm>
 #include <utility>
 
@@ -7,6 +7,7 @@
 
 #include "common/net/blob.h"
 #include "common/units/log.h"
+#include "common/wire/messages.h"
 #include "master/conductor/conductor.h"
 
 namespace aquarama::conductor {
@@ -16,7 +17,7 @@ namespace {
 constexpr int kMostPackets = 256;
 // A node whose name comes up again is taken for dead after so much silence.
 constexpr net::Instant kSilenceOfTheDead = std::chrono::milliseconds(250);
-// Of food from one window.
+// Between two inputs of food from one window.
 constexpr net::Instant kBetweenPinches = std::chrono::milliseconds(200);
 constexpr float kReachMetres = 8.0F;  // from the eye
 
@@ -26,10 +27,10 @@ std::string listed(const std::vector<std::string>& names) {
     return list;
 }
 
-wire::NodeCondition conditionOf(bool present, bool prepared, bool waitedFor) {
-    if (!present) return wire::NodeCondition::Absent;
-    if (!prepared) return wire::NodeCondition::Preparing;
-    return waitedFor ? wire::NodeCondition::InStep : wire::NodeCondition::Late;
+v1::NodeCondition conditionOf(bool present, bool prepared, bool waitedFor) {
+    if (!present) return v1::NODE_ABSENT;
+    if (!prepared) return v1::NODE_PREPARING;
+    return waitedFor ? v1::NODE_IN_STEP : v1::NODE_LATE;
 }
 
 }  // namespace
@@ -51,88 +52,108 @@ void Conductor::hear(net::Instant now) {
     for (int packet = 0; packet < kMostPackets; ++packet) {
         const auto from = channels_->receiveControl();
         if (!from) return;
-        const auto envelope = wire::decode(from->bytes);
-        if (!envelope || from->peer.empty()) {
+        const auto message = wire::decode(from->bytes);
+        if (message && !from->peer.empty())
+            take(from->peer, *message, now);
+        else
             ++report_.refusedPackets;
-        } else if (const auto* hello = std::get_if<wire::Hello>(&envelope->message)) {
-            greet(from->peer, *hello, now);
-        } else if (std::holds_alternative<wire::StatusRequest>(envelope->message)) {
-            say(from->peer, status(now));
-        } else if (const auto* question = std::get_if<wire::ExplainRequest>(&envelope->message)) {
-            ask(from->peer, *question);
-        } else if (const auto* input = std::get_if<wire::Input>(&envelope->message);
-                   input && input->kind == wire::InputKind::Steer && !seatOf(from->peer)) {
-            steer(from->peer, input->steering, now);
-        } else if (const auto node = seatOf(from->peer); node && envelope->session == session_) {
-            slots_[*node].lastHeard = now;
-            barrier_.heard(*node, now);
-            heed(*node, envelope->message, now);
-        } else {
-            ++report_.refusedPackets;
-            say(from->peer, wire::Dismissed{"the master does not know this connection"});
-        }
     }
 }
 
-void Conductor::greet(const net::PeerId& peer, const wire::Hello& hello, net::Instant now) {
-    const auto refuse = [&](const std::string& reason) {
+// Anybody may ask, and steer; the rest is for nodes of this run.
+void Conductor::take(const net::PeerId& peer, const v1::Envelope& message, net::Instant now) {
+    const auto node = seatOf(peer);
+    switch (message.message_case()) {
+        case v1::Envelope::kHello:
+            return greet(peer, message.hello(), now);
+        case v1::Envelope::kStatusRequest:
+            return say(peer, status(now));
+        case v1::Envelope::kExplainRequest:
+            return ask(peer, message.explain_request().fish());
+        case v1::Envelope::kInput:
+            if (message.input().kind() != v1::INPUT_STEER || node) break;
+            return steer(peer, wire::steeringOf(message.input()), now);
+        default:
+            break;
+    }
+    if (node && message.session() == session_) {
+        slots_[*node].lastHeard = now;
+        barrier_.heard(*node, now);
+        takeOfNode(*node, message, now);
+    } else {
         ++report_.refusedPackets;
-        logWarning("refused node {}: {}", hello.channel, reason);
-        say(peer, wire::Refusal{reason});
-    };
-    if (hello.major != wire::kProtocolMajor) {
-        return refuse("it speaks protocol " + std::to_string(hello.major) + " (build " +
-                      hello.build + "), the master " + std::to_string(wire::kProtocolMajor) +
-                      "; install the same version on both");
+        dismiss(peer, "the master does not know this connection");
     }
-    const auto node = seatNamed(hello.channel);
-    if (!node) {
-        std::vector<std::string> names;
-        for (const ChannelSlot& slot : slots_) names.push_back(slot.name);
-        return refuse("the rig has no such channel, only " + listed(names));
+}
+
+void Conductor::takeOfNode(std::size_t node, const v1::Envelope& message, net::Instant now) {
+    switch (message.message_case()) {
+        case v1::Envelope::kPing:
+            return pong(node, message.ping().sent_ns());
+        case v1::Envelope::kReady:
+            return ready(node, message.ready(), now);
+        case v1::Envelope::kBlobRequest:
+            return giveChunk(slots_[node].peer, message.blob_request());
+        case v1::Envelope::kPrepared:
+            slots_[node].bears = config::tierAt(message.prepared().quality());
+            return admit(node);
+        case v1::Envelope::kInput:
+            return handle(node, message.input(), now);
+        case v1::Envelope::kFarewell:
+            return leave(node);
+        default:
+            ++report_.refusedPackets;
     }
-    ChannelSlot& slot = slots_[*node];
+}
+
+// Why a node is refused; empty where it is not.
+std::string Conductor::objectionTo(const v1::Hello& hello) const {
+    if (hello.major() != wire::kProtocolMajor)
+        return "it speaks protocol " + std::to_string(hello.major()) + " (build " + hello.build() +
+               "), the master " + std::to_string(wire::kProtocolMajor) +
+               "; install the same version on both";
+    if (seatNamed(hello.channel())) return {};
+    std::vector<std::string> names;
+    for (const ChannelSlot& slot : slots_) names.push_back(slot.name);
+    return "the rig has no such channel, only " + listed(names);
+}
+
+void Conductor::greet(const net::PeerId& peer, const v1::Hello& hello, net::Instant now) {
+    if (const std::string objection = objectionTo(hello); !objection.empty()) {
+        ++report_.refusedPackets;
+        logWarning("refused node {}: {}", hello.channel(), objection);
+        v1::Envelope refusal;
+        refusal.mutable_refusal()->set_reason(objection);
+        return say(peer, std::move(refusal));
+    }
+    const std::size_t node = *seatNamed(hello.channel());
+    ChannelSlot& slot = slots_[node];
     const bool another = !slot.peer.empty() && slot.peer != peer;
-    if (another && now - slot.lastHeard < kSilenceOfTheDead) {
-        return say(peer, wire::Dismissed{"another node of this name takes part already"});
-    }
+    if (another && now - slot.lastHeard < kSilenceOfTheDead)
+        return dismiss(peer, "another node of this name takes part already");
     if (slot.peer != peer) logInfo("welcomed node {}", slot.name);
-    barrier_.leave(*node);
-    barrier_.heard(*node, now);
+    barrier_.leave(node);
+    barrier_.heard(node, now);
     slot.peer = peer;
     slot.prepared = false;
     slot.lastHeard = now;
-    say(peer, welcome_);
+    channels_->sendControl(peer, welcome_);
 }
 
-void Conductor::heed(std::size_t node, const wire::Message& message, net::Instant now) {
-    const net::PeerId& peer = slots_[node].peer;
-    if (const auto* ping = std::get_if<wire::Ping>(&message)) {
-        say(peer, wire::Pong{ping->sentNs, net::monotonicNow().count()});
-    } else if (const auto* ready = std::get_if<wire::Ready>(&message)) {
-        heed(node, *ready, now);
-    } else if (const auto* request = std::get_if<wire::BlobRequest>(&message)) {
-        giveChunk(peer, *request);
-    } else if (const auto* prepared = std::get_if<wire::Prepared>(&message)) {
-        slots_[node].bears = prepared->quality;
-        admit(node);
-    } else if (const auto* input = std::get_if<wire::Input>(&message)) {
-        handle(node, *input, now);
-    } else if (std::holds_alternative<wire::Farewell>(message)) {
-        barrier_.leave(node);
-        slots_[node].peer.clear();
-        slots_[node].prepared = false;
-        logInfo("node {} has left", slots_[node].name);
-    } else {
-        ++report_.refusedPackets;
-    }
+void Conductor::pong(std::size_t node, std::int64_t sentNs) {
+    v1::Envelope message;
+    message.mutable_pong()->set_sent_ns(sentNs);
+    message.mutable_pong()->set_master_ns(net::monotonicNow().count());
+    say(slots_[node].peer, std::move(message));
 }
 
-void Conductor::heed(std::size_t node, const wire::Ready& ready, net::Instant now) {
-    barrier_.ready(node, ready.frame, now);
-    if (ready.released) skew_.add(*ready.released);
+void Conductor::ready(std::size_t node, const v1::Ready& ready, net::Instant now) {
+    const Frame frame{ready.frame()};
+    barrier_.ready(node, frame, now);
+    if (ready.has_released_frame()) skew_.add({ready.released_frame()}, ready.released_ns());
     // It asks again for a release that never came.
-    if (lastPresent_ && ready.frame <= lastPresent_->frame) say(slots_[node].peer, *lastPresent_);
+    if (lastPresent_ && frame <= lastPresent_->first)
+        channels_->sendControl(slots_[node].peer, lastPresent_->second);
 }
 
 // Lockstep: it takes part in the frame that is drawn now. Live: in the first that it surely sees.
@@ -141,62 +162,88 @@ void Conductor::admit(std::size_t node) {
     const Frame first = isLockstep() ? next_ : unpublished_;
     slots_[node].prepared = true;
     barrier_.join(node, first);
-    say(slots_[node].peer, wire::Joined{first});
+    v1::Envelope message;
+    message.mutable_joined()->set_first_frame(first.value);
+    say(slots_[node].peer, std::move(message));
     if (isLockstep()) publishAgain(net::monotonicNow());
     logInfo("node {} takes part from frame {}", slots_[node].name, first.value);
 }
 
-void Conductor::giveChunk(const net::PeerId& peer, const wire::BlobRequest& request) {
-    const auto blob = blobs_.find(request.digest);
-    if (blob == blobs_.end() || request.offset > blob->second.size()) {
+void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
+    const auto blob = blobs_.find(wire::digestIn(request.digest()));
+    if (blob == blobs_.end() || request.offset() > blob->second.size()) {
         ++report_.refusedPackets;
         return;
     }
-    const auto chunk = net::chunkAt(blob->second, request.offset, wire::kBlobChunkBytes);
-    say(peer,
-        wire::BlobChunk{
-            request.digest, request.offset, blob->second.size(), {chunk.begin(), chunk.end()}});
+    const auto content = net::chunkAt(blob->second, request.offset(), wire::kBlobChunkBytes);
+    v1::Envelope message;
+    v1::BlobChunk& chunk = *message.mutable_blob_chunk();
+    chunk.set_digest(request.digest());
+    chunk.set_offset(request.offset());
+    chunk.set_total(blob->second.size());
+    chunk.set_content(content.data(), content.size());
+    say(peer, std::move(message));
 }
 
-void Conductor::vacate(std::size_t node, const std::string& why) {
+void Conductor::dismiss(const net::PeerId& peer, const std::string& why) {
+    v1::Envelope message;
+    message.mutable_dismissed()->set_reason(why);
+    say(peer, std::move(message));
+}
+
+void Conductor::vacate(std::size_t node) {
     ChannelSlot& slot = slots_[node];
     logWarning("node {} is not counted any more: silent", slot.name);
-    say(slot.peer, wire::Dismissed{why});
+    dismiss(slot.peer, "you were silent for too long");
     slot.peer.clear();
     slot.prepared = false;
 }
 
+void Conductor::leave(std::size_t node) {
+    ChannelSlot& slot = slots_[node];
+    barrier_.leave(node);
+    slot.peer.clear();
+    slot.prepared = false;
+    logInfo("node {} has left", slot.name);
+}
+
 // Minds are looked into between two ticks.
-void Conductor::ask(const net::PeerId& peer, const wire::ExplainRequest& question) {
-    if (!simulationThread_) return;  // farewells are being said
-    const bool asked = simulationThread_->betweenTicks(
-        [this, peer, fish = question.fish](const Simulation& simulation) {
-            explanations_.tryPut({peer, simulation.explain(fish)});
-            channels_->wake();
-        });
+void Conductor::ask(const net::PeerId& peer, std::uint32_t fish) {
+    if (!simulationThread_) return;  // the show is over
+    const bool asked = simulationThread_->betweenTicks([=, this](const Simulation& simulation) {
+        v1::Envelope message;
+        v1::Explanation& explanation = *message.mutable_explanation();
+        explanation.set_fish(fish);
+        explanation.set_school(fishOfSchool_);
+        explanation.set_tick(simulation.tick().value);
+        for (const std::string& line : simulation.explain(fish)) explanation.add_lines(line);
+        explanations_.tryPut({peer, wire::encode(session_, std::move(message))});
+        channels_->wake();
+    });
     if (!asked) ++report_.refusedPackets;
 }
 
 void Conductor::answer() {
     while (const auto explanation = explanations_.tryTake())
-        say(explanation->first, explanation->second);
+        channels_->sendControl(explanation->first, explanation->second);
 }
 
-void Conductor::handle(std::size_t node, const wire::Input& input, net::Instant now) {
-    if (input.kind == wire::InputKind::Quit) {
-        over_ = true;
-    } else if (input.kind == wire::InputKind::DropFood) {
-        feed(node, input.positionMetres, now);
-    } else if (input.kind == wire::InputKind::Steer) {
-        steer(slots_[node].peer, input.steering, now);
-    } else if (!isLockstep() &&
-               simulationThread_) {  // there is none any more while farewells are said
-        simulationThread_->togglePause();
+void Conductor::handle(std::size_t node, const v1::Input& input, net::Instant now) {
+    const auto& at = input.position();
+    switch (input.kind()) {
+        case v1::INPUT_QUIT:
+            over_ = true;
+            break;
+        case v1::INPUT_DROP_FOOD:
+            return feed(node, {at[0], at[1], at[2]}, now);
+        case v1::INPUT_STEER:
+            return steer(slots_[node].peer, wire::steeringOf(input), now);
+        default:  // after the show there is no thread any more
+            if (!isLockstep() && simulationThread_) simulationThread_->togglePause();
     }
 }
 
-// The world says how many pellets there may be; here a key that is stuck is slowed down, and nobody
-// feeds what he cannot reach.
+// The world bounds the number of pellets; here the rate of a window is, and the reach.
 void Conductor::feed(std::size_t node, glm::vec3 positionMetres, net::Instant now) {
     net::Instant& lastFed = slots_[node].lastFed;
     if (now - lastFed < kBetweenPinches || !simulationThread_) return;
@@ -210,7 +257,7 @@ void Conductor::feed(std::size_t node, glm::vec3 positionMetres, net::Instant no
         ++report_.refusedPackets;
 }
 
-// A node that has left counts on: when it comes back, nothing changes.
+// A node that has left still counts: when it comes back, nothing changes.
 config::QualityTier Conductor::quality() const {
     if (options_.quality) return *options_.quality;
     std::optional<config::QualityTier> least;
@@ -219,7 +266,6 @@ config::QualityTier Conductor::quality() const {
     return least.value_or(config::QualityTier::Low);
 }
 
-// Anybody may steer who can reach the control address, as anybody may ask.
 void Conductor::steer(const net::PeerId& peer, const Steering& steering, net::Instant now) {
     if (!simulationThread_ || !arbitration_.accepts(peer, steering, now)) return;
     const auto hold = [steering](Simulation& simulation) { simulation.apply(steering); };
@@ -233,29 +279,31 @@ std::string Conductor::pilotName(net::Instant now) const {
     return slot ? slots_[*slot].name : "pilot";
 }
 
-wire::StatusReply Conductor::status(net::Instant now) const {
-    wire::StatusReply reply;
-    reply.pace = options_.pace;
-    reply.paused = simulationThread_ && simulationThread_->paused();
-    reply.frame = next_;
-    reply.tick = report_.tick;
-    reply.frameMedianMs = frameTimes_.quantileMs(0.5);
-    reply.frameP99Ms = frameTimes_.quantileMs(0.99);
-    reply.skewMedianMs = skew_.skews().quantileMs(0.5);
-    reply.skewP99Ms = skew_.skews().quantileMs(0.99);
-    reply.refusedPackets = report_.refusedPackets;
-    reply.eye = eye_;
-    reply.speedMetresPerSecond = speedMetresPerSecond_;
-    reply.pilot = pilotName(now);
-    for (std::size_t node = 0; node < slots_.size(); ++node) {
-        const ChannelSlot& slot = slots_[node];
-        reply.nodes.push_back(
-            {slot.name,
-             conditionOf(!slot.peer.empty(), slot.prepared, barrier_.isWaitedFor(node)),
-             barrier_.timesLate(node),
-             slot.dropped});
+v1::Envelope Conductor::status(net::Instant now) const {
+    v1::Envelope message;
+    v1::StatusReply& reply = *message.mutable_status_reply();
+    reply.set_pace(static_cast<v1::Pace>(options_.pace));
+    reply.set_paused(simulationThread_ && simulationThread_->paused());
+    reply.set_frame(next_.value);
+    reply.set_tick(report_.tick.value);
+    reply.set_frame_median_ms(frameTimes_.quantileMs(0.5));
+    reply.set_frame_p99_ms(frameTimes_.quantileMs(0.99));
+    reply.set_skew_median_ms(skew_.skews().quantileMs(0.5));
+    reply.set_skew_p99_ms(skew_.skews().quantileMs(0.99));
+    reply.set_refused_packets(report_.refusedPackets);
+    wire::writeEye(eye_, *reply.mutable_eye());
+    reply.set_speed_m_s(speedMetresPerSecond_);
+    reply.set_pilot(pilotName(now));
+    for (std::size_t place = 0; place < slots_.size(); ++place) {
+        const ChannelSlot& slot = slots_[place];
+        v1::NodeStatus& node = *reply.add_nodes();
+        node.set_name(slot.name);
+        node.set_condition(
+            conditionOf(!slot.peer.empty(), slot.prepared, barrier_.isWaitedFor(place)));
+        node.set_late(barrier_.timesLate(place));
+        node.set_dropped(slot.dropped);
     }
-    return reply;
+    return message;
 }
 
 }  // namespace aquarama::conductor

@@ -3,15 +3,28 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/motion/motion_state.h"
+#include "common/net/clock.h"
 #include "common/units/units.h"
-#include "common/wire/envelope.h"
 #include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 #include "master/world/events.h"
 
 namespace aquarama::conductor {
+
+// The world at one tick, as it is sent: one record a fish, in the order of the school.
+struct Snapshot {
+    Tick tick;
+    net::Instant due{};  // live: when the world was like this; set by the tick thread
+    std::uint64_t hash = 0;
+    wire::Eye eye;
+    float daylight = 1.0F;  // of the sky, 0 to 1
+    std::vector<motion::FishRecord> fish;
+    wire::FoodCloud food;
+};
 
 // Called from the tick thread only.
 class Simulation {
@@ -21,13 +34,12 @@ class Simulation {
     // Between two ticks. Whatever reaches the world from outside comes this way.
     virtual void apply(const world::WorldInput& input) = 0;
     [[nodiscard]] virtual Tick tick() const = 0;
-    virtual void records(std::vector<motion::FishRecord>& fish) const = 0;
-    virtual void food(wire::FoodCloud& cloud) const = 0;
-    [[nodiscard]] virtual wire::Eye eye() const = 0;
-    [[nodiscard]] virtual float daylight() const = 0;  // of the sky, 0 to 1
+    // Of all that the next tick depends on.
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
-    // What goes on in the mind of a fish; no lines for one that is not of the school.
-    [[nodiscard]] virtual wire::Explanation explain(std::uint32_t fish) const = 0;
+    [[nodiscard]] virtual Snapshot snapshot() const = 0;
+    // What goes on in the mind of a fish, as lines of printable ASCII within the bounds of
+    // common/wire/messages.h; none for one that is not of the school.
+    [[nodiscard]] virtual std::vector<std::string> explain(std::uint32_t fish) const = 0;
 };
 
 }  // namespace aquarama::conductor

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/conductor/simulation_thread.h"
 
+#include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <utility>
+
+#include <glm/gtc/quaternion.hpp>
 
 #include "common/units/log.h"
 
@@ -15,7 +19,69 @@ constexpr net::Instant kMostCatchUp = 15 * kTickPeriod;
 // Between two ticks: nobody who asks for more holds up the world.
 constexpr std::size_t kMostJobs = 64;
 
+// The tick itself: nothing before it is needed.
+wire::StateView showingOne(Frame frame, const Snapshot& snapshot) {
+    return {frame,
+            snapshot.tick,
+            1.0F,
+            snapshot.eye,
+            snapshot.hash,
+            {},
+            snapshot.fish,
+            snapshot.food.originMetres,
+            {},
+            snapshot.food.particles,
+            snapshot.daylight};
+}
+
+// Where the eye is at a fraction of the way between two ticks.
+wire::Eye between(const wire::Eye& before, const wire::Eye& after, float fraction) {
+    return {glm::mix(before.positionMetres, after.positionMetres, fraction),
+            glm::slerp(before.worldFromWall, after.worldFromWall, fraction)};
+}
+
 }  // namespace
+
+void SnapshotBuffer::add(Snapshot snapshot) {
+    assert(snapshots_.empty() || snapshots_.back().tick < snapshot.tick);
+    snapshots_.push_back(std::move(snapshot));
+    if (snapshots_.size() > kKept) snapshots_.pop_front();
+}
+
+std::optional<Tick> SnapshotBuffer::newest() const {
+    return snapshots_.empty() ? std::nullopt : std::optional{snapshots_.back().tick};
+}
+
+std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, Tick tick) const {
+    const auto found = std::ranges::find(snapshots_, tick, &Snapshot::tick);
+    if (found == snapshots_.end()) return std::nullopt;
+    return showingOne(frame, *found);
+}
+
+std::optional<wire::StateView> SnapshotBuffer::showing(Frame frame, net::Instant moment) const {
+    if (snapshots_.empty()) return std::nullopt;
+    const auto after = std::ranges::lower_bound(snapshots_, moment, {}, &Snapshot::due);
+    if (after == snapshots_.end()) return showingOne(frame, snapshots_.back());
+    if (after == snapshots_.begin()) return showingOne(frame, *after);
+    const Snapshot& before = *std::prev(after);
+    // After a pause two ticks lie far apart; the world stood still until one period before the
+    // second.
+    const net::Instant sinceBefore = moment - (after->due - kTickPeriod);
+    const float fraction = static_cast<float>(sinceBefore.count()) / float{kTickPeriod.count()};
+    if (fraction <= 0.0F) return showingOne(frame, before);
+    if (fraction >= 1.0F) return showingOne(frame, *after);
+    return wire::StateView{frame,
+                           after->tick,
+                           fraction,
+                           between(before.eye, after->eye, fraction),
+                           after->hash,
+                           before.fish,
+                           after->fish,
+                           after->food.originMetres,
+                           before.food.particles,
+                           after->food.particles,
+                           glm::mix(before.daylight, after->daylight, fraction)};
+}
 
 SimulationThread::SimulationThread(Simulation& simulation,
                                    wire::Pace pace,
@@ -94,16 +160,10 @@ void SimulationThread::serveUntilStopped() {
     }
 }
 
+// Waits while the queue is full. False: stopped.
 bool SimulationThread::put(net::Instant due) {
-    Snapshot snapshot{simulation_.tick(),
-                      due,
-                      simulation_.hash(),
-                      simulation_.eye(),
-                      simulation_.daylight(),
-                      {},
-                      {}};
-    simulation_.records(snapshot.fish);
-    simulation_.food(snapshot.food);
+    Snapshot snapshot = simulation_.snapshot();
+    snapshot.due = due;
     const bool taken = snapshots_.put(std::move(snapshot));
     onTick_();
     return taken;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tick thread: advances the world, in lockstep as fast as its frames are taken, live by the
-// clock.
+// The tick thread, and the last few ticks that it made.
 #pragma once
 
 #include <condition_variable>
-#include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -13,10 +12,32 @@
 
 #include "common/net/bounded_queue.h"
 #include "master/conductor/simulation.h"
-#include "master/conductor/snapshot_buffer.h"
 
 namespace aquarama::conductor {
 
+inline constexpr net::Instant kTickPeriod{1'000'000'000 / 60};
+static_assert(kTicksPerSecond == 60.0);
+
+// The last few ticks, and what a frame shows of them. Of the conductor's thread.
+class SnapshotBuffer {
+  public:
+    // Ticks come in order; the oldest is forgotten when `kKept` are there.
+    void add(Snapshot snapshot);
+    [[nodiscard]] std::optional<Tick> newest() const;
+
+    // Views of the snapshots, valid until the next add(); quality is left to the caller.
+    // Lockstep: the tick itself. Empty: not there.
+    [[nodiscard]] std::optional<wire::StateView> showing(Frame frame, Tick tick) const;
+    // Live: the moment, held between the oldest and the newest tick. Empty: no tick yet.
+    [[nodiscard]] std::optional<wire::StateView> showing(Frame frame, net::Instant moment) const;
+
+    static constexpr std::size_t kKept = 8;
+
+  private:
+    std::deque<Snapshot> snapshots_;
+};
+
+// Advances the world: in lockstep as fast as its frames are taken, live by the clock.
 class SimulationThread {
   public:
     // onTick is called from the tick thread after every tick. lastTick: lockstep simulates no
@@ -29,13 +50,14 @@ class SimulationThread {
     SimulationThread(const SimulationThread&) = delete;
     SimulationThread& operator=(const SimulationThread&) = delete;
 
+    // The next tick, in order; does not wait. Empty: it is not simulated yet.
     [[nodiscard]] std::optional<Snapshot> take();
     // Live only: a lockstep show is the same every time.
     void togglePause();
     [[nodiscard]] bool paused() const;
 
-    // Is called from the tick thread between two ticks, soon, in the order given; also while the
-    // world is paused or has come to its last tick. False: too many wait already.
+    // The job is called from the tick thread between two ticks, soon, in the order given; also
+    // while the world is paused or has come to its last tick. False: too many wait already.
     using Job = std::function<void(Simulation&)>;
     [[nodiscard]] bool betweenTicks(Job job);
 

@@ -15,7 +15,6 @@
 #include "common/motion/repertoire.h"
 #include "common/place/water.h"
 #include "common/units/log.h"
-#include "common/wire/food_record.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/simulation/insight.h"
 
@@ -36,36 +35,42 @@ wire::FoodRecord::Kind kindOf(surroundings::FoodKind kind) {
     return wire::FoodRecord::Kind::None;
 }
 
+// As the nodes are told of it.
+wire::FoodCloud foodOf(const surroundings::Surroundings& around) {
+    const surroundings::Food& food = around.food;
+    wire::FoodCloud cloud{around.obstacles.water.centre, {}};
+    cloud.particles.reserve(food.size());
+    for (std::size_t i = 0; i < food.size(); ++i)
+        cloud.particles.push_back(wire::foodRecord(
+            kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]));
+    return cloud;
+}
+
+wire::Eye eyeOf(const surroundings::Vessel& vessel) {
+    const motion::Quaternion q = surroundings::worldFromBody(vessel.attitude);
+    return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
+}
+
 }  // namespace
 
 LivingWorld::LivingWorld(const world::WorldOptions& options) : world_(options) {
     for (const world::WorldSpecies& species : options.cast) species_.push_back(species.name);
 }
 
-// All particles as they are published: relative to the middle of the water, so that few bits
-// suffice.
-void LivingWorld::food(wire::FoodCloud& cloud) const {
-    const surroundings::Food& food = world_.surroundings().food;
-    cloud.originMetres = world_.surroundings().obstacles.water.centre;
-    cloud.particles.resize(food.size());
-    for (std::size_t i = 0; i < food.size(); ++i)
-        cloud.particles[i] = wire::foodRecord(
-            kindOf(food.kind[i]), food.position(i) - cloud.originMetres, food.generation[i]);
+conductor::Snapshot LivingWorld::snapshot() const {
+    conductor::Snapshot snapshot{.tick = world_.tick(),
+                                 .hash = world_.hash(),
+                                 .eye = eyeOf(world_.pilot().vessel),
+                                 .daylight = world_.surroundings().daylight,
+                                 .fish = {},
+                                 .food = foodOf(world_.surroundings())};
+    world_.records(snapshot.fish);
+    return snapshot;
 }
 
-// The wall is the submarine's window: its attitude is that of the wall.
-wire::Eye LivingWorld::eye() const {
-    const surroundings::Vessel& vessel = world_.pilot().vessel;
-    const motion::Quaternion q = surroundings::worldFromBody(vessel.attitude);
-    return {.positionMetres = vessel.position, .worldFromWall = {q.w, q.x, q.y, q.z}};
-}
-
-wire::Explanation LivingWorld::explain(std::uint32_t fish) const {
-    wire::Explanation explanation{
-        fish, static_cast<std::uint32_t>(world_.traits().size()), world_.tick(), {}};
-    if (const auto insight = insightInto(world_, fish))
-        explanation.lines = linesOf(*insight, {world_.view(), species_});
-    return explanation;
+std::vector<std::string> LivingWorld::explain(std::uint32_t fish) const {
+    const auto insight = insightInto(world_, fish);
+    return insight ? linesOf(*insight, {world_.view(), species_}) : std::vector<std::string>{};
 }
 
 namespace {

@@ -22,12 +22,9 @@ class LivingWorld : public conductor::Simulation {
     void advance() override { world_.advance(); }
     void apply(const world::WorldInput& input) override { world_.apply(input); }
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<motion::FishRecord>& fish) const override { world_.records(fish); }
-    void food(wire::FoodCloud& cloud) const override;
-    [[nodiscard]] wire::Eye eye() const override;
-    [[nodiscard]] float daylight() const override { return world_.surroundings().daylight; }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] wire::Explanation explain(std::uint32_t fish) const override;
+    [[nodiscard]] conductor::Snapshot snapshot() const override;
+    [[nodiscard]] std::vector<std::string> explain(std::uint32_t fish) const override;
 
     [[nodiscard]] const world::World& world() const { return world_; }
 

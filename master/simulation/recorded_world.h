@@ -22,12 +22,9 @@ namespace aquarama::simulation {
 class SimulationDecorator : public conductor::Simulation {
   public:
     [[nodiscard]] Tick tick() const override { return world_.tick(); }
-    void records(std::vector<motion::FishRecord>& fish) const override { world_.records(fish); }
-    void food(wire::FoodCloud& cloud) const override { world_.food(cloud); }
-    [[nodiscard]] wire::Eye eye() const override { return world_.eye(); }
-    [[nodiscard]] float daylight() const override { return world_.daylight(); }
     [[nodiscard]] std::uint64_t hash() const override { return world_.hash(); }
-    [[nodiscard]] wire::Explanation explain(std::uint32_t fish) const override {
+    [[nodiscard]] conductor::Snapshot snapshot() const override { return world_.snapshot(); }
+    [[nodiscard]] std::vector<std::string> explain(std::uint32_t fish) const override {
         return world_.explain(fish);
     }
 

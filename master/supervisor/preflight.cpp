@@ -9,10 +9,10 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <utility>
 
 #include <netdb.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "common/units/log.h"
@@ -111,15 +111,12 @@ std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& 
                 "\" has no such channel; choose one of " + known);
 }
 
-ClipPipes::ClipPipes(const std::vector<std::string>& channels) {
+ClipPipes::ClipPipes(std::vector<std::string> channels) : channels_(std::move(channels)) {
     std::string pattern = (fs::temp_directory_path() / "aquarama-clip-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr)
-        throw Error(pattern + ": no folder can be made for the clip's pipes (" + reason() + ")");
+        throw Error(pattern + ": no folder can be made for the clip's sockets (" + reason() +
+                    "); set TMPDIR to a folder of a local disk");
     folder_ = pattern;
-    for (const std::string& channel : channels)
-        if (mkfifo((folder_ / channel).c_str(), S_IRUSR | S_IWUSR) != 0)
-            throw Error(folder_.string() + ": takes no named pipe (" + reason() +
-                        "); set TMPDIR to a folder of a local disk");
 }
 
 ClipPipes::~ClipPipes() {
@@ -128,8 +125,8 @@ ClipPipes::~ClipPipes() {
 }
 
 std::string ClipPipes::pipeOf(const std::string& channel) const {
-    const fs::path pipe = folder_ / channel;
-    return fs::exists(pipe) ? pipe.string() : "";
+    const bool isFilmed = std::ranges::find(channels_, channel) != channels_.end();
+    return isFilmed ? (folder_ / channel).string() : "";
 }
 
 }  // namespace aquarama::supervisor

@@ -31,19 +31,20 @@ void requireRecording(const std::string& path);
 // that name. Throws Error where the rig has none.
 [[nodiscard]] std::vector<std::string> channelsFor(const config::Rig& rig, const std::string& of);
 
-// Named pipes, by which nodes send their frames to the program that encodes a clip, in a folder of
-// their own; it is removed with this object.
+// Sockets of these channels, made by the program that encodes, in a private folder of the run that
+// is removed with this object. Throws Error where no folder can be made.
 class ClipPipes {
   public:
-    explicit ClipPipes(const std::vector<std::string>& channels);
+    explicit ClipPipes(std::vector<std::string> channels);
     ~ClipPipes();
     ClipPipes(const ClipPipes&) = delete;
     ClipPipes& operator=(const ClipPipes&) = delete;
     [[nodiscard]] std::string folder() const { return folder_.string(); }
-    // Empty where the channel is not filmed.
+    // The path of the channel's socket; empty where it is not filmed.
     [[nodiscard]] std::string pipeOf(const std::string& channel) const;
 
   private:
+    std::vector<std::string> channels_;
     std::filesystem::path folder_;
 };
 

@@ -2,6 +2,7 @@
 #include "render_node/session/master_link.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "common/units/log.h"
@@ -22,6 +23,110 @@ constexpr net::Instant kFarthest =
 constexpr int kSpoiltBlobs = 3;  // deliveries of a blob that fail before we give up
 
 }  // namespace
+
+void Mailbox::admit(Admitted admitted) {
+    const std::lock_guard lock(mutex_);
+    if (!join_) join_ = std::move(admitted);
+    changed_.notify_all();
+}
+
+void Mailbox::refuse(const std::string& reason) {
+    const std::lock_guard lock(mutex_);
+    if (!join_) join_ = Refused{reason};
+    changed_.notify_all();
+}
+
+void Mailbox::start(wire::Pace pace, Frame first) {
+    const std::lock_guard lock(mutex_);
+    pace_ = pace;
+    next_ = first;
+    changed_.notify_all();
+}
+
+void Mailbox::put(ArrivedState arrived) {
+    const std::lock_guard lock(mutex_);
+    const auto isSame = [&](const ArrivedState& s) { return s.state.frame == arrived.state.frame; };
+    if (std::ranges::any_of(states_, isSame)) return;  // sent again for somebody else
+    if (states_.size() == kStates) states_.pop_front();
+    states_.push_back(std::move(arrived));
+    changed_.notify_all();
+}
+
+void Mailbox::release(const ReleaseOrder& order) {
+    const std::lock_guard lock(mutex_);
+    if (!release_ || release_->frame < order.frame) release_ = order;
+    changed_.notify_all();
+}
+
+void Mailbox::tellMind(ExplainedMind explanation) {
+    const std::lock_guard lock(mutex_);
+    mind_ = std::move(explanation);
+}
+
+void Mailbox::interrupt(Release why) {
+    const std::lock_guard lock(mutex_);
+    if (interruption_ != Release::Quit) interruption_ = why;
+    changed_.notify_all();
+}
+
+void Mailbox::expectJoin() {
+    const std::lock_guard lock(mutex_);
+    if (interruption_ == Release::Quit) return;
+    join_.reset();
+    interruption_.reset();
+    pace_.reset();
+    states_.clear();
+    release_.reset();
+    mind_.reset();
+}
+
+JoinOutcome Mailbox::awaitJoin() {
+    std::unique_lock lock(mutex_);
+    const auto isOver = [&] { return interruption_ == Release::Quit; };
+    changed_.wait(lock, [&] { return join_ || isOver(); });
+    if (isOver()) return Ended{};
+    return *std::exchange(join_, {});
+}
+
+// Lockstep: every frame in order. Live: the newest.
+std::optional<ArrivedState> Mailbox::takeNext() {
+    std::erase_if(states_, [&](const ArrivedState& s) { return s.state.frame < next_; });
+    if (!pace_ || states_.empty()) return std::nullopt;
+    const auto frameOf = [](const ArrivedState& s) { return s.state.frame; };
+    auto chosen = *pace_ == wire::Pace::Live ? std::ranges::max_element(states_, {}, frameOf)
+                                             : std::ranges::find(states_, next_, frameOf);
+    if (chosen == states_.end()) return std::nullopt;
+    ArrivedState taken = std::move(*chosen);
+    states_.erase(chosen);
+    next_ = {taken.state.frame.value + 1};
+    return taken;
+}
+
+std::optional<ArrivedState> Mailbox::takeState() {
+    std::unique_lock lock(mutex_);
+    std::optional<ArrivedState> taken;
+    changed_.wait(lock, [&] { return interruption_ || (taken = takeNext()); });
+    return taken;
+}
+
+std::optional<ReleaseOrder> Mailbox::awaitRelease(Frame frame) {
+    std::unique_lock lock(mutex_);
+    const auto isReleased = [&] { return release_ && release_->frame >= frame; };
+    changed_.wait(lock, [&] { return isReleased() || interruption_; });
+    return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
+}
+
+std::optional<ExplainedMind> Mailbox::latestMind() const {
+    const std::lock_guard lock(mutex_);
+    return mind_;
+}
+
+Release Mailbox::interruption() const {
+    const std::lock_guard lock(mutex_);
+    return interruption_.value_or(Release::Quit);
+}
+
+// --- the net thread
 
 MasterLink::MasterLink(std::string name,
                        net::Connect connect,
@@ -56,7 +161,7 @@ void MasterLink::run() {
     } catch (const Error& error) {  // no new connection could be made
         mailbox_.refuse(error.what());
     }
-    if (session_ != 0) say(wire::Farewell{});
+    if (session_ != 0) sayFarewell();
 }
 
 void MasterLink::turn() {
@@ -68,8 +173,14 @@ void MasterLink::turn() {
     keepTime(net::monotonicNow());
 }
 
-void MasterLink::say(const wire::Message& message) {
-    channels_->sendControl(wire::encode({session_, message}));
+void MasterLink::say(v1::Envelope message) {
+    channels_->sendControl(wire::encode(session_, std::move(message)));
+}
+
+void MasterLink::sayFarewell() {
+    v1::Envelope message;
+    message.mutable_farewell();
+    say(std::move(message));
 }
 
 // --- requests of the render thread
@@ -89,8 +200,8 @@ void MasterLink::handle(const Join&) {
     lastComplaint_ = net::monotonicNow();
 }
 
-void MasterLink::handle(const wire::Prepared& prepared) {
-    prepared_ = prepared;
+void MasterLink::handle(const Built& built) {
+    built_ = built;
     if (phase_ == Phase::Building) phase_ = Phase::Listening;
 }
 
@@ -100,57 +211,102 @@ void MasterLink::handle(const Finished& finished) {
     sayReady();
 }
 
-void MasterLink::handle(const wire::Input& input) {
-    say(input);
+void MasterLink::handle(const v1::Input& input) {
+    if (session_ == 0) return;
+    v1::Envelope message;
+    *message.mutable_input() = input;
+    say(std::move(message));
 }
 
-void MasterLink::handle(const wire::ExplainRequest& request) {
-    if (session_ != 0) say(request);
+void MasterLink::handle(const v1::ExplainRequest& request) {
+    if (session_ == 0) return;
+    v1::Envelope message;
+    *message.mutable_explain_request() = request;
+    say(std::move(message));
 }
 
 void MasterLink::sayReady() {
-    wire::Ready ready{finished_->frame, finished_->released};
-    if (ready.released) ready.released->atNs += clock_.offset().value_or(net::Instant{}).count();
-    say(ready);
+    assert(finished_);
+    v1::Envelope message;
+    v1::Ready& ready = *message.mutable_ready();
+    ready.set_frame(finished_->frame.value);
+    if (const auto& released = finished_->released) {
+        const net::Instant ahead = clock_.offset().value_or(net::Instant{});
+        ready.set_released_frame(released->frame.value);
+        ready.set_released_ns((released->at + ahead).count());
+    }
+    say(std::move(message));
     lastReady_ = net::monotonicNow();
 }
 
 // --- what the master says
 
 void MasterLink::readControl(const net::ByteVector& bytes) {
-    const auto envelope = wire::decode(bytes);
-    if (!envelope) return;
+    const auto message = wire::decode(bytes);
+    if (!message) return;
     lastHeard_ = net::monotonicNow();
-    if (const auto* welcome = std::get_if<wire::Welcome>(&envelope->message)) {
-        if (phase_ == Phase::Greeting) beWelcomed(envelope->session, *welcome);
-    } else if (const auto* refusal = std::get_if<wire::Refusal>(&envelope->message)) {
-        if (phase_ == Phase::Greeting) mailbox_.refuse(refusal->reason);
-    } else if (const auto* dismissed = std::get_if<wire::Dismissed>(&envelope->message)) {
-        take(*dismissed);  // also from another run of the master: it does not know us
-    } else if (session_ != 0 && envelope->session == session_) {
-        std::visit([&](const auto& message) { take(message); }, envelope->message);
+    take(*message);
+}
+
+void MasterLink::take(const v1::Envelope& message) {
+    switch (message.message_case()) {
+        case v1::Envelope::kWelcome:
+            if (phase_ == Phase::Greeting) beWelcomed(message);
+            return;
+        case v1::Envelope::kRefusal:
+            if (phase_ == Phase::Greeting) mailbox_.refuse(message.refusal().reason());
+            return;
+        case v1::Envelope::kDismissed:  // also of another run of the master: it does not know us
+            return beDismissed(message.dismissed().reason());
+        default:
+            if (session_ != 0 && message.session() == session_) takeOfRun(message);
+    }
+}
+
+// Messages that mean nothing to a node are ignored.
+void MasterLink::takeOfRun(const v1::Envelope& message) {
+    switch (message.message_case()) {
+        case v1::Envelope::kPong:
+            return clock_.add(net::Instant{message.pong().sent_ns()},
+                              net::Instant{message.pong().master_ns()},
+                              net::monotonicNow());
+        case v1::Envelope::kBlobChunk:
+            return takeChunk(message.blob_chunk());
+        case v1::Envelope::kJoined:
+            return mailbox_.start(static_cast<wire::Pace>(admitted_.welcome.pace()),
+                                  {message.joined().first_frame()});
+        case v1::Envelope::kPresent:
+            return beReleased(message.present());
+        case v1::Envelope::kFarewell:
+            return end();
+        case v1::Envelope::kExplanation: {
+            const v1::Explanation& mind = message.explanation();
+            return mailbox_.tellMind({mind.fish(), {mind.lines().begin(), mind.lines().end()}});
+        }
+        default:
+            return;
     }
 }
 
 void MasterLink::readState(const net::ByteVector& bytes) {
-    auto envelope = wire::decode(bytes);
-    if (!envelope || session_ == 0) return;
-    if (envelope->session != session_) return lose("the master was started again");
+    const auto message = wire::decode(bytes);
+    if (!message || session_ == 0) return;
+    if (message->session() != session_) return lose("the master was started again");
     hearsStates_ = true;
     lastHeard_ = net::monotonicNow();
-    if (auto* state = std::get_if<wire::StateFrame>(&envelope->message)) {
-        mailbox_.put({std::move(*state), lastHeard_});
-    }
+    if (!message->has_state()) return;
+    if (auto state = wire::readState(message->state()))
+        mailbox_.put({*std::move(state), lastHeard_});
 }
 
-void MasterLink::beWelcomed(std::uint64_t session, const wire::Welcome& welcome) {
-    session_ = session;
+void MasterLink::beWelcomed(const v1::Envelope& message) {
+    session_ = message.session();
     phase_ = Phase::Fetching;
-    admitted_ = {welcome, {}};
+    admitted_ = {message.welcome(), {}};
     assembly_.reset();
     clock_ = {};
     try {
-        channels_->subscribeState(welcome.stateAddress);
+        channels_->subscribeState(admitted_.welcome.state_address());
     } catch (const Error& error) {
         return mailbox_.refuse(error.what());
     }
@@ -159,8 +315,9 @@ void MasterLink::beWelcomed(std::uint64_t session, const wire::Welcome& welcome)
 
 // Takes from the cache what is there, and asks for the first that is not.
 void MasterLink::fetchNext() {
-    for (const wire::SpeciesBlobs& blobs : admitted_.welcome.cast) {
-        for (const Digest& digest : {blobs.species, blobs.repertoire}) {
+    for (const v1::SpeciesBlobs& blobs : admitted_.welcome.cast()) {
+        for (const std::string* bytes : {&blobs.species(), &blobs.repertoire()}) {
+            const Digest digest = wire::digestIn(*bytes);
             if (admitted_.blobs.contains(digest)) continue;
             auto cached = cache_.find(digest);
             if (!cached) {
@@ -174,22 +331,28 @@ void MasterLink::fetchNext() {
 }
 
 void MasterLink::requestChunk() {
-    say(wire::BlobRequest{assembly_->digest(), assembly_->nextOffset()});
+    assert(assembly_);
+    v1::Envelope message;
+    message.mutable_blob_request()->set_digest(wire::bytesOf(assembly_->digest()));
+    message.mutable_blob_request()->set_offset(assembly_->nextOffset());
+    say(std::move(message));
     lastRequest_ = net::monotonicNow();
 }
 
-void MasterLink::take(const wire::BlobChunk& chunk) {
-    if (phase_ != Phase::Fetching || !assembly_ || chunk.digest != assembly_->digest()) return;
-    if (!assembly_->take(chunk.offset, chunk.total, chunk.content)) return;
+void MasterLink::takeChunk(const v1::BlobChunk& chunk) {
+    const Digest digest = wire::digestIn(chunk.digest());
+    if (phase_ != Phase::Fetching || !assembly_ || digest != assembly_->digest()) return;
+    const auto content = std::as_bytes(std::span{chunk.content()});
+    if (!assembly_->take(chunk.offset(), chunk.total(), content)) return;
     if (!assembly_->whole()) return requestChunk();
     const auto blob = assembly_->checked();
     if (!blob) {
         if (++spoiltBlobs_ < kSpoiltBlobs) return requestChunk();
-        return mailbox_.refuse("the master sends other bytes for blob " + toHex(chunk.digest) +
+        return mailbox_.refuse("the master sends other bytes for blob " + toHex(digest) +
                                " than its name says; restart the master");
     }
-    cache_.keep(chunk.digest, *blob);
-    admitted_.blobs.emplace(chunk.digest, *blob);
+    cache_.keep(digest, *blob);
+    admitted_.blobs.emplace(digest, *blob);
     fetchNext();
 }
 
@@ -198,41 +361,31 @@ void MasterLink::admit() {
     mailbox_.admit(admitted_);
 }
 
-void MasterLink::take(const wire::Pong& pong) {
-    clock_.add(net::Instant{pong.sentNs}, net::Instant{pong.masterNs}, net::monotonicNow());
-}
-
-void MasterLink::take(const wire::Joined& joined) {
-    mailbox_.start(admitted_.welcome.pace, joined.first);
-}
-
-void MasterLink::take(const wire::Present& present) {
+void MasterLink::beReleased(const v1::Present& present) {
+    const Frame frame{present.frame()};
     const net::Instant now = net::monotonicNow();
     net::Instant at = now;
-    if (present.atNs != 0 && clock_.offset()) at = net::Instant{present.atNs} - *clock_.offset();
+    if (present.at_ns() != 0 && clock_.offset())
+        at = net::Instant{present.at_ns()} - *clock_.offset();
     if (at > now + kFarthest) at = now;
-    if (finished_ && finished_->frame <= present.frame) finished_.reset();
-    mailbox_.release({present.frame, at});
+    if (finished_ && finished_->frame <= frame) finished_.reset();
+    mailbox_.release({frame, at});
 }
 
-void MasterLink::take(const wire::Dismissed& dismissed) {
+void MasterLink::beDismissed(const std::string& reason) {
     if (phase_ == Phase::Greeting) {
-        lastDismissal_ = dismissed.reason;
+        lastDismissal_ = reason;
     } else if (phase_ != Phase::Outside) {
-        lose(dismissed.reason);
+        lose(reason);
     }
 }
 
 // Answered, so that the master knows that we have heard it.
-void MasterLink::take(const wire::Farewell&) {
-    say(wire::Farewell{});
+void MasterLink::end() {
+    sayFarewell();
     phase_ = Phase::Outside;
     session_ = 0;
     mailbox_.interrupt(Release::Quit);
-}
-
-void MasterLink::take(const wire::Explanation& explanation) {
-    mailbox_.tellMind(explanation);
 }
 
 // A render thread that is still in join() is not told: it goes on waiting while we say hello again.
@@ -248,19 +401,23 @@ void MasterLink::lose(const std::string& why) {
     }
 }
 
-// --- what the time asks for
+// --- what is due
 
 void MasterLink::keepTime(net::Instant now) {
     if (phase_ == Phase::Outside) return;
     if (phase_ == Phase::Greeting) return greet(now);
     if (now - lastHeard_ > kMasterSilence) return lose("the master has fallen silent");
     if (now - lastPing_ >= kPing) {
-        say(wire::Ping{now.count()});
+        v1::Envelope ping;
+        ping.mutable_ping()->set_sent_ns(now.count());
+        say(std::move(ping));
         lastPing_ = now;
     }
     if (phase_ == Phase::Fetching && now - lastRequest_ > kRepeat) requestChunk();
     if (phase_ == Phase::Listening && hearsStates_) {
-        say(prepared_);
+        v1::Envelope prepared;
+        prepared.mutable_prepared()->set_quality(static_cast<std::uint32_t>(built_.quality));
+        say(std::move(prepared));
         phase_ = Phase::Member;
     }
     if (finished_ && now - lastReady_ > kRepeat) sayReady();
@@ -268,7 +425,12 @@ void MasterLink::keepTime(net::Instant now) {
 
 void MasterLink::greet(net::Instant now) {
     if (now - lastHello_ >= kHello) {
-        say(wire::Hello{name_, wire::kProtocolMajor, AQUARAMA_VERSION});
+        v1::Envelope message;
+        v1::Hello& hello = *message.mutable_hello();
+        hello.set_channel(name_);
+        hello.set_major(wire::kProtocolMajor);
+        hello.set_build(AQUARAMA_VERSION);
+        say(std::move(message));
         lastHello_ = now;
     }
     if (now - lastComplaint_ < kComplaint) return;

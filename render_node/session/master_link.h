@@ -1,22 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node's standing with the master, kept by its net thread: hello until welcomed, fetch what is
-// missing, speak often enough to be counted, and notice when the master is gone or another.
+// The net thread of a node, and the mailbox by which it meets the render thread.
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include "common/net/blob.h"
 #include "common/net/bounded_queue.h"
 #include "common/net/channels.h"
-#include "common/wire/envelope.h"
-#include "render_node/session/mailbox.h"
+#include "common/wire/messages.h"
+#include "render_node/session/session.h"
 
 namespace aquarama::session {
 
+// A state, and when it arrived.
+struct ArrivedState {
+    wire::StateFrame state;
+    net::Instant arrival{};
+};
+
+// The master releases a frame, for all nodes at the same instant.
+struct ReleaseOrder {
+    Frame frame;
+    net::Instant at{};  // on this machine's clock; past instants mean at once
+};
+
+// What the master gave to a node that it welcomed.
+struct Admitted {
+    v1::Welcome welcome;
+    std::map<Digest, net::ByteVector> blobs;  // all that the welcome names
+};
+// The master refuses the node, or no connection could be made.
+struct Refused {
+    std::string reason;
+};
+// The show is over, or this process is.
+struct Ended {};
+using JoinOutcome = std::variant<Admitted, Refused, Ended>;
+
+// The exchange between a node's net thread and its render thread: states and releases one way,
+// bounded, and the end of either. The lock is held for a move only.
+class Mailbox {
+  public:
+    // The net thread's side.
+    void admit(Admitted admitted);
+    void refuse(const std::string& reason);
+    void start(wire::Pace pace, Frame first);  // frames are taken from this one on
+    void put(ArrivedState arrived);
+    void release(const ReleaseOrder& order);
+    void tellMind(ExplainedMind explanation);
+    void interrupt(Release why);  // Rejoin or Quit; nothing comes back after Quit
+
+    // The render thread's side. Each blocks until there is an answer.
+    void expectJoin();  // forgets everything that came before
+    [[nodiscard]] JoinOutcome awaitJoin();
+    [[nodiscard]] std::optional<ArrivedState> takeState();  // empty: interrupted
+    // The newest release, of this frame or a later one; empty: interrupted.
+    [[nodiscard]] std::optional<ReleaseOrder> awaitRelease(Frame frame);
+    [[nodiscard]] Release interruption() const;
+    // The last that was told in this run of the master; does not block.
+    [[nodiscard]] std::optional<ExplainedMind> latestMind() const;
+
+  private:
+    [[nodiscard]] std::optional<ArrivedState> takeNext();
+
+    static constexpr std::size_t kStates = 8;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<JoinOutcome> join_;
+    std::optional<Release> interruption_;
+    std::optional<wire::Pace> pace_;  // set once frames are expected
+    Frame next_;
+    std::deque<ArrivedState> states_;
+    std::optional<ReleaseOrder> release_;
+    std::optional<ExplainedMind> mind_;
+};
+
+// When a node let go of a frame, in this machine's clock.
+struct ReleaseReport {
+    Frame frame;
+    net::Instant at{};
+};
+
+// A node's membership with the master, kept by its net thread: hello until welcomed, fetch what is
+// missing, speak often enough to be counted, and notice when the master is gone or another.
 class MasterLink {
   public:
     // Connects once, so that a malformed address is refused here.
@@ -24,11 +99,15 @@ class MasterLink {
 
     // Requests of the render thread.
     struct Join {};
+    struct Built {  // all that the show needs; the node keeps up with this tier
+        config::QualityTier quality = config::QualityTier::Low;
+    };
     struct Finished {  // the picture of this frame
         Frame frame;
-        std::optional<wire::ReleaseReport> released;  // in this machine's clock
+        std::optional<ReleaseReport> released;  // of an earlier frame
     };
-    using Request = std::variant<Join, wire::Prepared, Finished, wire::Input, wire::ExplainRequest>;
+    // Inputs and questions; dropped while the node is not welcomed.
+    using Request = std::variant<Join, Built, Finished, v1::Input, v1::ExplainRequest>;
     void post(const Request& request);
     void stop();  // from any thread
 
@@ -36,34 +115,36 @@ class MasterLink {
     void run();
 
   private:
+    // From outside to member: says hello, fetches blobs, builds (the render thread does), waits for
+    // the first state, and is waited for.
     enum class Phase : std::uint8_t { Outside, Greeting, Fetching, Building, Listening, Member };
 
-    void turn();
-    void say(const wire::Message& message);
+    void turn();                     // all requests and messages that are there, then what is due
+    void say(v1::Envelope message);  // of the run that welcomed us
+    void sayFarewell();
     void handle(const Join& join);
-    void handle(const wire::Prepared& prepared);
+    void handle(const Built& built);
     void handle(const Finished& finished);
-    void handle(const wire::Input& input);
-    void handle(const wire::ExplainRequest& request);
+    void handle(const v1::Input& input);
+    void handle(const v1::ExplainRequest& request);
 
+    // Whatever cannot be decoded is ignored.
     void readControl(const net::ByteVector& bytes);
     void readState(const net::ByteVector& bytes);
-    // Messages that mean nothing to a node fall through to the last.
-    void take(const wire::Pong& pong);
-    void take(const wire::BlobChunk& chunk);
-    void take(const wire::Joined& joined);
-    void take(const wire::Present& present);
-    void take(const wire::Dismissed& dismissed);
-    void take(const wire::Farewell& farewell);
-    void take(const wire::Explanation& explanation);
-    template <class Other>
-    void take(const Other&) {}
+    void take(const v1::Envelope& message);
+    void beWelcomed(const v1::Envelope& message);
+    // From the run of the master that welcomed us.
+    void takeOfRun(const v1::Envelope& message);
+    void takeChunk(const v1::BlobChunk& chunk);
+    void beReleased(const v1::Present& present);
+    void beDismissed(const std::string& reason);
+    void end();
 
-    void beWelcomed(std::uint64_t session, const wire::Welcome& welcome);
     void fetchNext();
     void requestChunk();
-    void admit();
+    void admit();  // every blob is there
     void sayReady();
+    // The master is gone or another: joins again.
     void lose(const std::string& why);
     void keepTime(net::Instant now);
     void greet(net::Instant now);
@@ -85,7 +166,7 @@ class MasterLink {
     std::optional<net::BlobAssembly> assembly_;  // of the blob that is being fetched
     int spoiltBlobs_ = 0;
     bool hearsStates_ = false;
-    wire::Prepared prepared_;
+    Built built_;
     std::optional<Finished> finished_;  // and not released yet, as far as we know
     net::ClockOffset clock_;
     std::string lastDismissal_;

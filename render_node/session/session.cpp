@@ -6,8 +6,6 @@
 
 #include "common/net/channels.h"
 #include "common/units/log.h"
-#include "render_node/session/link_session.h"
-#include "render_node/session/mailbox.h"
 #include "render_node/session/master_link.h"
 
 namespace aquarama::session {
@@ -17,16 +15,47 @@ std::string textOf(const net::ByteVector& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// The species with the blobs that were fetched for them.
 std::vector<wire::SpeciesAssets> castOf(const Admitted& admitted) {
     std::vector<wire::SpeciesAssets> cast;
-    for (const auto& [species, repertoire, fish] : admitted.welcome.cast)
+    for (const v1::SpeciesBlobs& member : admitted.welcome.cast())
         cast.push_back({"the master's species file",
-                        textOf(admitted.blobs.at(species)),
-                        admitted.blobs.at(repertoire),
-                        fish});
+                        textOf(admitted.blobs.at(wire::digestIn(member.species()))),
+                        admitted.blobs.at(wire::digestIn(member.repertoire())),
+                        member.fish()});
     return cast;
 }
 
+std::vector<motion::FishTraits> schoolOf(const v1::Welcome& welcome) {
+    std::vector<motion::FishTraits> school;
+    for (int i = 0; i < welcome.fish_ids_size(); ++i)
+        school.push_back(
+            {welcome.fish_ids(i), static_cast<std::uint16_t>(welcome.length_millimetres(i))});
+    return school;
+}
+
+// Of what stays the same when a show goes on after an interruption.
+Digest showOf(v1::Welcome welcome) {
+    welcome.clear_state_address();
+    welcome.clear_pace();
+    welcome.clear_quality();
+    return digestOf(welcome.SerializeAsString());
+}
+
+// Throws Error where the master's rig or scene cannot be read.
+Admission admissionOf(const Admitted& admitted) {
+    const v1::Welcome& welcome = admitted.welcome;
+    return {.show = showOf(welcome),
+            .rig = config::parseRig(welcome.rig_text(), "the master's rig"),
+            .scene = config::parseScene(welcome.scene_text(), "the master's scene"),
+            .seed = welcome.seed(),
+            .pattern = static_cast<wire::Pattern>(welcome.pattern()),
+            .quality = welcome.has_quality() ? config::tierAt(welcome.quality()) : std::nullopt,
+            .school = schoolOf(welcome),
+            .cast = castOf(admitted)};
+}
+
+// The render thread's side of a mailbox whose other side is a net thread.
 class LinkSession final : public Session {
   public:
     LinkSession(const std::string& name, net::Connect connect, const std::filesystem::path& blobs)
@@ -51,13 +80,10 @@ class LinkSession final : public Session {
         }
         auto* admitted = std::get_if<Admitted>(&outcome);
         if (admitted == nullptr) return std::nullopt;
-        return Admission{admitted->welcome,
-                         config::parseRig(admitted->welcome.rigText, "the master's rig"),
-                         config::parseScene(admitted->welcome.sceneText, "the master's scene"),
-                         castOf(*admitted)};
+        return admissionOf(*admitted);
     }
 
-    void prepared(config::QualityTier quality) override { link_.post(wire::Prepared{quality}); }
+    void prepared(config::QualityTier quality) override { link_.post(MasterLink::Built{quality}); }
 
     std::optional<wire::StateFrame> nextFrame() override {
         auto arrived = mailbox_.takeState();
@@ -77,24 +103,28 @@ class LinkSession final : public Session {
         // A node that is always late shows its late pictures: better than none.
         skipped_ = false;
         std::this_thread::sleep_until(std::chrono::steady_clock::time_point(order->at));
-        released_ = wire::ReleaseReport{frame, net::monotonicNow().count()};
+        released_ = ReleaseReport{frame, net::monotonicNow()};
         return Release::Present;
     }
 
     void send(NodeInput input) override {
-        link_.post(wire::Input{
-            input == NodeInput::Quit ? wire::InputKind::Quit : wire::InputKind::TogglePause,
-            {},
-            {}});
+        v1::Input message;
+        message.set_kind(input == NodeInput::Quit ? v1::INPUT_QUIT : v1::INPUT_TOGGLE_PAUSE);
+        link_.post(message);
     }
     void dropFood(glm::vec3 positionMetres) override {
-        link_.post(wire::Input{wire::InputKind::DropFood, positionMetres, {}});
+        v1::Input message;
+        message.set_kind(v1::INPUT_DROP_FOOD);
+        for (const int axis : {0, 1, 2}) message.add_position(positionMetres[axis]);
+        link_.post(message);
     }
-    void steer(const Steering& steering) override {
-        link_.post(wire::Input{wire::InputKind::Steer, {}, steering});
+    void steer(const Steering& steering) override { link_.post(wire::steeringInput(steering)); }
+    void askMind(std::uint32_t fish) override {
+        v1::ExplainRequest question;
+        question.set_fish(fish);
+        link_.post(question);
     }
-    void askMind(std::uint32_t fish) override { link_.post(wire::ExplainRequest{fish}); }
-    std::optional<wire::Explanation> latestMind() const override { return mailbox_.latestMind(); }
+    std::optional<ExplainedMind> latestMind() const override { return mailbox_.latestMind(); }
 
     void stop() override { link_.stop(); }
 
@@ -102,7 +132,7 @@ class LinkSession final : public Session {
     std::string name_;
     Mailbox mailbox_;
     MasterLink link_;
-    std::optional<wire::ReleaseReport> released_;
+    std::optional<ReleaseReport> released_;
     bool skipped_ = false;
     std::chrono::nanoseconds stateArrival_{};
     std::thread netThread_;  // last: it uses all of the above
@@ -114,11 +144,6 @@ std::unique_ptr<Session> makeSession(const std::string& name,
                                      net::Connect connect,
                                      const std::filesystem::path& blobDirectory) {
     return std::make_unique<LinkSession>(name, std::move(connect), blobDirectory);
-}
-
-std::unique_ptr<Session> connectSession(const std::string& name,
-                                        const std::string& controlAddress) {
-    return connectSession(name, controlAddress, net::defaultBlobDirectory());
 }
 
 std::unique_ptr<Session> connectSession(const std::string& name,

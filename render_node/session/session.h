@@ -12,11 +12,16 @@
 
 #include "common/config/rig.h"
 #include "common/config/scene.h"
-#include "common/wire/envelope.h"
+#include "common/motion/motion_state.h"
+#include "common/net/blob.h"
+#include "common/net/channels.h"
+#include "common/units/digest.h"
+#include "common/units/units.h"
 #include "common/wire/recording.h"
 
 namespace aquarama::session {
 
+// What the keys of a window ask of the show.
 enum class NodeInput : std::uint8_t { Quit, TogglePause };
 
 // What became of a frame that was reported ready.
@@ -27,11 +32,24 @@ enum class Release : std::uint8_t {
     Quit,     // the show is over
 };
 
+// A show that a node takes part in.
 struct Admission {
-    wire::Welcome welcome;
+    Digest show;  // of all that is built for it: another show has another
     config::Rig rig;
     config::Scene scene;
-    std::vector<wire::SpeciesAssets> cast;  // as in the welcome
+    std::uint32_t seed = 0;
+    wire::Pattern pattern = wire::Pattern::World;
+    // Of the whole wall; nothing: the node measures its own.
+    std::optional<config::QualityTier> quality = {};
+    std::vector<motion::FishTraits> school;
+    std::vector<wire::SpeciesAssets> cast;  // of all fish of the school, in its order
+};
+
+// What the master said of the mind of a fish: lines of printable ASCII; none where there is no such
+// fish.
+struct ExplainedMind {
+    std::uint32_t fish = 0;
+    std::vector<std::string> lines;
 };
 
 // Called from the render thread; every wait also ends when stop() was called from a signal
@@ -62,16 +80,19 @@ class Session {
     virtual void steer(const Steering& steering) = 0;
     // Asks what goes on in the mind of a fish; the answer comes when it comes.
     virtual void askMind(std::uint32_t fish) = 0;
-    [[nodiscard]] virtual std::optional<wire::Explanation> latestMind() const = 0;
+    [[nodiscard]] virtual std::optional<ExplainedMind> latestMind() const = 0;
     virtual void stop() = 0;
 };
 
-// controlAddress as in the rig. name is the channel's. Blobs are kept in the user's cache unless
-// another directory is given. Throws Error where the address is malformed.
-[[nodiscard]] std::unique_ptr<Session> connectSession(const std::string& name,
-                                                      const std::string& controlAddress);
-[[nodiscard]] std::unique_ptr<Session> connectSession(const std::string& name,
-                                                      const std::string& controlAddress,
-                                                      const std::filesystem::path& blobDirectory);
+// A session of the channel of this name, over any channels, also those in memory. Blobs are kept in
+// this directory. Throws Error where the first connection cannot be made.
+[[nodiscard]] std::unique_ptr<Session> makeSession(const std::string& name,
+                                                   net::Connect connect,
+                                                   const std::filesystem::path& blobDirectory);
+// The same over ZeroMQ. Throws Error where the address is malformed.
+[[nodiscard]] std::unique_ptr<Session> connectSession(
+    const std::string& name,
+    const std::string& controlAddress,
+    const std::filesystem::path& blobDirectory = net::defaultBlobDirectory());
 
 }  // namespace aquarama::session

@@ -64,7 +64,7 @@ std::vector<Label> helpLabels(float dot) {
 // assets.fish traits. The digest of text and repertoire is the key of the cached tables.
 std::vector<surface::SchoolSpecies> castOf(const session::Admission& admission) {
     std::vector<surface::SchoolSpecies> cast;
-    std::span<const motion::FishTraits> rest = admission.welcome.school;
+    std::span<const motion::FishTraits> rest = admission.school;
     for (const wire::SpeciesAssets& assets : admission.cast) {
         const config::Species species = config::parseSpecies(assets.text, assets.file);
         const auto own = rest.first(std::min<std::size_t>(assets.fish, rest.size()));
@@ -103,9 +103,9 @@ ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
 ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::size_t channel,
                                config::QualityTier quality)
-    : pattern_{admission.welcome.pattern},
+    : pattern_{admission.pattern},
       stereo_{wall::stereoOf(admission.rig, channel)},
-      school_{admission.welcome.school} {
+      school_{admission.school} {
     assert(channel < admission.rig.channels.size());
     const config::Rig& rig = admission.rig;
     const std::uint32_t id = rig.channels[channel].id;
@@ -127,7 +127,7 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
     for (Viewing& eye : eyes_)
         if (!world || &eye != &eyes_.back()) eye.kept.emplace(GL_RGBA16F, sceneSize_);
     if (world)
-        scene_.emplace(scene::SceneOptions{.seed = admission.welcome.seed,
+        scene_.emplace(scene::SceneOptions{.seed = admission.seed,
                                            .place = admission.scene.place,
                                            .water = admission.scene.water.jerlov,
                                            .quality = quality,

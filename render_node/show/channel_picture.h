@@ -14,6 +14,7 @@
 #include "common/motion/reconstruct.h"
 #include "common/wall/picture.h"
 #include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 #include "render_node/gl/handle.h"
 #include "render_node/light/scene.h"
 #include "render_node/session/session.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <tuple>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -20,18 +19,6 @@ namespace {
 // On CLOCK_MONOTONIC, as FrameTimes.
 std::chrono::nanoseconds now() {
     return std::chrono::steady_clock::now().time_since_epoch();
-}
-
-// Whether what was built for one welcome also serves the other: same rig, scene, seed, pattern and
-// cast, and the same fish in the same order.
-bool sameShow(const wire::Welcome& a, const wire::Welcome& b) {
-    const auto parts = [](const wire::Welcome& w) {
-        return std::tie(w.rigText, w.sceneText, w.seed, w.pattern, w.cast);
-    };
-    const auto sameFish = [](const motion::FishTraits& one, const motion::FishTraits& other) {
-        return one.id == other.id && one.lengthMillimetres == other.lengthMillimetres;
-    };
-    return parts(a) == parts(b) && std::ranges::equal(a.school, b.school, sameFish);
 }
 
 // Returns when the GPU has finished all that was submitted. A frame may be called ready only after
@@ -76,7 +63,7 @@ ChannelShow::ChannelShow(session::Session& session,
       options_{options},
       trace_{options.traceFolder, options.channel} {
     assert(options_.filmEvery > 0);
-    if (!options.filmPipe.empty()) film_.emplace(options.filmPipe);
+    if (!options.filmPipe.empty()) film_ = net::connectFrames(options.filmPipe);
 }
 
 void ChannelShow::run(session::Admission first) {
@@ -99,7 +86,7 @@ void ChannelShow::run(session::Admission first) {
 
 // When the same show goes on after an interruption, nothing is built again.
 void ChannelShow::build(session::Admission admission) {
-    if (built_ && sameShow(built_->welcome, admission.welcome)) return;
+    if (built_ && built_->show == admission.show) return;
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
     const glm::ivec2 size = admission.rig.channels[channel].sizePixels;
     if (picture_ && picture_->sizePixels() != size)
@@ -123,9 +110,8 @@ void ChannelShow::buildPicture(config::QualityTier quality) {
 }
 
 void ChannelShow::chooseQuality() {
-    const wire::Welcome& welcome = built_->welcome;
-    if (welcome.quality || welcome.pattern != wire::Pattern::World) {
-        bears_ = welcome.quality.value_or(config::QualityTier::Low);
+    if (built_->quality || built_->pattern != wire::Pattern::World) {
+        bears_ = built_->quality.value_or(config::QualityTier::Low);
     } else {
         bears_ =
             finestWithin(kBudgetShare / built_->rig.timing.refreshHertz,
@@ -169,9 +155,7 @@ session::Release ChannelShow::play() {
         if (seen) context_.swap();
         times.present = now();
         trace_.write(state->frame, times);
-        if (film_ && isFilmed(state->frame))
-            film_->write(state->frame.value,
-                         takePicture(*picture_, PictureBits::Dithered8, flat(*picture_)));
+        if (film_ && isFilmed(state->frame)) film(state->frame);
         undrawn_ = seen ? std::nullopt : state;
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
@@ -233,6 +217,11 @@ std::optional<WatchedMind> ChannelShow::watchMind(const wire::StateFrame& frame)
     auto latest = session_.latestMind();
     if (latest && latest->fish == mind.fish) mind.lines = std::move(latest->lines);
     return mind;
+}
+
+void ChannelShow::film(Frame frame) {
+    wall::Picture taken = takePicture(*picture_, PictureBits::Dithered8, flat(*picture_));
+    film_->send({frame.value, taken.sizePixels.x, taken.sizePixels.y, std::move(taken.rgb)});
 }
 
 bool ChannelShow::isFilmed(Frame frame) const {

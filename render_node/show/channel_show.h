@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,9 +16,9 @@
 
 #include "common/config/rig.h"
 #include "common/motion/reconstruct.h"
+#include "common/net/channels.h"
 #include "common/units/units.h"
-#include "common/wall/frame_pipe.h"
-#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 #include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
 #include "render_node/light/scene.h"
@@ -82,6 +83,7 @@ class ChannelShow {
     void draw(const wire::StateFrame& frame);
     void project(const Overlays& overlays, Shown shown);
     // Throws Error where the context is lost.
+    void film(Frame frame);
     void refuseLoss() const;
     // Sends the food that a visitor has dropped, as places of the world.
     void feed(const wire::Eye& eye);
@@ -100,7 +102,8 @@ class ChannelShow {
     Controls& controls_;
     NodeOptions options_;
     Trace trace_;
-    std::optional<wall::FramePipeWriter> film_;
+    // Sends frames to the program that encodes a clip; null: none.
+    std::unique_ptr<net::FrameSender> film_;
     // The admission that picture_ was built for.
     std::optional<session::Admission> built_;
     // The tier of picture_.

@@ -16,7 +16,7 @@
 #include "common/config/rig.h"
 #include "common/units/units.h"
 #include "common/wall/wall.h"
-#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 #include "render_node/gl/context.h"
 #include "render_node/session/session.h"
 

@@ -17,7 +17,7 @@ struct NodeOptions {
     std::string snapshotFolder;
     // 16 bits for each sample of the snapshot, in place of 8 dithered ones.
     bool deep = false;
-    // A named pipe that takes frames for a clip.
+    // A socket that takes frames for a clip.
     std::string filmPipe;
     // Every how many frames the clip takes one; at least 1.
     int filmEvery = 1;

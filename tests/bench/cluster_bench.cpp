@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 #include <spdlog/spdlog.h>
 
-#include "common/wire/envelope.h"
+#include "common/wire/messages.h"
 #include "tests/support/stage.h"
 
 namespace aquarama::bench {
@@ -45,7 +45,7 @@ void encodeFish(benchmark::State& bench) {
     const wire::StateFrame state = stateOf(bench.range(0));
     std::size_t bytes = 0;
     for (auto _ : bench) {
-        const wire::Packet packet = wire::encodeState(1, state);
+        const wire::Packet packet = wire::encodeState(1, wire::viewOf(state));
         bytes = packet.size();
         benchmark::DoNotOptimize(packet.data());
     }
@@ -53,10 +53,10 @@ void encodeFish(benchmark::State& bench) {
 }
 
 void decodeFish(benchmark::State& bench) {
-    const wire::Packet packet = wire::encodeState(1, stateOf(bench.range(0)));
+    const wire::Packet packet = wire::encodeState(1, wire::viewOf(stateOf(bench.range(0))));
     for (auto _ : bench) {
-        auto envelope = wire::decode(packet);
-        benchmark::DoNotOptimize(envelope);
+        auto state = wire::readState(wire::decode(packet)->state());
+        benchmark::DoNotOptimize(state);
     }
     report(bench, bench.range(0), packet.size());
 }

@@ -32,7 +32,7 @@ session::Admission admissionToTheSea() {
         channel.projector.focalPixels /= kSmaller;
         channel.projector.principalPixels /= kSmaller;
     }
-    admission.welcome.school = {{.id = 17, .lengthMillimetres = 400}};
+    admission.school = {{.id = 17, .lengthMillimetres = 400}};
     admission.cast = {
         {.file = "bigeye_scad.txtpb",
          .text = show::fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),

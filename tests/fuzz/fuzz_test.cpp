@@ -11,8 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/motion/repertoire.h"
-#include "common/wire/envelope.h"
-#include "tests/common/wire/sample_envelopes.h"
+#include "tests/common/wire/sample_messages.h"
 #include "tests/common/wire/sample_recording.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/targets.h"
@@ -83,8 +82,7 @@ TEST(Fuzz, damagedRecordingsAreRefusedOrReadWithinBounds) {
 
 TEST(Fuzz, damagedPacketsAreRefusedOrReadWhole) {
     std::vector<FuzzInput> seeds;
-    for (const wire::Envelope& envelope : wire::sampleEnvelopes())
-        seeds.push_back(inputOf(wire::encode(envelope)));
+    for (const wire::Packet& packet : wire::samplePackets()) seeds.push_back(inputOf(packet));
     feed(fuzzWire, seeds, 50000);
 }
 

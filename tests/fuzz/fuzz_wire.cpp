@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <span>
 
-#include "common/wire/envelope.h"
+#include "common/wire/messages.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 
@@ -9,12 +9,16 @@ namespace aquarama {
 
 // What is understood says the same when it is said again.
 int fuzzWire(const std::uint8_t* bytes, std::size_t size) {
-    const auto envelope = wire::decode(std::as_bytes(std::span(bytes, size)));
-    if (!envelope) return 0;
-    const wire::Packet said = wire::encode(*envelope);
+    const auto message = wire::decode(std::as_bytes(std::span(bytes, size)));
+    if (!message) return 0;
+    const wire::Packet said = wire::encode(message->session(), *message);
     const auto again = wire::decode(said);
     promise(again.has_value(), "what was decoded can be encoded and decoded");
-    promise(wire::encode(*again) == said, "an envelope is encoded in one way");
+    promise(wire::encode(again->session(), *again) == said, "a message is encoded in one way");
+    if (!message->has_state()) return 0;
+    const auto state = wire::readState(message->state());
+    promise(!state || wire::decode(wire::encodeState(1, wire::viewOf(*state))).has_value(),
+            "a state that was read can be encoded and decoded");
     return 0;
 }
 

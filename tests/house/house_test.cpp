@@ -157,6 +157,27 @@ TEST(House, protobufStaysInConfigAndWire) {
               std::vector<std::string>{});
 }
 
+// Generated messages are for who speaks to a peer: none reaches the world, the renderer or a header
+// that these include.
+TEST(House, generatedMessagesStayWithWhoSpeaks) {
+    const std::vector<std::string> speakers{"common/wire/",
+                                            "master/conductor/conductor.cpp",
+                                            "master/conductor/reception.cpp",
+                                            "master/conductor/requests.",
+                                            "render_node/session/master_link."};
+    EXPECT_EQ(strangers(std::regex("^common/wire/messages\\.h$"), speakers),
+              std::vector<std::string>{});
+    const std::vector<std::string> clients{"master/conductor/",
+                                           "master/explain_command.cpp",
+                                           "master/pilot_command.cpp",
+                                           "master/status_command.cpp"};
+    EXPECT_EQ(strangers(std::regex("^master/conductor/requests\\.h$"), clients),
+              std::vector<std::string>{});
+    EXPECT_EQ(
+        strangers(std::regex("^render_node/session/master_link\\.h$"), {"render_node/session/"}),
+        std::vector<std::string>{});
+}
+
 TEST(House, ffmpegStaysInTheTheatre) {
     EXPECT_EQ(strangers(std::regex("^lib(av|sw)"), {"calibration/theatre/"}),
               std::vector<std::string>{});

@@ -22,8 +22,9 @@
 #include "common/motion/repertoire.h"
 #include "common/units/log.h"
 #include "master/conductor/conductor.h"
-#include "render_node/session/link_session.h"
+#include "render_node/session/session.h"
 #include "tests/support/memory_channels.h"
+#include "tests/support/messages.h"
 
 namespace aquarama::test {
 
@@ -32,9 +33,6 @@ class CountingWorld final : public conductor::Simulation {
   public:
     void advance() override { ++tick_.value; }
     Tick tick() const override { return tick_; }
-    void records(std::vector<motion::FishRecord>& fish) const override {
-        fish.assign(3, motion::FishRecord{.x = static_cast<std::int32_t>(tick_.value)});
-    }
     // One pellet where each was dropped, while there is room; a hand moves the eye.
     void apply(const world::WorldInput& input) override {
         if (const auto* steering = std::get_if<Steering>(&input)) ahead_ = steering->ahead;
@@ -44,15 +42,19 @@ class CountingWorld final : public conductor::Simulation {
             *room =
                 wire::foodRecord(wire::FoodRecord::Kind::Pellet, drop->position - kFoodOrigin, 0);
     }
-    void food(wire::FoodCloud& cloud) const override { cloud = {kFoodOrigin, food_}; }
-    // As many metres ahead as the last hand asked for.
-    wire::Eye eye() const override {
-        return {.positionMetres = {0, 0, -static_cast<float>(ahead_)}};
-    }
-    float daylight() const override { return daylightAt(tick_); }
     std::uint64_t hash() const override { return hashAt(tick_); }
-    wire::Explanation explain(std::uint32_t fish) const override {
-        return {fish, 3, tick_, {"at tick " + std::to_string(tick_.value)}};
+    // The eye is as many metres ahead as the last hand asked for.
+    conductor::Snapshot snapshot() const override {
+        const motion::FishRecord fish{.x = static_cast<std::int32_t>(tick_.value)};
+        return {.tick = tick_,
+                .hash = hashAt(tick_),
+                .eye = {.positionMetres = {0, 0, -static_cast<float>(ahead_)}},
+                .daylight = daylightAt(tick_),
+                .fish = {fish, fish, fish},
+                .food = {kFoodOrigin, food_}};
+    }
+    std::vector<std::string> explain(std::uint32_t /*fish*/) const override {
+        return {"at tick " + std::to_string(tick_.value)};
     }
     static float daylightAt(Tick tick) { return 1.0F / static_cast<float>(1 + tick.value); }
     static constexpr glm::vec3 kFoodOrigin{1, 2, 3};
@@ -243,7 +245,7 @@ class StageMaster {
                 std::unique_ptr<net::MasterChannels> channels,
                 const config::Rig& rig = deskRig())
         : control_(channels->controlAddress()),
-          conductor_(rig, options, world_, welcomeTo(rig), blobs(), std::move(channels)),
+          conductor_(rig, options, world_, assets(), school(), std::move(channels)),
           thread_([this] { conduct(); }) {}
     ~StageMaster() {
         conductor_.stop();
@@ -271,10 +273,6 @@ class StageMaster {
     }
     const std::string& failure() const { return failure_; }  // after report()
 
-    static net::ByteVector species() {
-        const auto bytes = std::as_bytes(std::span{std::string_view("name: \"scad\"")});
-        return {bytes.begin(), bytes.end()};
-    }
     // Several chunks long.
     static const net::ByteVector& repertoire() {
         static const net::ByteVector bytes = [] {
@@ -289,22 +287,13 @@ class StageMaster {
         }();
         return bytes;
     }
-    static conductor::Blobs blobs() {
-        conductor::Blobs blobs;
-        for (net::ByteVector blob : {species(), repertoire()}) {
-            const Digest digest = digestOf(blob);
-            blobs.emplace(digest, std::move(blob));
-        }
-        return blobs;
+    static wire::AssetBundle assets() {
+        return {.seed = 77,
+                .sceneFile = "reef",
+                .scene = config::readTextFile(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb"),
+                .cast = {{"scad", "name: \"scad\"", repertoire(), 3}}};
     }
-    static wire::Welcome welcomeTo(const config::Rig& rig) {
-        wire::Welcome welcome;
-        welcome.rigText = rig.text;
-        welcome.sceneText = config::readTextFile(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
-        welcome.school = {{1, 200}, {2, 210}, {3, 220}};
-        welcome.cast = {{digestOf(species()), digestOf(repertoire()), 3}};
-        return welcome;
-    }
+    static std::vector<motion::FishTraits> school() { return {{1, 200}, {2, 210}, {3, 220}}; }
 
   private:
     void conduct() try { report_ = conductor_.run(); } catch (const Error& error) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/gpu/sea.h"
 
-#include <span>
+#include <utility>
 
 #include "common/config/scene.h"
 #include "common/units/digest.h"
@@ -13,34 +13,26 @@ namespace {
 
 session::Admission admissionTo(const simulation::Assets& assets, const world::World& world) {
     session::Admission admission;
-    admission.welcome.seed = assets.bytes.seed;
+    admission.seed = assets.bytes.seed;
     const auto school = world.traits();
-    admission.welcome.school.assign(school.begin(), school.end());
+    admission.school.assign(school.begin(), school.end());
     admission.scene = assets.scene;
-    for (const wire::SpeciesAssets& species : assets.bytes.cast) {
-        const auto text = std::as_bytes(std::span{species.text});
-        admission.welcome.cast.push_back(
-            {digestOf(text), digestOf(species.repertoire), species.fish});
-        admission.cast.push_back(species);
-    }
+    admission.cast = assets.bytes.cast;
     return admission;
 }
 
 wire::StateFrame frameAfter(const simulation::LivingWorld& world, const wire::StateFrame& last) {
-    wire::FoodCloud food;
-    world.food(food);
-    wire::StateFrame frame{.frame = {last.frame.value + 1},
-                           .tick = world.tick(),
-                           .fraction = 0.5F,
-                           .eye = world.eye(),
-                           .before = last.after,
-                           .after = {},
-                           .foodOriginMetres = food.originMetres,
-                           .foodBefore = last.foodAfter,
-                           .foodAfter = food.particles,
-                           .daylight = world.daylight()};
-    world.records(frame.after);
-    return frame;
+    conductor::Snapshot now = world.snapshot();
+    return {.frame = {last.frame.value + 1},
+            .tick = now.tick,
+            .fraction = 0.5F,
+            .eye = now.eye,
+            .before = last.after,
+            .after = std::move(now.fish),
+            .foodOriginMetres = now.food.originMetres,
+            .foodBefore = last.foodAfter,
+            .foodAfter = std::move(now.food.particles),
+            .daylight = now.daylight};
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/wire/messages.h"
+#include "common/wire/state_codec.h"
 #include "render_node/session/session.h"
 
 namespace aquarama::bench {

@@ -13,8 +13,8 @@
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/film.h"
 #include "common/config/rig.h"
+#include "common/net/channels.h"
 #include "common/units/log.h"
-#include "common/wall/frame_pipe.h"
 #include "tests/support/read_clip.h"
 
 namespace aquarama::theatre {
@@ -134,17 +134,17 @@ TEST_F(ClipTest, aPathThatCannotBeAndAnEndingThatIsUnknownAreNamed) {
 // What each channel of a rig sends, and the clip that comes of it.
 class FilmTest : public ClipTest {
   protected:
-    // Frame numbers that each channel sends before it closes its pipe.
+    // Frame numbers that each channel sends before it ends.
     void filmed(const Filming& filming, const std::vector<std::vector<std::uint64_t>>& frames) {
         std::vector<std::thread> nodes;
         for (std::size_t i = 0; i < frames.size(); ++i) {
-            const fs::path pipe = wall::framePipe(folder_, rig_.channels[i].name);
-            ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-            nodes.emplace_back([pipe, sent = frames[i], size = rig_.channels[i].sizePixels] {
-                wall::FramePipeWriter writer(pipe);
+            const fs::path socket = net::frameSocket(folder_, rig_.channels[i].name);
+            nodes.emplace_back([socket, sent = frames[i], size = rig_.channels[i].sizePixels] {
                 try {
+                    const auto sender = net::connectFrames(socket);
                     for (const std::uint64_t frame : sent)
-                        writer.write(frame, pictureAt(size, static_cast<int>(frame)));
+                        sender->send(
+                            {frame, size.x, size.y, pictureAt(size, static_cast<int>(frame)).rgb});
                 } catch (const Error&) {
                     return;  // the film ended before the node: what a test may be about
                 }

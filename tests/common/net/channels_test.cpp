@@ -2,8 +2,10 @@
 // The same promises for both kinds of channels, and over real sockets what strangers may do.
 #include "common/net/channels.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <thread>
@@ -299,6 +301,174 @@ TEST(ZmqChannels, aPacketThatIsTooLargeNeverArrives) {
     const auto heard = heardFrom(*node, *master, ByteVector(1000));
     ASSERT_TRUE(heard);
     EXPECT_EQ(heard->bytes.size(), 1000U);
+}
+
+void requireBindAddress(const std::string& address) {
+    EXPECT_NE(bindAddress(address), "");
+}
+
+std::string refusal(void (*check)(const std::string&), const std::string& address) {
+    try {
+        check(address);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Address, theLoopbackMayBeBound) {
+    for (const char* address :
+         {"tcp://127.0.0.1:7400", "tcp://127.8.9.1:1", "tcp://[::1]:65535", "tcp://127.0.0.1:*"}) {
+        EXPECT_EQ(refusal(requireBindAddress, address), "") << address;
+    }
+}
+
+TEST(Address, localhostIsThisMachineWhateverItsResolverThinks) {
+    EXPECT_EQ(bindAddress("tcp://localhost:7400"), "tcp://127.0.0.1:7400");
+}
+
+TEST(Address, nothingPastTheLoopbackMayBeBoundWithoutKeys) {
+    for (const char* address : {"tcp://0.0.0.0:7400",
+                                "tcp://*:7400",
+                                "tcp://192.168.1.4:7400",
+                                "tcp://[::]:7400",
+                                "tcp://[fe80::1]:7400",
+                                "tcp://128.0.0.1:7400",
+                                "tcp://eth0:7400"}) {
+        EXPECT_NE(refusal(requireBindAddress, address), "") << address;
+    }
+    EXPECT_THAT(refusal(requireBindAddress, "tcp://10.0.0.1:7400"),
+                testing::HasSubstr("without keys"));
+}
+
+TEST(Address, whatIsMalformedIsNamed) {
+    for (const char* address : {"",
+                                "7400",
+                                "127.0.0.1:7400",
+                                "udp://127.0.0.1:7400",
+                                "tcp://",
+                                "tcp://:7400",
+                                "tcp://127.0.0.1",
+                                "tcp://127.0.0.1:",
+                                "tcp://127.0.0.1:0",
+                                "tcp://127.0.0.1:65536",
+                                "tcp://127.0.0.1:74x",
+                                "tcp://127.0.0.1:-1",
+                                "tcp://a b:1",
+                                "tcp://[::1:7400"}) {
+        EXPECT_THAT(refusal(requireConnectAddress, address), testing::HasSubstr(address));
+        EXPECT_NE(refusal(requireConnectAddress, address), "") << address;
+        EXPECT_NE(refusal(requireBindAddress, address), "") << address;
+    }
+}
+
+TEST(Address, aNodeMayReachAnyHostButNeedsItsPort) {
+    EXPECT_EQ(refusal(requireConnectAddress, "tcp://master.hall:7400"), "");
+    EXPECT_NE(refusal(requireConnectAddress, "tcp://127.0.0.1:*"), "");
+}
+
+// A folder for the sockets of frames, which goes with the test.
+class FrameChannel : public testing::Test {
+  protected:
+    FrameChannel() {
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "aquarama-frames-XXXXXX").string();
+        path_ = frameSocket(mkdtemp(pattern.data()), "left");
+    }
+    ~FrameChannel() override { std::filesystem::remove_all(path_.parent_path()); }
+
+    static RawFrame frameOf(std::uint64_t number, std::int32_t width = 640) {
+        return {number, width, 2, std::vector<std::uint16_t>(std::size_t(width) * 6, number % 256)};
+    }
+
+    std::filesystem::path path_;
+};
+
+// More frames than the queues hold, from a sender that is gone before the last is received.
+TEST_F(FrameChannel, everyFrameArrivesInOrderAndThenTheEnd) {
+    std::thread node([path = path_] {
+        const auto sender = connectFrames(path);
+        for (std::uint64_t frame = 0; frame < 50; ++frame) sender->send(frameOf(frame));
+    });
+    const auto receiver = bindFrames(path_);
+    for (std::uint64_t frame = 0; frame < 50; ++frame) {
+        const auto received = receiver->receive();
+        ASSERT_TRUE(received) << frame;
+        EXPECT_EQ(received->frame, frame);
+        EXPECT_EQ(received->width, 640);
+        EXPECT_EQ(received->height, 2);
+        EXPECT_EQ(received->rgb, frameOf(frame).rgb);
+    }
+    EXPECT_FALSE(receiver->receive());
+    EXPECT_FALSE(receiver->receive());
+    node.join();
+}
+
+TEST_F(FrameChannel, aSenderWaitsForASlowReceiver) {
+    std::atomic<int> sent = 0;
+    constexpr int kFrames = 12;
+    std::thread node([&] {
+        const auto sender = connectFrames(path_);
+        for (int frame = 0; frame < kFrames; ++frame) {
+            sender->send(frameOf(static_cast<std::uint64_t>(frame), 1'000'000));
+            ++sent;
+        }
+    });
+    const auto receiver = bindFrames(path_);
+    ASSERT_TRUE(receiver->receive());
+    std::this_thread::sleep_for(milliseconds(300));
+    EXPECT_LT(sent, kFrames);
+    for (int frame = 1; frame < kFrames; ++frame) ASSERT_TRUE(receiver->receive());
+    node.join();
+}
+
+// Also one that is held up at the time, because its frames fill all queues.
+TEST_F(FrameChannel, aReceiverThatEndsIsAnErrorOfTheSender) {
+    for (const int before : {0, 100}) {
+        auto receiver = bindFrames(path_);
+        const auto sender = connectFrames(path_);
+        std::thread end([&] {
+            std::this_thread::sleep_for(milliseconds(100));
+            receiver.reset();
+        });
+        if (before == 0) end.join();
+        EXPECT_THROW(for (std::uint64_t frame = 0; frame < 10'000; ++frame)
+                         sender->send(frameOf(frame, 1'000'000)),
+                     Error);
+        if (end.joinable()) end.join();
+    }
+}
+
+TEST_F(FrameChannel, aSenderThatIsKilledIsTheEnd) {
+    const auto receiver = bindFrames(path_);
+    const pid_t node = fork();
+    if (node == 0) {
+        const auto sender = connectFrames(path_);
+        for (std::uint64_t frame = 0;; ++frame) sender->send(frameOf(frame, 1'000'000));
+    }
+    ASSERT_TRUE(receiver->receive());
+    kill(node, SIGKILL);
+    while (receiver->receive()) {
+    }
+    waitpid(node, nullptr, 0);
+}
+
+TEST_F(FrameChannel, whatIsNoFrameIsAnError) {
+    const auto receiver = bindFrames(path_);
+    zmq::context_t context;
+    zmq::socket_t stranger(context, zmq::socket_type::push);
+    stranger.connect("ipc://" + path_.string());
+    stranger.send(zmq::str_buffer("noise"), zmq::send_flags::none);
+    EXPECT_THROW(static_cast<void>(receiver->receive()), Error);
+}
+
+TEST_F(FrameChannel, aPlaceWhereNoSocketCanBeIsNamed) {
+    try {
+        static_cast<void>(bindFrames(path_.parent_path() / "nowhere" / "left"));
+        FAIL() << "listens nowhere";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("nowhere/left"));
+    }
 }
 
 }  // namespace

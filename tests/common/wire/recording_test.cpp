@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "common/units/log.h"
+#include "common/units/units.h"
+#include "common/wire/messages.h"
 #include "tests/common/wire/sample_recording.h"
 #include "tests/support/count_memory.h"
 

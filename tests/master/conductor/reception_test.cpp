@@ -21,26 +21,28 @@ using std::chrono::seconds;
 class Peer {
   public:
     explicit Peer(test::MemoryNet& net) : channels_(net.node()) { channels_->subscribeState(""); }
-    ~Peer() { say(wire::Farewell{}); }  // so that the master need not wait for it at the end
+    ~Peer() { say(test::farewell()); }  // so that the master need not wait for it at the end
     Peer(const Peer&) = delete;
     Peer& operator=(const Peer&) = delete;
 
-    void say(const wire::Message& message) {
-        channels_->sendControl(wire::encode({session, message}));
+    void say(const v1::Envelope& message) {
+        channels_->sendControl(wire::encode(session, message));
     }
     void sayNoise(const net::ByteVector& noise) { channels_->sendControl(noise); }
 
     // The next message of this kind, whatever comes between; empty after five seconds.
-    template <class Kind>
-    std::optional<Kind> hear() {
-        return awaitKind<Kind>([&] { return channels_->receiveControl(); }, seconds(5));
+    std::optional<v1::Envelope> hear(v1::Envelope::MessageCase kind) {
+        return await(
+            kind, [&] { return channels_->receiveControl(); }, seconds(5));
     }
-    template <class Kind>
-    bool hearsNo(net::Instant within) {
-        return !awaitKind<Kind>([&] { return channels_->receiveControl(); }, within);
+    bool hearsNo(v1::Envelope::MessageCase kind, net::Instant within) {
+        return !await(
+            kind, [&] { return channels_->receiveControl(); }, within);
     }
     std::optional<wire::StateFrame> seeState() {
-        return awaitKind<wire::StateFrame>([&] { return channels_->receiveState(); }, seconds(5));
+        const auto message = await(
+            v1::Envelope::kState, [&] { return channels_->receiveState(); }, seconds(5));
+        return message ? wire::readState(message->state()) : std::nullopt;
     }
     // Sees the state of this frame, says ready, and gives the frame that is presented then.
     std::optional<std::uint64_t> present(std::uint64_t frame) {
@@ -48,30 +50,32 @@ class Peer {
         do {
             state = seeState();
         } while (state && state->frame.value < frame);
-        say(wire::Ready{{frame}, {}});
-        const auto present = hear<wire::Present>();
-        return present ? std::optional{present->frame.value} : std::nullopt;
+        say(test::ready(frame));
+        const auto present = hear(v1::Envelope::kPresent);
+        return present ? std::optional{present->present().frame()} : std::nullopt;
     }
     // Hello, welcome, prepared: a member.
     bool join(const std::string& name, config::QualityTier bears = config::QualityTier::Low) {
-        say(wire::Hello{name, wire::kProtocolMajor, ""});
-        if (!hear<wire::Welcome>()) return false;
-        say(wire::Prepared{bears});
-        return hear<wire::Joined>().has_value();
+        say(test::hello(name));
+        if (!hear(v1::Envelope::kWelcome)) return false;
+        say(test::prepared(bears));
+        return hear(v1::Envelope::kJoined).has_value();
     }
 
     std::uint64_t session = 0;  // of the last message heard
 
   private:
-    template <class Kind, class Receive>
-    std::optional<Kind> awaitKind(Receive receive, net::Instant within) {
+    template <class Receive>
+    std::optional<v1::Envelope> await(v1::Envelope::MessageCase kind,
+                                      Receive receive,
+                                      net::Instant within) {
         const net::Instant end = net::monotonicNow() + within;
         while (net::monotonicNow() < end) {
             while (const auto bytes = receive()) {
-                auto envelope = wire::decode(*bytes);
-                if (!envelope) continue;
-                session = envelope->session;
-                if (auto* kind = std::get_if<Kind>(&envelope->message)) return std::move(*kind);
+                auto message = wire::decode(*bytes);
+                if (!message) continue;
+                session = message->session();
+                if (message->message_case() == kind) return message;
             }
             channels_->wait(milliseconds(5));
         }
@@ -89,10 +93,10 @@ class Reception : public testing::Test {
         options.expected = std::move(names);
         return options;
     }
-    wire::StatusReply status() {
+    v1::StatusReply status() {
         Peer asker(net_);
-        asker.say(wire::StatusRequest{});
-        return asker.hear<wire::StatusReply>().value_or(wire::StatusReply{});
+        asker.say(test::statusRequest());
+        return asker.hear(v1::Envelope::kStatusReply).value_or(v1::Envelope{}).status_reply();
     }
 
     test::MemoryNet net_;
@@ -101,41 +105,44 @@ class Reception : public testing::Test {
 TEST_F(Reception, refusesAnotherMajorVersionByName) {
     const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer peer(net_);
-    peer.say(wire::Hello{"left", wire::kProtocolMajor + 1, "9.9.9"});
-    const auto refusal = peer.hear<wire::Refusal>();
+    peer.say(test::hello("left", wire::kProtocolMajor + 1, "9.9.9"));
+    const auto refusal = peer.hear(v1::Envelope::kRefusal);
     ASSERT_TRUE(refusal);
-    EXPECT_THAT(refusal->reason, testing::HasSubstr("protocol 2"));
-    EXPECT_THAT(refusal->reason, testing::HasSubstr("9.9.9"));
+    EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("protocol 2"));
+    EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("9.9.9"));
 }
 
 TEST_F(Reception, refusesANameThatTheRigDoesNotHaveAndSaysWhichItHas) {
     const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer peer(net_);
-    peer.say(wire::Hello{"ceiling", wire::kProtocolMajor, ""});
-    const auto refusal = peer.hear<wire::Refusal>();
+    peer.say(test::hello("ceiling"));
+    const auto refusal = peer.hear(v1::Envelope::kRefusal);
     ASSERT_TRUE(refusal);
-    EXPECT_THAT(refusal->reason, testing::HasSubstr("left, middle, right"));
+    EXPECT_THAT(refusal->refusal().reason(), testing::HasSubstr("left, middle, right"));
 }
 
 TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
     ConductorOptions options;
-    options.seed = 77;
     options.pattern = wire::Pattern::Grid;
     const test::StageMaster master(options, net_.master());
     Peer peer(net_);
-    peer.say(wire::Hello{"left", wire::kProtocolMajor, ""});
-    const auto welcome = peer.hear<wire::Welcome>();
-    ASSERT_TRUE(welcome);
-    EXPECT_EQ(config::parseRig(welcome->rigText, "welcome").channels.size(), 3U);
-    EXPECT_EQ(welcome->stateAddress, "memory:state");
-    EXPECT_EQ(welcome->seed, 77U);
-    EXPECT_EQ(welcome->pattern, wire::Pattern::Grid);
-    EXPECT_EQ(welcome->school.size(), 3U);
-    net::BlobAssembly assembly(welcome->cast.at(0).repertoire);
+    peer.say(test::hello("left"));
+    const auto message = peer.hear(v1::Envelope::kWelcome);
+    ASSERT_TRUE(message);
+    const v1::Welcome& welcome = message->welcome();
+    EXPECT_EQ(config::parseRig(welcome.rig_text(), "welcome").channels.size(), 3U);
+    EXPECT_EQ(welcome.state_address(), "memory:state");
+    EXPECT_EQ(welcome.seed(), 77U);
+    EXPECT_EQ(welcome.pattern(), v1::PATTERN_GRID);
+    EXPECT_EQ(welcome.fish_ids_size(), 3);
+    net::BlobAssembly assembly(wire::digestIn(welcome.cast(0).repertoire()));
     while (!assembly.whole()) {
-        peer.say(wire::BlobRequest{assembly.digest(), assembly.nextOffset()});
-        const auto chunk = peer.hear<wire::BlobChunk>();
-        ASSERT_TRUE(chunk && assembly.take(chunk->offset, chunk->total, chunk->content));
+        peer.say(test::blobRequest(assembly.digest(), assembly.nextOffset()));
+        const auto answer = peer.hear(v1::Envelope::kBlobChunk);
+        ASSERT_TRUE(answer);
+        const v1::BlobChunk& chunk = answer->blob_chunk();
+        ASSERT_TRUE(assembly.take(
+            chunk.offset(), chunk.total(), std::as_bytes(std::span{chunk.content()})));
     }
     EXPECT_EQ(assembly.checked(), test::StageMaster::repertoire());
 }
@@ -144,13 +151,14 @@ TEST_F(Reception, welcomesWithAllThatANodeNeeds) {
 TEST_F(Reception, tellsAnybodyOfAMindAlsoWhileTheShowWaits) {
     const test::StageMaster master(lockstepOf({"left"}), net_.master());
     Peer asker(net_);
-    asker.say(wire::ExplainRequest{2});
-    const auto explanation = asker.hear<wire::Explanation>();
-    ASSERT_TRUE(explanation);
-    EXPECT_EQ(explanation->fish, 2U);
-    EXPECT_EQ(explanation->school, 3U);
-    EXPECT_EQ(explanation->lines,
-              std::vector{"at tick " + std::to_string(explanation->tick.value)});
+    asker.say(test::explainRequest(2));
+    const auto message = asker.hear(v1::Envelope::kExplanation);
+    ASSERT_TRUE(message);
+    const v1::Explanation& explanation = message->explanation();
+    EXPECT_EQ(explanation.fish(), 2U);
+    EXPECT_EQ(explanation.school(), 3U);
+    ASSERT_EQ(explanation.lines_size(), 1);
+    EXPECT_EQ(explanation.lines(0), "at tick " + std::to_string(explanation.tick()));
 }
 
 // What is dropped is in the world from one of the next ticks on; lockstep runs a few ahead.
@@ -162,33 +170,31 @@ TEST_F(Reception, aVisitorFeedsTheFishWhereTheyCanBeReachedAndNotTooOften) {
         return state.foodAfter.size() -
                static_cast<std::size_t>(std::ranges::count(state.foodAfter, wire::FoodRecord{}));
     };
-    const auto feed = [&](glm::vec3 place) {
-        left.say(wire::Input{wire::InputKind::DropFood, place, {}});
-    };
+    const auto feed = [&](glm::vec3 place) { left.say(test::dropFood(place)); };
     feed({0.5F, 0, -2.5F});
     for (int stuck = 0; stuck < 100; ++stuck) feed({0, 0, -2});
     std::optional<wire::StateFrame> state;
     for (std::uint64_t frame = 0; frame < 20; ++frame) {
         state = left.seeState();
         ASSERT_TRUE(state);
-        left.say(wire::Ready{{frame}, {}});
-        ASSERT_TRUE(left.hear<wire::Present>());
+        left.say(test::ready(frame));
+        ASSERT_TRUE(left.hear(v1::Envelope::kPresent));
     }
     EXPECT_EQ(pellets(*state), 1U);
     EXPECT_LT(glm::distance(state->foodAfter.front().offsetMetres() + state->foodOriginMetres,
                             {0.5F, 0, -2.5F}),
               1e-3F);
-    const std::uint64_t refused = status().refusedPackets;
+    const std::uint64_t refused = status().refused_packets();
     std::this_thread::sleep_for(milliseconds(250));
     feed({0, 100, 0});
     for (std::uint64_t frame = 20; frame < 40; ++frame) {
         state = left.seeState();
         ASSERT_TRUE(state);
-        left.say(wire::Ready{{frame}, {}});
-        ASSERT_TRUE(left.hear<wire::Present>());
+        left.say(test::ready(frame));
+        ASSERT_TRUE(left.hear(v1::Envelope::kPresent));
     }
     EXPECT_EQ(pellets(*state), 1U);
-    EXPECT_EQ(status().refusedPackets, refused + 2);  // and the farewell of who asked before
+    EXPECT_EQ(status().refused_packets(), refused + 2);  // and the farewell of who asked before
 }
 
 // From a window's node as from a pilot that drives no channel; whoever has hold last.
@@ -204,51 +210,50 @@ TEST_F(Reception, handsMoveTheEye) {
             const auto state = left.seeState();
             if (!state) return -1.0F;
             ahead = -state->eye.positionMetres.z;
-            left.say(wire::Ready{{frame}, {}});
-            if (!left.hear<wire::Present>()) return -1.0F;
+            left.say(test::ready(frame));
+            if (!left.hear(v1::Envelope::kPresent)) return -1.0F;
         }
         return ahead;
     };
-    left.say(wire::Input{wire::InputKind::Steer, {}, {.ahead = 5}});
+    left.say(test::steer({.ahead = 5}));
     EXPECT_EQ(eyeAfterSome(), 5);
-    pilot.say(wire::Input{wire::InputKind::Steer, {}, {.ahead = 7}});
+    pilot.say(test::steer({.ahead = 7}));
     EXPECT_EQ(eyeAfterSome(), 7);
-    EXPECT_EQ(status().pilot, "pilot");
-    left.say(
-        wire::Input{wire::InputKind::Steer, {}, {.ahead = 6}});  // still held, but not the latest
+    EXPECT_EQ(status().pilot(), "pilot");
+    left.say(test::steer({.ahead = 6}));  // still held, but not the latest
     EXPECT_EQ(eyeAfterSome(), 7);
-    pilot.say(wire::Input{wire::InputKind::Steer, {}, {}});
+    pilot.say(test::steer({}));
     EXPECT_EQ(eyeAfterSome(), 0);
-    EXPECT_NE(status().pilot, "pilot");
+    EXPECT_NE(status().pilot(), "pilot");
 }
 
 TEST_F(Reception, aSecondNodeOfANameWaitsUntilTheFirstIsSilent) {
     const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer first(net_);
     Peer second(net_);
-    first.say(wire::Hello{"left", wire::kProtocolMajor, ""});
-    ASSERT_TRUE(first.hear<wire::Welcome>());
-    second.say(wire::Hello{"left", wire::kProtocolMajor, ""});
-    const auto dismissed = second.hear<wire::Dismissed>();
+    first.say(test::hello("left"));
+    ASSERT_TRUE(first.hear(v1::Envelope::kWelcome));
+    second.say(test::hello("left"));
+    const auto dismissed = second.hear(v1::Envelope::kDismissed);
     ASSERT_TRUE(dismissed);
-    EXPECT_THAT(dismissed->reason, testing::HasSubstr("another node of this name"));
+    EXPECT_THAT(dismissed->dismissed().reason(), testing::HasSubstr("another node of this name"));
     std::this_thread::sleep_for(milliseconds(300));
-    second.say(wire::Hello{"left", wire::kProtocolMajor, ""});
-    EXPECT_TRUE(second.hear<wire::Welcome>());
-    first.say(wire::Ping{1});
-    EXPECT_TRUE(first.hear<wire::Dismissed>());
+    second.say(test::hello("left"));
+    EXPECT_TRUE(second.hear(v1::Envelope::kWelcome));
+    first.say(test::ping(1));
+    EXPECT_TRUE(first.hear(v1::Envelope::kDismissed));
 }
 
 TEST_F(Reception, sendsAwayWhoSpeaksWithoutHelloOrOfAnotherRun) {
     const test::StageMaster master(ConductorOptions{}, net_.master());
     Peer stranger(net_);
-    stranger.say(wire::Ready{{3}, {}});
-    EXPECT_TRUE(stranger.hear<wire::Dismissed>());
+    stranger.say(test::ready(3));
+    EXPECT_TRUE(stranger.hear(v1::Envelope::kDismissed));
     Peer node(net_);
     ASSERT_TRUE(node.join("left"));
     node.session ^= 2;
-    node.say(wire::Ping{1});
-    EXPECT_TRUE(node.hear<wire::Dismissed>());  // of the true run, by which it says farewell
+    node.say(test::ping(1));
+    EXPECT_TRUE(node.hear(v1::Envelope::kDismissed));  // of the true run, by which it says farewell
 }
 
 TEST_F(Reception, aNodeThatSaysFarewellIsNotWaitedFor) {
@@ -256,14 +261,14 @@ TEST_F(Reception, aNodeThatSaysFarewellIsNotWaitedFor) {
     Peer left(net_);
     ASSERT_TRUE(left.join("left"));
     ASSERT_TRUE(left.seeState());
-    left.say(wire::Farewell{});
+    left.say(test::farewell());
     Peer right(net_);
     ASSERT_TRUE(right.join("right"));
     const auto state = right.seeState();
     ASSERT_TRUE(state);
-    right.say(wire::Ready{state->frame, {}});
-    EXPECT_TRUE(right.hear<wire::Present>());
-    EXPECT_EQ(status().nodes[0].condition, wire::NodeCondition::Absent);
+    right.say(test::ready(state->frame.value));
+    EXPECT_TRUE(right.hear(v1::Envelope::kPresent));
+    EXPECT_EQ(status().nodes(0).condition(), v1::NODE_ABSENT);
 }
 
 TEST_F(Reception, whoSaysReadyTooEarlyOrTwiceChangesNothing) {
@@ -272,14 +277,14 @@ TEST_F(Reception, whoSaysReadyTooEarlyOrTwiceChangesNothing) {
     ASSERT_TRUE(left.join("left"));
     ASSERT_TRUE(right.join("right"));
     ASSERT_TRUE(left.seeState());
-    left.say(wire::Ready{{1}, {}});  // of a frame that nobody draws yet
-    left.say(wire::Ready{{0}, {}});
-    left.say(wire::Ready{{0}, {}});
-    left.say(wire::Ready{{~std::uint64_t{0}}, {}});
-    EXPECT_TRUE(left.hearsNo<wire::Present>(milliseconds(100)));
-    right.say(wire::Ready{{0}, {}});
-    EXPECT_EQ(left.hear<wire::Present>()->frame, Frame{0});
-    EXPECT_EQ(right.hear<wire::Present>()->frame, Frame{0});
+    left.say(test::ready(1));  // of a frame that nobody draws yet
+    left.say(test::ready(0));
+    left.say(test::ready(0));
+    left.say(test::ready(~std::uint64_t{0}));
+    EXPECT_TRUE(left.hearsNo(v1::Envelope::kPresent, milliseconds(100)));
+    right.say(test::ready(0));
+    EXPECT_EQ(left.hear(v1::Envelope::kPresent)->present().frame(), 0U);
+    EXPECT_EQ(right.hear(v1::Envelope::kPresent)->present().frame(), 0U);
 }
 
 TEST_F(Reception, aReleaseThatGotLostIsGivenAgain) {
@@ -288,11 +293,11 @@ TEST_F(Reception, aReleaseThatGotLostIsGivenAgain) {
     ASSERT_TRUE(left.join("left"));
     ASSERT_TRUE(left.seeState());
     for (int times = 0; times < 3; ++times) {
-        left.say(wire::Ready{{0}, {}});
-        const auto present = left.hear<wire::Present>();
+        left.say(test::ready(0));
+        const auto present = left.hear(v1::Envelope::kPresent);
         ASSERT_TRUE(present);
-        EXPECT_EQ(present->frame, Frame{0});
-        EXPECT_EQ(present->atNs, 0);  // lockstep: at once
+        EXPECT_EQ(present->present().frame(), 0U);
+        EXPECT_EQ(present->present().at_ns(), 0);  // lockstep: at once
     }
 }
 
@@ -310,7 +315,7 @@ TEST_F(Reception, noiseIsCountedAndChangesNothing) {
     for (std::uint64_t frame = 0; frame < 10; ++frame) {
         ASSERT_EQ(left.present(frame), frame);
     }
-    EXPECT_GE(status().refusedPackets, 500U);
+    EXPECT_GE(status().refused_packets(), 500U);
 }
 
 TEST_F(Reception, reportsReleaseSkewFromWhatNodesSay) {
@@ -320,17 +325,14 @@ TEST_F(Reception, reportsReleaseSkewFromWhatNodesSay) {
     ASSERT_TRUE(right.join("right"));
     for (std::uint64_t frame = 0; frame < 30; ++frame) {
         ASSERT_TRUE(left.seeState());
-        wire::Ready ready{{frame}, {}};
-        const auto releasedAt = static_cast<std::int64_t>(frame) * 16'000'000;
-        if (frame > 0) ready.released = wire::ReleaseReport{{frame - 1}, releasedAt};
-        left.say(ready);
-        if (frame > 0) ready.released->atNs += 3'000'000;
-        right.say(ready);
-        ASSERT_TRUE(left.hear<wire::Present>());
-        ASSERT_TRUE(right.hear<wire::Present>());
+        const auto at = static_cast<std::int64_t>(frame) * 16'000'000;
+        left.say(frame == 0 ? test::ready(0) : test::ready(frame, frame - 1, at));
+        right.say(frame == 0 ? test::ready(0) : test::ready(frame, frame - 1, at + 3'000'000));
+        ASSERT_TRUE(left.hear(v1::Envelope::kPresent));
+        ASSERT_TRUE(right.hear(v1::Envelope::kPresent));
     }
-    EXPECT_FLOAT_EQ(status().skewMedianMs, 3.0F);
-    EXPECT_FLOAT_EQ(status().skewP99Ms, 3.0F);
+    EXPECT_FLOAT_EQ(status().skew_median_ms(), 3.0F);
+    EXPECT_FLOAT_EQ(status().skew_p99_ms(), 3.0F);
 }
 
 // All nodes draw at one tier: the finest that each of them bears, also those that have left.
@@ -350,11 +352,11 @@ TEST_F(Reception, aRigMaySayHowFineItsWallIsDrawn) {
     options.quality = config::QualityTier::Ultra;
     test::StageMaster master(options, net_.master());
     Peer left(net_);
-    left.say(wire::Hello{"left", wire::kProtocolMajor, ""});
-    const auto welcome = left.hear<wire::Welcome>();
+    left.say(test::hello("left"));
+    const auto welcome = left.hear(v1::Envelope::kWelcome);
     ASSERT_TRUE(welcome);
-    EXPECT_EQ(welcome->quality, config::QualityTier::Ultra);
-    left.say(wire::Prepared{config::QualityTier::Low});
+    EXPECT_EQ(config::tierAt(welcome->welcome().quality()), config::QualityTier::Ultra);
+    left.say(test::prepared(config::QualityTier::Low));
     const auto state = left.seeState();
     ASSERT_TRUE(state);
     EXPECT_EQ(state->quality, config::QualityTier::Ultra);
@@ -371,7 +373,7 @@ TEST_F(Reception, writesWhenEachStateWentOut) {
         for (std::uint64_t frame = 0; frame < 5; ++frame) {
             ASSERT_EQ(left.present(frame), frame);
         }
-        ASSERT_TRUE(left.hear<wire::Farewell>());
+        ASSERT_TRUE(left.hear(v1::Envelope::kFarewell));
         EXPECT_EQ(master.report().frames, 5U);
     }
     std::ifstream file(options.traceDirectory / "master.csv");

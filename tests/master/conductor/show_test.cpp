@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "master/conductor/status.h"
+#include "master/conductor/requests.h"
 #include "tests/support/stage.h"
 
 namespace aquarama::conductor {
@@ -281,7 +281,7 @@ TEST(Show, itsStatusNamesEveryNode) {
     test::Journal journal;
     const test::StageNode left("left", master.connect(), journal);
     ASSERT_TRUE(journal.awaitPresented("left", 30));
-    const std::string text = runStatus(master.control());
+    const std::string text = statusText(RequestClient(master.control()).status());
     EXPECT_THAT(text, testing::HasSubstr("live"));
     EXPECT_THAT(text, testing::ContainsRegex("left +in step"));
     EXPECT_THAT(text, testing::ContainsRegex("right +absent"));

@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "master/conductor/meters.h"
-#include "master/conductor/status.h"
+#include "master/conductor/requests.h"
 #include "tests/support/stage.h"
 
 namespace aquarama::conductor {
@@ -141,34 +140,100 @@ TEST(SimulationThread, endsWhileItWaits) {
     }
 }
 
-TEST(RecentTimes, giveQuantilesOfTheLastTenSeconds) {
-    RecentTimes times;
-    EXPECT_EQ(times.quantileMs(0.5), 0.0F);
-    for (int ms = 1000; ms > 0; --ms) times.add(std::chrono::milliseconds(ms));
-    EXPECT_NEAR(times.quantileMs(0.0), 1.0F, 1e-3F);
-    EXPECT_NEAR(times.quantileMs(0.5), 300.0F, 1.0F);  // of 1 .. 600
-    EXPECT_NEAR(times.quantileMs(1.0), 600.0F, 1e-3F);
-}
-
-TEST(SkewMeter, measuresLatestMinusEarliestOfEachFrameInAnyOrder) {
-    SkewMeter meter;
-    for (std::uint64_t frame = 0; frame < 20; ++frame) {
-        meter.add({{frame}, 2'000'000});
-        meter.add({{frame}, 5'000'000});
-        if (frame > 0) meter.add({{frame - 1}, 1'000'000});  // a late report
-    }
-    EXPECT_FLOAT_EQ(meter.skews().quantileMs(0.5), 4.0F);
-}
-
-TEST(SkewMeter, oneNodeAloneHasNoSkew) {
-    SkewMeter meter;
-    for (std::uint64_t frame = 0; frame < 20; ++frame) meter.add({{frame}, 7});
-    EXPECT_EQ(meter.skews().quantileMs(1.0), 0.0F);
-}
-
-TEST(Status, saysWhenNoMasterAnswers) {
+TEST(RequestClient, saysWhenNoMasterAnswers) {
     const auto free = net::bindMaster("tcp://127.0.0.1:*", "tcp://127.0.0.1:*")->controlAddress();
-    EXPECT_THROW(static_cast<void>(runStatus(free)), Error);
+    EXPECT_THROW(static_cast<void>(RequestClient(free).status()), Error);
+}
+
+constexpr net::Instant kStart = std::chrono::seconds(100);
+
+Snapshot at(std::uint64_t tick, net::Instant due) {
+    return {{tick},
+            due,
+            tick * 10,
+            {glm::vec3(static_cast<float>(tick), 0, 0), {1, 0, 0, 0}},
+            1.0F / static_cast<float>(1 + tick),
+            {motion::FishRecord{.x = static_cast<std::int32_t>(tick)}},
+            {{7, 8, 9}, {{tick}}}};
+}
+
+SnapshotBuffer ticks(std::uint64_t first, std::uint64_t last) {
+    SnapshotBuffer snapshots;
+    for (std::uint64_t tick = first; tick <= last; ++tick) {
+        snapshots.add(at(tick, kStart + static_cast<std::int64_t>(tick) * kTickPeriod));
+    }
+    return snapshots;
+}
+
+TEST(SnapshotBuffer, isEmptyBeforeTheFirstTick) {
+    EXPECT_FALSE(SnapshotBuffer{}.showing({0}, kStart));
+    EXPECT_FALSE(SnapshotBuffer{}.showing({0}, Tick{0}));
+    EXPECT_FALSE(SnapshotBuffer{}.newest());
+}
+
+TEST(SnapshotBuffer, lockstepShowsTheTickItself) {
+    const SnapshotBuffer snapshots = ticks(0, 5);
+    const auto state = snapshots.showing({9}, Tick{3});
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->frame, Frame{9});
+    EXPECT_EQ(state->tick, Tick{3});
+    EXPECT_EQ(state->fraction, 1.0F);
+    EXPECT_TRUE(state->before.empty());
+    EXPECT_EQ(state->after[0].x, 3);
+    EXPECT_EQ(state->foodOriginMetres, glm::vec3(7, 8, 9));
+    EXPECT_TRUE(state->foodBefore.empty());
+    EXPECT_EQ(state->foodAfter[0].bits, 3U);
+    EXPECT_EQ(state->daylight, 0.25F);
+    EXPECT_EQ(state->worldHash, 30U);
+    EXPECT_FALSE(snapshots.showing({9}, Tick{6}));
+}
+
+TEST(SnapshotBuffer, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
+    const SnapshotBuffer snapshots = ticks(0, 5);
+    const auto state = snapshots.showing({1}, kStart + 2 * kTickPeriod + kTickPeriod / 4);
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->tick, Tick{3});
+    EXPECT_NEAR(state->fraction, 0.25F, 1e-6F);
+    EXPECT_EQ(state->before[0].x, 2);
+    EXPECT_EQ(state->after[0].x, 3);
+    EXPECT_NEAR(state->eye.positionMetres.x, 2.25F, 1e-5F);
+    EXPECT_EQ(state->foodBefore[0].bits, 2U);
+    EXPECT_EQ(state->foodAfter[0].bits, 3U);
+    EXPECT_NEAR(state->daylight, 0.75F / 3 + 0.25F / 4, 1e-6F);
+}
+
+TEST(SnapshotBuffer, aTicksOwnMomentShowsItAlone) {
+    const SnapshotBuffer snapshots = ticks(0, 5);
+    const auto state = snapshots.showing({1}, kStart + 4 * kTickPeriod);
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->tick, Tick{4});
+    EXPECT_EQ(state->fraction, 1.0F);
+    EXPECT_TRUE(state->before.empty());
+}
+
+TEST(SnapshotBuffer, momentsOutsideShowTheNearestTick) {
+    EXPECT_EQ(ticks(3, 5).showing({1}, kStart)->tick, Tick{3});
+    EXPECT_EQ(ticks(3, 5).showing({1}, kStart * 2)->tick, Tick{5});
+}
+
+TEST(SnapshotBuffer, theWorldStandsStillThroughAPause) {
+    SnapshotBuffer snapshots = ticks(0, 1);
+    snapshots.add(at(2, kStart + 600 * kTickPeriod));
+    for (const int tick : {2, 300, 599}) {
+        const auto state = snapshots.showing({1}, kStart + tick * kTickPeriod);
+        EXPECT_EQ(state->tick, Tick{1});
+        EXPECT_EQ(state->fraction, 1.0F);
+    }
+    const auto state = snapshots.showing({1}, kStart + 599 * kTickPeriod + kTickPeriod / 2);
+    EXPECT_EQ(state->tick, Tick{2});
+    EXPECT_NEAR(state->fraction, 0.5F, 1e-6F);
+}
+
+TEST(SnapshotBuffer, forgetsTheOldest) {
+    const SnapshotBuffer snapshots = ticks(0, 100);
+    EXPECT_FALSE(snapshots.showing({0}, Tick{100 - SnapshotBuffer::kKept}));
+    EXPECT_TRUE(snapshots.showing({0}, Tick{101 - SnapshotBuffer::kKept}));
+    EXPECT_EQ(snapshots.newest(), Tick{100});
 }
 
 }  // namespace

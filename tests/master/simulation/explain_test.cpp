@@ -5,10 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/wire/envelope.h"
+#include "common/wire/messages.h"
 #include "master/simulation/insight.h"
 #include "master/simulation/living_world.h"
 #include "tests/master/world/few_fish.h"
+#include "tests/support/messages.h"
 #include "tests/support/synthetic_assets.h"
 
 namespace aquarama::simulation {
@@ -30,8 +31,7 @@ TEST(Explain, lookingIntoAMindChangesNothing) {
     Lived watched(options, 200);
     Lived alone(options, 200);
     for (int tick = 0; tick < 60; ++tick) {
-        for (std::uint32_t fish = 0; fish < 41; ++fish)
-            ASSERT_FALSE(watched.explain(fish).lines.empty());
+        for (std::uint32_t fish = 0; fish < 41; ++fish) ASSERT_FALSE(watched.explain(fish).empty());
         ASSERT_EQ(watched.hash(), alone.hash()) << tick;
         watched.advance();
         alone.advance();
@@ -44,23 +44,21 @@ TEST(Explain, everyMindFitsOnAScreenOfPlainText) {
     for (int tick = 0; tick < 300; ++tick) {
         world.advance();
         for (std::uint32_t fish = 0; fish < 41; ++fish) {
-            const wire::Explanation explanation = world.explain(fish);
-            ASSERT_LE(explanation.lines.size(), kScreenLines);
-            for (const std::string& line : explanation.lines) {
+            const std::vector<std::string> lines = world.explain(fish);
+            ASSERT_LE(lines.size(), kScreenLines);
+            for (const std::string& line : lines) {
                 ASSERT_LE(line.size(), kScreenColumns) << line;
                 ASSERT_TRUE(std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; }))
                     << line;
             }
-            ASSERT_TRUE(wire::decode(wire::encode({1, explanation})));
+            ASSERT_TRUE(wire::decode(wire::encode(1, test::explanation(fish, 41, 0, lines))));
         }
     }
 }
 
 TEST(Explain, aFishThatIsNotThereHasNoLines) {
     const Lived world(worldOptionsOf(test::syntheticAssets()), 1);
-    const wire::Explanation explanation = world.explain(41);
-    EXPECT_EQ(explanation.school, 41U);
-    EXPECT_TRUE(explanation.lines.empty());
+    EXPECT_TRUE(world.explain(41).empty());
 }
 
 // Exactly one rule wins; whatever is after it has lost, each for a reason that is printed.
@@ -73,7 +71,7 @@ TEST(Explain, oneIntentionWinsAndEveryOtherSaysWhyItLost) {
             std::ranges::count(
                 insight->reasoning.rules, behaviour::Verdict::Wins, &behaviour::Weighed::verdict),
             1);
-        const std::vector<std::string> lines = world.explain(fish).lines;
+        const std::vector<std::string> lines = world.explain(fish);
         const auto why = std::ranges::find_if(
             lines, [](const std::string& line) { return line.starts_with("WHY"); });
         ASSERT_EQ(lines.end() - why, static_cast<std::ptrdiff_t>(behaviour::kPriorityRules));
@@ -93,11 +91,11 @@ TEST(Explain, aFrightenedFishIsSaidToFlee) {
     const auto insight = insightInto(world.world(), 0);
     ASSERT_TRUE(insight);
     EXPECT_GT(insight->feelings.fear, 0.25F);
-    const std::vector<std::string> lines = world.explain(0).lines;
+    const std::vector<std::string> lines = world.explain(0);
     EXPECT_THAT(lines, Contains(HasSubstr("synthetic shark, ")));
     EXPECT_THAT(lines, Contains(AllOf(HasSubstr("INTENDS"), HasSubstr("escape"))));
     EXPECT_THAT(lines, Contains(HasSubstr("comes after fear")));
-    EXPECT_THAT(world.explain(1).lines, Contains(HasSubstr("predator")));
+    EXPECT_THAT(world.explain(1), Contains(HasSubstr("predator")));
 }
 
 TEST(Explain, anEatenFishIsSaidToBeAway) {

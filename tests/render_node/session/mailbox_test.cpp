@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render_node/session/mailbox.h"
-
 #include <gtest/gtest.h>
+
+#include "render_node/session/master_link.h"
 
 namespace aquarama::session {
 namespace {

@@ -38,7 +38,7 @@ wire::StateFrame frameWithAFish(const motion::BodyFrame& body = {.position = kFi
 
 session::Admission admissionToTheWorld() {
     session::Admission admission = admissionTo(wire::Pattern::World);
-    admission.welcome.school = {{.id = 17, .lengthMillimetres = 240}};
+    admission.school = {{.id = 17, .lengthMillimetres = 240}};
     admission.cast = {
         {.file = "bigeye_scad.txtpb",
          .text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),
@@ -171,9 +171,9 @@ TEST_F(ChannelPictureTest, theFishNearestToThePointerIsTheOneThatIsSeenThere) {
         frameWithAFish({.position = place::kEyePosition + glm::vec3(-0.7F, 0, -3)});
     frame.after.push_back(other.after.front());
     session::Admission two = stage->admission;
-    two.welcome.school.push_back({.id = 18, .lengthMillimetres = 240});
+    two.school.push_back({.id = 18, .lengthMillimetres = 240});
     two.cast.front().fish = 2;
-    two.welcome.pattern = wire::Pattern::World;
+    two.pattern = wire::Pattern::World;
     ChannelPicture picture(two, kMiddle, config::QualityTier::Low);
     EXPECT_EQ(picture.fishNearest(emptySea(), {240, 180}), std::nullopt);
     EXPECT_EQ(picture.fishNearest(frame, glm::vec2(pixelOf(two.rig, kMiddle, kFishPlace))), 0U);

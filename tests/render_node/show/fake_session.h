@@ -55,13 +55,15 @@ class FakeSession : public session::Session {
     void dropFood(glm::vec3 positionMetres) override { drops_.push_back(positionMetres); }
     void steer(const Steering& steering) override { steerings_.push_back(steering); }
     void askMind(std::uint32_t fish) override { events_.push_back("ask " + std::to_string(fish)); }
-    [[nodiscard]] std::optional<wire::Explanation> latestMind() const override { return mind_; }
+    [[nodiscard]] std::optional<session::ExplainedMind> latestMind() const override {
+        return mind_;
+    }
     void stop() override { events_.emplace_back("stop"); }
 
     std::optional<session::Admission> rejoin_;
     std::vector<glm::vec3> drops_;
     std::vector<Steering> steerings_;
-    std::optional<wire::Explanation> mind_;
+    std::optional<session::ExplainedMind> mind_;
 
   private:
     Events& events_;
@@ -108,11 +110,9 @@ inline std::string fileText(const std::string& path) {
 inline session::Admission admissionTo(wire::Pattern pattern) {
     session::Admission admission;
     admission.rig = wall::shippedRig("desk");
-    admission.welcome.rigText = admission.rig.text;
     admission.scene = config::readScene(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
-    admission.welcome.sceneText = admission.scene.text;
-    admission.welcome.seed = 1;
-    admission.welcome.pattern = pattern;
+    admission.seed = 1;
+    admission.pattern = pattern;
     return admission;
 }
 

@@ -34,7 +34,7 @@ session::Admission admissionInStereo(config::StereoMode mode,
     }
     admission.rig.stereo = {.mode = mode, .eyeSeparationMetres = separationMetres};
     admission.scene.place = place;
-    admission.welcome.school = {{.id = 17, .lengthMillimetres = 300}};
+    admission.school = {{.id = 17, .lengthMillimetres = 300}};
     admission.cast = {
         {.file = "bigeye_scad.txtpb",
          .text = fileText(AQUARAMA_SOURCE_DIR "/config/species/bigeye_scad.txtpb"),

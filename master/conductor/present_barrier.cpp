@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/net/present_barrier.h"
+#include "master/conductor/present_barrier.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
-namespace aquarama::net {
+namespace aquarama::conductor {
 
-PresentBarrier::PresentBarrier(std::size_t nodes, const BarrierLimits& limits, Instant start)
+PresentBarrier::PresentBarrier(std::size_t nodes, const BarrierLimits& limits, net::Instant start)
     : limits_(limits), nodes_(nodes) {
     for (Node& node : nodes_) node.lastHeard = start;
 }
 
-void PresentBarrier::heard(std::size_t node, Instant now) {
+void PresentBarrier::heard(std::size_t node, net::Instant now) {
+    assert(node < nodes_.size());
     nodes_[node].lastHeard = now;
 }
 
 void PresentBarrier::join(std::size_t node, Frame first) {
+    assert(node < nodes_.size());
     Node& joining = nodes_[node];
     joining.member = true;
     joining.late = false;
@@ -28,7 +31,7 @@ void PresentBarrier::leave(std::size_t node) {
     nodes_[node].readyFor.reset();
 }
 
-std::vector<std::size_t> PresentBarrier::expelSilent(Instant now) {
+std::vector<std::size_t> PresentBarrier::expelSilent(net::Instant now) {
     std::vector<std::size_t> expelled;
     if (limits_.lockstep) return expelled;
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
@@ -45,7 +48,7 @@ void PresentBarrier::begin(Frame frame) {
     deadline_.reset();
 }
 
-void PresentBarrier::ready(std::size_t node, Frame frame, Instant now) {
+void PresentBarrier::ready(std::size_t node, Frame frame, net::Instant now) {
     Node& speaker = nodes_[node];
     if (!frame_ || !speaker.member) return;
     const bool isAhead = frame.value == frame_->value + 1;
@@ -81,11 +84,11 @@ bool PresentBarrier::hasMembers() const {
     return std::ranges::any_of(nodes_, &Node::member);
 }
 
-PresentBarrier::Decision PresentBarrier::decide(Instant now) {
+PresentBarrier::Decision PresentBarrier::decide(net::Instant now) {
     return limits_.lockstep ? decideLockstep(now) : decideLive(now);
 }
 
-PresentBarrier::Decision PresentBarrier::decideLive(Instant now) {
+PresentBarrier::Decision PresentBarrier::decideLive(net::Instant now) {
     std::size_t waitedFor = 0;
     std::size_t missing = 0;
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
@@ -107,10 +110,10 @@ PresentBarrier::Decision PresentBarrier::decideLive(Instant now) {
     return {Verdict::Present, {}, 0};
 }
 
-PresentBarrier::Decision PresentBarrier::decideLockstep(Instant now) const {
+PresentBarrier::Decision PresentBarrier::decideLockstep(net::Instant now) const {
     const auto quietest = std::ranges::min_element(nodes_, {}, &Node::lastHeard);
     if (quietest == nodes_.end()) return {};
-    const Instant end = quietest->lastHeard + limits_.patience;
+    const net::Instant end = quietest->lastHeard + limits_.patience;
     const auto name = static_cast<std::size_t>(quietest - nodes_.begin());
     const bool allReady =
         std::ranges::all_of(nodes_, [&](const Node& node) { return isReady(node); });
@@ -119,4 +122,34 @@ PresentBarrier::Decision PresentBarrier::decideLockstep(Instant now) const {
     return {Verdict::Wait, end, name};
 }
 
-}  // namespace aquarama::net
+void RecentTimes::add(net::Instant time) {
+    times_.push_back(time);
+    if (times_.size() > kKept) times_.pop_front();
+}
+
+float RecentTimes::quantileMs(double quantile) const {
+    assert(quantile >= 0 && quantile <= 1);
+    if (times_.empty()) return 0.0F;
+    std::vector<net::Instant> sorted(times_.begin(), times_.end());
+    const auto rank =
+        static_cast<std::ptrdiff_t>(quantile * static_cast<double>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
+    return std::chrono::duration<float, std::milli>(sorted[static_cast<std::size_t>(rank)]).count();
+}
+
+void SkewMeter::add(Frame frame, std::int64_t atNs) {
+    const auto span = std::ranges::find(spans_, frame, &Span::frame);
+    if (span != spans_.end()) {
+        span->earliestNs = std::min(span->earliestNs, atNs);
+        span->latestNs = std::max(span->latestNs, atNs);
+        ++span->nodes;
+        return;
+    }
+    spans_.push_back({frame, atNs, atNs, 1});
+    if (spans_.size() <= kOpen) return;
+    const Span& closed = spans_.front();
+    if (closed.nodes > 1) skews_.add(net::Instant{closed.latestNs - closed.earliestNs});
+    spans_.pop_front();
+}
+
+}  // namespace aquarama::conductor

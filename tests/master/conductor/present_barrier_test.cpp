@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/net/present_barrier.h"
+#include "master/conductor/present_barrier.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aquarama::net {
+namespace aquarama::conductor {
 namespace {
 
 using std::chrono::milliseconds;
@@ -29,7 +29,7 @@ PresentBarrier drawing(Frame frame, bool lockstep) {
     return barrier;
 }
 
-Instant at(int ms) {
+net::Instant at(int ms) {
     return milliseconds(ms);
 }
 
@@ -373,5 +373,30 @@ TEST(PresentBarrier, neverPresentsWhatTheWaitSetIsNotReadyFor) {
     }
 }
 
+TEST(RecentTimes, giveQuantilesOfTheLastTenSeconds) {
+    RecentTimes times;
+    EXPECT_EQ(times.quantileMs(0.5), 0.0F);
+    for (int ms = 1000; ms > 0; --ms) times.add(std::chrono::milliseconds(ms));
+    EXPECT_NEAR(times.quantileMs(0.0), 1.0F, 1e-3F);
+    EXPECT_NEAR(times.quantileMs(0.5), 300.0F, 1.0F);  // of 1 .. 600
+    EXPECT_NEAR(times.quantileMs(1.0), 600.0F, 1e-3F);
+}
+
+TEST(SkewMeter, measuresLatestMinusEarliestOfEachFrameInAnyOrder) {
+    SkewMeter meter;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) {
+        meter.add({frame}, 2'000'000);
+        meter.add({frame}, 5'000'000);
+        if (frame > 0) meter.add({frame - 1}, 1'000'000);  // a late report
+    }
+    EXPECT_FLOAT_EQ(meter.skews().quantileMs(0.5), 4.0F);
+}
+
+TEST(SkewMeter, oneNodeAloneHasNoSkew) {
+    SkewMeter meter;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) meter.add({frame}, 7);
+    EXPECT_EQ(meter.skews().quantileMs(1.0), 0.0F);
+}
+
 }  // namespace
-}  // namespace aquarama::net
+}  // namespace aquarama::conductor

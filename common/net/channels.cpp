@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only place that sees ZeroMQ. Messages are single-part (the ROUTER's address part aside),
-// queues are short: a peer that stalls costs a few frames of memory and nobody else's time.
-#include <algorithm>
-#include <array>
-#include <initializer_list>
+// The channels between master and nodes, over ZeroMQ.
+#include "common/net/channels.h"
+
 #include <utility>
 
 #include <zmq.hpp>
 
-#include "common/net/address.h"
-#include "common/net/channels.h"
-#include "common/net/wake_event.h"
+#include "common/net/sockets.h"
 #include "common/units/log.h"
 
 namespace aquarama::net {
@@ -20,106 +16,10 @@ constexpr int kStateQueue = 8;         // states in flight to one node, each way
 constexpr int kControlQueue = 64;      // small messages
 constexpr int kMasterLingerMs = 1000;  // how long a farewell may take to leave
 constexpr int kNodeLingerMs = 200;
-constexpr int kReconnectMs = 50;  // a master that restarts is found at once
-constexpr int kReconnectMaxMs = 500;
 constexpr int kMostRequests = 256;  // to the state channel in one turn: a flood stops no frame
 constexpr std::size_t kSubscriptionBytes = 256;  // the longest that the state channel listens to
 
-ByteVector bytesOf(const zmq::message_t& message) {
-    const auto* first = message.data<std::byte>();
-    return {first, first + message.size()};
-}
-
-zmq::socket_t openSocket(zmq::context_t& context,
-                         zmq::socket_type type,
-                         int queue,
-                         std::size_t maxBytes) {
-    zmq::socket_t socket(context, type);
-    socket.set(zmq::sockopt::sndhwm, queue);
-    socket.set(zmq::sockopt::rcvhwm, queue);
-    socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(maxBytes));
-    return socket;
-}
-
-// Only where it is asked for: else an address that was bound is reported in IPv6 clothes.
-void allowIpv6(zmq::socket_t& socket, const std::string& address) {
-    socket.set(zmq::sockopt::ipv6, address.find('[') != std::string::npos);
-}
-
-void bindSocket(zmq::socket_t& socket, const std::string& address) {
-    const std::string checked = bindAddress(address);
-    allowIpv6(socket, checked);
-    try {
-        socket.bind(checked);
-    } catch (const zmq::error_t& error) {
-        const bool occupied = error.num() == EADDRINUSE;
-        throw Error("cannot listen at " + address + ": " + error.what() +
-                    (occupied ? "; stop the other master there, or choose another port in the rig"
-                              : "; choose another address in the rig"));
-    }
-}
-
-void connectSocket(zmq::socket_t& socket, const std::string& address) {
-    requireConnectAddress(address);
-    allowIpv6(socket, address);
-    socket.set(zmq::sockopt::reconnect_ivl, kReconnectMs);
-    socket.set(zmq::sockopt::reconnect_ivl_max, kReconnectMaxMs);
-    try {
-        socket.connect(address);
-    } catch (const zmq::error_t& error) {
-        throw Error("cannot connect to " + address + ": " + error.what() +
-                    "; check the master's address");
-    }
-}
-
-// Where no space is left the message is dropped: the protocol repeats what matters.
-void sendOrDrop(zmq::socket_t& socket, ByteView bytes) {
-    try {
-        [[maybe_unused]] const auto sent =
-            socket.send(zmq::const_buffer(bytes.data(), bytes.size()), zmq::send_flags::dontwait);
-    } catch (const zmq::error_t&) {  // interrupted, or the connection is gone
-    }
-}
-
-bool receive(zmq::socket_t& socket, zmq::message_t& message) {
-    try {
-        return socket.recv(message, zmq::recv_flags::dontwait).has_value();
-    } catch (const zmq::error_t&) {
-        return false;
-    }
-}
-
-void skipParts(zmq::socket_t& socket, zmq::message_t& message) {
-    while (message.more() && receive(socket, message)) {
-    }
-}
-
-// A message of one part; any other is thrown away whole, and reads as empty bytes.
-std::optional<ByteVector> receiveSingle(zmq::socket_t& socket) {
-    zmq::message_t message;
-    if (!receive(socket, message)) return std::nullopt;
-    if (!message.more()) return bytesOf(message);
-    skipParts(socket, message);
-    return ByteVector{};
-}
-
-void pollSockets(std::initializer_list<zmq::socket_t*> sockets,
-                 const WakeEvent& wake,
-                 Instant atMost) {
-    std::array<zmq::pollitem_t, 3> items{};
-    std::size_t count = 0;
-    for (zmq::socket_t* socket : sockets) {
-        items[count++] = {socket->handle(), 0, ZMQ_POLLIN, 0};
-    }
-    items[count++] = {nullptr, wake.descriptor(), ZMQ_POLLIN, 0};
-    const auto ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(atMost, Instant{0}));
-    try {
-        zmq::poll(items.data(), count, ms);
-    } catch (const zmq::error_t&) {  // a signal: the caller looks around and waits again
-    }
-    if ((items[count - 1].revents & ZMQ_POLLIN) != 0) wake.clear();
-}
-
+// Control on a ROUTER, which names its peers; states on an XPUB, which shows us subscriptions.
 class ZmqMasterChannels final : public MasterChannels {
   public:
     ZmqMasterChannels(const std::string& controlAddress,
@@ -146,6 +46,7 @@ class ZmqMasterChannels final : public MasterChannels {
         sendOrDrop(control_, bytes);
     }
 
+    // A peer's name without a message reads as empty bytes.
     std::optional<FromPeer> receiveControl() override {
         zmq::message_t peer;
         if (!receive(control_, peer)) return std::nullopt;
@@ -198,6 +99,7 @@ class ZmqMasterChannels final : public MasterChannels {
     std::size_t noise_ = 0;
 };
 
+// Control on a DEALER, states on a SUB.
 class ZmqNodeChannels final : public NodeChannels {
   public:
     ZmqNodeChannels(const std::string& controlAddress, const PacketLimits& limits)

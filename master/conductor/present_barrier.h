@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is waited for before a frame is presented: a state machine without clock or sockets, so that
-// every fault can be played through in a test.
+// Which nodes are waited for before a frame is presented: a state machine without clock or sockets,
+// so that every fault can be played through in a test. And how regular the releases are.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "common/net/clock.h"
 #include "common/units/units.h"
 
-namespace aquarama::net {
+namespace aquarama::conductor {
 
+// How long the barrier waits.
 struct BarrierLimits {
     bool lockstep = false;
-    Instant deadline = std::chrono::microseconds(16667);  // live: how long the first that is ready
-                                                          // waits for the others
-    Instant membership = std::chrono::milliseconds(250);  // live: silence that ends membership
-    Instant patience = std::chrono::seconds(60);          // lockstep: silence that ends the show
+    net::Instant deadline = std::chrono::microseconds(16667);  // live: how long the first that is
+                                                               // ready waits for the others
+    net::Instant membership = std::chrono::milliseconds(250);  // live: silence that ends membership
+    net::Instant patience = std::chrono::seconds(60);  // lockstep: silence that ends the show
 };
 
 // Nodes are numbered by their channel's place in the rig.
@@ -32,18 +34,18 @@ struct BarrierLimits {
 // Lockstep: every node is waited for; one that is silent for `patience` ends the show.
 class PresentBarrier {
   public:
-    PresentBarrier(std::size_t nodes, const BarrierLimits& limits, Instant start);
+    PresentBarrier(std::size_t nodes, const BarrierLimits& limits, net::Instant start);
 
-    void heard(std::size_t node, Instant now);
+    void heard(std::size_t node, net::Instant now);
     // The node is prepared and sees every state from `first` on.
     void join(std::size_t node, Frame first);
     void leave(std::size_t node);
     // Live: members that fell silent; they are none from now on.
-    [[nodiscard]] std::vector<std::size_t> expelSilent(Instant now);
+    [[nodiscard]] std::vector<std::size_t> expelSilent(net::Instant now);
 
     // This frame is drawn now. Members that see its state are waited for, except late ones.
     void begin(Frame frame);
-    void ready(std::size_t node, Frame frame, Instant now);
+    void ready(std::size_t node, Frame frame, net::Instant now);
 
     enum class Verdict : std::uint8_t {
         Idle,     // nobody draws this frame
@@ -53,10 +55,10 @@ class PresentBarrier {
     };
     struct Decision {
         Verdict verdict = Verdict::Idle;
-        std::optional<Instant> until;
+        std::optional<net::Instant> until;
         std::size_t node = 0;
     };
-    [[nodiscard]] Decision decide(Instant now);
+    [[nodiscard]] Decision decide(net::Instant now);
 
     [[nodiscard]] bool isMember(std::size_t node) const { return nodes_[node].member; }
     [[nodiscard]] bool isWaitedFor(std::size_t node) const;
@@ -75,20 +77,50 @@ class PresentBarrier {
         bool late = false;  // out of the wait set since it missed a deadline
         std::optional<Frame> readyFor;
         Frame first;
-        Instant lastHeard{};
+        net::Instant lastHeard{};
         std::uint64_t timesLate = 0;
     };
     [[nodiscard]] bool isReady(const Node& node) const {
         return node.member && node.readyFor && node.readyFor == frame_;
     }
-    [[nodiscard]] Decision decideLive(Instant now);
-    [[nodiscard]] Decision decideLockstep(Instant now) const;
+    [[nodiscard]] Decision decideLive(net::Instant now);
+    [[nodiscard]] Decision decideLockstep(net::Instant now) const;
 
     BarrierLimits limits_;
     std::vector<Node> nodes_;
     std::optional<Frame> frame_;
     bool anyReady_ = false;
-    std::optional<Instant> deadline_;  // of frame_, as soon as anybody is ready for it
+    std::optional<net::Instant> deadline_;  // of frame_, as soon as anybody is ready for it
 };
 
-}  // namespace aquarama::net
+// Durations of the last 600 frames: ten seconds at 60 Hz.
+class RecentTimes {
+  public:
+    void add(net::Instant time);
+    [[nodiscard]] float quantileMs(
+        double quantile) const;  // quantile 0 to 1; 0 where there is nothing yet
+
+  private:
+    static constexpr std::size_t kKept = 600;
+    std::deque<net::Instant> times_;
+};
+
+// Release skew of a frame: the latest node's release minus the earliest's.
+class SkewMeter {
+  public:
+    // A node let go of this frame, in nanoseconds of the master's clock.
+    void add(Frame frame, std::int64_t atNs);
+    [[nodiscard]] const RecentTimes& skews() const { return skews_; }
+
+  private:
+    struct Span {
+        Frame frame;
+        std::int64_t earliestNs, latestNs;
+        int nodes;
+    };
+    static constexpr std::size_t kOpen = 8;  // frames whose reports may still be on their way
+    std::deque<Span> spans_;
+    RecentTimes skews_;
+};
+
+}  // namespace aquarama::conductor

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/conductor/terminal_steering.h"
+#include "master/conductor/steering.h"
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 
 #include <spdlog/fmt/fmt.h>
 
+#include "master/conductor/simulation_thread.h"
+
 namespace aquarama::conductor {
 
 namespace {
+
+constexpr net::Instant kSilence = kTicksOfAHand * kTickPeriod;
+// A window reports its steering thirty times a second; what comes much more often is ignored.
+constexpr net::Instant kBetween = std::chrono::milliseconds(8);
+constexpr std::size_t kMostPilots = 256;
 
 constexpr int kNotches = 4;  // to either side
 
@@ -53,6 +61,37 @@ std::int8_t moved(std::int8_t axis, int notches) {
 }
 
 }  // namespace
+
+bool InputArbitration::holds(const HeldInput& input, net::Instant now) {
+    return input.holds && now - input.heard < kSilence;
+}
+
+void InputArbitration::forgetTheSilent(net::Instant now) {
+    std::erase_if(inputs_, [&](const auto& one) { return now - one.second.heard >= kSilence; });
+}
+
+bool InputArbitration::accepts(const net::PeerId& pilot,
+                               const Steering& steering,
+                               net::Instant now) {
+    forgetTheSilent(now);
+    const bool holdsNow = steering != Steering{};
+    const auto known = inputs_.find(pilot);
+    if (known == inputs_.end() && (!holdsNow || inputs_.size() >= kMostPilots)) return false;
+    HeldInput& input = inputs_[pilot];
+    const bool held = input.holds;
+    if (held && holdsNow && now - input.heard < kBetween) return false;
+    input = {holdsNow, now};
+    const auto holder = inputs_.find(holder_);
+    const bool isFree = holder == inputs_.end() || !holder->second.holds;
+    if (holdsNow && (!held || isFree)) holder_ = pilot;
+    return holder_ == pilot && (holdsNow || held);
+}
+
+std::optional<net::PeerId> InputArbitration::pilot(net::Instant now) const {
+    const auto holder = inputs_.find(holder_);
+    if (holder == inputs_.end() || !holds(holder->second, now)) return std::nullopt;
+    return holder_;
+}
 
 void TerminalSteering::press(std::string_view bytes) {
     constexpr char kInterrupt = '\x03';

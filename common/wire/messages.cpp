@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/wire/messages.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <google/protobuf/io/coded_stream.h>
+
+#include "common/units/units.h"
+
+namespace aquarama::wire {
+namespace {
+
+constexpr int kEyeNumbers = 7;  // position and rotation
+// In the order of Input.steering.
+constexpr std::array kAxes{
+    &Steering::ahead, &Steering::aside, &Steering::up, &Steering::turn, &Steering::tilt};
+
+// The plain enums are cast to and from the generated ones.
+static_assert(int{v1::PACE_LIVE} == static_cast<int>(Pace::Live) &&
+              int{v1::PACE_LOCKSTEP} == static_cast<int>(Pace::Lockstep));
+static_assert(int{v1::PATTERN_WORLD} == static_cast<int>(Pattern::World) &&
+              int{v1::PATTERN_GRID} == static_cast<int>(Pattern::Grid) &&
+              int{v1::PATTERN_GREY} == static_cast<int>(Pattern::Grey));
+
+// No control characters, so that no peer can write lines of its own into a log.
+bool isText(const std::string& text, std::size_t maxBytes) {
+    return text.size() <= maxBytes && std::ranges::none_of(text, [](char c) {
+               const auto byte = static_cast<unsigned char>(c);
+               return byte < 0x20 || byte == 0x7F;
+           });
+}
+
+// Of a channel, a node or a build.
+bool isName(const std::string& text) {
+    return !text.empty() && isText(text, kMostNameBytes);
+}
+
+// Drawn with a font of ASCII, and printed.
+bool isLine(const std::string& line) {
+    return line.size() <= kMostExplanationLineBytes &&
+           std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+bool isDigest(const std::string& bytes) {
+    return bytes.size() == Digest{}.bytes.size();
+}
+
+// One overload a message: whether all that it needs is there and within bounds. An enum's value
+// that we do not know reads as unset, which is 0.
+bool isValid(const v1::Hello& m) {
+    return isName(m.channel()) && m.has_major() && isText(m.build(), kMostNameBytes);
+}
+
+bool isValid(const v1::Refusal& m) {
+    return m.has_reason() && isText(m.reason(), kMostReasonBytes);
+}
+
+bool isValid(const v1::Dismissed& m) {
+    return m.has_reason() && isText(m.reason(), kMostReasonBytes);
+}
+
+// As many lengths as fish, each of 16 bits as in motion::FishTraits.
+bool isSchool(const v1::Welcome& m) {
+    return m.fish_ids_size() <= int{kMostFish} &&
+           m.length_millimetres_size() == m.fish_ids_size() &&
+           std::ranges::all_of(m.length_millimetres(), [](std::uint32_t length) {
+               return length <= std::numeric_limits<std::uint16_t>::max();
+           });
+}
+
+// Species that together have as many fish as the school.
+bool isCast(const v1::Welcome& m) {
+    std::uint64_t fish = 0;
+    for (const v1::SpeciesBlobs& member : m.cast()) {
+        if (!isDigest(member.species()) || !isDigest(member.repertoire())) return false;
+        fish += member.fish();
+    }
+    return m.cast_size() <= int{kMostSpecies} && std::cmp_equal(fish, m.fish_ids_size());
+}
+
+bool isValid(const v1::Welcome& m) {
+    return m.rig_text().size() <= kMostRigTextBytes &&
+           m.scene_text().size() <= kMostSceneTextBytes &&
+           isText(m.state_address(), kMostReasonBytes) && m.has_seed() && m.pace() != 0 &&
+           m.pattern() != 0 && (!m.has_quality() || config::tierAt(m.quality())) && isSchool(m) &&
+           isCast(m);
+}
+
+bool isValid(const v1::BlobRequest& m) {
+    return isDigest(m.digest()) && m.has_offset() && m.offset() <= kMostBlobBytes;
+}
+
+// The content lies within the blob; written so that no sum overflows.
+bool isValid(const v1::BlobChunk& m) {
+    return isDigest(m.digest()) && m.has_offset() && m.has_total() &&
+           m.content().size() <= kBlobChunkBytes && m.total() <= kMostBlobBytes &&
+           m.offset() <= m.total() && m.content().size() <= m.total() - m.offset();
+}
+
+bool isValid(const v1::Prepared& m) {
+    return m.has_quality() && config::tierAt(m.quality());
+}
+
+// An earlier release is reported as a whole or not at all.
+bool isValid(const v1::Ready& m) {
+    return m.has_frame() && m.has_released_frame() == m.has_released_ns();
+}
+
+// Only food has a position, only a steering has axes.
+bool isValid(const v1::Input& m) {
+    const bool isFood = m.kind() == v1::INPUT_DROP_FOOD;
+    const bool isSteering = m.kind() == v1::INPUT_STEER;
+    const auto isNear = [](float number) { return std::abs(number) <= kMostInputMetres; };
+    const auto isShare = [](std::int32_t axis) {
+        return axis >= -kFullSteering && axis <= kFullSteering;
+    };
+    return m.kind() != 0 && m.position_size() == (isFood ? 3 : 0) &&
+           m.steering_size() == (isSteering ? int{kAxes.size()} : 0) &&
+           std::ranges::all_of(m.position(), isNear) &&  // a number that is none is not near
+           std::ranges::all_of(m.steering(), isShare);
+}
+
+bool isValid(const v1::NodeStatus& m) {
+    return isName(m.name()) && m.condition() != 0;
+}
+
+bool isValid(const v1::StatusReply& m) {
+    const std::array numbers{
+        m.frame_median_ms(), m.frame_p99_ms(), m.skew_median_ms(), m.skew_p99_ms(), m.speed_m_s()};
+    const auto isFinite = [](float number) { return std::isfinite(number); };
+    return m.pace() != 0 && std::ranges::all_of(numbers, isFinite) && readEye(m.eye()) &&
+           isText(m.pilot(), kMostNameBytes) && m.nodes_size() <= kMostNodes &&
+           std::ranges::all_of(m.nodes(), [](const v1::NodeStatus& node) { return isValid(node); });
+}
+
+bool isValid(const v1::Explanation& m) {
+    return m.has_fish() && m.has_school() && m.has_tick() && m.school() <= kMostFish &&
+           m.lines_size() <= kMostExplanationLines && std::ranges::all_of(m.lines(), isLine);
+}
+
+bool isValid(const v1::Envelope& m) {
+    switch (m.message_case()) {
+        case v1::Envelope::kHello:
+            return isValid(m.hello());
+        case v1::Envelope::kRefusal:
+            return isValid(m.refusal());
+        case v1::Envelope::kWelcome:
+            return isValid(m.welcome());
+        case v1::Envelope::kBlobRequest:
+            return isValid(m.blob_request());
+        case v1::Envelope::kBlobChunk:
+            return isValid(m.blob_chunk());
+        case v1::Envelope::kPrepared:
+            return isValid(m.prepared());
+        case v1::Envelope::kJoined:
+            return m.joined().has_first_frame();
+        case v1::Envelope::kReady:
+            return isValid(m.ready());
+        case v1::Envelope::kPresent:
+            return m.present().has_frame() && m.present().has_at_ns();
+        case v1::Envelope::kDismissed:
+            return isValid(m.dismissed());
+        case v1::Envelope::kPing:
+            return m.ping().has_sent_ns();
+        case v1::Envelope::kPong:
+            return m.pong().has_sent_ns() && m.pong().has_master_ns();
+        case v1::Envelope::kInput:
+            return isValid(m.input());
+        case v1::Envelope::kStatusReply:
+            return isValid(m.status_reply());
+        case v1::Envelope::kExplainRequest:
+            return m.explain_request().has_fish();
+        case v1::Envelope::kExplanation:
+            return isValid(m.explanation());
+        case v1::Envelope::kState:  // by readState()
+        case v1::Envelope::kBeacon:
+        case v1::Envelope::kFarewell:
+        case v1::Envelope::kStatusRequest:
+            return true;
+        case v1::Envelope::MESSAGE_NOT_SET:
+            break;
+    }
+    return false;
+}
+
+// In a large packet only these may be large: in the other messages a few bytes of a packet may
+// become a whole object.
+std::size_t mostBytesOf(std::uint32_t field) {
+    const bool mayBeLarge = field == v1::Envelope::kState || field == v1::Envelope::kWelcome ||
+                            field == v1::Envelope::kBlobChunk;
+    return mayBeLarge ? kMostPacketBytes : kMostSmallPacketBytes;
+}
+
+// Whether a field of an envelope is skipped: fixed64 or a message that is not too large. No
+// envelope of ours has another.
+bool skipField(google::protobuf::io::CodedInputStream& stream, std::uint32_t tag) {
+    constexpr std::uint32_t kFixed64 = 1, kDelimited = 2;
+    if ((tag & 7U) == kFixed64) return stream.Skip(8);
+    std::uint32_t size = 0;
+    return (tag & 7U) == kDelimited && stream.ReadVarint32(&size) &&
+           size <= mostBytesOf(tag >> 3U) && stream.Skip(static_cast<int>(size));
+}
+
+// Whether the packet may be parsed: looks at the sizes of its fields only.
+bool isBounded(std::span<const std::byte> packet) {
+    if (packet.size() <= kMostSmallPacketBytes) return true;
+    if (packet.size() > kMostPacketBytes) return false;
+    google::protobuf::io::CodedInputStream stream(
+        reinterpret_cast<const std::uint8_t*>(packet.data()), static_cast<int>(packet.size()));
+    while (const std::uint32_t tag = stream.ReadTag())
+        if (!skipField(stream, tag)) return false;
+    return stream.ConsumedEntireMessage();
+}
+
+}  // namespace
+
+// Fields are written in the order of their numbers: the same message is the same bytes.
+Packet encode(std::uint64_t session, v1::Envelope envelope) {
+    envelope.set_session(session);
+    Packet packet(envelope.ByteSizeLong());
+    assert(packet.size() <= kMostPacketBytes);
+    envelope.SerializeToArray(packet.data(), static_cast<int>(packet.size()));
+    return packet;
+}
+
+std::optional<v1::Envelope> decode(std::span<const std::byte> packet) {
+    v1::Envelope envelope;
+    if (!isBounded(packet) ||
+        !envelope.ParseFromArray(packet.data(), static_cast<int>(packet.size())) ||
+        !envelope.has_session() || !isValid(envelope))
+        return std::nullopt;
+    return envelope;
+}
+
+void writeEye(const Eye& eye, google::protobuf::RepeatedField<float>& numbers) {
+    const auto& position = eye.positionMetres;
+    const auto& rotation = eye.worldFromWall;
+    for (const float number : {position.x, position.y, position.z}) numbers.Add(number);
+    for (const float number : {rotation.w, rotation.x, rotation.y, rotation.z}) numbers.Add(number);
+}
+
+std::optional<Eye> readEye(const google::protobuf::RepeatedField<float>& e) {
+    if (e.size() != kEyeNumbers || !areFinite(e)) return std::nullopt;
+    return Eye{{e[0], e[1], e[2]}, {e[3], e[4], e[5], e[6]}};
+}
+
+bool areFinite(const google::protobuf::RepeatedField<float>& numbers) {
+    return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
+}
+
+v1::Input steeringInput(const Steering& steering) {
+    v1::Input input;
+    input.set_kind(v1::INPUT_STEER);
+    for (const auto axis : kAxes) input.add_steering(steering.*axis);
+    return input;
+}
+
+Steering steeringOf(const v1::Input& input) {
+    assert(std::cmp_equal(input.steering_size(), kAxes.size()));
+    Steering steering;
+    for (std::size_t i = 0; i < kAxes.size(); ++i)
+        steering.*kAxes[i] = static_cast<std::int8_t>(input.steering(static_cast<int>(i)));
+    return steering;
+}
+
+std::string bytesOf(const Digest& digest) {
+    return {digest.bytes.begin(), digest.bytes.end()};
+}
+
+Digest digestIn(const std::string& bytes) {
+    assert(isDigest(bytes));
+    Digest digest;
+    std::ranges::transform(
+        bytes, digest.bytes.begin(), [](char c) { return static_cast<std::uint8_t>(c); });
+    return digest;
+}
+
+}  // namespace aquarama::wire

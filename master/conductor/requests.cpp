@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "master/conductor/requests.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "common/units/log.h"
+
+namespace aquarama::conductor {
+namespace {
+
+const char* wordFor(v1::NodeCondition condition) {
+    switch (condition) {
+        case v1::NODE_ABSENT:
+            return "absent";
+        case v1::NODE_PREPARING:
+            return "preparing";
+        case v1::NODE_IN_STEP:
+            return "in step";
+        default:
+            return "late";
+    }
+}
+
+// Of the compass: 0 where the wall looks at first, 90 to the right of it.
+int headingDegrees(const wire::Eye& eye) {
+    const glm::vec3 nose = eye.worldFromWall * glm::vec3(0, 0, -1);
+    const float degrees = glm::degrees(std::atan2(nose.x, -nose.z));
+    return static_cast<int>(std::lround(degrees + 360)) % 360;
+}
+
+}  // namespace
+
+std::string submarineText(const v1::StatusReply& status) {
+    const wire::Eye eye = wire::readEye(status.eye()).value_or(wire::Eye{});
+    const glm::vec3 at = eye.positionMetres;
+    return fmt::format(
+        "at {:.1f} {:.1f} {:.1f} m   depth {:.1f} m   heading {:03}   {:.2f} m/s   {}",
+        at.x,
+        at.y,
+        at.z,
+        -at.y,
+        headingDegrees(eye),
+        status.speed_m_s(),
+        status.pilot().empty() ? "nobody steers" : status.pilot() + " steers");
+}
+
+std::string statusText(const v1::StatusReply& status) {
+    std::string text = fmt::format("{}{}   frame {}   tick {}\n",
+                                   status.pace() == v1::PACE_LIVE ? "live" : "lockstep",
+                                   status.paused() ? ", paused" : "",
+                                   status.frame(),
+                                   status.tick());
+    text += fmt::format("frame time    median {:8.2f} ms   p99 {:8.2f} ms\n",
+                        status.frame_median_ms(),
+                        status.frame_p99_ms());
+    text += fmt::format("release skew  median {:8.3f} ms   p99 {:8.3f} ms\n",
+                        status.skew_median_ms(),
+                        status.skew_p99_ms());
+    text += fmt::format("submarine     {}\n", submarineText(status));
+    text += fmt::format("refused packets {}\n\n", status.refused_packets());
+    text += fmt::format("{:<16} {:<10} {:>8} {:>8}\n", "node", "state", "late", "dropped");
+    for (const v1::NodeStatus& node : status.nodes()) {
+        text += fmt::format("{:<16} {:<10} {:>8} {:>8}\n",
+                            node.name(),
+                            wordFor(node.condition()),
+                            node.late(),
+                            node.dropped());
+    }
+    return text;
+}
+
+v1::StatusReply RequestClient::status() {
+    v1::Envelope question;
+    question.mutable_status_request();
+    return ask(question, v1::Envelope::kStatusReply).status_reply();
+}
+
+v1::Explanation RequestClient::explain(std::uint32_t fish) {
+    v1::Envelope question;
+    question.mutable_explain_request()->set_fish(fish);
+    return ask(question, v1::Envelope::kExplanation).explanation();
+}
+
+void RequestClient::steer(const Steering& steering) {
+    v1::Envelope input;
+    *input.mutable_input() = wire::steeringInput(steering);
+    channels_->sendControl(wire::encode(0, std::move(input)));
+}
+
+v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::MessageCase reply) {
+    constexpr net::Instant kPatience = std::chrono::seconds(2);
+    constexpr net::Instant kRepeat = std::chrono::milliseconds(50);
+    const net::Instant giveUp = net::monotonicNow() + kPatience;
+    while (net::monotonicNow() < giveUp) {
+        channels_->sendControl(wire::encode(0, question));
+        channels_->wait(kRepeat);
+        std::optional<v1::Envelope> newest;
+        while (const auto bytes = channels_->receiveControl()) {
+            auto message = wire::decode(*bytes);
+            if (message && message->message_case() == reply) newest = std::move(message);
+        }
+        if (newest) return *std::move(newest);
+    }
+    throw Error("no master answers at " + address_ +
+                "; start one, or name its control address with --master");
+}
+
+}  // namespace aquarama::conductor

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/wire/messages.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "common/units/units.h"
+#include "tests/common/wire/sample_messages.h"
+#include "tests/support/count_memory.h"
+
+namespace aquarama::wire {
+namespace {
+
+// decode(packet) and the memory that it took on the way.
+std::size_t memoryToDecode(std::span<const std::byte> packet) {
+    const std::size_t before = test::bytesTaken;
+    const auto message = decode(packet);
+    if (message) static_cast<void>(readState(message->state()));
+    return test::bytesTaken - before;
+}
+
+std::string nameOf(const Packet& packet) {
+    const auto message = decode(packet);
+    return "message kind " + std::to_string(message ? int{message->message_case()} : 0);
+}
+
+// What a receiver makes of a packet, all checks included.
+bool isUnderstood(std::span<const std::byte> packet) {
+    const auto message = decode(packet);
+    return message && (!message->has_state() || readState(message->state()));
+}
+
+bool isUnderstood(const v1::Envelope& message) {
+    return isUnderstood(encode(1, message));
+}
+
+std::optional<StateFrame> stateIn(const Packet& packet) {
+    const auto message = decode(packet);
+    return message ? readState(message->state()) : std::nullopt;
+}
+
+// Programs of one major version understand each other: the bytes of a message never change.
+TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
+    const std::vector<std::string> digests{
+        "53351d5185c87f27", "ae4cef27df3adcf5", "7687747413484398", "a3fdc54a6bf9ddbd",
+        "ad11dd27c0983987", "81410cb06e23d6ae", "a36e0f7f63cf522e", "67be4dfec55abf36",
+        "a8f675baedfe365b", "a0d58f772300ae41", "53120c895e56033d", "247b8e1afba65972",
+        "c7f3b369c0a00088", "a551c3a1e912174b", "760f621d6ecf57ec", "bc793839cd199cc1",
+        "d29f308dd2bccd54", "b4f804f1f21489db", "bcea5a3655123469", "133cce62e1fa4467",
+        "0e6d236a31b5abdd", "8ab8134b5d347401", "e0dfa8acf875aa5e"};
+    const std::vector<Packet> packets = samplePackets();
+    ASSERT_EQ(packets.size(), digests.size());
+    for (std::size_t i = 0; i < packets.size(); ++i)
+        EXPECT_EQ(toHex(digestOf(packets[i])).substr(0, 16), digests[i]) << nameOf(packets[i]);
+}
+
+TEST(Messages, everyKindComesBackToTheBit) {
+    for (const Packet& packet : samplePackets()) {
+        const auto decoded = decode(packet);
+        ASSERT_TRUE(decoded);
+        EXPECT_EQ(decoded->session(), 0x0123456789ABCDEFU);
+        EXPECT_EQ(encode(decoded->session(), *decoded), packet) << nameOf(packet);
+    }
+}
+
+TEST(Messages, aStateKeepsEveryBitOfEveryFish) {
+    const StateFrame sent = sampleState(1000);
+    const auto state = stateIn(encodeState(9, viewOf(sent)));
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->before, sent.before);
+    EXPECT_EQ(state->after, sent.after);
+    EXPECT_EQ(state->frame, sent.frame);
+    EXPECT_EQ(state->tick, sent.tick);
+    EXPECT_EQ(state->fraction, sent.fraction);
+    EXPECT_EQ(state->worldHash, sent.worldHash);
+    EXPECT_EQ(state->eye.positionMetres, sent.eye.positionMetres);
+    EXPECT_EQ(state->eye.worldFromWall, sent.eye.worldFromWall);
+    EXPECT_EQ(state->foodOriginMetres, sent.foodOriginMetres);
+    EXPECT_EQ(state->foodBefore, sent.foodBefore);
+    EXPECT_EQ(state->foodAfter, sent.foodAfter);
+    EXPECT_EQ(state->daylight, sent.daylight);
+    EXPECT_EQ(state->quality, sent.quality);
+}
+
+// An empty sea between two ticks, and a school before any food has come.
+TEST(Messages, aStateWithoutFishOrFoodIsAState) {
+    StateFrame state = sampleState(0);
+    EXPECT_TRUE(stateIn(encodeState(1, viewOf(state))));
+    state.foodBefore.clear();
+    state.foodAfter.clear();
+    EXPECT_TRUE(stateIn(encodeState(1, viewOf(state))));
+}
+
+TEST(FoodRecord, keepsAParticleToATenthOfAMillimetre) {
+    for (const glm::vec3 place : {glm::vec3(0), glm::vec3(63.99F, -63.99F, 0.001F)}) {
+        const FoodRecord record = foodRecord(FoodRecord::Kind::Pellet, place, 7);
+        EXPECT_LT(glm::distance(record.offsetMetres(), place), 1e-4F);
+        EXPECT_EQ(record.kind(), FoodRecord::Kind::Pellet);
+        EXPECT_EQ(record.generation(), 3U);
+        EXPECT_TRUE(record.isPossible());
+    }
+}
+
+TEST(FoodRecord, whatIsOutOfReachIsNotThere) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const glm::vec3 place :
+         {glm::vec3(65, 0, 0), glm::vec3(0, -1e30F, 0), glm::vec3(0, 0, nan)})
+        EXPECT_EQ(foodRecord(FoodRecord::Kind::Plankton, place, 1), FoodRecord{});
+    EXPECT_EQ(foodRecord(FoodRecord::Kind::None, {1, 2, 3}, 1), FoodRecord{});
+}
+
+TEST(Messages, aFishCostsItsRecordAndLittleMore) {
+    StateFrame state = sampleState(1000);
+    state.before.clear();
+    state.fraction = 1.0F;
+    EXPECT_LT(encodeState(9, viewOf(state)).size(), 1000 * sizeof(motion::FishRecord) + 200);
+}
+
+TEST(Messages, noPrefixOfAMessageIsAMessage) {
+    for (const Packet& packet : samplePackets()) {
+        for (std::size_t size = 0; size < packet.size(); ++size) {
+            EXPECT_FALSE(isUnderstood(std::span{packet}.first(size)))
+                << nameOf(packet) << " " << size;
+        }
+    }
+}
+
+TEST(Messages, alteredBytesNeitherCrashNorCostMemory) {
+    std::mt19937 random(20);
+    for (const Packet& packet : samplePackets()) {
+        for (int trial = 0; trial < 3000; ++trial) {
+            Packet altered = packet;
+            for (unsigned change = random() % 4 + 1; change > 0; --change) {
+                altered[random() % altered.size()] = static_cast<std::byte>(random());
+            }
+            ASSERT_LT(memoryToDecode(altered), 64 * altered.size() + 4096) << nameOf(packet);
+        }
+    }
+}
+
+TEST(Messages, noiseIsRefused) {
+    std::mt19937 random(21);
+    int accepted = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        Packet noise(random() % 200);
+        for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
+        accepted += decode(noise) ? 1 : 0;
+    }
+    EXPECT_EQ(accepted, 0);
+}
+
+TEST(Messages, aLargePacketOfTinyObjectsIsRefusedUnread) {
+    // session, then a status reply that holds a million empty nodes: two bytes each on the wire, an
+    // object each in memory.
+    Packet packet = encode(1, test::statusRequest());
+    packet.resize(9);
+    const std::size_t nodes = 1'000'000;
+    for (const unsigned byte : {0x92U, 0x01U}) packet.push_back(static_cast<std::byte>(byte));
+    for (std::size_t size = 2 * nodes; size > 0; size >>= 7U) {
+        packet.push_back(static_cast<std::byte>((size & 0x7FU) | (size > 0x7FU ? 0x80U : 0U)));
+    }
+    for (std::size_t i = 0; i < nodes; ++i) {
+        packet.push_back(std::byte{0x52});
+        packet.push_back(std::byte{0});
+    }
+    EXPECT_LT(memoryToDecode(packet), 4096U);
+    EXPECT_FALSE(decode(packet));
+}
+
+// Each way in which a state can be well-formed protobuf and still lie.
+TEST(Messages, aStateThatLiesIsRefused) {
+    const auto refused = [](auto alter) {
+        StateFrame state = sampleState(4);
+        alter(state);
+        return !stateIn(encodeState(1, viewOf(state)));
+    };
+    const auto nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(refused([](StateFrame&) {}));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.before.pop_back(); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.before.clear(); }));  // but the fraction is not 1
+    EXPECT_TRUE(refused([](StateFrame& s) { s.fraction = 1.01F; }));
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.fraction = nan; }));
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.eye.positionMetres.y = nan; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.after[3].segment = motion::kActions; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.before[0].fromSegment = 255; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.after[1].warpFrame = 9; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.pop_back(); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodBefore.clear(); }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[0].bits |= 3ULL << 60U; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.foodAfter[1].bits = 5; }));  // nothing, somewhere
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.foodOriginMetres.z = nan; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.daylight = -0.01F; }));
+    EXPECT_TRUE(refused([](StateFrame& s) { s.quality = static_cast<config::QualityTier>(4); }));
+    EXPECT_TRUE(refused([&](StateFrame& s) { s.daylight = nan; }));
+    EXPECT_TRUE(refused([](StateFrame& s) {
+        s.foodBefore.resize(kMostFood + 1);
+        s.foodAfter.resize(kMostFood + 1);
+    }));
+}
+
+// What a node sends may come from a broken one.
+TEST(Messages, foodIsDroppedAtAPlaceOrNotAtAll) {
+    const auto accepted = [](glm::vec3 place) { return isUnderstood(test::dropFood(place)); };
+    EXPECT_TRUE(accepted({0, -6, -kMostInputMetres}));
+    EXPECT_FALSE(accepted({0, -6, -2 * kMostInputMetres}));
+    EXPECT_FALSE(accepted({std::numeric_limits<float>::quiet_NaN(), -6, 0}));
+    EXPECT_FALSE(accepted({0, std::numeric_limits<float>::infinity(), 0}));
+    EXPECT_FALSE(isUnderstood(test::input(v1::INPUT_DROP_FOOD)));
+    v1::Envelope pause = test::dropFood({0, 0, 0});
+    pause.mutable_input()->set_kind(v1::INPUT_TOGGLE_PAUSE);
+    EXPECT_FALSE(isUnderstood(pause));
+    EXPECT_FALSE(isUnderstood(test::input(v1::INPUT_UNSPECIFIED)));
+}
+
+TEST(Messages, aSteeringIsOfSharesNoneBeyondFull) {
+    const Steering held{kFullSteering, -kFullSteering, 3, -1, 0};
+    const auto decoded = decode(encode(1, test::steer(held)));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(steeringOf(decoded->input()), held);
+    EXPECT_FALSE(isUnderstood(test::steer({-128, 0, 0, 0, 0})));
+    v1::Envelope four = test::input(v1::INPUT_STEER);
+    for (int axis = 0; axis < 4; ++axis) four.mutable_input()->add_steering(0);
+    EXPECT_FALSE(isUnderstood(four));
+}
+
+// A node splits the school by the cast: both must have the same fish.
+TEST(Messages, aCastOfMoreOrFewerFishThanTheSchoolIsRefused) {
+    const auto accepted = [](std::uint32_t fish) {
+        v1::Welcome welcome = sampleWelcome();
+        welcome.mutable_cast(1)->set_fish(fish);
+        return isUnderstood(test::welcome(welcome));
+    };
+    EXPECT_TRUE(accepted(1));
+    EXPECT_FALSE(accepted(0));
+    EXPECT_FALSE(accepted(2));
+    EXPECT_FALSE(accepted(0xFFFFFFFFU));
+}
+
+// Each bound of a welcome and of a status on its own.
+TEST(Messages, aWelcomeOrAStatusThatLiesIsRefused) {
+    const auto welcomed = [](auto alter) {
+        v1::Welcome welcome = sampleWelcome();
+        alter(welcome);
+        return isUnderstood(test::welcome(welcome));
+    };
+    EXPECT_TRUE(welcomed([](v1::Welcome& w) { w.clear_quality(); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.set_quality(4); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.clear_seed(); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.clear_pace(); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.clear_pattern(); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.set_length_millimetres(0, 65536); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.add_fish_ids(1); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.mutable_cast(0)->set_species("short"); }));
+    EXPECT_FALSE(welcomed([](v1::Welcome& w) { w.set_state_address("a\nb"); }));
+    EXPECT_FALSE(
+        welcomed([](v1::Welcome& w) { w.set_rig_text(std::string(kMostRigTextBytes + 1, ' ')); }));
+    const auto told = [](auto alter) {
+        v1::Envelope message = sampleStatus();
+        alter(*message.mutable_status_reply());
+        return isUnderstood(message);
+    };
+    EXPECT_TRUE(told([](v1::StatusReply& s) { s.clear_nodes(); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) { s.clear_pace(); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_eye()->RemoveLast(); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) { s.set_skew_p99_ms(INFINITY); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_nodes(0)->clear_condition(); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) { s.mutable_nodes(0)->set_name(""); }));
+    EXPECT_FALSE(told([](v1::StatusReply& s) {
+        for (int i = 0; i < kMostNodes; ++i) *s.add_nodes() = s.nodes(0);
+    }));
+}
+
+TEST(Messages, namesAreBoundedAndPrintable) {
+    const auto accepted = [](const std::string& name) { return isUnderstood(test::hello(name)); };
+    EXPECT_TRUE(accepted(std::string(kMostNameBytes, 'n')));
+    EXPECT_FALSE(accepted(std::string(kMostNameBytes + 1, 'n')));
+    EXPECT_FALSE(accepted(""));
+    EXPECT_FALSE(accepted("left\nmaster: all is well"));
+    EXPECT_TRUE(isUnderstood(test::refusal(std::string(kMostReasonBytes, 'r'))));
+    EXPECT_FALSE(isUnderstood(test::refusal(std::string(kMostReasonBytes + 1, 'r'))));
+    EXPECT_FALSE(isUnderstood(test::dismissed("\x1b[2J")));
+}
+
+// What a master says of a mind is drawn over the picture and printed in terminals.
+TEST(Messages, anExplanationIsBoundedAndPrintable) {
+    const auto accepted = [](int lines, const std::string& line, std::uint32_t school) {
+        const std::vector<std::string> all(static_cast<std::size_t>(lines), line);
+        return isUnderstood(test::explanation(0, school, 0, all));
+    };
+    EXPECT_TRUE(accepted(kMostExplanationLines, std::string(kMostExplanationLineBytes, '~'), 1));
+    EXPECT_FALSE(accepted(kMostExplanationLines + 1, "", 1));
+    EXPECT_FALSE(accepted(1, std::string(kMostExplanationLineBytes + 1, ' '), 1));
+    EXPECT_FALSE(accepted(1, "\x1b[2J", 1));
+    EXPECT_FALSE(accepted(1, "\xc3\xa9", 1));
+    EXPECT_FALSE(accepted(1, "", kMostFish + 1));
+}
+
+TEST(Messages, aChunkStaysInsideItsBlob) {
+    const auto accepted = [](std::uint64_t offset, std::uint64_t total, std::size_t size) {
+        return isUnderstood(test::blobChunk({}, offset, total, Packet(size)));
+    };
+    EXPECT_TRUE(accepted(0, kBlobChunkBytes, kBlobChunkBytes));
+    EXPECT_FALSE(accepted(1, kBlobChunkBytes, kBlobChunkBytes));
+    EXPECT_FALSE(accepted(0, kMostBlobBytes, kBlobChunkBytes + 1));
+    EXPECT_FALSE(accepted(0, kMostBlobBytes + 1, 1));
+    EXPECT_FALSE(accepted(std::numeric_limits<std::uint64_t>::max(), 2, 1));
+    EXPECT_FALSE(isUnderstood(test::blobRequest({}, kMostBlobBytes + 1)));
+}
+
+TEST(Messages, aHelloOfAnotherMajorVersionIsReadSoThatItCanBeAnswered) {
+    const auto decoded = decode(encode(0, test::hello("left", kProtocolMajor + 1, "9.0")));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->hello().major(), kProtocolMajor + 1);
+}
+
+}  // namespace
+}  // namespace aquarama::wire

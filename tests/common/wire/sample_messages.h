@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// One message of every kind, with something to lose in each field.
+#pragma once
+
+#include <vector>
+
+#include "tests/support/messages.h"
+
+namespace aquarama::wire {
+
+inline std::vector<motion::FishRecord> sampleRecords(std::uint32_t fish) {
+    std::vector<motion::FishRecord> records;
+    for (std::uint32_t i = 0; i < fish; ++i) {
+        const auto n = static_cast<std::int32_t>(i);
+        records.push_back({n,
+                           -n * 7919,
+                           n << 8,
+                           i * 2654435761U,
+                           ~i >> 2U,
+                           static_cast<std::uint16_t>(i * 31),
+                           static_cast<std::uint16_t>(i * 57),
+                           static_cast<std::uint8_t>(i % motion::kActions),
+                           static_cast<std::uint8_t>((i + 3) % motion::kActions),
+                           static_cast<std::uint8_t>(i % 8),
+                           8,
+                           1000 - n * 77});
+    }
+    return records;
+}
+
+inline std::vector<FoodRecord> sampleFood() {
+    return {foodRecord(FoodRecord::Kind::Plankton, {1.5F, -2.25F, 60.0F}, 3),
+            {},
+            foodRecord(FoodRecord::Kind::Pellet, {-63.0F, 0.125F, -1.0F}, 1)};
+}
+
+inline StateFrame sampleState(std::uint32_t fish) {
+    StateFrame state;
+    state.frame = {1U << 20U};
+    state.tick = {(std::uint64_t{1} << 40U) + 7};
+    state.fraction = 0.25F;
+    state.eye = {{1.5F, -2.0F, 30.25F}, {0.5F, 0.5F, -0.5F, 0.5F}};
+    state.worldHash = 0xFEDCBA9876543210U;
+    state.before = sampleRecords(fish);
+    state.after = sampleRecords(fish);
+    state.foodOriginMetres = {-3.5F, -6.0F, 0.25F};
+    state.foodBefore = sampleFood();
+    state.foodAfter = sampleFood();
+    state.daylight = 0.75F;
+    state.quality = config::QualityTier::Medium;
+    return state;
+}
+
+inline v1::Welcome sampleWelcome() {
+    v1::Welcome welcome;
+    welcome.set_rig_text("name: \"desk\"\n# a comment\n");
+    welcome.set_scene_text("name: \"reef\"\n");
+    welcome.set_state_address("tcp://127.0.0.1:7401");
+    welcome.set_seed(4000000000U);
+    welcome.set_pace(v1::PACE_LOCKSTEP);
+    welcome.set_pattern(v1::PATTERN_GREY);
+    for (const std::uint32_t id : {7U, 4000000000U}) welcome.add_fish_ids(id);
+    for (const std::uint32_t length : {230U, 65535U}) welcome.add_length_millimetres(length);
+    for (const std::string kind : {"", "other "}) {
+        v1::SpeciesBlobs& member = *welcome.add_cast();
+        member.set_species(bytesOf(digestOf(kind + "species")));
+        member.set_repertoire(bytesOf(digestOf(kind + "repertoire")));
+        member.set_fish(1);
+    }
+    welcome.set_quality(static_cast<std::uint32_t>(config::QualityTier::Ultra));
+    return welcome;
+}
+
+inline v1::Envelope sampleStatus() {
+    v1::Envelope message;
+    v1::StatusReply& reply = *message.mutable_status_reply();
+    reply.set_pace(v1::PACE_LOCKSTEP);
+    reply.set_paused(true);
+    reply.set_frame(99);
+    reply.set_tick(98);
+    reply.set_frame_median_ms(16.5F);
+    reply.set_frame_p99_ms(0);
+    reply.set_skew_median_ms(0);
+    reply.set_skew_p99_ms(0.75F);
+    reply.set_refused_packets(3);
+    writeEye({{1, -6, 2.5F}, {0.5F, 0.5F, 0.5F, -0.5F}}, *reply.mutable_eye());
+    reply.set_speed_m_s(0.375F);
+    reply.set_pilot("middle");
+    const auto add = [&](const char* name, v1::NodeCondition is, std::uint64_t late, int dropped) {
+        v1::NodeStatus& node = *reply.add_nodes();
+        node.set_name(name);
+        node.set_condition(is);
+        node.set_late(late);
+        node.set_dropped(static_cast<std::uint64_t>(dropped));
+    };
+    add("left", v1::NODE_LATE, 4, 1);
+    add("right", v1::NODE_ABSENT, 0, 2);
+    return message;
+}
+
+// A state is encoded by its own codec.
+inline std::vector<Packet> samplePackets() {
+    constexpr std::uint64_t kSession = 0x0123456789ABCDEFU;
+    const std::vector<std::byte> chunk(100, std::byte{0xA5});
+    const Digest digest = digestOf("x");
+    const std::vector<v1::Envelope> before{test::hello("left", 3, "0.1.0"),
+                                           test::refusal("no"),
+                                           test::welcome(sampleWelcome()),
+                                           test::blobRequest(digest, 1U << 18U),
+                                           test::blobChunk(digest, 50, 200, chunk),
+                                           test::prepared(config::QualityTier::High),
+                                           test::joined(65)};
+    const std::vector<v1::Envelope> after{
+        test::beacon(),
+        test::ready(12, 11, -5),
+        test::ready(13),
+        test::present(12, 123456789012345),
+        test::dismissed("silent"),
+        test::farewell(),
+        test::ping(-1),
+        test::pong(-1, 77),
+        test::input(v1::INPUT_TOGGLE_PAUSE),
+        test::dropFood({0.5F, -6.25F, -2.5F}),
+        test::steer({127, -127, 0, 1, -64}),
+        test::statusRequest(),
+        sampleStatus(),
+        test::explainRequest(59),
+        test::explanation(59, 60, 7200, {"59  bigeye_scad", "", "~"})};
+    std::vector<Packet> packets;
+    for (const v1::Envelope& message : before) packets.push_back(encode(kSession, message));
+    packets.push_back(encodeState(kSession, viewOf(sampleState(5))));
+    for (const v1::Envelope& message : after) packets.push_back(encode(kSession, message));
+    return packets;
+}
+
+}  // namespace aquarama::wire
