@@ -161,20 +161,21 @@ class FilmedChannels {
 void film(const config::Rig& rig, const Filming& filming) {
     assert(filming.ticksBetween > 0);
     const std::vector<config::Channel> channels = filmedChannels(rig, filming.of);
-    FilmedChannels filmed(filming.pipes, channels);
+    std::optional<FilmedChannels> filmed(std::in_place, filming.pipes, channels);
     cli::holdSignals();  // the clip ends with its nodes: what was shown until then is kept
     const Camera camera(rig, filming.of);
     const auto clip =
         makeClip({filming.clipPath, camera.sizePixels(channels), filming.ticksBetween});
-    auto frames = filmed.nextFrame();
+    auto frames = filmed->nextFrame();
     if (!frames) throw Error(filming.clipPath + ": no frame was shown; let the show run for more");
     if (!filming.firstPictures.empty()) camera.writePictures(*frames, filming.firstPictures);
     Progress progress(filming);
     std::uint64_t pictures = 0;
-    for (; frames; frames = filmed.nextFrame()) {
+    for (; frames; frames = filmed->nextFrame()) {
         clip->add(camera.pictureOf(*frames), frames->front().frame);
         progress.show(++pictures);
     }
+    filmed.reset();  // the nodes need not wait for the encoder's last pictures
     clip->finish();
     progress.end();
     std::cout << "clip of the " << filming.of << " in " << filming.clipPath << ": " << pictures

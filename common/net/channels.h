@@ -99,6 +99,7 @@ struct RawFrame {
 // A node's end. Nothing waits on the disk: whoever draws waits for whoever encodes.
 class FrameSender {
   public:
+    // Waits until the receiver has taken all frames or has gone, a minute at most.
     virtual ~FrameSender() = default;
     // Waits while two frames are on their way. Throws Error when the receiver has gone.
     virtual void send(const RawFrame& frame) = 0;
@@ -108,8 +109,9 @@ class FrameSender {
 class FrameReceiver {
   public:
     virtual ~FrameReceiver() = default;
-    // Waits for the next frame; empty when the sender has gone, however it ended, and all that it
-    // sent was received. Throws Error where something that is no frame has come.
+    // Waits for the next frame. Empty when the sender has ended and all its frames were received,
+    // or when it has died; the last frames of one that died may be lost. Throws Error where
+    // something that is no frame has come.
     [[nodiscard]] virtual std::optional<RawFrame> receive() = 0;
 };
 

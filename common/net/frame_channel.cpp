@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a channel on their way to a clip: PUSH and PULL over a socket of the file system. Each
-// end watches the connection, so that one that ends in whatever way never holds up the other.
+// end watches the connection, so that one that ends in whatever way never holds up the other. The
+// last message is empty; it is the receiver that closes the connection then, since ZeroMQ drops
+// what it has not read of one that the sender closes.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -15,8 +17,9 @@ namespace {
 
 constexpr int kFrameQueue = 2;  // frames that wait at either end
 constexpr std::size_t kMostFrameBytes = std::size_t{256} << 20U;
-constexpr int kFrameLingerMs = 60'000;  // for the last frames to leave
-constexpr auto kPatience = std::chrono::seconds(30);
+constexpr auto kPatience = std::chrono::seconds(30);    // for a receiver to come
+constexpr auto kLastFrames = std::chrono::seconds(60);  // for it to take what is on its way
+constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 // Before the codes of each frame; both ends are on one machine.
 struct FrameHeader {
@@ -86,7 +89,7 @@ class ZmqFrameSender final : public FrameSender {
     explicit ZmqFrameSender(const std::filesystem::path& path)
         : socket_(openSocket(context_, zmq::socket_type::push, kFrameQueue, kMostFrameBytes)),
           receiver_(context_, socket_) {
-        socket_.set(zmq::sockopt::linger, kFrameLingerMs);
+        socket_.set(zmq::sockopt::linger, 0);
         socket_.set(zmq::sockopt::immediate, true);  // frames queue for a receiver that is there
         try {
             socket_.connect(addressOf(path));
@@ -97,9 +100,23 @@ class ZmqFrameSender final : public FrameSender {
         while (!receiver_.hasCome()) {
             if (monotonicNow() > giveUp) refuse(path, "nobody receives them");
             std::array items{zmq::pollitem_t{receiver_.handle(), 0, ZMQ_POLLIN, 0}};
-            pollItems(items, std::chrono::milliseconds(100));
+            pollItems(items, kBetweenLooks);
         }
     }
+    ~ZmqFrameSender() override {
+        const Instant giveUp = monotonicNow() + kLastFrames;
+        zmq::message_t end;
+        bool said = false;
+        while (!receiver_.hasGone() && monotonicNow() < giveUp) {
+            said = said || trySend(end);
+            std::array items{
+                zmq::pollitem_t{socket_.handle(), 0, said ? short{0} : short{ZMQ_POLLOUT}, 0},
+                zmq::pollitem_t{receiver_.handle(), 0, ZMQ_POLLIN, 0}};
+            pollItems(items, kBetweenLooks);
+        }
+    }
+    ZmqFrameSender(const ZmqFrameSender&) = delete;
+    ZmqFrameSender& operator=(const ZmqFrameSender&) = delete;
 
     void send(const RawFrame& frame) override {
         assert(frame.rgb.size() == codesIn({0, frame.width, frame.height}));
@@ -152,21 +169,28 @@ class ZmqFrameReceiver final : public FrameReceiver {
     }
 
     std::optional<RawFrame> receive() override {
+        if (ended_) return std::nullopt;
         zmq::message_t message;
         while (!net::receive(socket_, message)) {
-            if (sender_.hasGone()) {
-                // What it sent came before the news that it has gone.
+            if (sender_.hasGone()) {  // without an end: it has died
                 if (net::receive(socket_, message)) break;
-                return std::nullopt;
+                return end();
             }
             std::array items{zmq::pollitem_t{socket_.handle(), 0, ZMQ_POLLIN, 0},
                              zmq::pollitem_t{sender_.handle(), 0, ZMQ_POLLIN, 0}};
             pollItems(items, std::chrono::milliseconds(-1));
         }
+        if (message.size() == 0) return end();
         return frameIn(message);
     }
 
   private:
+    // Closes the connection, for which the sender waits.
+    std::nullopt_t end() {
+        ended_ = true;
+        socket_.close();
+        return std::nullopt;
+    }
     // The size is compared with the header's before memory is taken.
     [[nodiscard]] RawFrame frameIn(const zmq::message_t& message) const {
         FrameHeader header;
@@ -182,6 +206,7 @@ class ZmqFrameReceiver final : public FrameReceiver {
     zmq::context_t context_{1};
     zmq::socket_t socket_;
     PeerWatch sender_;
+    bool ended_ = false;
 };
 
 }  // namespace

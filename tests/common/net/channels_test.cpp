@@ -386,12 +386,13 @@ class FrameChannel : public testing::Test {
 
 // More frames than the queues hold, from a sender that is gone before the last is received.
 TEST_F(FrameChannel, everyFrameArrivesInOrderAndThenTheEnd) {
-    std::thread node([path = path_] {
+    const std::jthread node([path = path_] {
         const auto sender = connectFrames(path);
         for (std::uint64_t frame = 0; frame < 50; ++frame) sender->send(frameOf(frame));
     });
     const auto receiver = bindFrames(path_);
     for (std::uint64_t frame = 0; frame < 50; ++frame) {
+        if (frame > 40) std::this_thread::sleep_for(milliseconds(20));
         const auto received = receiver->receive();
         ASSERT_TRUE(received) << frame;
         EXPECT_EQ(received->frame, frame);
@@ -401,13 +402,12 @@ TEST_F(FrameChannel, everyFrameArrivesInOrderAndThenTheEnd) {
     }
     EXPECT_FALSE(receiver->receive());
     EXPECT_FALSE(receiver->receive());
-    node.join();
 }
 
 TEST_F(FrameChannel, aSenderWaitsForASlowReceiver) {
     std::atomic<int> sent = 0;
     constexpr int kFrames = 12;
-    std::thread node([&] {
+    const std::jthread node([&] {
         const auto sender = connectFrames(path_);
         for (int frame = 0; frame < kFrames; ++frame) {
             sender->send(frameOf(static_cast<std::uint64_t>(frame), 1'000'000));
@@ -419,7 +419,7 @@ TEST_F(FrameChannel, aSenderWaitsForASlowReceiver) {
     std::this_thread::sleep_for(milliseconds(300));
     EXPECT_LT(sent, kFrames);
     for (int frame = 1; frame < kFrames; ++frame) ASSERT_TRUE(receiver->receive());
-    node.join();
+    EXPECT_FALSE(receiver->receive());
 }
 
 // Also one that is held up at the time, because its frames fill all queues.
