@@ -7,9 +7,9 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "common/base/units.h"
 #include "common/config/scene.h"
 #include "common/place/water.h"
-#include "common/units/units.h"
 #include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 

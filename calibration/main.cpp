@@ -9,12 +9,12 @@
 #include "calibration/check.h"
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/film.h"
+#include "common/base/log.h"
+#include "common/base/units.h"
 #include "common/cli/command_line.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/config/text_file.h"
-#include "common/units/log.h"
-#include "common/units/units.h"
 #include "common/wall/wall.h"
 
 namespace aquarama {

@@ -8,5 +8,5 @@ foreach(file IN LISTS files)
   string(APPEND all "${file} ${digest}\n")
 endforeach()
 string(SHA256 digest "${all}")
-file(WRITE ${OUTPUT} "#include \"common/files/derived_cache.h\"\n\nnamespace aquarama::files {\n\n\
-std::string_view sourceDigest() {\n    return \"${digest}\";\n}\n\n}  // namespace aquarama::files\n")
+file(WRITE ${OUTPUT} "#include \"common/base/derived_cache.h\"\n\nnamespace aquarama {\n\n\
+std::string_view sourceDigest() {\n    return \"${digest}\";\n}\n\n}  // namespace aquarama\n")

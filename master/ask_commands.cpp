@@ -14,9 +14,9 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "common/base/log.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
-#include "common/units/log.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"
 #include "master/conductor/requests.h"

@@ -9,9 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/digest.h"
+#include "common/base/log.h"
 #include "common/cli/outputs.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
 #include "common/wire/recording.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/report/report_data.h"

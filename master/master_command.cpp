@@ -11,14 +11,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/base/digest.h"
+#include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/cli/signals.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/net/channels.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
 #include "common/wall/wall.h"
 #include "common/wire/recording.h"
 #include "master/commands.h"

@@ -11,10 +11,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/base/files.h"
+#include "common/base/log.h"
 #include "common/cli/outputs.h"
 #include "common/cli/signals.h"
-#include "common/files/files.h"
-#include "common/units/log.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/report/c3d.h"
 #include "master/capture/report/gltf.h"
@@ -40,7 +40,7 @@ std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>
     const cli::SignalWatch watch([&] { isStopped = true; });
     capture::ProgressBar bar("capturing");
     return capture::repertoiresFor(species,
-                                   files::cacheFolder() / "repertoires",
+                                   cacheFolder() / "repertoires",
                                    {.progress = [&](double share) { bar.show(share); },
                                     .isStopped = [&] { return isStopped.load(); }});
 }
@@ -48,7 +48,7 @@ std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>
 // Writes the repertoire and, where a report is asked for, its data; returns the path of these.
 fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
     const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
-    files::writeWhole(path, file.bytes);
+    writeWhole(path, file.bytes);
     std::cout << path.string() << '\n';
     if (options.report.empty()) return {};
     const motion::Repertoire repertoire = motion::decodeRepertoire(file.bytes, path.string());
@@ -135,16 +135,16 @@ void exportSegment(const ExportOptions& options) {
     if (!options.gltf.empty()) {
         const report::GltfContainer container = containerOf(options.gltf);
         const body::FishBody body = bodyOf(repertoire, options);
-        files::writeWhole(options.gltf,
-                          report::gltfOf(repertoire, body, action, options.cycles, container));
+        writeWhole(options.gltf,
+                   report::gltfOf(repertoire, body, action, options.cycles, container));
         return;
     }
     const report::Take take = report::takeAtTicks(repertoire, action, options.cycles);
     if (options.csv.empty()) {
-        files::writeWhole(options.c3d, report::c3dOf(take));
+        writeWhole(options.c3d, report::c3dOf(take));
     } else {
         const std::string rows = report::csvOf(take);
-        files::writeWhole(options.csv, std::as_bytes(std::span(rows)));
+        writeWhole(options.csv, std::as_bytes(std::span(rows)));
     }
 }
 

@@ -14,8 +14,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/base/files.h"
 #include "common/cli/outputs.h"
-#include "common/files/files.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/gait_trial.h"
 #include "master/capture/report/fidelity.h"
@@ -91,7 +91,7 @@ void searchGaitsOf(const SearchOptions& options) {
     config::Species swimmer = capture::speciesAt(best.point, species);
     swimmer.turn = capture::withFittingStrengths(swimmer);
     const std::string found = capture::withGaitsOf(swimmer, text);
-    files::writeWhole(options.out, std::as_bytes(std::span(found)));
+    writeWhole(options.out, std::as_bytes(std::span(found)));
     std::cout << options.out << "\n\n"
               << capture::gaitTableHead()
               << capture::gaitTableRows(config::parseSpecies(found, options.out));
@@ -123,7 +123,7 @@ struct FidelityOptions {
 
 // Names the file on stderr: stdout is for the tables.
 void writeText(const fs::path& path, const std::string& text) {
-    files::writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
+    writeWhole(path, std::as_bytes(std::span(text.data(), text.size())));
     std::cerr << path.string() << '\n';
 }
 

@@ -12,9 +12,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/base/files.h"
+#include "common/base/log.h"
 #include "common/cli/outputs.h"
-#include "common/files/files.h"
-#include "common/units/log.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/commands.h"
 #include "master/study/chronicle.h"
@@ -56,7 +56,7 @@ class DataFolder {
     }
 
     void write(const std::string& name, const std::string& text) const {
-        files::writeWhole(path_ / name, std::as_bytes(std::span(text)));
+        writeWhole(path_ / name, std::as_bytes(std::span(text)));
         if (isKept_) std::cerr << (path_ / name).string() << '\n';
     }
     [[nodiscard]] bool isKept() const { return isKept_; }

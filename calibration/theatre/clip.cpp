@@ -21,8 +21,8 @@ extern "C" {
 #include <webp/encode.h>
 #include <webp/mux.h>
 
-#include "common/units/log.h"
-#include "common/units/units.h"
+#include "common/base/log.h"
+#include "common/base/units.h"
 
 namespace aquarama::theatre {
 
@@ -51,7 +51,7 @@ class Animation final : public Clip {
     Animation(const Animation&) = delete;
     Animation& operator=(const Animation&) = delete;
 
-    void add(const wall::Picture& picture, std::uint64_t tick) override {
+    void add(const Picture& picture, std::uint64_t tick) override {
         assert(picture.sizePixels == format_.sizePixels && (!first_ || tick > last_));
         if (!first_) first_ = tick;
         last_ = tick;
@@ -210,7 +210,7 @@ class Video final : public Clip {
     Video(const Video&) = delete;
     Video& operator=(const Video&) = delete;
 
-    void add(const wall::Picture& picture, std::uint64_t tick) override {
+    void add(const Picture& picture, std::uint64_t tick) override {
         assert(picture.sizePixels == format_.sizePixels);
         if (!first_) first_ = tick;
         fillFrame(picture);
@@ -265,7 +265,7 @@ class Video final : public Clip {
         rgb_.resize(3 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     }
 
-    void fillFrame(const wall::Picture& picture) {
+    void fillFrame(const Picture& picture) {
         const glm::ivec2 size = evenSize(format_.sizePixels);
         const glm::ivec2 last = picture.sizePixels - 1;
         auto* out = rgb_.data();

@@ -9,7 +9,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "common/wall/picture.h"
+#include "common/base/picture.h"
 
 namespace aquarama::theatre {
 
@@ -27,7 +27,7 @@ class Clip {
     virtual ~Clip() = default;
     // The next picture: codes of 8 bits, of the format's size. Ticks count up; the first may be
     // any.
-    virtual void add(const wall::Picture& picture, std::uint64_t tick) = 0;
+    virtual void add(const Picture& picture, std::uint64_t tick) = 0;
     // Once, after the last. The last picture is seen as long as the others.
     virtual void finish() = 0;
 };

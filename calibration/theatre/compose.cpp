@@ -13,10 +13,10 @@
 #include <glm/geometric.hpp>
 
 #include "calibration/theatre/room.h"
-#include "common/units/log.h"
-#include "common/units/worker_pool.h"
+#include "common/base/log.h"
+#include "common/base/picture.h"
+#include "common/base/worker_pool.h"
 #include "common/wall/pinhole.h"
-#include "common/wall/png_file.h"
 #include "common/wall/wall.h"
 
 namespace aquarama::theatre {
@@ -72,7 +72,7 @@ Eye eyeAtTheBack(const config::Screen& screen, glm::dvec2 sizePixels) {
     return eye;
 }
 
-void drawRow(const Room& room, const Eye& eye, int y, wall::Light& hall) {
+void drawRow(const Room& room, const Eye& eye, int y, Light& hall) {
     std::array<wall::Ray, kSamplesPerSide * kSamplesPerSide> rays;
     for (int x = 0; x < hall.sizePixels.x; ++x) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -88,16 +88,16 @@ std::string sizeText(glm::ivec2 size) {
 }
 
 // `eye` is empty for what the display shows, or of one eye: ".left_eye".
-wall::Light readChannel(const config::Channel& channel,
-                        const std::string& folder,
-                        const std::string& eye) {
+Light readChannel(const config::Channel& channel,
+                  const std::string& folder,
+                  const std::string& eye) {
     const std::string path = folder + "/channel-" + channel.name + eye + ".png";
-    const wall::Picture picture = wall::readPng(path);
+    const Picture picture = readPng(path);
     if (picture.sizePixels != channel.sizePixels)
         throw Error(path + ": is " + sizeText(picture.sizePixels) +
                     " pixels, the rig's channel \"" + channel.name + "\" has " +
                     sizeText(channel.sizePixels) + "; take the snapshot with this rig");
-    return wall::lightOf(picture);
+    return lightOf(picture);
 }
 
 // Whether the picture is what the display throws on the wall. Displays of the other modes part the
@@ -106,17 +106,17 @@ bool showsAsItIs(config::StereoMode mode) {
     return mode == config::StereoMode::Mono || mode == config::StereoMode::Anaglyph;
 }
 
-wall::Light meanOf(wall::Light one, const wall::Light& other) {
+Light meanOf(Light one, const Light& other) {
     for (std::size_t i = 0; i < one.rgb.size(); ++i)
         one.rgb[i] = 0.5F * (one.rgb[i] + other.rgb[i]);
     return one;
 }
 
 // As one eye behind its glasses sees it; a mono channel has one picture for both.
-std::vector<wall::Light> readEye(const config::Rig& rig,
-                                 const std::string& folder,
-                                 const std::string& eye) {
-    std::vector<wall::Light> channels;
+std::vector<Light> readEye(const config::Rig& rig,
+                           const std::string& folder,
+                           const std::string& eye) {
+    std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
         const bool two = wall::stereoOf(rig, i).mode != config::StereoMode::Mono;
         channels.push_back(readChannel(rig.channels[i], folder, two ? eye : ""));
@@ -140,34 +140,32 @@ PanoramaMap::PanoramaMap(const config::Rig& rig) : sizePixels_{rig.panoramaPixel
     for (auto& samples : pending) samples_.push_back(samples.get());
 }
 
-wall::Light PanoramaMap::compose(std::span<const wall::Light> channels) const {
+Light PanoramaMap::compose(std::span<const Light> channels) const {
     assert(channels.size() == samples_.size());
-    wall::Light panorama = wall::darkness(sizePixels_);
+    Light panorama = darkness(sizePixels_);
     for (std::size_t i = 0; i < samples_.size(); ++i)
         for (const Sample& sample : samples_[i])
-            panorama.rgb[sample.place] += wall::bilinear(channels[i], glm::dvec2(sample.pixel));
+            panorama.rgb[sample.place] += bilinear(channels[i], glm::dvec2(sample.pixel));
     return panorama;
 }
 
-wall::Light composePanorama(const config::Rig& rig, std::span<const wall::Light> channels) {
+Light composePanorama(const config::Rig& rig, std::span<const Light> channels) {
     return PanoramaMap(rig).compose(channels);
 }
 
-wall::Light composeHall(const config::Rig& rig,
-                        const wall::Light& panorama,
-                        glm::ivec2 sizePixels) {
+Light composeHall(const config::Rig& rig, const Light& panorama, glm::ivec2 sizePixels) {
     assert(sizePixels.x > 0 && sizePixels.y > 0);
     const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
     const Room room(rig.screen, panorama, eye.position);
-    wall::Light hall = wall::darkness(sizePixels);
+    Light hall = darkness(sizePixels);
     WorkerPool(std::thread::hardware_concurrency())
         .run(static_cast<std::size_t>(sizePixels.y),
              [&](std::size_t y) { drawRow(room, eye, static_cast<int>(y), hall); });
     return hall;
 }
 
-std::vector<wall::Light> readChannels(const config::Rig& rig, const std::string& folder) {
-    std::vector<wall::Light> channels;
+std::vector<Light> readChannels(const config::Rig& rig, const std::string& folder) {
+    std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i) {
         const config::Channel& channel = rig.channels[i];
         channels.push_back(showsAsItIs(wall::stereoOf(rig, i).mode)
@@ -179,16 +177,15 @@ std::vector<wall::Light> readChannels(const config::Rig& rig, const std::string&
 }
 
 void writePanoramaAndHall(const config::Rig& rig,
-                          const wall::Light& panorama,
+                          const Light& panorama,
                           const std::string& folder,
                           int bits) {
     assert(bits == 8 || bits == 16);
     // While the hall is composed, which takes longer.
     auto written = std::async(std::launch::async, [&] {
-        wall::writePng(folder + "/panorama.png", wall::pictureOf(panorama, bits, 0));
+        writePng(folder + "/panorama.png", pictureOf(panorama, bits, 0));
     });
-    wall::writePng(folder + "/hall.png",
-                   wall::pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
+    writePng(folder + "/hall.png", pictureOf(composeHall(rig, panorama, kHallPixels), bits, 0));
     written.get();
 }
 
@@ -197,8 +194,8 @@ void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits
     writePanoramaAndHall(rig, map.compose(readChannels(rig, folder)), folder, bits);
     if (!hasStereo(rig)) return;
     for (const std::string eye : {".left_eye", ".right_eye"})
-        wall::writePng(folder + "/panorama" + eye + ".png",
-                       wall::pictureOf(map.compose(readEye(rig, folder, eye)), bits, 0));
+        writePng(folder + "/panorama" + eye + ".png",
+                 pictureOf(map.compose(readEye(rig, folder, eye)), bits, 0));
 }
 
 }  // namespace aquarama::theatre

@@ -10,8 +10,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "common/base/picture.h"
 #include "common/config/rig.h"
-#include "common/wall/picture.h"
 
 namespace aquarama::theatre {
 
@@ -21,7 +21,7 @@ class PanoramaMap {
   public:
     explicit PanoramaMap(const config::Rig& rig);
     // One picture for each channel of the rig, in its order and of its size, as light.
-    [[nodiscard]] wall::Light compose(std::span<const wall::Light> channels) const;
+    [[nodiscard]] Light compose(std::span<const Light> channels) const;
 
     // A pixel of the panorama that a channel lights.
     struct Sample {
@@ -35,28 +35,26 @@ class PanoramaMap {
 };
 
 // The unrolled screen, of one picture for each channel as above.
-[[nodiscard]] wall::Light composePanorama(const config::Rig& rig,
-                                          std::span<const wall::Light> channels);
+[[nodiscard]] Light composePanorama(const config::Rig& rig, std::span<const Light> channels);
 
 // Size of the hall's picture and clip.
 inline constexpr glm::ivec2 kHallPixels(1600, 900);
 
 // What a visitor at the back of the dark hall sees, over the heads of the audience. Takes seconds;
 // uses all processors.
-[[nodiscard]] wall::Light composeHall(const config::Rig& rig,
-                                      const wall::Light& panorama,
-                                      glm::ivec2 sizePixels);
+[[nodiscard]] Light composeHall(const config::Rig& rig,
+                                const Light& panorama,
+                                glm::ivec2 sizePixels);
 
 // What every channel of folder/channel-NAME.png throws on the wall, seen without glasses: of two
 // eyes that its display parts again the mean of channel-NAME.left_eye.png and .right_eye.png.
 // Throws Error when a picture is missing or has not its channel's size.
-[[nodiscard]] std::vector<wall::Light> readChannels(const config::Rig& rig,
-                                                    const std::string& folder);
+[[nodiscard]] std::vector<Light> readChannels(const config::Rig& rig, const std::string& folder);
 
 // Writes folder/panorama.png and folder/hall.png with 8 or 16 bits. Throws Error where they cannot
 // be written.
 void writePanoramaAndHall(const config::Rig& rig,
-                          const wall::Light& panorama,
+                          const Light& panorama,
                           const std::string& folder,
                           int bits);
 

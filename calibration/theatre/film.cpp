@@ -15,9 +15,9 @@
 
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/compose.h"
+#include "common/base/log.h"
 #include "common/cli/signals.h"
 #include "common/net/channels.h"
-#include "common/units/log.h"
 
 namespace aquarama::theatre {
 
@@ -38,7 +38,7 @@ std::vector<config::Channel> filmedChannels(const config::Rig& rig, const std::s
 // A frame of one channel.
 struct FilmedFrame {
     std::uint64_t frame = 0;
-    wall::Picture picture;  // 8 bits
+    Picture picture;  // 8 bits
 };
 
 // Makes a picture of the clip of a frame of each filmed channel. Keeps a reference to the rig.
@@ -51,25 +51,25 @@ class Camera {
         if (!map_) return filmed.front().sizePixels;
         return of_ == kHall ? kHallPixels : rig_.panoramaPixels;
     }
-    [[nodiscard]] wall::Picture pictureOf(const std::vector<FilmedFrame>& frames) const {
+    [[nodiscard]] Picture pictureOf(const std::vector<FilmedFrame>& frames) const {
         if (!map_) return frames.front().picture;
-        const wall::Light panorama = panoramaOf(frames);
+        const Light panorama = panoramaOf(frames);
         const auto seed = static_cast<std::uint32_t>(frames.front().frame);
-        return wall::pictureOf(
+        return pictureOf(
             of_ == kHall ? composeHall(rig_, panorama, kHallPixels) : panorama, 8, seed);
     }
     // The panorama and the hall of one frame; needs the frames of all channels.
     void writePictures(const std::vector<FilmedFrame>& frames, const std::string& folder) const {
-        const wall::Light panorama = panoramaOf(frames);
+        const Light panorama = panoramaOf(frames);
         writePanoramaAndHall(rig_, panorama, folder, 8);
         std::cout << "first picture: " << folder << "/panorama.png, " << folder << "/hall.png"
                   << std::endl;
     }
 
   private:
-    [[nodiscard]] wall::Light panoramaOf(const std::vector<FilmedFrame>& frames) const {
-        std::vector<wall::Light> channels;
-        for (const FilmedFrame& frame : frames) channels.push_back(wall::lightOf(frame.picture));
+    [[nodiscard]] Light panoramaOf(const std::vector<FilmedFrame>& frames) const {
+        std::vector<Light> channels;
+        for (const FilmedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
         return map_->compose(channels);
     }
 

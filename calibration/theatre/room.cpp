@@ -18,9 +18,9 @@ namespace {
 constexpr glm::ivec2 kLamps(24, 6);
 
 // The mean of the panorama under each cell of a coarse grid.
-wall::Light coarsened(const wall::Light& fine, glm::ivec2 cells) {
-    wall::Light coarse = wall::darkness(cells);
-    wall::Light counts = wall::darkness(cells);  // of pixels in each
+Light coarsened(const Light& fine, glm::ivec2 cells) {
+    Light coarse = darkness(cells);
+    Light counts = darkness(cells);  // of pixels in each
     for (int y = 0; y < fine.sizePixels.y; ++y)
         for (int x = 0; x < fine.sizePixels.x; ++x) {
             const glm::ivec2 cell = glm::ivec2(x, y) * cells / fine.sizePixels;
@@ -111,7 +111,7 @@ std::vector<Person> seatedRow(double floor, double middleZ) {
 
 }  // namespace
 
-ScreenGlow::ScreenGlow(const config::Screen& screen, const wall::Light& panorama)
+ScreenGlow::ScreenGlow(const config::Screen& screen, const Light& panorama)
     : coarse_(coarsened(panorama, kLamps)) {
     const double squareMetres =
         screen.radiusMetres * screen.arcRadians * screen.heightMetres / (kLamps.x * kLamps.y);
@@ -141,10 +141,10 @@ glm::vec3 ScreenGlow::on(glm::dvec3 point, glm::dvec3 normal) const {
 }
 
 glm::vec3 ScreenGlow::blurred(glm::dvec2 position) const {
-    return wall::bilinear(coarse_, position * glm::dvec2(kLamps));
+    return bilinear(coarse_, position * glm::dvec2(kLamps));
 }
 
-Room::Room(const config::Screen& screen, const wall::Light& panorama, glm::dvec3 eye)
+Room::Room(const config::Screen& screen, const Light& panorama, glm::dvec3 eye)
     : screen_(screen), panorama_(panorama), glow_(screen, panorama) {
     const double radius = screen.radiusMetres;
     low_ = {-1.5 * radius, -screen.heightMetres / 2 - kFloorBelowScreen, -1.25 * radius};
@@ -159,8 +159,8 @@ glm::vec3 Room::seen(std::span<const wall::Ray> rays) const {
         if (const auto body = person(ray)) {
             sum += *body;
         } else if (const auto point = wall::screenHit(screen_, ray, 0)) {
-            sum += wall::bilinear(
-                panorama_, wall::unrolled(screen_, *point) * glm::dvec2(panorama_.sizePixels));
+            sum += bilinear(panorama_,
+                            wall::unrolled(screen_, *point) * glm::dvec2(panorama_.sizePixels));
         } else {
             if (!wall) wall = walls(ray);
             sum += *wall;

@@ -9,8 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/picture.h"
 #include "common/config/rig.h"
-#include "common/wall/picture.h"
 #include "common/wall/pinhole.h"
 
 namespace aquarama::theatre {
@@ -18,7 +18,7 @@ namespace aquarama::theatre {
 // The screen as a coarse grid of lamps, for what it throws on the room.
 class ScreenGlow {
   public:
-    ScreenGlow(const config::Screen& screen, const wall::Light& panorama);
+    ScreenGlow(const config::Screen& screen, const Light& panorama);
     // Light that a white matt surface at this point of the wall's frame would send back; the normal
     // has length one.
     [[nodiscard]] glm::vec3 on(glm::dvec3 point, glm::dvec3 normal) const;
@@ -33,7 +33,7 @@ class ScreenGlow {
         glm::vec3 light;
     };
     std::vector<Lamp> lamps_;
-    wall::Light coarse_;
+    Light coarse_;
     glm::vec3 mean_{};
 };
 
@@ -53,7 +53,7 @@ struct Person {
 // The hall as an eye sees it; keeps a reference to the panorama.
 class Room {
   public:
-    Room(const config::Screen& screen, const wall::Light& panorama, glm::dvec3 eye);
+    Room(const config::Screen& screen, const Light& panorama, glm::dvec3 eye);
     // The mean of what comes along the rays (of length-one directions) of one pixel to an eye in
     // the room. The light on floor, ceiling and walls changes slowly: it is found once a pixel.
     [[nodiscard]] glm::vec3 seen(std::span<const wall::Ray> rays) const;
@@ -63,7 +63,7 @@ class Room {
     [[nodiscard]] glm::vec3 walls(const wall::Ray& ray) const;
 
     config::Screen screen_;
-    const wall::Light& panorama_;
+    const Light& panorama_;
     ScreenGlow glow_;
     std::vector<Person> audience_;
     glm::dvec3 low_, high_;  // corners

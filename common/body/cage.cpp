@@ -12,9 +12,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/base/units.h"
 #include "common/body/fish_body.h"
 #include "common/body/spine.h"
-#include "common/units/units.h"
 
 namespace aquarama::body {
 

@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::cli {
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
+#include "common/base/log.h"
+#include "common/base/units.h"
 #include "common/config/rig.pb.h"
 #include "common/config/text_reader.h"
-#include "common/units/log.h"
-#include "common/units/units.h"
 
 namespace aquarama::config {
 

@@ -12,9 +12,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/config/species.h"
 #include "common/config/text_file.h"
-#include "common/units/units.h"
 
 namespace aquarama::config {
 

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "common/base/units.h"
 #include "common/config/species.pb.h"
 #include "common/config/text_reader.h"
-#include "common/units/units.h"
 
 namespace aquarama::config {
 

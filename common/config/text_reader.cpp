@@ -13,10 +13,10 @@
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include "common/base/log.h"
 #include "common/config/rig.pb.h"
 #include "common/config/scene.pb.h"
 #include "common/config/species.pb.h"
-#include "common/units/log.h"
 
 namespace aquarama::config {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 
 namespace aquarama::motion {
 namespace {

@@ -12,10 +12,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
-#include "common/units/units.h"
 
 namespace aquarama::motion {
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string_view>
 
+#include "common/base/digest.h"
+#include "common/base/log.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor_tables.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
 
 namespace aquarama::motion {
 namespace {

@@ -5,8 +5,8 @@
 #include <system_error>
 #include <utility>
 
-#include "common/files/files.h"
-#include "common/units/log.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
 
 namespace aquarama::net {
 namespace {
@@ -51,7 +51,7 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
     std::error_code error;
     if (!std::filesystem::exists(pathOf(digest), error)) return std::nullopt;
     try {
-        auto bytes = files::readWhole(pathOf(digest), kMostCachedBytes);
+        auto bytes = readWhole(pathOf(digest), kMostCachedBytes);
         if (digestOf(bytes) == digest) return bytes;
     } catch (const Error&) {  // no more than a cache: the blob is fetched again
     }
@@ -60,13 +60,13 @@ std::optional<std::vector<std::byte>> BlobCache::find(const Digest& digest) cons
 
 void BlobCache::keep(const Digest& digest, std::span<const std::byte> blob) const {
     try {
-        files::writeWhole(pathOf(digest), blob);
+        writeWhole(pathOf(digest), blob);
     } catch (const Error&) {  // a full disk only costs time
     }
 }
 
 std::filesystem::path defaultBlobDirectory() {
-    return files::cacheFolder() / "blobs";
+    return cacheFolder() / "blobs";
 }
 
 }  // namespace aquarama::net

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "common/units/digest.h"
+#include "common/base/digest.h"
 
 namespace aquarama::net {
 

@@ -6,8 +6,8 @@
 
 #include <zmq.hpp>
 
+#include "common/base/log.h"
 #include "common/net/sockets.h"
-#include "common/units/log.h"
 
 namespace aquarama::net {
 namespace {

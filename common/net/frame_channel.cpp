@@ -9,8 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "common/base/log.h"
 #include "common/net/sockets.h"
-#include "common/units/log.h"
 
 namespace aquarama::net {
 namespace {

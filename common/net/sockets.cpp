@@ -11,7 +11,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::net {
 namespace {

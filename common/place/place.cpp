@@ -5,8 +5,8 @@
 #include <array>
 #include <cassert>
 
-#include "common/units/hash.h"
-#include "common/units/random_streams.h"
+#include "common/base/hash.h"
+#include "common/base/random_streams.h"
 
 namespace aquarama::place {
 

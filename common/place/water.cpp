@@ -7,7 +7,7 @@
 
 #include <glm/common.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::place {
 

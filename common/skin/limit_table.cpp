@@ -14,8 +14,8 @@
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
+#include "common/base/log.h"
 #include "common/skin/attachments.h"
-#include "common/units/log.h"
 
 namespace aquarama::skin {
 

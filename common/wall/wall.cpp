@@ -10,8 +10,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vec4.hpp>
 
-#include "common/units/log.h"
-#include "common/units/units.h"
+#include "common/base/log.h"
+#include "common/base/units.h"
 #include "common/wall/pinhole.h"
 
 namespace aquarama::wall {

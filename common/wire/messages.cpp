@@ -10,7 +10,7 @@
 
 #include <google/protobuf/io/coded_stream.h>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 
 namespace aquarama::wire {
 namespace {

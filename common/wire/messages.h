@@ -13,10 +13,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/digest.h"
+#include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/motion/motion_state.h"
-#include "common/units/digest.h"
-#include "common/units/units.h"
 #include "common/wire/aquarama.pb.h"
 #include "common/wire/state_codec.h"
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "common/units/log.h"
-#include "common/units/units.h"
+#include "common/base/log.h"
+#include "common/base/units.h"
 #include "common/wire/messages.h"
 #include "common/wire/recording.pb.h"
 

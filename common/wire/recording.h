@@ -14,7 +14,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
 

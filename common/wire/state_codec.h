@@ -14,10 +14,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/motion/motion_state.h"
-#include "common/units/units.h"
 
 namespace aquarama::v1 {
 class State;  // generated from aquarama.proto

@@ -5,8 +5,8 @@
 #include <array>
 #include <cassert>
 
+#include "common/base/hash.h"
 #include "common/place/place.h"
-#include "common/units/hash.h"
 #include "master/behaviour/feeding.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "common/base/random_streams.h"
 #include "common/place/place.h"
-#include "common/units/random_streams.h"
 #include "master/behaviour/company.h"
 #include "master/behaviour/feeding.h"
 #include "master/behaviour/routines.h"

@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/config/species.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 #include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
 #include "master/surroundings/obstacles.h"

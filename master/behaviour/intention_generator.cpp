@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/behaviour/intention_generator.h"
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/fish/minds.h"
 
 namespace aquarama::behaviour {

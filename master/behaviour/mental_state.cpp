@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "common/units/random_streams.h"
-#include "common/units/units.h"
+#include "common/base/random_streams.h"
+#include "common/base/units.h"
 #include "master/behaviour/perceive.h"
 #include "master/fish/minds.h"
 

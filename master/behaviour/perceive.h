@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/behaviour/grids.h"
 #include "master/behaviour/neighbours.h"
 #include "master/fish/fish_view.h"

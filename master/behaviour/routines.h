@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/behaviour/perceive.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/minds.h"

@@ -8,7 +8,7 @@
 #include <Eigen/QR>
 #include <glm/geometric.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::capture {
 

@@ -12,11 +12,11 @@
 
 #include <unistd.h>
 
-#include "common/files/files.h"
+#include "common/base/digest.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
+#include "common/base/worker_pool.h"
 #include "common/motion/repertoire.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
-#include "common/units/worker_pool.h"
 #include "master/capture/compile_segment.h"
 #include "master/capture/speed_response.h"
 #include "master/capture/turn.h"
@@ -255,7 +255,7 @@ void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& f
     if (!outcome.repertoire) return;
     try {
         std::vector<std::byte> bytes = motion::encodeRepertoire(*outcome.repertoire);
-        files::writeWhole(path, bytes);
+        writeWhole(path, bytes);
         file.bytes = std::move(bytes);
     } catch (const Error& error) {
         file.error = error.what();
@@ -265,7 +265,7 @@ void keep(const CaptureOutcome& outcome, const fs::path& path, RepertoireFile& f
 }  // namespace
 
 std::vector<std::byte> readRepertoireFile(const fs::path& path) {
-    return files::readWhole(path, kMostBytes);
+    return readWhole(path, kMostBytes);
 }
 
 std::vector<RepertoireFile> repertoiresFor(const std::vector<config::Species>& all,

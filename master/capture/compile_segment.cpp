@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/dynamics.h"
 
 namespace aquarama::capture {

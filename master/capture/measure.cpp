@@ -10,8 +10,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "common/base/units.h"
 #include "common/motion/motor_tables.h"
-#include "common/units/units.h"
 
 namespace aquarama::capture {
 

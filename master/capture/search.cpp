@@ -15,8 +15,8 @@
 
 #include <nlopt.hpp>
 
-#include "common/units/digest.h"
-#include "common/units/log.h"
+#include "common/base/digest.h"
+#include "common/base/log.h"
 #include "master/capture/gait_trial.h"
 
 namespace aquarama::capture {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::capture {
 

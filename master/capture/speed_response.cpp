@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/dynamics.h"
 
 namespace aquarama::capture {

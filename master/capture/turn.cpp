@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/dynamics.h"
 #include "master/capture/motor_controllers.h"
 

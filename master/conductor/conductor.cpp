@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "common/wire/messages.h"
 
 namespace aquarama::conductor {

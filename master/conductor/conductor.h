@@ -14,10 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/digest.h"
 #include "common/config/rig.h"
-#include "common/net/bounded_queue.h"
 #include "common/net/channels.h"
-#include "common/units/digest.h"
 #include "common/wire/recording.h"
 #include "master/conductor/present_barrier.h"
 #include "master/conductor/simulation.h"

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/units.h"
 #include "common/net/clock.h"
-#include "common/units/units.h"
 
 namespace aquarama::conductor {
 

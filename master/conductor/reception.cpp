@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "common/base/log.h"
 #include "common/net/blob.h"
-#include "common/units/log.h"
 #include "common/wire/messages.h"
 #include "master/conductor/conductor.h"
 

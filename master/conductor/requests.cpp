@@ -10,7 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::conductor {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "common/base/units.h"
 #include "common/motion/motion_state.h"
 #include "common/net/clock.h"
-#include "common/units/units.h"
 #include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
 #include "master/world/events.h"

@@ -8,7 +8,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::conductor {
 namespace {

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "common/net/bounded_queue.h"
+#include "common/net/channels.h"
 #include "master/conductor/simulation.h"
 
 namespace aquarama::conductor {

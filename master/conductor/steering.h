@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "common/base/units.h"
 #include "common/net/channels.h"
 #include "common/net/clock.h"
-#include "common/units/units.h"
 
 namespace aquarama::conductor {
 

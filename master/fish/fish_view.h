@@ -9,8 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/config/species.h"
-#include "common/units/units.h"
 
 namespace aquarama::fish {
 

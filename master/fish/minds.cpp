@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "common/units/digest.h"
-#include "common/units/units.h"
+#include "common/base/digest.h"
+#include "common/base/units.h"
 #include "master/fish/secondary_controller.h"
 
 namespace aquarama::fish {

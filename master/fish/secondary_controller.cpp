@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "common/base/random_streams.h"
+#include "common/base/units.h"
 #include "common/place/place.h"
-#include "common/units/random_streams.h"
-#include "common/units/units.h"
 
 namespace aquarama::fish {
 

@@ -11,9 +11,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
-#include "common/units/units.h"
 #include "master/fish/fish_view.h"
 
 namespace aquarama::fish {

@@ -10,8 +10,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/units.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 #include "master/behaviour/perceive.h"
 
 namespace aquarama::simulation {

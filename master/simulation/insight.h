@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "common/base/units.h"
 #include "common/motion/repertoire.h"
-#include "common/units/units.h"
 #include "master/behaviour/intention_generator.h"
 #include "master/behaviour/mental_state.h"
 #include "master/behaviour/perceive.h"

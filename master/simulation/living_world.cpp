@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/files.h"
+#include "common/base/log.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
-#include "common/files/files.h"
 #include "common/motion/motor.h"
 #include "common/motion/repertoire.h"
 #include "common/place/water.h"
-#include "common/units/log.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/simulation/insight.h"
 
@@ -85,7 +85,7 @@ std::vector<capture::RepertoireFile> capturedOnce(const std::vector<config::Spec
     capture::ProgressBar bar("capturing");
     std::vector<capture::RepertoireFile> files =
         capture::repertoiresFor(species,
-                                files::cacheFolder() / "repertoires",
+                                cacheFolder() / "repertoires",
                                 {.progress = [&](double share) { bar.show(share); }});
     // A species that cannot be captured has an error instead of bytes.
     for (const capture::RepertoireFile& file : files)

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::simulation {
 

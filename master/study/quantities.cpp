@@ -10,8 +10,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/units/hash.h"
-#include "common/units/units.h"
+#include "common/base/hash.h"
+#include "common/base/units.h"
 
 namespace aquarama::study {
 

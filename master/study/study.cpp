@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
+#include "common/base/worker_pool.h"
 #include "common/config/species.h"
 #include "common/place/place.h"
-#include "common/units/worker_pool.h"
 #include "master/capture/report/report_data.h"
 #include "master/simulation/living_world.h"
 #include "master/study/quantities.h"

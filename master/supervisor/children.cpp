@@ -14,8 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/base/log.h"
 #include "common/cli/command_line.h"
-#include "common/units/log.h"
 
 namespace aquarama::supervisor {
 

@@ -15,7 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::supervisor {
 

@@ -13,8 +13,8 @@
 
 #include <signal.h>
 
+#include "common/base/log.h"
 #include "common/cli/outputs.h"
-#include "common/units/log.h"
 #include "master/supervisor/children.h"
 #include "master/supervisor/preflight.h"
 

@@ -12,9 +12,9 @@
 
 #include <glm/vec2.hpp>
 
+#include "common/base/units.h"
 #include "common/config/scene.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 
 namespace aquarama::surroundings {
 

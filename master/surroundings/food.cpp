@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/base/random_streams.h"
 #include "common/place/place.h"
-#include "common/units/random_streams.h"
 
 namespace aquarama::surroundings {
 

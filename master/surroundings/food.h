@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/surroundings/obstacles.h"
 
 namespace aquarama::surroundings {

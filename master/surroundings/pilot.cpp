@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/digest.h"
 #include "common/place/place.h"
-#include "common/units/digest.h"
 
 namespace aquarama::surroundings {
 

@@ -10,9 +10,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/config/scene.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 #include "master/surroundings/vessel.h"
 
 namespace aquarama::surroundings {

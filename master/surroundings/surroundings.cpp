@@ -6,9 +6,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/base/digest.h"
+#include "common/base/hash.h"
 #include "common/place/water.h"
-#include "common/units/digest.h"
-#include "common/units/hash.h"
 
 namespace aquarama::surroundings {
 

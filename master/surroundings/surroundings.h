@@ -9,9 +9,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/config/scene.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 #include "master/surroundings/climate.h"
 #include "master/surroundings/food.h"
 #include "master/surroundings/obstacles.h"

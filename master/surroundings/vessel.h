@@ -9,9 +9,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/motion/motion_state.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 #include "master/surroundings/climate.h"
 
 namespace aquarama::surroundings {

@@ -10,8 +10,8 @@
 
 #include <glm/common.hpp>
 
+#include "common/base/random_streams.h"
 #include "common/place/place.h"
-#include "common/units/random_streams.h"
 #include "master/behaviour/home.h"
 #include "master/behaviour/routines.h"
 #include "master/surroundings/surroundings.h"

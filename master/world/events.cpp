@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "common/base/hash.h"
 #include "common/place/place.h"
-#include "common/units/hash.h"
 #include "master/behaviour/mental_state.h"
 #include "master/fish/fish_view.h"
 #include "master/fish/secondary_controller.h"

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "common/base/digest.h"
+#include "common/base/log.h"
+#include "common/base/random_streams.h"
 #include "common/motion/headings.h"
 #include "common/place/place.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
-#include "common/units/random_streams.h"
 #include "master/behaviour/mental_state.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/think.h"

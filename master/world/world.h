@@ -15,12 +15,12 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
+#include "common/base/worker_pool.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
-#include "common/units/units.h"
-#include "common/units/worker_pool.h"
 #include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"

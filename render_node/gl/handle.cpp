@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::gl {
 

@@ -11,7 +11,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "render_node/gl/context.h"
 
 namespace aquarama::gl {

@@ -11,8 +11,8 @@
 
 #include <epoxy/gl.h>
 
-#include "common/files/derived_cache.h"
-#include "common/units/log.h"
+#include "common/base/derived_cache.h"
+#include "common/base/log.h"
 
 namespace aquarama::gl {
 
@@ -198,8 +198,8 @@ bool driverHasBinaries() {
 
 // Key of a binary in the cache: driver, version and all text, because a driver accepts only
 // binaries that it wrote itself.
-files::DerivedKey binaryKey(std::span<const ShaderStage> stages) {
-    files::DerivedKey key("program");
+DerivedKey binaryKey(std::span<const ShaderStage> stages) {
+    DerivedKey key("program");
     for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION})
         key.add(reinterpret_cast<const char*>(glGetString(name)));
     for (const ShaderStage& stage : stages) key.add(stage.source.text);
@@ -235,7 +235,7 @@ std::optional<ProgramHandle> loaded(std::span<const std::byte> bytes) {
 ProgramHandle linkedOrLoaded(std::span<const ShaderStage> stages) {
     if (!driverHasBinaries()) return linked(stages);
     std::optional<ProgramHandle> program;
-    const auto bytes = files::derivedCache().find(binaryKey(stages), [&] {
+    const auto bytes = derivedCache().find(binaryKey(stages), [&] {
         program = linked(stages);
         return binaryOf(*program);
     });

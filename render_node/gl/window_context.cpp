@@ -16,7 +16,7 @@
 #include <GLFW/glfw3.h>
 #include <glm/common.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "render_node/gl/context.h"
 
 namespace aquarama::gl {

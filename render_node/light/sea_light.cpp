@@ -11,8 +11,8 @@
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 
+#include "common/base/hash.h"
 #include "common/place/place.h"
-#include "common/units/hash.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/reef/solid_array.h"

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/files/derived_cache.h"
+#include "common/base/derived_cache.h"
 #include "common/place/place.h"
 #include "render_node/gl/program.h"
 #include "render_node/reef/mesh.h"
@@ -160,8 +160,8 @@ GroundTables makeGroundTables(std::uint32_t seed) {
 }  // namespace
 
 GroundTables groundTables(std::uint32_t seed) {
-    return files::derivedTables<GroundTables>(files::DerivedKey("ground").add(seed),
-                                              [&] { return makeGroundTables(seed); });
+    return derivedTables<GroundTables>(DerivedKey("ground").add(seed),
+                                       [&] { return makeGroundTables(seed); });
 }
 
 Ground::Ground(const GroundTables& tables, const gl::Replacements& replacements)

@@ -12,8 +12,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/files/derived_cache.h"
-#include "common/units/worker_pool.h"
+#include "common/base/derived_cache.h"
+#include "common/base/worker_pool.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"
 #include "render_node/reef/solid_array.h"
@@ -164,9 +164,8 @@ ReefTables makeReefTables(const place::PlaceKey& place) {
 }  // namespace
 
 ReefTables reefTables(const place::PlaceKey& place) {
-    return files::derivedTables<ReefTables>(
-        files::DerivedKey("reef").add(place.seed).add(place.kind),
-        [&] { return makeReefTables(place); });
+    return derivedTables<ReefTables>(DerivedKey("reef").add(place.seed).add(place.kind),
+                                     [&] { return makeReefTables(place); });
 }
 
 Reef::Reef(const ReefTables& tables, const Quality& quality)

@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "common/files/derived_cache.h"
-#include "common/units/hash.h"
+#include "common/base/derived_cache.h"
+#include "common/base/hash.h"
 #include "render_node/gl/handle.h"
 #include "render_node/shaders/shader_interface.h"
 
@@ -210,8 +210,7 @@ Tile tileOf(float sideMetres, ReliefAt reliefAt) {
 // The tile from the cache of derived data. The name is its key.
 template <class ReliefAt>
 Tile keptTile(const char* name, float sideMetres, ReliefAt reliefAt) {
-    return files::derivedTables<Tile>(files::DerivedKey(name),
-                                      [&] { return tileOf(sideMetres, reliefAt); });
+    return derivedTables<Tile>(DerivedKey(name), [&] { return tileOf(sideMetres, reliefAt); });
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/units/hash.h"
+#include "common/base/hash.h"
 #include "render_node/reef/mesh.h"
 
 namespace aquarama::scene {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::session {
 namespace {

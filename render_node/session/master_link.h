@@ -14,7 +14,6 @@
 #include <variant>
 
 #include "common/net/blob.h"
-#include "common/net/bounded_queue.h"
 #include "common/net/channels.h"
 #include "common/wire/messages.h"
 #include "render_node/session/session.h"

@@ -4,8 +4,8 @@
 #include <thread>
 #include <utility>
 
+#include "common/base/log.h"
 #include "common/net/channels.h"
-#include "common/units/log.h"
 #include "render_node/session/master_link.h"
 
 namespace aquarama::session {

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "common/base/digest.h"
+#include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "common/motion/motion_state.h"
 #include "common/net/blob.h"
 #include "common/net/channels.h"
-#include "common/units/digest.h"
-#include "common/units/units.h"
 #include "common/wire/recording.h"
 
 namespace aquarama::session {

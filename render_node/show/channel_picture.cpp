@@ -13,12 +13,12 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "common/base/digest.h"
+#include "common/base/log.h"
+#include "common/base/picture.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
-#include "common/wall/png_file.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/post_radii.h"
 #include "render_node/show/channel_show.h"
@@ -291,7 +291,7 @@ namespace {
 
 template <class Sample>
 // Projects into a target of the sample's format and reads it back.
-wall::Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
+Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding, Shown shown) {
     const gl::Target target(format, picture.sizePixels());
     picture.project(target.framebuffer(), encoding, Overlays{}, shown);
     const std::vector<Sample> pixels = gl::readRgb<Sample>(target);
@@ -301,7 +301,7 @@ wall::Picture readBack(ChannelPicture& picture, GLenum format, Encoding encoding
 
 }  // namespace
 
-wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
+Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown) {
     return bits == PictureBits::Deep16
                ? readBack<std::uint16_t>(picture, GL_RGBA16, Encoding::Plain, shown)
                : readBack<std::uint8_t>(picture, GL_RGBA8, Encoding::Dithered8, shown);
@@ -323,10 +323,10 @@ void writeSnapshot(const std::string& folder,
         throw Error(folder + ": cannot be made (" + failure.message() +
                     "); choose another folder for --snapshot");
     const std::string name = folder + "/channel-" + channel;
-    wall::writePng(name + ".png", takePicture(picture, bits, Shown::Display));
+    writePng(name + ".png", takePicture(picture, bits, Shown::Display));
     if (picture.stereo().mode == config::StereoMode::Mono) return;
-    wall::writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
-    wall::writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
+    writePng(name + ".left_eye.png", takePicture(picture, bits, Shown::LeftEye));
+    writePng(name + ".right_eye.png", takePicture(picture, bits, Shown::RightEye));
 }
 
 WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels) {

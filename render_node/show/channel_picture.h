@@ -11,8 +11,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "common/base/picture.h"
 #include "common/motion/reconstruct.h"
-#include "common/wall/picture.h"
 #include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/handle.h"
@@ -121,7 +121,7 @@ enum class PictureBits : std::uint8_t { Dithered8, Deep16 };
 
 // Projects and reads back the frame that was drawn last, without overlays of the channel. Waits for
 // the GPU.
-[[nodiscard]] wall::Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
+[[nodiscard]] Picture takePicture(ChannelPicture& picture, PictureBits bits, Shown shown);
 
 // The picture to show to somebody without stereo glasses: one eye's picture where the display
 // separates the eyes in space or time, else the display's own.

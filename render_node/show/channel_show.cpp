@@ -9,7 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "render_node/show/channel_picture.h"
 
 namespace aquarama::show {
@@ -220,7 +220,7 @@ std::optional<WatchedMind> ChannelShow::watchMind(const wire::StateFrame& frame)
 }
 
 void ChannelShow::film(Frame frame) {
-    wall::Picture taken = takePicture(*picture_, PictureBits::Dithered8, flat(*picture_));
+    Picture taken = takePicture(*picture_, PictureBits::Dithered8, flat(*picture_));
     film_->send({frame.value, taken.sizePixels.x, taken.sizePixels.y, std::move(taken.rgb)});
 }
 

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "common/base/units.h"
 #include "common/config/rig.h"
 #include "common/motion/reconstruct.h"
 #include "common/net/channels.h"
-#include "common/units/units.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"

@@ -13,8 +13,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/units.h"
 #include "common/config/rig.h"
-#include "common/units/units.h"
 #include "common/wall/wall.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/context.h"

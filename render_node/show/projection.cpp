@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "common/wall/pattern.h"
 #include "render_node/gl/program.h"
 #include "render_node/shaders/shader_interface.h"

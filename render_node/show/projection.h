@@ -9,8 +9,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "common/base/units.h"
 #include "common/config/rig.h"
-#include "common/units/units.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/handle.h"
 

@@ -15,10 +15,10 @@
 #include <glm/packing.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/derived_cache.h"
+#include "common/base/log.h"
 #include "common/body/fins.h"
-#include "common/files/derived_cache.h"
 #include "common/skin/limit_table.h"
-#include "common/units/log.h"
 #include "render_node/gl/handle.h"
 #include "render_node/shaders/shader_interface.h"
 
@@ -330,12 +330,12 @@ FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
     if (cast.size() > kMostSpecies)
         throw Error("a scene has more than " + std::to_string(kMostSpecies) +
                     " species; leave some out");
-    files::DerivedKey key("fish");
+    DerivedKey key("fish");
     key.add(finest);
     for (const SchoolSpecies& member : cast)
         if (member.source) key.add(std::as_bytes(std::span{member.source->bytes}));
     const auto make = [&] { return makeFishArrays(cast, finest); };
-    FishArrays arrays = allHaveSources(cast) ? files::derivedTables<FishArrays>(key, make) : make();
+    FishArrays arrays = allHaveSources(cast) ? derivedTables<FishArrays>(key, make) : make();
     countFish(cast, arrays.species);
     return arrays;
 }

@@ -14,12 +14,12 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "common/base/digest.h"
+#include "common/base/units.h"
 #include "common/body/fish_body.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/repertoire.h"
 #include "common/skin/limit_table.h"
-#include "common/units/digest.h"
-#include "common/units/units.h"
 #include "render_node/gl/handle.h"
 #include "render_node/shaders/shader_interface.h"
 #include "render_node/surface/few_triangles.h"

@@ -14,7 +14,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/files/derived_cache.h"
+#include "common/base/derived_cache.h"
 #include "render_node/shaders/shader_interface.h"
 #include "render_node/water/water_lobes.h"
 
@@ -446,7 +446,7 @@ struct WaterArrays {
 }  // namespace
 
 WaterTables waterTables(config::WaterType type) {
-    WaterArrays kept = files::derivedTables<WaterArrays>(files::DerivedKey("water").add(type), [&] {
+    WaterArrays kept = derivedTables<WaterArrays>(DerivedKey("water").add(type), [&] {
         const WaterSpectra water = seaWater(type);
         const Inscatter inscatter{water};
         return WaterArrays{inscatter.texels(),

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/units/hash.h"
+#include "common/base/hash.h"
 #include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {

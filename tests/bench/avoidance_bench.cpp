@@ -4,8 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "common/base/hash.h"
 #include "common/place/place.h"
-#include "common/units/hash.h"
 #include "master/surroundings/obstacles.h"
 #include "tests/support/school_region.h"
 

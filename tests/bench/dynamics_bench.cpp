@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "common/base/units.h"
 #include "common/config/species.h"
-#include "common/units/units.h"
 #include "master/capture/dynamics.h"
 #include "master/capture/swimmer.h"
 

@@ -13,8 +13,8 @@ config::Rig theatre() {
     return config::readRig(AQUARAMA_SOURCE_DIR "/config/theatre.txtpb");
 }
 
-std::vector<wall::Light> greyChannels(const config::Rig& rig) {
-    std::vector<wall::Light> channels;
+std::vector<Light> greyChannels(const config::Rig& rig) {
+    std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         channels.push_back(test::projectedLight(rig, i, wall::TestPattern::Grey));
     return channels;
@@ -28,14 +28,14 @@ BENCHMARK(warpMapOfTheatre)->Name("warp_map")->Unit(benchmark::kMillisecond);
 
 void panoramaOfTheatre(benchmark::State& state) {
     const config::Rig rig = theatre();
-    const std::vector<wall::Light> channels = greyChannels(rig);
+    const std::vector<Light> channels = greyChannels(rig);
     for (auto _ : state) benchmark::DoNotOptimize(theatre::composePanorama(rig, channels));
 }
 BENCHMARK(panoramaOfTheatre)->Name("compose_panorama")->Unit(benchmark::kMillisecond);
 
 void hallOfTheatre(benchmark::State& state) {
     const config::Rig rig = theatre();
-    const wall::Light panorama = test::directPanorama(rig, wall::TestPattern::Grey);
+    const Light panorama = test::directPanorama(rig, wall::TestPattern::Grey);
     for (auto _ : state) benchmark::DoNotOptimize(theatre::composeHall(rig, panorama, {1600, 900}));
 }
 BENCHMARK(hallOfTheatre)->Name("compose_hall")->Unit(benchmark::kMillisecond);

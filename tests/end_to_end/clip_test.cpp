@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "common/base/picture.h"
 #include "common/config/rig.h"
-#include "common/wall/png_file.h"
 #include "tests/end_to_end/free_port.h"
 #include "tests/support/read_clip.h"
 
@@ -56,7 +56,7 @@ TEST_F(ClipOfAShow, showsThePanoramaOfEveryOtherFrameAndLeavesNothingElse) {
     EXPECT_EQ(seen.sizePixels, glm::ivec2(452, 202)) << "even, one more than the panorama";
     ASSERT_EQ(seen.pictures.size(), 4U);
     EXPECT_NEAR(seen.durationSeconds, 8 / 60.0, 1e-3);
-    const wall::Picture last = wall::readPng(path("show/panorama.png"));
+    const Picture last = readPng(path("show/panorama.png"));
     EXPECT_LT(test::meanCodesBetween(seen.pictures.back(), last), 3);
     EXPECT_FALSE(fs::exists(path("show/clip.mp4.part")));
     EXPECT_EQ(std::distance(fs::directory_iterator(path("show")), {}), 6) << "5 pictures, a clip";
@@ -69,7 +69,7 @@ TEST_F(ClipOfAShow, showsAChannelOfTheWorldAsItsSnapshotHasIt) {
         << log();
     const auto seen = test::readClip(path("middle.mp4"));
     ASSERT_EQ(seen.pictures.size(), 3U);
-    const wall::Picture last = wall::readPng(path("show/channel-middle.png"));
+    const Picture last = readPng(path("show/channel-middle.png"));
     const double off = test::meanCodesBetween(seen.pictures[2], last);
     EXPECT_LT(off, 5);
     EXPECT_LT(off, test::meanCodesBetween(seen.pictures[1], last)) << "another frame is as near";

@@ -50,9 +50,8 @@ class Projected {
         picture.project(target.framebuffer(), show::Encoding::Plain, show::Overlays{});
         const auto pixels = gl::readRgb<std::uint16_t>(target);
         for (const config::Channel& other : rig.channels)
-            lights_.push_back(wall::darkness(other.sizePixels));
-        lights_[channel] =
-            wall::lightOf({picture.sizePixels(), 16, {pixels.begin(), pixels.end()}});
+            lights_.push_back(darkness(other.sizePixels));
+        lights_[channel] = lightOf({picture.sizePixels(), 16, {pixels.begin(), pixels.end()}});
         panorama_ = theatre::composePanorama(rig, lights_);
     }
     [[nodiscard]] double weight(glm::ivec2 at) const {
@@ -62,14 +61,14 @@ class Projected {
     // sRGB codes: what the eye weighs alike.
     [[nodiscard]] double code(glm::ivec2 at) const {
         const double light = static_cast<double>(panorama_.at(at.x, at.y).g) / weight(at);
-        return 255 * wall::srgbFromLinear(std::clamp(light, 0.0, 1.0));
+        return 255 * srgbFromLinear(std::clamp(light, 0.0, 1.0));
     }
 
   private:
     const config::Rig& rig_;
     std::size_t channel_;
-    std::vector<wall::Light> lights_;
-    wall::Light panorama_;
+    std::vector<Light> lights_;
+    Light panorama_;
 };
 
 // Of the means of a block of pixels, which both channels must light well.

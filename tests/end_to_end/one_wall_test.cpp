@@ -38,7 +38,7 @@ class Installation {
     Installation& operator=(const Installation&) = delete;
 
     // The light of each channel after a run of the show.
-    std::vector<wall::Light> show(const std::string& arguments) const {
+    std::vector<Light> show(const std::string& arguments) const {
         const std::string command = std::string(getenv("AQUARAMA_BIN")) + "/aquarama run " +
                                     (folder_ / "rig.txtpb").string() + " --headless --snapshot " +
                                     folder_.string() + " " + arguments + " > " +
@@ -61,7 +61,7 @@ class OneWall : public testing::TestWithParam<const char*> {};
 
 TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
     const Installation installation(GetParam());
-    const wall::Light composed = theatre::composePanorama(
+    const Light composed = theatre::composePanorama(
         installation.rig(), installation.show("--frames 2 --pattern grid --deep"));
     const auto offsets =
         test::lineOffsets(installation.rig(),
@@ -88,11 +88,11 @@ INSTANTIATE_TEST_SUITE_P(Rigs, OneWall, testing::Values("theatre", "touring"));
 // The scene as one channel alone shows it on the panorama: its light, freed of its blend.
 class Alone {
   public:
-    Alone(const config::Rig& rig, const std::vector<wall::Light>& channels, std::size_t channel)
+    Alone(const config::Rig& rig, const std::vector<Light>& channels, std::size_t channel)
         : rig_{rig}, channel_{channel} {
-        std::vector<wall::Light> only = channels;
+        std::vector<Light> only = channels;
         for (std::size_t other = 0; other < only.size(); ++other) {
-            if (other != channel) only[other] = wall::darkness(only[other].sizePixels);
+            if (other != channel) only[other] = darkness(only[other].sizePixels);
         }
         panorama_ = theatre::composePanorama(rig, only);
     }
@@ -107,7 +107,7 @@ class Alone {
   private:
     const config::Rig& rig_;
     std::size_t channel_;
-    wall::Light panorama_;
+    Light panorama_;
 };
 
 // How far the one picture must be moved to lie on the other, by one least-squares step (Lucas and

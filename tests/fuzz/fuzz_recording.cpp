@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <span>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "common/wire/recording.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "common/base/digest.h"
+#include "common/base/log.h"
 #include "common/motion/repertoire.h"
-#include "common/units/digest.h"
-#include "common/units/log.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include "common/base/log.h"
 #include "common/config/rig.h"
-#include "common/units/log.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

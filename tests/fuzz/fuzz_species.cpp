@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include "common/base/log.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
-#include "common/units/log.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

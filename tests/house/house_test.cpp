@@ -204,18 +204,17 @@ TEST(House, theThreePartsNeverIncludeOneAnother) {
 // include itself.
 TEST(House, commonIsLayered) {
     const std::map<std::string, std::vector<std::string>> mayInclude{
-        {"common/units/", {}},
-        {"common/files/", {"common/units/"}},
-        {"common/config/", {"common/units/"}},
-        {"common/body/", {"common/units/", "common/config/"}},
-        {"common/skin/", {"common/units/", "common/body/"}},
-        {"common/motion/", {"common/units/", "common/body/"}},
-        {"common/place/", {"common/units/", "common/config/"}},
-        {"common/wall/", {"common/units/", "common/config/"}},
+        {"common/base/", {}},
+        {"common/config/", {"common/base/"}},
+        {"common/body/", {"common/base/", "common/config/"}},
+        {"common/skin/", {"common/base/", "common/body/"}},
+        {"common/motion/", {"common/base/", "common/body/"}},
+        {"common/place/", {"common/base/", "common/config/"}},
+        {"common/wall/", {"common/base/", "common/config/"}},
         {"common/wire/",
-         {"common/units/", "common/motion/", "common/body/", "common/wall/", "common/config/"}},
-        {"common/net/", {"common/units/", "common/files/"}},
-        {"common/cli/", {"common/units/", "common/files/", "common/config/"}},
+         {"common/base/", "common/motion/", "common/body/", "common/wall/", "common/config/"}},
+        {"common/net/", {"common/base/"}},
+        {"common/cli/", {"common/base/"}},
     };
     for (const Inclusion& inclusion : inclusions()) {
         if (!inclusion.file.starts_with("common/") ||

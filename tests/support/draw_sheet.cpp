@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "common/units/log.h"
-#include "common/wall/png_file.h"
+#include "common/base/log.h"
+#include "common/base/picture.h"
 
 namespace aquarama::test {
 namespace {
 
 constexpr int kGap = 6;  // pixels between pictures, half of it at the sheet's rim
 
-void paste(wall::Picture& sheet, const wall::Picture& picture, glm::ivec2 corner) {
+void paste(Picture& sheet, const Picture& picture, glm::ivec2 corner) {
     for (int y = 0; y < picture.sizePixels.y; ++y) {
         const auto row = picture.rgb.begin() + std::ptrdiff_t{3} * y * picture.sizePixels.x;
         std::copy_n(row,
@@ -25,17 +25,17 @@ void paste(wall::Picture& sheet, const wall::Picture& picture, glm::ivec2 corner
     }
 }
 
-wall::Picture sheetOf(const std::vector<std::string>& paths, int columns) {
-    const glm::ivec2 size = wall::readPng(paths.front()).sizePixels;
+Picture sheetOf(const std::vector<std::string>& paths, int columns) {
+    const glm::ivec2 size = readPng(paths.front()).sizePixels;
     const int rows = (static_cast<int>(paths.size()) + columns - 1) / columns;
-    wall::Picture sheet;
+    Picture sheet;
     sheet.sizePixels = (size + kGap) * glm::ivec2{columns, rows};
     sheet.rgb.resize(std::size_t{3} * static_cast<std::size_t>(sheet.sizePixels.x) *
                          static_cast<std::size_t>(sheet.sizePixels.y),
                      255);
     for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
         const std::string& path = paths[static_cast<std::size_t>(i)];
-        const wall::Picture picture = wall::readPng(path);
+        const Picture picture = readPng(path);
         if (picture.sizePixels != size || picture.bits != 8)
             throw Error(path + " is not of the size and depth of " + paths.front() +
                         ": draw all alike");

@@ -12,7 +12,7 @@
 
 #include <glm/common.hpp>
 
-#include "common/wall/png_file.h"
+#include "common/base/picture.h"
 #include "tests/common/body/bend.h"
 #include "tests/support/portrait.h"
 
@@ -22,14 +22,14 @@ namespace {
 constexpr int kSamples = 3;  // a pixel each way
 constexpr glm::vec3 kWater{0.055F, 0.16F, 0.21F};
 
-wall::Light sheet(glm::vec2 sizePixels) {
-    wall::Light light = wall::darkness(glm::ivec2(glm::ceil(sizePixels)) * kSamples);
+Light sheet(glm::vec2 sizePixels) {
+    Light light = darkness(glm::ivec2(glm::ceil(sizePixels)) * kSamples);
     std::ranges::fill(light.rgb, kWater);
     return light;
 }
 
-wall::Light shrunk(const wall::Light& fine) {
-    wall::Light light = wall::darkness(fine.sizePixels / kSamples);
+Light shrunk(const Light& fine) {
+    Light light = darkness(fine.sizePixels / kSamples);
     for (int y = 0; y < light.sizePixels.y * kSamples; ++y)
         for (int x = 0; x < light.sizePixels.x * kSamples; ++x)
             light.at(x / kSamples, y / kSamples) +=
@@ -37,12 +37,11 @@ wall::Light shrunk(const wall::Light& fine) {
     return light;
 }
 
-void save(const wall::Light& fine, const std::string& path) {
-    wall::Picture picture =
-        wall::pictureOf(shrunk(fine), 16, 0);  // 8 bits would be dithered: twice the file
+void save(const Light& fine, const std::string& path) {
+    Picture picture = pictureOf(shrunk(fine), 16, 0);  // 8 bits would be dithered: twice the file
     picture.bits = 8;
     for (std::uint16_t& code : picture.rgb) code = static_cast<std::uint16_t>(code >> 8);
-    wall::writePng(path, picture);
+    writePng(path, picture);
     std::cout << path << '\n';
 }
 
@@ -71,7 +70,7 @@ struct Panel {
     float scale;  // pixels a body length
 };
 
-void draw(wall::Light& paper, const Panel& panel) {
+void draw(Light& paper, const Panel& panel) {
     const glm::vec2 origin = panel.corner - panel.scale * panel.portrait->extent(panel.view).least;
     panel.portrait->draw(
         paper, panel.view, origin * float(kSamples), panel.scale * float(kSamples));
@@ -97,7 +96,7 @@ void drawViews(const std::vector<Fish>& fish, const std::string& path) {
         add(one.rest, kFromTheFront, kGap * 4 + kScale * 2.95F);
         corner.y += height + kGap;
     }
-    wall::Light paper = sheet({width + kGap, corner.y});
+    Light paper = sheet({width + kGap, corner.y});
     for (const Panel& panel : panels) draw(paper, panel);
     save(paper, path);
 }
@@ -121,7 +120,7 @@ void drawSizes(const std::vector<Fish>& fish, const std::string& path) {
         corner.x += size.x + kGap;
         height = std::max(height, size.y);
     }
-    wall::Light paper = sheet({kWidth + kGap, corner.y + height + kGap});
+    Light paper = sheet({kWidth + kGap, corner.y + height + kGap});
     for (const Panel& panel : panels) draw(paper, panel);
     save(paper, path);
 }

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/wall/png_file.h"
+#include "common/base/picture.h"
 #include "render_node/gl/context.h"
 #include "tests/support/still.h"
 
@@ -122,7 +122,7 @@ int main(int argc, char** argv) try {
     app.add_option("--out", options.out, "PNG file");
     CLI11_PARSE(app, argc, argv);
     const auto context = gl::makeOffscreenContext("auto", {16, 16});
-    wall::writePng(options.out, test::pictureOf(stillOf(options, still)));
+    writePng(options.out, test::pictureOf(stillOf(options, still)));
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "aquarama_draw_still: %s\n", error.what());

@@ -38,7 +38,7 @@ Image mapped(Image image, const std::function<glm::dvec3(glm::dvec3)>& to) {
     return image;
 }
 
-Image linearOf(const wall::Picture& picture) {
+Image linearOf(const Picture& picture) {
     Image image{picture.sizePixels, {}};
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
         glm::dvec3 colour;
@@ -212,9 +212,7 @@ Features featuresOf(const Image& opponent, double pixelsPerDegree) {
 
 }  // namespace
 
-std::vector<double> flip(const wall::Picture& reference,
-                         const wall::Picture& other,
-                         double pixelsPerDegree) {
+std::vector<double> flip(const Picture& reference, const Picture& other, double pixelsPerDegree) {
     const Image a = mapped(linearOf(reference), opponentFromLinear);
     const Image b = mapped(linearOf(other), opponentFromLinear);
     std::vector<double> result = colourDifference(a, b, pixelsPerDegree);
@@ -228,7 +226,7 @@ std::vector<double> flip(const wall::Picture& reference,
     return result;
 }
 
-double meanFlip(const wall::Picture& reference, const wall::Picture& other) {
+double meanFlip(const Picture& reference, const Picture& other) {
     const std::vector<double> all = flip(reference, other);
     return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
 }

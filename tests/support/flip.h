@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "common/wall/picture.h"
+#include "common/base/picture.h"
 
 namespace aquarama::test {
 
@@ -14,9 +14,9 @@ namespace aquarama::test {
 inline constexpr double kPixelsPerDegree = 67.0;
 
 // Of each pixel, 0 (the same) to 1. The pictures are of one size, sRGB, 8 bits.
-[[nodiscard]] std::vector<double> flip(const wall::Picture& reference,
-                                       const wall::Picture& other,
+[[nodiscard]] std::vector<double> flip(const Picture& reference,
+                                       const Picture& other,
                                        double pixelsPerDegree = kPixelsPerDegree);
-[[nodiscard]] double meanFlip(const wall::Picture& reference, const wall::Picture& other);
+[[nodiscard]] double meanFlip(const Picture& reference, const Picture& other);
 
 }  // namespace aquarama::test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/wall/png_file.h"
+#include "common/base/picture.h"
 #include "tests/support/source_folder.h"
 
 namespace aquarama::test {
@@ -18,23 +18,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<int> differences(const wall::Picture& a, const wall::Picture& b) {
+std::vector<int> differences(const Picture& a, const Picture& b) {
     std::vector<int> codes(a.rgb.size());
     std::ranges::transform(
         a.rgb, b.rgb, codes.begin(), [](int x, int y) { return std::abs(x - y); });
     return codes;
 }
 
-fs::path leave(const wall::Picture& picture, const std::string& name, const char* kind) {
+fs::path leave(const Picture& picture, const std::string& name, const char* kind) {
     const fs::path path = fs::path("golden") / (name + "." + kind + ".png");
     fs::create_directories(path.parent_path());
-    wall::writePng(path.string(), picture);
+    writePng(path.string(), picture);
     return fs::absolute(path);
 }
 
-wall::Picture enlargedDifference(const wall::Picture& a, const wall::Picture& b) {
+Picture enlargedDifference(const Picture& a, const Picture& b) {
     constexpr int kTimes = 8;
-    wall::Picture picture{a.sizePixels, 8, {}};
+    Picture picture{a.sizePixels, 8, {}};
     for (const int code : differences(a, b))
         picture.rgb.push_back(static_cast<std::uint16_t>(std::min(kTimes * code, 255)));
     return picture;
@@ -42,7 +42,7 @@ wall::Picture enlargedDifference(const wall::Picture& a, const wall::Picture& b)
 
 }  // namespace
 
-CodeDifference codeDifference(const wall::Picture& a, const wall::Picture& b) {
+CodeDifference codeDifference(const Picture& a, const Picture& b) {
     std::vector<int> codes = differences(a, b);
     const double mean =
         std::accumulate(codes.begin(), codes.end(), 0.0) / static_cast<double>(codes.size());
@@ -55,16 +55,14 @@ std::string goldenPath(const std::string& name) {
     return sourceFolder() + "/tests/golden/" + name + ".png";
 }
 
-void expectGolden(const wall::Picture& picture,
-                  const std::string& name,
-                  const GoldenLimits& limits) {
+void expectGolden(const Picture& picture, const std::string& name, const GoldenLimits& limits) {
     const fs::path path = goldenPath(name);
     if (std::getenv("AQUARAMA_UPDATE_GOLDEN") != nullptr) {
         fs::create_directories(path.parent_path());
-        return wall::writePng(path.string(), picture);
+        return writePng(path.string(), picture);
     }
     ASSERT_TRUE(fs::exists(path)) << path << " is missing: draw it with AQUARAMA_UPDATE_GOLDEN=1";
-    const wall::Picture golden = wall::readPng(path.string());
+    const Picture golden = readPng(path.string());
     ASSERT_EQ(golden.sizePixels, picture.sizePixels) << name;
     const CodeDifference apart = codeDifference(picture, golden);
     EXPECT_LE(apart.meanCodes, limits.meanCodes) << name;

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "common/wall/picture.h"
+#include "common/base/picture.h"
 
 namespace aquarama::test {
 
@@ -24,15 +24,13 @@ struct CodeDifference {
         return meanCodes <= limits.meanCodes && percentile999Codes <= limits.percentile999Codes;
     }
 };
-[[nodiscard]] CodeDifference codeDifference(const wall::Picture& a, const wall::Picture& b);
+[[nodiscard]] CodeDifference codeDifference(const Picture& a, const Picture& b);
 
 // Where the picture of this name is.
 [[nodiscard]] std::string goldenPath(const std::string& name);
 
 // Fails, and leaves NAME.actual.png and NAME.difference.png (8 times the difference) in the working
 // directory's golden/, when the picture is not as tests/golden/NAME.png.
-void expectGolden(const wall::Picture& picture,
-                  const std::string& name,
-                  const GoldenLimits& limits = {});
+void expectGolden(const Picture& picture, const std::string& name, const GoldenLimits& limits = {});
 
 }  // namespace aquarama::test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "common/wall/pattern.h"
 #include "common/wall/wall.h"
 
@@ -21,7 +21,7 @@ constexpr float kNoise = 0.02F;     // of the peak
 
 // One panorama seen along or across its rows: an upright line is crossed by walking a row.
 struct Walk {
-    const wall::Light& light;
+    const Light& light;
     bool upright;
     [[nodiscard]] float at(int across, int along) const {
         return upright ? light.at(across, along).y : light.at(along, across).y;
@@ -72,8 +72,8 @@ struct Window {
 
 // All measurements of one line. `window` spans it across; `alongPixels` is its whole length.
 void measureLine(const config::Rig& rig,
-                 const wall::Light& composed,
-                 const wall::Light& direct,
+                 const Light& composed,
+                 const Light& direct,
                  const LineOffset& line,
                  Window window,
                  std::vector<LineOffset>& found) {
@@ -99,8 +99,8 @@ void measureLine(const config::Rig& rig,
 }  // namespace
 
 std::vector<LineOffset> lineOffsets(const config::Rig& rig,
-                                    const wall::Light& composed,
-                                    const wall::Light& direct) {
+                                    const Light& composed,
+                                    const Light& direct) {
     constexpr int kMostLines =
         static_cast<int>(90 / wall::kGridDegrees) - 1;  // to each side of level
     std::vector<LineOffset> found;
@@ -120,7 +120,7 @@ std::vector<LineOffset> lineOffsets(const config::Rig& rig,
     return found;
 }
 
-double unevenness(const wall::Light& panorama, int blockPixels) {
+double unevenness(const Light& panorama, int blockPixels) {
     const glm::ivec2 size = panorama.sizePixels;
     const glm::ivec2 border(glm::ceil(glm::dvec2(size) * wall::kDarkBorder));
     std::vector<double> blocks;

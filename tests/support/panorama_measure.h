@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "common/base/picture.h"
 #include "common/config/rig.h"
-#include "common/wall/picture.h"
 
 namespace aquarama::test {
 
@@ -19,11 +19,11 @@ struct LineOffset {
 // The grid's lines in two panoramas of one rig, measured by their centroids every few rows and
 // columns, away from crossings and from the screen's edges.
 [[nodiscard]] std::vector<LineOffset> lineOffsets(const config::Rig& rig,
-                                                  const wall::Light& composed,
-                                                  const wall::Light& direct);
+                                                  const Light& composed,
+                                                  const Light& direct);
 
 // The largest relative deviation from the mean of any block of `blockPixels` squared, without the
 // border that may stay dark (kDarkBorder of wall.h).
-[[nodiscard]] double unevenness(const wall::Light& panorama, int blockPixels);
+[[nodiscard]] double unevenness(const Light& panorama, int blockPixels);
 
 }  // namespace aquarama::test

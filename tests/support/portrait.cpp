@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat3x4.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::test {
 
@@ -108,7 +108,7 @@ glm::vec3 Portrait::colourOf(std::uint32_t part, const skin::SkinPlace& place) c
     return glm::mix(side, palette_.back, glm::smoothstep(0.2F, 0.75F, v));
 }
 
-void Portrait::draw(wall::Light& paper,
+void Portrait::draw(Light& paper,
                     const View& view,
                     glm::vec2 originPixels,
                     float pixelsPerBodyLength) const {

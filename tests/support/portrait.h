@@ -9,10 +9,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/picture.h"
 #include "common/body/fish_body.h"
 #include "common/config/species.h"
 #include "common/skin/limit_table.h"
-#include "common/wall/picture.h"
 
 namespace aquarama::test {
 
@@ -39,7 +39,7 @@ class Portrait {
     [[nodiscard]] Extent extent(const View& view) const;
 
     // Over what the paper shows already, with the origin of the nodal points' frame at a pixel.
-    void draw(wall::Light& paper,
+    void draw(Light& paper,
               const View& view,
               glm::vec2 originPixels,
               float pixelsPerBodyLength) const;

@@ -5,9 +5,9 @@
 
 namespace aquarama::test {
 
-wall::Light projectedLight(const config::Rig& rig, std::size_t channel, wall::TestPattern pattern) {
+Light projectedLight(const config::Rig& rig, std::size_t channel, wall::TestPattern pattern) {
     const wall::WarpMap warp = wall::warpMap(rig, channel);
-    wall::Light light = wall::darkness(warp.sizePixels);
+    Light light = darkness(warp.sizePixels);
     for (std::size_t i = 0; i < light.rgb.size(); ++i) {
         const glm::dvec4 lit(warp.pointAndWeight[i]);
         if (lit.w <= 0) continue;
@@ -17,8 +17,8 @@ wall::Light projectedLight(const config::Rig& rig, std::size_t channel, wall::Te
     return light;
 }
 
-wall::Light directPanorama(const config::Rig& rig, wall::TestPattern pattern) {
-    wall::Light light = wall::darkness(rig.panoramaPixels);
+Light directPanorama(const config::Rig& rig, wall::TestPattern pattern) {
+    Light light = darkness(rig.panoramaPixels);
     for (int y = 0; y < rig.panoramaPixels.y; ++y)
         for (int x = 0; x < rig.panoramaPixels.x; ++x) {
             const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(rig.panoramaPixels);

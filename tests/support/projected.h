@@ -3,19 +3,19 @@
 // that real nodes are measured against, without GL.
 #pragma once
 
+#include "common/base/picture.h"
 #include "common/config/rig.h"
 #include "common/wall/pattern.h"
-#include "common/wall/picture.h"
 
 namespace aquarama::test {
 
-// A channel's share of the pattern: warped and blended. pictureOf (common/wall/picture.h) encodes
+// A channel's share of the pattern: warped and blended. pictureOf (common/base/picture.h) encodes
 // it as the channel's picture.
-[[nodiscard]] wall::Light projectedLight(const config::Rig& rig,
-                                         std::size_t channel,
-                                         wall::TestPattern pattern);
+[[nodiscard]] Light projectedLight(const config::Rig& rig,
+                                   std::size_t channel,
+                                   wall::TestPattern pattern);
 
 // The pattern on the unrolled screen, straight from its formula: no projector in between.
-[[nodiscard]] wall::Light directPanorama(const config::Rig& rig, wall::TestPattern pattern);
+[[nodiscard]] Light directPanorama(const config::Rig& rig, wall::TestPattern pattern);
 
 }  // namespace aquarama::test

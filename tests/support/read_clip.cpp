@@ -14,7 +14,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::test {
 
@@ -32,7 +32,7 @@ struct Free {
     void operator()(SwsContext* converter) const { sws_freeContext(converter); }
 };
 
-wall::Picture pictureOf(const AVFrame& frame) {
+Picture pictureOf(const AVFrame& frame) {
     const std::unique_ptr<SwsContext, Free> converter{
         sws_getContext(frame.width,
                        frame.height,
@@ -97,12 +97,12 @@ SeenClip readClip(const std::string& path) {
     return clip;
 }
 
-double meanCodesBetween(const wall::Picture& one, const wall::Picture& other) {
+double meanCodesBetween(const Picture& one, const Picture& other) {
     const glm::ivec2 size = glm::min(one.sizePixels, other.sizePixels);
     double sum = 0;
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < 3 * size.x; ++x) {
-            const auto at = [&](const wall::Picture& picture) {
+            const auto at = [&](const Picture& picture) {
                 return picture.rgb[static_cast<std::size_t>(3 * y * picture.sizePixels.x + x)];
             };
             sum += std::abs(at(one) - at(other));

@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "common/wall/picture.h"
+#include "common/base/picture.h"
 
 namespace aquarama::test {
 
 struct SeenClip {
     std::string codec;  // "h264"
     glm::ivec2 sizePixels{};
-    std::vector<wall::Picture> pictures;  // 8 bits
-    std::vector<double> seconds;          // when each is shown
+    std::vector<Picture> pictures;  // 8 bits
+    std::vector<double> seconds;    // when each is shown
     double durationSeconds = 0;
 };
 // Throws Error where the file is no clip.
 [[nodiscard]] SeenClip readClip(const std::string& path);
 
 // Mean absolute difference of 8-bit codes over the smaller of two sizes.
-[[nodiscard]] double meanCodesBetween(const wall::Picture& one, const wall::Picture& other);
+[[nodiscard]] double meanCodesBetween(const Picture& one, const Picture& other);
 
 }  // namespace aquarama::test

@@ -18,9 +18,9 @@
 
 #include <unistd.h>
 
+#include "common/base/log.h"
 #include "common/config/rig.h"
 #include "common/motion/repertoire.h"
-#include "common/units/log.h"
 #include "master/conductor/conductor.h"
 #include "render_node/session/session.h"
 #include "tests/support/memory_channels.h"

@@ -56,21 +56,21 @@ Cast castOf(const std::vector<StillFish>& fish) {
     return cast;
 }
 
-wall::Picture encoded(unsigned texture, glm::ivec2 size) {
-    wall::Light light = wall::darkness(size);
+Picture encoded(unsigned texture, glm::ivec2 size) {
+    Light light = darkness(size);
     glGetTextureImage(texture,
                       0,
                       GL_RGB,
                       GL_FLOAT,
                       static_cast<GLsizei>(light.rgb.size() * sizeof(glm::vec3)),
                       light.rgb.data());
-    wall::Picture picture{.sizePixels = size, .bits = 8, .rgb = {}};
+    Picture picture{.sizePixels = size, .bits = 8, .rgb = {}};
     for (int y = size.y - 1; y >= 0; --y)  // GL's rows begin at the bottom
         for (int x = 0; x < size.x; ++x)
             for (int c = 0; c < 3; ++c) {
                 const double shown = std::clamp(static_cast<double>(light.at(x, y)[c]), 0.0, 1.0);
                 picture.rgb.push_back(
-                    static_cast<std::uint16_t>(std::lround(255 * wall::srgbFromLinear(shown))));
+                    static_cast<std::uint16_t>(std::lround(255 * srgbFromLinear(shown))));
             }
     return picture;
 }
@@ -138,7 +138,7 @@ std::vector<StillFish> ballOf(const std::string& species,
     return ball;
 }
 
-wall::Picture Photographer::pictureOf(const Still& still) {
+Picture Photographer::pictureOf(const Still& still) {
     const Cast cast = castOf(still.fish);
     scene::SceneOptions options = still.options;
     options.pixelRadians = pixelRadiansOf(still.camera);
@@ -159,7 +159,7 @@ wall::Picture Photographer::pictureOf(const Still& still) {
     return encoded(scene_->draw(viewOf(still.camera)), still.camera.sizePixels);
 }
 
-wall::Picture pictureOf(const Still& still) {
+Picture pictureOf(const Still& still) {
     return Photographer{}.pictureOf(still);
 }
 

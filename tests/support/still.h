@@ -12,8 +12,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/base/picture.h"
 #include "common/place/place.h"
-#include "common/wall/picture.h"
 #include "render_node/light/scene.h"
 
 namespace aquarama::test {
@@ -63,7 +63,7 @@ struct Still {
 class Photographer {
   public:
     // Bodies sway; they are not captured. sRGB, 8 bits, without dither.
-    [[nodiscard]] wall::Picture pictureOf(const Still& still);
+    [[nodiscard]] Picture pictureOf(const Still& still);
 
   private:
     scene::SceneOptions options_;
@@ -71,6 +71,6 @@ class Photographer {
     std::unique_ptr<scene::SceneRenderer> scene_;
 };
 // One alone.
-[[nodiscard]] wall::Picture pictureOf(const Still& still);
+[[nodiscard]] Picture pictureOf(const Still& still);
 
 }  // namespace aquarama::test

@@ -15,7 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "render_node/water/water_lobes.h"
 #include "tests/support/water_comparison.h"
 #include "tests/support/water_light.h"

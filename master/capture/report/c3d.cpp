@@ -7,8 +7,8 @@
 #include <charconv>
 #include <string>
 
+#include "common/base/units.h"
 #include "common/motion/repertoire.h"
-#include "common/units/units.h"
 
 namespace aquarama::report {
 

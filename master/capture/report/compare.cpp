@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 
 namespace aquarama::report {
 

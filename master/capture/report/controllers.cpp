@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/capture/dynamics.h"
 #include "master/capture/report/report_data.h"
 #include "master/capture/report/silhouette.h"

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/capture/report/report_data.h"
 
 namespace aquarama::report {

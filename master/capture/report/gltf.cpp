@@ -9,8 +9,8 @@
 
 #include <glm/common.hpp>
 
+#include "common/base/log.h"
 #include "common/skin/limit_table.h"
-#include "common/units/log.h"
 #include "master/capture/measure.h"
 #include "master/capture/report/take.h"
 

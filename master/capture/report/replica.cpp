@@ -7,9 +7,9 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "common/base/units.h"
 #include "common/motion/reconstruct.h"
 #include "common/motion/repertoire.h"
-#include "common/units/units.h"
 #include "master/capture/report/script.h"
 
 namespace aquarama::report {

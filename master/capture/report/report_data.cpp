@@ -10,11 +10,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/base/digest.h"
+#include "common/base/files.h"
+#include "common/base/units.h"
 #include "common/body/cage.h"
-#include "common/files/files.h"
 #include "common/motion/repertoire.h"
-#include "common/units/digest.h"
-#include "common/units/units.h"
 #include "master/capture/biomechanical_fish.h"
 #include "master/capture/measure.h"
 #include "master/capture/report/segment_figures.h"
@@ -141,7 +141,7 @@ void addViews(const motion::ActionSegment& segment, json& data) {
 
 // Writes a file completely or not at all; returns its path. Throws Error.
 fs::path written(const std::string& text, fs::path path) {
-    files::writeWhole(path, std::as_bytes(std::span(text)));
+    writeWhole(path, std::as_bytes(std::span(text)));
     return path;
 }
 

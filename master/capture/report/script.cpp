@@ -7,7 +7,7 @@
 #include <random>
 #include <span>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 
 namespace aquarama::report {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/capture/compile_segment.h"
 #include "master/capture/report/compare.h"
 #include "master/capture/report/replica.h"

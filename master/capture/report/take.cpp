@@ -7,8 +7,8 @@
 
 #include <glm/common.hpp>
 
-#include "common/units/log.h"
-#include "common/units/units.h"
+#include "common/base/log.h"
+#include "common/base/units.h"
 #include "master/capture/measure.h"
 
 namespace aquarama::report {

@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/wall/png_file.h"
+#include "common/base/picture.h"
 
 namespace aquarama::bench {
 namespace {
@@ -96,8 +96,7 @@ TEST(GpuBench, writesFiguresAndPicturesOfWhatItDrew) {
                                      " gpu_vertex_ms"))
             << stage;
     EXPECT_EQ(figures["gpu/golden/surface/window within_bounds"], 1);
-    const wall::Picture picture =
-        wall::readPng((out / "gpu-theatre-bait_ball_100000-medium.png").string());
+    const Picture picture = readPng((out / "gpu-theatre-bait_ball_100000-medium.png").string());
     EXPECT_EQ(picture.sizePixels, glm::ivec2(250, 62));
     const std::set<std::uint16_t> codes(picture.rgb.begin(), picture.rgb.end());
     EXPECT_GT(codes.size(), 40U) << "flat";

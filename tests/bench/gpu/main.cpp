@@ -18,8 +18,8 @@
 #include <epoxy/gl.h>
 
 #include "calibration/theatre/compose.h"
-#include "common/units/log.h"
-#include "common/wall/png_file.h"
+#include "common/base/log.h"
+#include "common/base/picture.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/context.h"
 #include "tests/bench/gpu/card_memory.h"
@@ -214,8 +214,8 @@ class Measurement {
         writeStages(name,
                     drawn.timeStages(extent_.stageTimes, /*withPixels=*/true),
                     drawn.timeStages(extent_.stageTimes, /*withPixels=*/false));
-        wall::writePng((options_.out / fileOf(name)).string(),
-                       wall::pictureOf(wall.panorama.compose(drawn.lights()), 8, 0));
+        writePng((options_.out / fileOf(name)).string(),
+                 pictureOf(wall.panorama.compose(drawn.lights()), 8, 0));
         refuseErrors(name);
         csv_.flush();
     }
@@ -266,14 +266,14 @@ class Measurement {
         for (const test::GoldenStill& golden : test::goldenStills()) {
             const std::string name = "gpu/golden/" + golden.name;
             if (!options_.wants(name)) continue;
-            const wall::Picture picture = test::pictureOf(golden.still);
+            const Picture picture = test::pictureOf(golden.still);
             const auto apart =
-                test::codeDifference(picture, wall::readPng(test::goldenPath(golden.name)));
+                test::codeDifference(picture, readPng(test::goldenPath(golden.name)));
             const bool isWithin = apart.within(golden.limits);
             rows_.counter(name, "mean_codes", apart.meanCodes);
             rows_.counter(name, "percentile_999_codes", apart.percentile999Codes);
             rows_.counter(name, "within_bounds", isWithin ? 1 : 0);
-            wall::writePng((options_.out / "golden" / fileOf(golden.name)).string(), picture);
+            writePng((options_.out / "golden" / fileOf(golden.name)).string(), picture);
             if (!isWithin)
                 std::printf("%-40s differs: mean %.2f codes, 99.9 %% within %.0f\n",
                             name.c_str(),

@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "common/base/digest.h"
 #include "common/config/scene.h"
-#include "common/units/digest.h"
 #include "master/simulation/living_world.h"
 
 namespace aquarama::bench {

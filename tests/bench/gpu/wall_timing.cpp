@@ -86,11 +86,11 @@ StageTimes DrawnWall::timeStages(const Patience& patience, bool withPixels) {
     return medians;
 }
 
-std::vector<wall::Light> DrawnWall::lights() {
+std::vector<Light> DrawnWall::lights() {
     draw(sea_.frames.front());
-    std::vector<wall::Light> lights;
+    std::vector<Light> lights;
     for (show::ChannelPicture& channel : channels_)
-        lights.push_back(wall::lightOf(
+        lights.push_back(lightOf(
             show::takePicture(channel, show::PictureBits::Dithered8, show::Shown::Display)));
     return lights;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/base/picture.h"
 #include "common/config/rig.h"
-#include "common/wall/picture.h"
 #include "render_node/gl/handle.h"
 #include "render_node/show/channel_picture.h"
 #include "tests/bench/gpu/sea.h"
@@ -40,7 +40,7 @@ class DrawnWall {
     // Without pixels: with the rasterizer off, which leaves computation and vertices.
     [[nodiscard]] StageTimes timeStages(const Patience& patience, bool withPixels);
     // What each channel projects of the first frame, as light.
-    [[nodiscard]] std::vector<wall::Light> lights();
+    [[nodiscard]] std::vector<Light> lights();
 
   private:
     void draw(const wire::StateFrame& frame);

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "common/base/picture.h"
 #include "common/config/rig.h"
-#include "common/wall/png_file.h"
 #include "tests/support/projected.h"
 
 namespace aquarama::theatre {
@@ -107,15 +107,14 @@ TEST_F(Program, composeMakesBothPicturesInTheDepthAskedFor) {
     const std::string rigPath = AQUARAMA_SOURCE_DIR "/config/desk.txtpb";
     const config::Rig rig = config::readRig(rigPath);
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        wall::writePng(
-            folder() + "/channel-" + rig.channels[i].name + ".png",
-            wall::pictureOf(test::projectedLight(rig, i, wall::TestPattern::Grey), 16, 0));
+        writePng(folder() + "/channel-" + rig.channels[i].name + ".png",
+                 pictureOf(test::projectedLight(rig, i, wall::TestPattern::Grey), 16, 0));
     const Outcome outcome = calibrate("compose " + rigPath + " " + folder() + " --deep");
     EXPECT_EQ(outcome.status, 0) << outcome.said;
-    const wall::Picture panorama = wall::readPng(folder() + "/panorama.png");
+    const Picture panorama = readPng(folder() + "/panorama.png");
     EXPECT_EQ(panorama.bits, 16);
     EXPECT_EQ(panorama.sizePixels, rig.panoramaPixels);
-    EXPECT_EQ(wall::readPng(folder() + "/hall.png").sizePixels, glm::ivec2(1600, 900));
+    EXPECT_EQ(readPng(folder() + "/hall.png").sizePixels, glm::ivec2(1600, 900));
 }
 
 TEST_F(Program, composeNamesAPictureThatIsMissingOrOfAnotherSize) {
@@ -123,7 +122,7 @@ TEST_F(Program, composeNamesAPictureThatIsMissingOrOfAnotherSize) {
     const Outcome missing = calibrate(compose);
     EXPECT_EQ(missing.status, 1);
     EXPECT_THAT(missing.said, testing::HasSubstr("channel-left.png: cannot be opened"));
-    wall::writePng(folder() + "/channel-left.png", wall::pictureOf(wall::darkness({7, 5}), 8, 0));
+    writePng(folder() + "/channel-left.png", pictureOf(darkness({7, 5}), 8, 0));
     const Outcome small = calibrate(compose);
     EXPECT_EQ(small.status, 1);
     EXPECT_THAT(small.said, testing::HasSubstr("is 7 x 5 pixels"));

@@ -12,9 +12,9 @@
 
 #include "calibration/theatre/clip.h"
 #include "calibration/theatre/film.h"
+#include "common/base/log.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
-#include "common/units/log.h"
 #include "tests/support/read_clip.h"
 
 namespace aquarama::theatre {
@@ -34,8 +34,8 @@ class ClipTest : public testing::Test {
 };
 
 // Smooth, in all colours, and with each step of time another.
-wall::Picture pictureAt(glm::ivec2 size, int step) {
-    wall::Picture picture{size, 8, {}};
+Picture pictureAt(glm::ivec2 size, int step) {
+    Picture picture{size, 8, {}};
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
             for (const double phase : {0.0, 2.1, 4.2}) {

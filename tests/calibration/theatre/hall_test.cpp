@@ -19,19 +19,19 @@ config::Rig desk() {
 
 TEST(Hall, aBlackWallLeavesTheHallBlack) {
     const config::Rig rig = desk();
-    const wall::Light hall = composeHall(rig, wall::darkness(rig.panoramaPixels), kSize);
+    const Light hall = composeHall(rig, darkness(rig.panoramaPixels), kSize);
     EXPECT_TRUE(
         std::ranges::all_of(hall.rgb, [](glm::vec3 light) { return light == glm::vec3(0); }));
 }
 
 TEST(Hall, leftIsLeftAndTheWholeWallIsInView) {
     const config::Rig rig = desk();
-    wall::Light panorama = wall::darkness(rig.panoramaPixels);
+    Light panorama = darkness(rig.panoramaPixels);
     for (int y = 0; y < panorama.sizePixels.y; ++y)
         for (int x = 0; x < panorama.sizePixels.x; ++x)
             panorama.at(x, y) =
                 x < panorama.sizePixels.x / 2 ? glm::vec3(0.5F, 0, 0) : glm::vec3(0, 0.5F, 0);
-    const wall::Light hall = composeHall(rig, panorama, kSize);
+    const Light hall = composeHall(rig, panorama, kSize);
     const auto isScreen = [&](int x, int y) {
         return std::max(hall.at(x, y).x, hall.at(x, y).y) == 0.5F;
     };
@@ -49,7 +49,7 @@ TEST(Hall, leftIsLeftAndTheWholeWallIsInView) {
 
 TEST(Hall, theRoomGivesBackLessThanItGets) {
     const config::Rig rig = desk();
-    wall::Light panorama = wall::darkness(rig.panoramaPixels);
+    Light panorama = darkness(rig.panoramaPixels);
     std::ranges::fill(panorama.rgb, glm::vec3(1));
     for (const glm::vec3& light : composeHall(rig, panorama, kSize).rgb)
         EXPECT_LE(light.x, 1.0001F);

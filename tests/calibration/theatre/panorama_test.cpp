@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "calibration/theatre/compose.h"
+#include "common/base/units.h"
 #include "common/config/rig.h"
-#include "common/units/units.h"
 #include "tests/support/panorama_measure.h"
 #include "tests/support/projected.h"
 
@@ -32,19 +32,18 @@ config::Rig testRig(const std::string& name) {
     return rig;
 }
 
-std::vector<wall::Light> projected(const config::Rig& rig, wall::TestPattern pattern) {
-    std::vector<wall::Light> channels;
+std::vector<Light> projected(const config::Rig& rig, wall::TestPattern pattern) {
+    std::vector<Light> channels;
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
         channels.push_back(test::projectedLight(rig, i, pattern));
     return channels;
 }
 
 // Through the codes that the channels' pictures are stored in.
-wall::Light composed(const config::Rig& rig, const std::vector<wall::Light>& projected, int bits) {
-    std::vector<wall::Light> channels;
+Light composed(const config::Rig& rig, const std::vector<Light>& projected, int bits) {
+    std::vector<Light> channels;
     for (std::size_t i = 0; i < projected.size(); ++i)
-        channels.push_back(
-            wall::lightOf(wall::pictureOf(projected[i], bits, static_cast<std::uint32_t>(i))));
+        channels.push_back(lightOf(pictureOf(projected[i], bits, static_cast<std::uint32_t>(i))));
     return composePanorama(rig, channels);
 }
 
@@ -60,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, OneWall, testing::Values("theatre", "touring",
 
 TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
     const config::Rig rig = testRig(GetParam());
-    const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grid);
-    const wall::Light direct = test::directPanorama(rig, wall::TestPattern::Grid);
+    const std::vector<Light> channels = projected(rig, wall::TestPattern::Grid);
+    const Light direct = test::directPanorama(rig, wall::TestPattern::Grid);
     for (const int bits : {16, 8}) {
         const auto offsets = test::lineOffsets(rig, composed(rig, channels, bits), direct);
         EXPECT_GT(offsets.size(), 5000U);
@@ -71,8 +70,8 @@ TEST_P(OneWall, everyLineOfTheGridIsWithinHalfAPanoramaPixel) {
 
 TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
     const config::Rig rig = testRig(GetParam());
-    const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
-    const wall::Light deep = composed(rig, channels, 16);
+    const std::vector<Light> channels = projected(rig, wall::TestPattern::Grey);
+    const Light deep = composed(rig, channels, 16);
     EXPECT_LT(test::unevenness(deep, 1), 0.01);
     EXPECT_LT(test::unevenness(composed(rig, channels, 8), 16), 0.01);
     const glm::ivec2 middle = rig.panoramaPixels / 2;
@@ -83,7 +82,7 @@ TEST_P(OneWall, greyIsFlatInLinearLightToOnePerCent) {
 
 TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
     const config::Rig rig = shippedRig("desk");
-    const std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grid);
+    const std::vector<Light> channels = projected(rig, wall::TestPattern::Grid);
     config::Rig pushed = rig;
     pushed.channels[0].projector.yawPitchRollRadians.x += 0.1 * kRadiansPerDegree<double>;
     // The pictures were made for the rig; the hall has the left projector turned by 0.1 degrees.
@@ -98,11 +97,11 @@ TEST(Measure, aProjectorThatWasPushedIsSeenWhereItLightsAlone) {
 
 TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
     const config::Rig rig = shippedRig("desk");
-    const wall::Light direct = test::directPanorama(rig, wall::TestPattern::Grid);
-    wall::Light shifted = direct;
+    const Light direct = test::directPanorama(rig, wall::TestPattern::Grid);
+    Light shifted = direct;
     for (int y = 0; y < direct.sizePixels.y; ++y)
         for (int x = 0; x < direct.sizePixels.x; ++x)
-            shifted.at(x, y) = wall::bilinear(direct, {x + 0.5 - 0.75, y + 0.5 + 0.25});
+            shifted.at(x, y) = bilinear(direct, {x + 0.5 - 0.75, y + 0.5 + 0.25});
     const auto offsets = test::lineOffsets(rig, shifted, direct);
     ASSERT_FALSE(offsets.empty());
     for (const test::LineOffset& line : offsets)
@@ -111,9 +110,8 @@ TEST(Measure, aShiftIsMeasuredInPanoramaPixelsAndWithItsSign) {
 
 TEST(Measure, aMissingLineIsInfinitelyOff) {
     const config::Rig rig = shippedRig("desk");
-    const auto offsets = test::lineOffsets(rig,
-                                           wall::darkness(rig.panoramaPixels),
-                                           test::directPanorama(rig, wall::TestPattern::Grid));
+    const auto offsets = test::lineOffsets(
+        rig, darkness(rig.panoramaPixels), test::directPanorama(rig, wall::TestPattern::Grid));
     ASSERT_FALSE(offsets.empty());
     EXPECT_TRUE(std::ranges::all_of(
         offsets, [](const test::LineOffset& line) { return std::isinf(line.offsetPixels); }));
@@ -121,7 +119,7 @@ TEST(Measure, aMissingLineIsInfinitelyOff) {
 
 TEST(Measure, aSeamOfTwoPerCentIsSeen) {
     const config::Rig rig = shippedRig("desk");
-    std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
+    std::vector<Light> channels = projected(rig, wall::TestPattern::Grey);
     for (glm::vec3& light : channels[2].rgb) light *= 1.03F;
     EXPECT_GT(test::unevenness(composed(rig, channels, 8), 16), 0.015);
 }
@@ -129,12 +127,12 @@ TEST(Measure, aSeamOfTwoPerCentIsSeen) {
 // Blending in codes instead of light is the classic mistake: the sum is then too dark.
 TEST(Measure, blendingInCodesInsteadOfLightIsSeen) {
     const config::Rig rig = shippedRig("desk");
-    std::vector<wall::Light> channels = projected(rig, wall::TestPattern::Grey);
-    const double greyCode = wall::srgbFromLinear(wall::kGreyLight);
-    for (wall::Light& channel : channels)
+    std::vector<Light> channels = projected(rig, wall::TestPattern::Grey);
+    const double greyCode = srgbFromLinear(wall::kGreyLight);
+    for (Light& channel : channels)
         for (glm::vec3& light : channel.rgb) {
             const double share = static_cast<double>(light.x) / wall::kGreyLight;
-            light = glm::vec3(static_cast<float>(wall::linearFromSrgb(greyCode * share)));
+            light = glm::vec3(static_cast<float>(linearFromSrgb(greyCode * share)));
         }
     EXPECT_GT(test::unevenness(composed(rig, channels, 16), 1), 0.2);
 }

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/base/log.h"
 #include "common/config/species.h"
-#include "common/units/log.h"
 #include "tests/support/cast.h"
 
 namespace aquarama::config {

@@ -9,9 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/base/log.h"
 #include "common/config/rig.h"
 #include "common/config/text_file.h"
-#include "common/units/log.h"
 
 namespace aquarama::config {
 namespace {

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/digest.h"
-#include "common/units/log.h"
+#include "common/base/digest.h"
+#include "common/base/log.h"
 #include "tests/support/synthetic_repertoire.h"
 
 namespace aquarama::motion {

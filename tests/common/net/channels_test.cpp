@@ -16,7 +16,7 @@
 #include <unistd.h>
 #include <zmq.hpp>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "tests/support/memory_channels.h"
 
 namespace aquarama::net {

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/units/hash.h"
+#include "common/base/hash.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::place {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 namespace aquarama::place {
 namespace {

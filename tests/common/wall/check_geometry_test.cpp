@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
-#include "common/units/units.h"
+#include "common/base/log.h"
+#include "common/base/units.h"
 #include "rigs.h"
 
 namespace aquarama::wall {

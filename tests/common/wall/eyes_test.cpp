@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 #include "rigs.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 
 namespace aquarama::wall {
 namespace {

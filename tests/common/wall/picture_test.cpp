@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes and light, dither, and PNG files.
+#include "common/base/picture.h"
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "common/units/log.h"
-#include "common/wall/png_file.h"
+#include "common/base/log.h"
 
 namespace aquarama::wall {
 namespace {

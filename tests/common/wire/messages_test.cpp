@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "tests/common/wire/sample_messages.h"
 #include "tests/support/count_memory.h"
 

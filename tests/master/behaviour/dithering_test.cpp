@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/hash.h"
 #include "common/place/place.h"
-#include "common/units/hash.h"
 #include "tests/master/behaviour/fish_in_mind.h"
 
 namespace aquarama::behaviour {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/hash.h"
+#include "common/base/hash.h"
 #include "tests/master/behaviour/fish_in_mind.h"
 
 namespace aquarama::behaviour {

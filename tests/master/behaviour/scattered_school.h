@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "common/base/hash.h"
 #include "common/place/place.h"
-#include "common/units/hash.h"
 #include "master/fish/fish_view.h"
 
 namespace aquarama::behaviour {

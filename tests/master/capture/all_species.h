@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/capture_repertoire.h"
 
 namespace aquarama::capture {

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/biomechanical_fish.h"
 #include "tests/support/scad.h"
 

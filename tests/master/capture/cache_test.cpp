@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/base/log.h"
 #include "common/config/text_file.h"
 #include "common/motion/repertoire.h"
-#include "common/units/log.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/report/report_data.h"
 #include "tests/support/scad.h"

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/capture/gait_trial.h"
 #include "master/capture/turn.h"
 

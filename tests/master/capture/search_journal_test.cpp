@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/search.h"
 
 namespace aquarama::capture {

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/gait_trial.h"
 #include "tests/support/scad.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/capture/search.h"
 #include "tests/support/scad.h"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/units.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 
 namespace aquarama::fish {
 namespace {

@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "master/simulation/living_world.h"
 #include "master/simulation/recorded_world.h"
 #include "tests/support/synthetic_assets.h"

@@ -5,8 +5,8 @@
 #include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
+#include "common/base/units.h"
 #include "common/place/place.h"
-#include "common/units/units.h"
 #include "master/surroundings/surroundings.h"
 #include "tests/support/school_region.h"
 

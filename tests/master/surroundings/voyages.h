@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
+#include "common/base/hash.h"
 #include "common/config/scene.h"
 #include "common/place/water.h"
-#include "common/units/hash.h"
 #include "master/surroundings/pilot.h"
 
 namespace aquarama::surroundings {

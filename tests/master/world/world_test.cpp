@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "tests/master/world/instruction_sets.h"
 #include "tests/master/world/school_of_synthetic_fish.h"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "render_node/gl/context.h"
 #include "render_node/gl/handle.h"
 #include "render_node/gl/program.h"

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "render_node/gl/context.h"
 #include "tests/render_node/gl/virtual_display.h"
 #include "tests/render_node/gl/wayland_display.h"

@@ -263,7 +263,7 @@ TEST_F(Sunlight, aFishThrowsAShadowOnTheSand) {
     still.options.quality = config::QualityTier::Medium;
     still.camera = {{0.0F, -6.0F, 1.5F}, 0.0F, -89.0F, 24.0F, {64, 64}};
     const auto shown = [&] {
-        const wall::Picture picture = test::pictureOf(still);
+        const Picture picture = test::pictureOf(still);
         double sum = 0;
         for (int y = 24; y < 40; ++y)
             for (int x = 24; x < 40; ++x)

@@ -12,7 +12,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/wall/picture.h"
+#include "common/base/picture.h"
 #include "render_node/gl/context.h"
 #include "render_node/shaders/post_radii.h"
 #include "tests/support/golden_stills.h"
@@ -30,7 +30,7 @@ class WaterPicture : public testing::Test {
         photographer.reset();
         context.reset();
     }
-    static wall::Picture pictureOf(const Still& still) { return photographer->pictureOf(still); }
+    static Picture pictureOf(const Still& still) { return photographer->pictureOf(still); }
 
   private:
     static inline std::unique_ptr<gl::Context> context;
@@ -46,12 +46,12 @@ struct Levels {
     double mean = 0, darkest = 0, clipped = 0;  // linear; the darkest hundredth; share of pixels
 };
 
-Levels levelsOf(const wall::Picture& picture) {
+Levels levelsOf(const Picture& picture) {
     std::vector<double> lights;
     Levels levels;
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
         const auto linear = [&](std::size_t c) {
-            return wall::linearFromSrgb(picture.rgb[i + c] / 255.0);
+            return linearFromSrgb(picture.rgb[i + c] / 255.0);
         };
         lights.push_back(0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2));
         const int brightest = std::max({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
@@ -89,7 +89,7 @@ TEST_F(WaterPicture, lightIsWithinWhatAWallBears) {
 
 // Blue, and bluer the farther: no neon, where one colour stands at its end and another at nothing.
 TEST_F(WaterPicture, clearWaterIsABlueThatADisplayCanShow) {
-    const wall::Picture picture = pictureOf(openSea(12.0F));
+    const Picture picture = pictureOf(openSea(12.0F));
     int neon = 0;
     double blue = 0;
     double green = 0;
@@ -121,7 +121,7 @@ std::optional<glm::vec2> pixelOf(const Camera& camera, float azimuth, float elev
     return pixel;
 }
 
-glm::dvec3 sampled(const wall::Picture& picture, glm::vec2 pixel) {
+glm::dvec3 sampled(const Picture& picture, glm::vec2 pixel) {
     const glm::vec2 corner = glm::floor(pixel - 0.5F);
     const glm::dvec2 t(pixel - 0.5F - corner);
     const auto at = [&](int x, int y) {
@@ -146,8 +146,8 @@ TEST_F(WaterPicture, neighboursSoftenAlikeWhereTheyOverlap) {
     };
     const Still left = towards(-kBetween / 2);
     const Still right = towards(kBetween / 2);
-    const wall::Picture leftPicture = pictureOf(left);
-    const wall::Picture rightPicture = pictureOf(right);
+    const Picture leftPicture = pictureOf(left);
+    const Picture rightPicture = pictureOf(right);
     constexpr float kBlockDegrees = 2.6F;
     constexpr int kSteps = 16;
     std::vector<double> codes;

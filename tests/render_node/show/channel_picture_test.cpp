@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/picture.h"
 #include "common/place/place.h"
-#include "common/wall/picture.h"
 #include "common/wall/wall.h"
 #include "render_node/show/controls.h"
 #include "render_node/show/overlay.h"
@@ -98,11 +98,11 @@ class ChannelPictureTest : public testing::Test {
         stage->picture.project(stage->target.framebuffer(), Encoding::Dithered8, overlays);
         return gl::readRgb<std::uint8_t>(stage->target);
     }
-    static wall::Light lightOfFrame(ChannelPicture& picture, const wire::StateFrame& frame) {
+    static Light lightOfFrame(ChannelPicture& picture, const wire::StateFrame& frame) {
         picture.drawScene(frame, {});
         picture.project(stage->deep.framebuffer(), Encoding::Plain, {});
         const auto pixels = gl::readRgb<std::uint16_t>(stage->deep);
-        return wall::lightOf(wall::Picture{picture.sizePixels(), 16, pixels});
+        return lightOf(Picture{picture.sizePixels(), 16, pixels});
     }
     // Where on the unrolled wall a channel shows the fish, in pixels of the panorama: the mean of
     // what it changes there.
@@ -111,8 +111,8 @@ class ChannelPictureTest : public testing::Test {
                                  const wire::StateFrame& fish) {
         const config::Rig& rig = stage->admission.rig;
         const wall::WarpMap warp = wall::warpMap(rig, channel);
-        const wall::Light with = lightOfFrame(picture, fish);
-        const wall::Light without = lightOfFrame(picture, emptySea());
+        const Light with = lightOfFrame(picture, fish);
+        const Light without = lightOfFrame(picture, emptySea());
         glm::dvec2 sum(0);
         double total = 0;
         for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {

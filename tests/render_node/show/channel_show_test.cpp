@@ -15,11 +15,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "common/base/log.h"
+#include "common/base/picture.h"
 #include "common/net/channels.h"
-#include "common/units/log.h"
 #include "common/wall/pattern.h"
-#include "common/wall/picture.h"
-#include "common/wall/png_file.h"
 #include "tests/render_node/show/fake_session.h"
 #include "tests/render_node/show/reference.h"
 
@@ -120,7 +119,7 @@ TEST_F(ChannelShowTest, tracesEachFrameInTheOrderOfTime) {
 TEST_F(ChannelShowTest, theSnapshotIsTheGreyOfTheWall) {
     FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
     show(session, options(/*deep=*/true));
-    const wall::Picture picture = wall::readPng(folder_ + "/channel-middle.png");
+    const Picture picture = readPng(folder_ + "/channel-middle.png");
     const config::Rig rig = wall::shippedRig("desk");
     const wall::WarpMap warp = wall::warpMap(rig, channelIndex(rig, "middle"));
     ASSERT_EQ(picture.sizePixels, warp.sizePixels);
@@ -170,7 +169,7 @@ double gridOfTheWall(const config::Rig& rig, glm::dvec2 pixel) {
 TEST_F(ChannelShowTest, theGridLiesOnTheWallToATenthOfAPixel) {
     FakeSession session(events_, {{frameNumber(0), session::Release::Present}});
     show(session, options(/*deep=*/true), wire::Pattern::Grid);
-    const wall::Light light = wall::lightOf(wall::readPng(folder_ + "/channel-middle.png"));
+    const Light light = lightOf(readPng(folder_ + "/channel-middle.png"));
     const config::Rig rig = wall::shippedRig("desk");
     glm::dvec2 slopeTimesDifference(0);
     glm::dvec2 slopeSquared(0);
@@ -217,7 +216,7 @@ TEST_F(ChannelShowTest, theFramesOfAClipPassThroughASocketAsTheSnapshotHasThem) 
     ASSERT_EQ(frames.size(), 2U);
     EXPECT_EQ(frames[0].frame, 2U);
     EXPECT_EQ(frames[1].frame, 4U);
-    EXPECT_EQ(frames[1].rgb, wall::readPng(folder_ + "/channel-middle.png").rgb);
+    EXPECT_EQ(frames[1].rgb, readPng(folder_ + "/channel-middle.png").rgb);
 }
 
 TEST_F(ChannelShowTest, whatCannotBeWrittenIsSaidBeforeTheShow) {

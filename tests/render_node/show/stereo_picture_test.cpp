@@ -124,8 +124,8 @@ class Watched {
 
     // Column of an eye's picture: the mean of what the crumbs change.
     double columnOf(const std::vector<glm::dvec3>& crumbs, Shown shown) {
-        const wall::Light with = seen(frameWith(crumbs), shown);
-        const wall::Light without = seen(emptySea(), shown);
+        const Light with = seen(frameWith(crumbs), shown);
+        const Light without = seen(emptySea(), shown);
         double sum = 0;
         double total = 0;
         for (int y = 0; y < with.sizePixels.y; ++y)
@@ -153,9 +153,9 @@ class Watched {
     [[nodiscard]] const config::Rig& rig() const { return admission_.rig; }
 
   private:
-    wall::Light seen(const wire::StateFrame& frame, Shown shown) {
+    Light seen(const wire::StateFrame& frame, Shown shown) {
         picture_.drawScene(frame, {});
-        return wall::lightOf(takePicture(picture_, PictureBits::Deep16, shown));
+        return lightOf(takePicture(picture_, PictureBits::Deep16, shown));
     }
     session::Admission admission_;
     std::size_t channel_;

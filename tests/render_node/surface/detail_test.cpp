@@ -180,9 +180,9 @@ TEST_F(DetailTest, peopleDoNotSeeWhatIsSaved) {
         still.fish.push_back(
             test::portraitOf(species, towards, 1.0F + 0.3F * k, 137.5F * k, 0.24F));
     }
-    const wall::Picture on = test::pictureOf(still);
+    const Picture on = test::pictureOf(still);
     still.options.levelsOfDetail = still.options.culling = false;
-    const wall::Picture off = test::pictureOf(still);
+    const Picture off = test::pictureOf(still);
     const double apart = test::meanFlip(off, on);
     RecordProperty("flip", std::to_string(apart));
     EXPECT_LE(apart, 0.02);

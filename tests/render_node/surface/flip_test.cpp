@@ -11,13 +11,13 @@ namespace {
 
 constexpr glm::ivec2 kSize{48, 32};
 
-wall::Picture plain(std::uint16_t r, std::uint16_t g, std::uint16_t b) {
-    wall::Picture picture{kSize, 8, {}};
+Picture plain(std::uint16_t r, std::uint16_t g, std::uint16_t b) {
+    Picture picture{kSize, 8, {}};
     for (int i = 0; i < kSize.x * kSize.y; ++i) picture.rgb.insert(picture.rgb.end(), {r, g, b});
     return picture;
 }
 
-wall::Picture withADot(wall::Picture picture, int side) {
+Picture withADot(Picture picture, int side) {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
             std::fill_n(
@@ -26,7 +26,7 @@ wall::Picture withADot(wall::Picture picture, int side) {
 }
 
 TEST(Flip, picturesThatAreTheSameDoNotDiffer) {
-    const wall::Picture picture = withADot(plain(40, 90, 120), 5);
+    const Picture picture = withADot(plain(40, 90, 120), 5);
     EXPECT_EQ(meanFlip(picture, picture), 0.0);
 }
 
@@ -42,13 +42,13 @@ TEST(Flip, blackAndWhiteDifferAsThePaperMapsThem) {
 }
 
 TEST(Flip, isSymmetric) {
-    const wall::Picture a = withADot(plain(40, 90, 120), 5), b = withADot(plain(60, 80, 120), 2);
+    const Picture a = withADot(plain(40, 90, 120), 5), b = withADot(plain(60, 80, 120), 2);
     EXPECT_NEAR(meanFlip(a, b), meanFlip(b, a), 1e-12);
 }
 
 // An edge or a point that appears is seen better than its colour alone would be.
 TEST(Flip, featuresAreAmplified) {
-    const wall::Picture water = plain(20, 60, 90), dot = withADot(water, 2);
+    const Picture water = plain(20, 60, 90), dot = withADot(water, 2);
     const std::vector<double> all = flip(water, dot);
     const double most = *std::ranges::max_element(all);
     EXPECT_GT(most, 0.3);

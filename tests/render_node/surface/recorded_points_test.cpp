@@ -2,7 +2,7 @@
 // Control points that were recorded against those computed from nodal points (paper, section 3.1).
 #include <gtest/gtest.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 #include "render_node/surface/fish_tables.h"
 #include "tests/render_node/surface/test_fish.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "master/capture/capture_repertoire.h"
 #include "master/capture/report/fidelity.h"
 #include "master/capture/report/segment_count.h"

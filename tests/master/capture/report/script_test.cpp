@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/units/units.h"
+#include "common/base/units.h"
 #include "tests/support/synthetic_repertoire.h"
 
 namespace aquarama::report {

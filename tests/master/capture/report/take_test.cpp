@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "common/base/log.h"
 #include "common/motion/motor_tables.h"
-#include "common/units/log.h"
 #include "master/capture/report/c3d.h"
 #include "tests/support/scad.h"
 

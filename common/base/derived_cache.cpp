@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/files/derived_cache.h"
+#include "common/base/derived_cache.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,10 +12,10 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "common/files/files.h"
-#include "common/units/log.h"
+#include "common/base/files.h"
+#include "common/base/log.h"
 
-namespace aquarama::files {
+namespace aquarama {
 
 namespace {
 
@@ -163,4 +163,4 @@ std::span<const std::byte> ArrayReader::take(std::uint64_t count, std::size_t si
     return taken;
 }
 
-}  // namespace aquarama::files
+}  // namespace aquarama

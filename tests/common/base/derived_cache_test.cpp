@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/files/derived_cache.h"
+#include "common/base/derived_cache.h"
 
 #include <atomic>
 #include <fstream>
@@ -9,9 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
-namespace aquarama::files {
+namespace aquarama {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ TEST(Arrays, thatAnnounceMoreThanThereIsAreRefused) {
 }
 
 }  // namespace
-}  // namespace aquarama::files
+}  // namespace aquarama

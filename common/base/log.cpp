@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/units/log.h"
+#include "common/base/log.h"
 
 #include <spdlog/spdlog.h>
 

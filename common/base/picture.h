@@ -4,12 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace aquarama::wall {
+namespace aquarama {
 
 // Codes of 8 or 16 bits (`bits`), red green blue, top row first: 3 * width * height of them.
 struct Picture {
@@ -54,4 +55,13 @@ struct Light {
 // colour of the border continues. The picture must not be empty.
 [[nodiscard]] glm::vec3 bilinear(const Light& light, glm::dvec2 pixel);
 
-}  // namespace aquarama::wall
+// Pictures to and from PNG files.
+
+// Grey and palettes are read as red green blue, transparency is dropped; 16 bits stay 16, fewer
+// become 8. Throws Error when the file is not a readable picture of at most 16384 pixels each way
+// and 64 million in all.
+[[nodiscard]] Picture readPng(const std::string& path);
+// 8 or 16 bits, as the picture has. Throws Error when the file cannot be written.
+void writePng(const std::string& path, const Picture& picture);
+
+}  // namespace aquarama

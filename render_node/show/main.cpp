@@ -4,10 +4,10 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/base/log.h"
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/net/channels.h"
-#include "common/units/log.h"
 #include "render_node/show/run_node.h"
 
 namespace {

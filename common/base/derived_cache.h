@@ -16,9 +16,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "common/units/digest.h"
+#include "common/base/digest.h"
 
-namespace aquarama::files {
+namespace aquarama {
 
 // The digest of all sources of common and render_node, in hexadecimal, set by the build. Part of
 // every key, so a change of the program makes all data anew.
@@ -139,4 +139,4 @@ template <class Tables, class Make>
     return tables;
 }
 
-}  // namespace aquarama::files
+}  // namespace aquarama

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "common/units/hash.h"
+#include "common/base/hash.h"
 
 namespace aquarama {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace aquarama::files {
+namespace aquarama {
 
 // The content of a file of at most `mostBytes`. Throws Error when it is larger or cannot be read.
 [[nodiscard]] std::vector<std::byte> readWhole(const std::filesystem::path& path,
@@ -23,4 +23,4 @@ void writeWhole(const std::filesystem::path& path, std::span<const std::byte> co
 // ~/.cache/aquarama; in the folder for temporary files where neither variable is set.
 [[nodiscard]] std::filesystem::path cacheFolder();
 
-}  // namespace aquarama::files
+}  // namespace aquarama

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/units/worker_pool.h"
+#include "common/base/worker_pool.h"
 
 #include <array>
 #include <atomic>

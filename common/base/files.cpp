@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/files/files.h"
+#include "common/base/files.h"
 
 #include <atomic>
 #include <cstdlib>
@@ -8,9 +8,9 @@
 
 #include <unistd.h>
 
-#include "common/units/log.h"
+#include "common/base/log.h"
 
-namespace aquarama::files {
+namespace aquarama {
 
 namespace {
 
@@ -65,4 +65,4 @@ fs::path cacheFolder() {
     return (home.empty() ? fs::temp_directory_path() : home / ".cache") / "aquarama";
 }
 
-}  // namespace aquarama::files
+}  // namespace aquarama

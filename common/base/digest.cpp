@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/units/digest.h"
+#include "common/base/digest.h"
 
 #include <openssl/sha.h>
 
