@@ -21,7 +21,6 @@
 #include "master/capture/report/fidelity.h"
 #include "master/capture/report/report_data.h"
 #include "master/capture/search.h"
-#include "master/capture/species_text.h"
 #include "master/commands.h"
 
 namespace aquarama {

@@ -107,6 +107,8 @@ void chronicle(const ChronicleOptions& options) {
     study::Scenario scenario = study::readScenario(options.scene);
     scenario.world.seed = options.seed;
     world::World world(scenario.world);
+    if (world.traits().empty())
+        throw Error(options.scene + ": has no fish to tell of; choose a scene with fish");
     constexpr std::uint64_t kTicksOfMinute = 3600;
     constexpr std::uint64_t kTicksOfHour = 60 * kTicksOfMinute;
     study::Chronicle chronicle(world, scenario.halfWidths, kTicksOfHour);

@@ -52,7 +52,8 @@ class Animation final : public Clip {
     Animation& operator=(const Animation&) = delete;
 
     void add(const Picture& picture, std::uint64_t tick) override {
-        assert(picture.sizePixels == format_.sizePixels && (!first_ || tick > last_));
+        assert(picture.sizePixels == format_.sizePixels);
+        assert((!first_ || tick > last_));
         if (!first_) first_ = tick;
         last_ = tick;
         std::vector<std::uint8_t> rgb(picture.rgb.begin(), picture.rgb.end());
@@ -338,7 +339,9 @@ std::unique_ptr<Clip> makeAnimation(const ClipFormat& format) {
 }
 
 std::unique_ptr<Clip> makeClip(const ClipFormat& format) {
-    assert(format.sizePixels.x > 0 && format.sizePixels.y > 0 && format.ticksBetween > 0);
+    assert(format.sizePixels.x > 0);
+    assert(format.sizePixels.y > 0);
+    assert(format.ticksBetween > 0);
     if (format.path.ends_with(".mp4")) return makeVideo(format, videoEncoders());
     if (format.path.ends_with(".webp")) return makeAnimation(format);
     throw Error(format.path + ": a clip is FILE.mp4 or FILE.webp; choose one of these endings");

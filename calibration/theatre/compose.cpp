@@ -154,7 +154,8 @@ Light composePanorama(const config::Rig& rig, std::span<const Light> channels) {
 }
 
 Light composeHall(const config::Rig& rig, const Light& panorama, glm::ivec2 sizePixels) {
-    assert(sizePixels.x > 0 && sizePixels.y > 0);
+    assert(sizePixels.x > 0);
+    assert(sizePixels.y > 0);
     const Eye eye = eyeAtTheBack(rig.screen, sizePixels);
     const Room room(rig.screen, panorama, eye.position);
     Light hall = darkness(sizePixels);

@@ -55,7 +55,7 @@ class Camera {
         if (!map_) return frames.front().picture;
         const Light panorama = panoramaOf(frames);
         const auto seed = static_cast<std::uint32_t>(frames.front().frame);
-        return pictureOf(
+        return aquarama::pictureOf(
             of_ == kHall ? composeHall(rig_, panorama, kHallPixels) : panorama, 8, seed);
     }
     // The panorama and the hall of one frame; needs the frames of all channels.

@@ -45,7 +45,8 @@ std::uint16_t codeOf(double linear, double most, double noise) {
 }  // namespace
 
 Light darkness(glm::ivec2 sizePixels) {
-    assert(sizePixels.x >= 0 && sizePixels.y >= 0);
+    assert(sizePixels.x >= 0);
+    assert(sizePixels.y >= 0);
     const auto count =
         static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y);
     Light light;

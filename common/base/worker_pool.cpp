@@ -16,7 +16,8 @@ WorkerPool::~WorkerPool() {
 }
 
 void WorkerPool::share(std::size_t chunks, const void* job, Call call) {
-    assert(job != nullptr && call != nullptr);
+    assert(job != nullptr);
+    assert(call != nullptr);
     assert(busy_ == 0);  // neither nested nor from two threads
     chunks_ = chunks;
     job_ = job;

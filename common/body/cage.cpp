@@ -190,7 +190,8 @@ CageTopology makeCageTopology() {
     cage.raise(CagePart::Pectoral, {{5, 3}, {5, 4}}, 2);
     cage.raise(CagePart::Pectoral, {{5, 8}, {5, 9}}, 2);
     CageTopology topology = std::move(cage).finish();
-    assert(topology.sites.size() == kControlPoints && topology.faces.size() == kCageFaces);
+    assert(topology.sites.size() == kControlPoints);
+    assert(topology.faces.size() == kCageFaces);
     return topology;
 }
 
@@ -329,8 +330,10 @@ void CageShape::slantRings(const config::Species& species) {
 }
 
 CageVertex CageShape::place(const CageSite& site) const {
-    assert(site.ring >= 0 && site.ring < kTubeRings && site.column >= 0 &&
-           site.column < kTubeColumns);
+    assert(site.ring >= 0);
+    assert(site.ring < kTubeRings);
+    assert(site.column >= 0);
+    assert(site.column < kTubeColumns);
     assert(site.kind != CageSiteKind::Flap || (site.level >= 1 && site.level <= site.levels));
     switch (site.kind) {
         case CageSiteKind::Nose:

@@ -40,7 +40,8 @@ float middleSlope(float h0, float h1, float rise0, float rise1) {
 
 MonotoneCurve::MonotoneCurve(std::vector<float> x, std::vector<float> y)
     : x_(std::move(x)), y_(std::move(y)), slope_(x_.size()) {
-    assert(x_.size() == y_.size() && x_.size() >= 2);
+    assert(x_.size() == y_.size());
+    assert(x_.size() >= 2);
     assert(std::ranges::adjacent_find(x_, std::ranges::greater_equal{}) == x_.end());
     const std::size_t pieces = x_.size() - 1;
     std::vector<float> h(pieces);
@@ -71,7 +72,8 @@ float MonotoneCurve::at(float x) const {
 }
 
 float interpolate(const std::vector<float>& x, const std::vector<float>& y, float at) {
-    assert(!x.empty() && x.size() == y.size());
+    assert(!x.empty());
+    assert(x.size() == y.size());
     if (at <= x.front()) return y.front();
     if (at >= x.back()) return y.back();
     const std::size_t i = pieceOf(x, at);

@@ -118,7 +118,8 @@ void requirePython(const std::vector<std::string>& modules) {
 void runPython(const std::vector<std::string>& modules,
                const std::string& script,
                const std::vector<std::string>& arguments) {
-    assert(!modules.empty() && script.ends_with(".py"));
+    assert(!modules.empty());
+    assert(script.ends_with(".py"));
     std::vector<std::string> all{"-B", findScript(script).string()};  // -B: writes no bytecode
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::cout.flush();

@@ -87,7 +87,8 @@ bool isNumber(const pb::FieldDescriptor& field) {
 }
 
 double numberIn(const pb::Message& message, const pb::FieldDescriptor& field) {
-    assert(isNumber(field) && !field.is_repeated());
+    assert(isNumber(field));
+    assert(!field.is_repeated());
     const pb::Reflection& get = *message.GetReflection();
     if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE)
         return get.GetDouble(message, &field);

@@ -84,7 +84,8 @@ void meanHeadings(const MotorTables& tables,
                   std::size_t first,
                   std::size_t last,
                   const HeadingColumns& headings) {
-    assert(first <= last && last <= states.size());
+    assert(first <= last);
+    assert(last <= states.size());
     assert(first == last ||
            (headings.x != nullptr && headings.y != nullptr && headings.z != nullptr));
     const std::size_t rest = last - (last - first) % kWidestLanes;

@@ -174,7 +174,8 @@ float speedBodyLengths(const MotionStates& states, std::size_t fish) {
 }
 
 void setSpeedBodyLengths(MotionStates& states, std::size_t fish, float speed) {
-    assert(fish < states.size() && std::isfinite(speed));
+    assert(fish < states.size());
+    assert(std::isfinite(speed));
     constexpr auto kFastest = static_cast<float>(kFastestUnits);
     const float units = std::clamp(speed * kSpeedUnitsPerBodyLength, -kFastest, kFastest);
     states.speed[fish] = static_cast<std::int32_t>(roundToEven(units));

@@ -184,9 +184,13 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
 }  // namespace
 
 void MotorStep::runReference() const {
-    assert(tables != nullptr && commands != nullptr && states != nullptr);
-    assert(first <= last && last <= states->size() && last <= traits.size() &&
-           last <= commands->segment.size());
+    assert(tables != nullptr);
+    assert(commands != nullptr);
+    assert(states != nullptr);
+    assert(first <= last);
+    assert(last <= states->size());
+    assert(last <= traits.size());
+    assert(last <= commands->segment.size());
     const MotorColumns columns = columnsOf(*commands, *states);
     for (std::size_t fish = first; fish < last; ++fish) stepFish(*this, columns, fish);
 }

@@ -325,9 +325,13 @@ namespace aquarama::motion {
 HWY_EXPORT(stepVectors);
 
 void MotorStep::run() const {
-    assert(tables != nullptr && commands != nullptr && states != nullptr);
-    assert(first <= last && last <= states->size() && last <= traits.size() &&
-           last <= commands->segment.size());
+    assert(tables != nullptr);
+    assert(commands != nullptr);
+    assert(states != nullptr);
+    assert(first <= last);
+    assert(last <= states->size());
+    assert(last <= traits.size());
+    assert(last <= commands->segment.size());
     MotorStep vectors = *this;
     vectors.last = last - (last - first) % kWidestLanes;
     HWY_DYNAMIC_DISPATCH(stepVectors)(vectors);

@@ -89,8 +89,9 @@ Region waterFor(const config::Scene& scene, std::size_t fish, float meanLengthMe
 }
 
 Region roamingRegion(const Region& fishWater, glm::vec3 eye) {
-    assert(fishWater.halfExtent.x >= 0 && fishWater.halfExtent.y >= 0 &&
-           fishWater.halfExtent.z >= 0);
+    assert(fishWater.halfExtent.x >= 0);
+    assert(fishWater.halfExtent.y >= 0);
+    assert(fishWater.halfExtent.z >= 0);
     const glm::vec3 roam{kRoamMetres};
     const glm::vec3 least = glm::min(fishWater.centre - fishWater.halfExtent, eye) - roam;
     glm::vec3 most = glm::max(fishWater.centre + fishWater.halfExtent, eye) + roam;

@@ -78,7 +78,10 @@ FaceGrid::FaceGrid(const body::ControlCage& cage, int cuts) : cuts_{cuts} {
 }
 
 std::uint32_t FaceGrid::at(std::size_t face, int i, int j) const {
-    assert(i >= 0 && i <= cuts_ && j >= 0 && j <= cuts_);
+    assert(i >= 0);
+    assert(i <= cuts_);
+    assert(j >= 0);
+    assert(j <= cuts_);
     const std::size_t side = static_cast<std::size_t>(cuts_) + 1;
     assert((face + 1) * side * side <= numbers_.size());
     return numbers_[face * side * side + static_cast<std::size_t>(j) * side +
@@ -259,7 +262,8 @@ SkinPoint skinPoint(const LimitTable& table,
 }
 
 LimitTable makeLimitTable(const body::FishBody& body, int level) {
-    assert(level >= 0 && level < kSurfaceLevels);
+    assert(level >= 0);
+    assert(level < kSurfaceLevels);
     const FaceGrid grid{body.cage, 1 << level};
     const auto& locations = grid.locations();
 
@@ -322,7 +326,8 @@ std::set<Pair> diagonalsOf(const LimitTable& table) {
 std::vector<std::array<std::uint32_t, 2>> coarserParents(const body::FishBody& body,
                                                          int level,
                                                          const LimitTable& coarser) {
-    assert(level >= 1 && level < kSurfaceLevels);
+    assert(level >= 1);
+    assert(level < kSurfaceLevels);
     const FaceGrid fine{body.cage, 1 << level};
     const FaceGrid coarse{body.cage, 1 << (level - 1)};
     const std::set<Pair> diagonals = diagonalsOf(coarser);

@@ -28,7 +28,8 @@ Pinhole::Pinhole(const config::Channel& channel)
       focal_(channel.projector.focalPixels),
       principal_(channel.projector.principalPixels),
       size_(channel.sizePixels) {
-    assert(focal_.x > 0 && focal_.y > 0);
+    assert(focal_.x > 0);
+    assert(focal_.y > 0);
 }
 
 Ray Pinhole::ray(glm::dvec2 pixel) const {

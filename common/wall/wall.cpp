@@ -165,7 +165,9 @@ ChannelFrustum channelFrustum(const config::Rig& rig,
 }
 
 glm::mat4 clipFromCamera(const ChannelFrustum& f, float nearMetres) {
-    assert(f.right > f.left && f.top > f.bottom && nearMetres > 0);
+    assert(f.right > f.left);
+    assert(f.top > f.bottom);
+    assert(nearMetres > 0);
     const double width = f.right - f.left;
     const double height = f.top - f.bottom;
     glm::mat4 clip(0.0F);

@@ -78,7 +78,8 @@ std::uint32_t drawnHost(const Situation& situation, std::uint32_t hash) {
 }  // namespace
 
 std::uint32_t partnerOf(const fish::SpeciesParameters& parameters, std::uint32_t fish) {
-    assert(fish >= parameters.first && fish < parameters.last);
+    assert(fish >= parameters.first);
+    assert(fish < parameters.last);
     const std::uint32_t partner = parameters.first + ((fish - parameters.first) ^ 1U);
     return partner < parameters.last ? partner : fish::kNobody;
 }
@@ -202,7 +203,9 @@ Company companyOf(const fish::FishView& view,
                   const Senses& senses,
                   std::uint32_t fish,
                   float alarm) {
-    assert(fish < view.size() && alarm >= 0 && alarm <= 1);
+    assert(fish < view.size());
+    assert(alarm >= 0);
+    assert(alarm <= 1);
     Company company;
     const float perLength = 1 / view.fish[fish].length;
     const float spacing = kSpacing + (kAlarmedSpacing - kSpacing) * alarm;

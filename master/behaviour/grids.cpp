@@ -102,7 +102,8 @@ void SpatialGrid::arrange() {
 
 // Parts write to disjoint places, so that threads do not meet.
 void SpatialGrid::spread(std::size_t part, const Points& points) {
-    assert(part < parts_ && tallies_.size() == parts_ * buckets_);
+    assert(part < parts_);
+    assert(tallies_.size() == parts_ * buckets_);
     std::uint32_t* const next = tallies_.data() + part * buckets_;
     const std::size_t last = std::min(points.count, firstOfPart(part + 1));
     for (std::size_t i = firstOfPart(part); i < last; ++i) {
@@ -212,7 +213,8 @@ void Grids::mark(const fish::FishView& view,
                  std::span<const fish::SpeciesParameters> speciesParameters,
                  std::size_t first,
                  std::size_t last) {
-    assert(last <= view.size() && last <= marks_.size());
+    assert(last <= view.size());
+    assert(last <= marks_.size());
     for (std::size_t i = first; i < last; ++i) {
         const std::uint8_t signs = view.signs[i];
         int marks = kPresent;

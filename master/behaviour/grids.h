@@ -61,7 +61,8 @@ class SpatialGrid {
     // bucket.
     template <class IsThere>
     void count(std::size_t part, const Points& points, const IsThere& isThere) {
-        assert(part < parts_ && points.count <= cellOfPoint_.size());
+        assert(part < parts_);
+        assert(points.count <= cellOfPoint_.size());
         std::uint32_t* const tally = tallies_.data() + part * buckets_;
         std::fill_n(tally, buckets_, 0U);
         const std::size_t last = std::min(points.count, firstOfPart(part + 1));

@@ -364,8 +364,10 @@ Senses perceive(const Environment& environment,
                 const fish::SpeciesParameters& parameters,
                 std::uint32_t fish,
                 const fish::Mind& mind) {
-    assert(environment.view != nullptr && environment.grids != nullptr);
-    assert(environment.surroundings != nullptr && fish < environment.view->size());
+    assert(environment.view != nullptr);
+    assert(environment.grids != nullptr);
+    assert(environment.surroundings != nullptr);
+    assert(fish < environment.view->size());
     Senses senses;
     feelItself(*environment.view, fish, senses);
     const Onlooker onlooker{environment, parameters, fish, mind, senses};
@@ -456,7 +458,8 @@ bool suitsAsMate(const fish::FishView& view,
                  std::uint8_t likes,
                  std::uint32_t fish,
                  std::uint32_t other) {
-    assert(fish < view.size() && other < view.size());
+    assert(fish < view.size());
+    assert(other < view.size());
     if (other == fish || view.kind[other] != view.kind[fish]) return false;
     if (!view.shows(other, fish::kWilling) || view.shows(other, fish::kAway)) return false;
     if (view.shows(other, fish::kFemale) == ((likes & fish::kIsFemale) != 0)) return false;

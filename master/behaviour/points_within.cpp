@@ -51,7 +51,8 @@ HWY_EXPORT(takeVectorsWithin);
 
 void takePointsWithin(
     const SpatialGrid& grid, glm::vec3 place, float reachSquared, TakePoints take, void* job) {
-    assert(reachSquared >= 0 && take != nullptr);
+    assert(reachSquared >= 0);
+    assert(take != nullptr);
     HWY_DYNAMIC_DISPATCH(takeVectorsWithin)(grid, place, reachSquared, take, job);
 }
 

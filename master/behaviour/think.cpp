@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "master/behaviour/think.h"
 
 #include <cassert>
@@ -16,7 +17,9 @@ void think(const Environment& environment,
            fish::Minds& minds,
            fish::Courses& courses,
            DeferredEvents& events) {
-    assert(fish < minds.size() && fish < courses.size() && fish < environment.view->size());
+    assert(fish < minds.size());
+    assert(fish < courses.size());
+    assert(fish < environment.view->size());
     const fish::SpeciesParameters& parameters =
         environment.speciesParameters[environment.view->kind[fish]];
     fish::Mind mind = minds[fish];
@@ -29,6 +32,30 @@ void think(const Environment& environment,
                           acceptsRecommendation(parameters, mind, senses, feelings);
     courses[fish] = course;
     minds[fish] = mind;
+}
+
+fish::Course act(const Situation& situation, fish::Mind& mind, DeferredEvents& events) {
+    switch (mind.intention) {
+        case fish::Intention::AvoidObstacle:
+            return avoidObstacle(situation, mind);
+        case fish::Intention::AvoidFish:
+            return avoidFish(situation, mind);
+        case fish::Intention::Escape:
+            return escape(situation, mind);
+        case fish::Intention::Eat:
+            return situation.parameters.habits.role == config::Role::Predator
+                       ? hunt(situation, mind, events)
+                       : eat(situation, mind, events);
+        case fish::Intention::Mate:
+            return mate(situation, mind, events);
+        case fish::Intention::School:
+            return school(situation);
+        case fish::Intention::Leave:
+            return leave(situation);
+        case fish::Intention::Wander:
+            break;
+    }
+    return wander(situation);
 }
 
 }  // namespace aquarama::behaviour

@@ -44,7 +44,8 @@ class Builder {
         for (int ring = 0; ring < kRings; ++ring) addRing(ring);
         for (int ring = 0; ring + 1 < kRings; ++ring) addSegment(ring);
         addTail();
-        assert(units_ == kUnits && faces_ == kDragFaces);
+        assert(units_ == kUnits);
+        assert(faces_ == kDragFaces);
         return anatomy_;
     }
 
@@ -124,7 +125,8 @@ class Builder {
 
 // For a node of a ring: the node of the same ring that the permutation of its corners gives.
 int exchanged(int node, const std::array<int, 4>& exchange) {
-    assert(node > 0 && node < kDorsalTip);
+    assert(node > 0);
+    assert(node < kDorsalTip);
     const int ring = (node - 1) / 4;
     return ringNode(ring, exchange.at(static_cast<std::size_t>((node - 1) % 4)));
 }

@@ -41,7 +41,8 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(double share, const std::string& note) {
-    assert(share >= 0 && share <= 1);
+    assert(share >= 0);
+    assert(share <= 1);
     // The small term keeps rounding from showing 99 % for a share of 1.
     const int percent = static_cast<int>(share * 100 + 1e-6);
     if (!isTerminal_ || (percent == shown_ && note == note_)) return;
@@ -95,7 +96,9 @@ void runJob(const config::Species& species, std::size_t job, Swum& swum) {
 // From recordings to a repertoire; right turns are the mirror images of the left ones, the glide is
 // derived from the captured segments. All jobs of the species must have succeeded.
 motion::Repertoire compile(const config::Species& species, const Swum& swum) {
-    assert(swum.forward[0] && swum.forward[1] && swum.forward[2]);
+    assert(swum.forward[0]);
+    assert(swum.forward[1]);
+    assert(swum.forward[2]);
     const body::FishBody body = body::makeBody(species);
     motion::Repertoire repertoire;
     repertoire.species = species.name;
@@ -133,7 +136,8 @@ CaptureOutcome outcomeOf(const config::Species& species, const Swum& swum) {
 
 std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species>& species,
                                                const CaptureRun& run) {
-    assert(run.progress && run.isStopped);
+    assert(run.progress);
+    assert(run.isStopped);
     std::vector<Swum> swum(species.size());
     std::mutex telling;  // guards `done` and the calls of run.progress
     std::size_t done = 0;

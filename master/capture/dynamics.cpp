@@ -70,7 +70,8 @@ void EnvelopeSystem::addToDiagonal(int node, double value) {
 }
 
 void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
-    assert(node >= 0 && node < body::kNodalPoints);
+    assert(node >= 0);
+    assert(node < body::kNodalPoints);
     const std::size_t row = 3 * static_cast<std::size_t>(node);
     for (std::size_t p = 0; p < 3; ++p)
         for (std::size_t q = p; q < 3; ++q)
@@ -78,7 +79,8 @@ void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
 }
 
 void EnvelopeSystem::addOffDiagonalBlock(int first, int second, const glm::dmat3& block) {
-    assert(first >= 0 && first < second);
+    assert(first >= 0);
+    assert(first < second);
     assert(static_cast<std::size_t>(second) <= lastNeighbour(static_cast<std::size_t>(first)));
     const std::size_t row = 3 * static_cast<std::size_t>(first);
     const std::size_t offset = 3 * static_cast<std::size_t>(second - first);

@@ -41,7 +41,8 @@ double pullAt(const Pull& pull, double strength, double ownSeconds) {
 }  // namespace
 
 MuscleActivation mix(const MuscleActivation& from, const MuscleActivation& to, double share) {
-    assert(share >= 0 && share <= 1);
+    assert(share >= 0);
+    assert(share <= 1);
     return {.frontLeft = std::lerp(from.frontLeft, to.frontLeft, share),
             .frontRight = std::lerp(from.frontRight, to.frontRight, share),
             .middleLeft = std::lerp(from.middleLeft, to.middleLeft, share),

@@ -190,7 +190,8 @@ double acceleration(const SpeedLaw& law, double segmentSpeed, double speed) {
 double fitTerm(const std::vector<Transition>& transitions,
                double SpeedLaw::*term,
                const SpeedLaw& known) {
-    assert(term != nullptr && known.*term == 0);
+    assert(term != nullptr);
+    assert(known.*term == 0);
     SpeedLaw unit;
     unit.*term = 1;
     double products = 0;

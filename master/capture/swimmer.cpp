@@ -31,7 +31,8 @@ BodyAngles bodyAnglesOf(const FishState& state) {
 }
 
 BodyAngles sense(const BodyAngles& before, const FishState& state, double share) {
-    assert(share >= 0 && share <= 1);
+    assert(share >= 0);
+    assert(share <= 1);
     const BodyAngles now = bodyAnglesOf(state);
     return {.headingRadians = mixAngles(before.headingRadians, now.headingRadians, share),
             .pitchRadians = std::lerp(before.pitchRadians, now.pitchRadians, share),

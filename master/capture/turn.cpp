@@ -65,7 +65,8 @@ RecordedCycle recordTurn(const config::Species& species,
                          const config::Bend& bend,
                          int onsetPhase) {
     assert(leftOrRight == Controller::LeftTurn || leftOrRight == Controller::RightTurn);
-    assert(onsetPhase >= 0 && onsetPhase < motion::kPhases);
+    assert(onsetPhase >= 0);
+    assert(onsetPhase < motion::kPhases);
     Swimmer swimmer = entry.swimmer;
     swimmer.advance(onsetPhase * entry.stepsPerPhase);
     swimmer.give({.controller = leftOrRight, .bend = bend});

@@ -128,7 +128,8 @@ void RecentTimes::add(net::Instant time) {
 }
 
 float RecentTimes::quantileMs(double quantile) const {
-    assert(quantile >= 0 && quantile <= 1);
+    assert(quantile >= 0);
+    assert(quantile <= 1);
     if (times_.empty()) return 0.0F;
     std::vector<net::Instant> sorted(times_.begin(), times_.end());
     const auto rank =

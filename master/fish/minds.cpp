@@ -90,7 +90,10 @@ void passTime(const SpeciesParameters& parameters, Mind& mind) {
 }
 
 void setMood(const SpeciesParameters& parameters, float hunger, float libido, Mind& mind) {
-    assert(hunger >= 0 && hunger <= 1 && libido >= 0 && libido <= 1);
+    assert(hunger >= 0);
+    assert(hunger <= 1);
+    assert(libido >= 0);
+    assert(libido <= 1);
     // A meal of whole particles, digested so far that n_e R / alpha = 1 - hunger.
     const float meal = std::max(1.0F, std::ceil(parameters.habits.appetiteParticles));
     const float left =
@@ -123,7 +126,8 @@ void showMood(const SpeciesParameters& parameters,
               const Minds& minds,
               std::uint32_t fish,
               FishView& view) {
-    assert(fish < minds.size() && minds.size() <= view.size());
+    assert(fish < minds.size());
+    assert(minds.size() <= view.size());
     const unsigned away = view.signs[fish] & unsigned{kAway};
     const Mind& mind = minds[fish];
     if (parameters.habits.role ==

@@ -182,7 +182,8 @@ void startCommands(const Gaits& gaits,
                    std::size_t last,
                    motion::MotorCommands& commands,
                    ControllerMemory& memory) {
-    assert(first <= last && last <= commands.segment.size());
+    assert(first <= last);
+    assert(last <= commands.segment.size());
     for (std::size_t fish = first; fish < last; ++fish) {
         commands.segment[fish] = static_cast<std::uint8_t>(motion::Action::ForwardMedium);
         commands.phaseRate[fish] = gaits.phaseRate[indexOf(motion::Action::ForwardMedium)];
@@ -196,9 +197,15 @@ void startCommands(const Gaits& gaits,
 }
 
 void SecondaryController::run(std::size_t first, std::size_t last) const {
-    assert(gaits != nullptr && view != nullptr && courses != nullptr && states != nullptr);
-    assert(commands != nullptr && memory != nullptr);
-    assert(first <= last && last <= courses->size() && last <= states->size());
+    assert(gaits != nullptr);
+    assert(view != nullptr);
+    assert(courses != nullptr);
+    assert(states != nullptr);
+    assert(commands != nullptr);
+    assert(memory != nullptr);
+    assert(first <= last);
+    assert(last <= courses->size());
+    assert(last <= states->size());
     for (std::size_t fish = first; fish < last; ++fish)
         if (thinksAt(tick, fish) || endsTurn(fish)) decide(fish);
 }

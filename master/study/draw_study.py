@@ -170,4 +170,4 @@ def main(what, folder, more):
         print_overlaps(overlaps, "routine", "as it began they would", float(more))
 
 
-main(sys.argv[1], Path(sys.argv[2]), sys.argv[3])
+main(sys.argv[1], Path(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else "")

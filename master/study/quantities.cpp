@@ -157,7 +157,8 @@ float distanceToNearest(const fish::FishView& view,
 }  // namespace
 
 SchoolFigures schoolFigures(const fish::FishView& view, std::size_t first, std::size_t last) {
-    assert(first <= last && last <= view.size());
+    assert(first <= last);
+    assert(last <= view.size());
     const std::vector<std::size_t> fish = present(view, first, last);
     SchoolFigures figures;
     if (fish.size() < 2) return figures;
@@ -181,7 +182,8 @@ SchoolFigures schoolFigures(const fish::FishView& view, std::size_t first, std::
 }
 
 Synchrony synchronyOf(const motion::MotionStates& states, std::size_t first, std::size_t last) {
-    assert(first <= last && last <= states.size());
+    assert(first <= last);
+    assert(last <= states.size());
     double sine = 0, cosine = 0;
     double alike = 0, inStep = 0;
     for (std::size_t i = first; i < last; ++i) {

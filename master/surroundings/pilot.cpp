@@ -167,7 +167,8 @@ Tour tourOf(const config::Scene& scene) {
 }
 
 TourPoint pointOf(const Tour& tour, float along, glm::vec3 school) {
-    assert(!tour.stops.empty() && along >= 0);
+    assert(!tour.stops.empty());
+    assert(along >= 0);
     const std::size_t count = tour.stops.size();
     const auto first = static_cast<std::size_t>(along);
     const float u = along - static_cast<float>(first);

@@ -184,7 +184,8 @@ float ballRadius(std::size_t fish, float lengthMetres) {
 }  // namespace
 
 float millRadiusMetres(const place::Region& water, std::size_t fish, float lengthMetres) {
-    assert(lengthMetres > 0 && water.halfExtent.y > 0);
+    assert(lengthMetres > 0);
+    assert(water.halfExtent.y > 0);
     const float ball = ballRadius(fish, lengthMetres);
     // A ball too high for the water keeps its volume: it is flattened and gets broader.
     const float high = std::min(ball, kHeightOfMill * water.halfExtent.y);

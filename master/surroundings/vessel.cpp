@@ -216,8 +216,8 @@ float gapAt(const Waters& waters, glm::vec3 position) {
 // In a tick the hull moves a twentieth of its radius at most, so that testing the end of the way
 // tests all of it. Where the end is still inside an obstacle the move is refused.
 void moveHull(const Waters& waters, glm::vec3& position, glm::vec3& velocity) {
-    assert(std::isfinite(place::dot(position, position)) &&
-           std::isfinite(place::dot(velocity, velocity)));
+    assert(std::isfinite(place::dot(position, position)));
+    assert(std::isfinite(place::dot(velocity, velocity)));
     const Faces faces(waters, position);
     for (const Face& face : faces.near()) velocity = ledAway(face, velocity);
     for (int pass = 0; pass < kPasses; ++pass)

@@ -292,7 +292,9 @@ fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& c
                                               const fish::Gaits& gaits,
                                               std::size_t first,
                                               std::size_t last) {
-    assert(kind < cast.size() && kind < kMostSpecies && first <= last);
+    assert(kind < cast.size());
+    assert(kind < kMostSpecies);
+    assert(first <= last);
     const config::Habits& habits = cast[kind].habits;
     return {.kind = static_cast<std::uint8_t>(kind),
             .first = static_cast<std::uint32_t>(first),

@@ -23,7 +23,8 @@ constexpr GLenum kTypeOf<float> = GL_FLOAT;
 }  // namespace
 
 Target::Target(GLenum format, glm::ivec2 sizePixels) : size_{sizePixels}, colour_{GL_TEXTURE_2D} {
-    assert(size_.x > 0 && size_.y > 0);
+    assert(size_.x > 0);
+    assert(size_.y > 0);
     glTextureStorage2D(colour_.name(), 1, format, size_.x, size_.y);
     glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
     if (glCheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER) !=

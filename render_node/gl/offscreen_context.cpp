@@ -116,7 +116,8 @@ EGLContext makeContext(EGLDisplay display, bool toldOfReset) {
 class OffscreenContext final : public Context {
   public:
     OffscreenContext(const std::string& device, glm::ivec2 sizePixels) : sizePixels_{sizePixels} {
-        assert(sizePixels_.x > 0 && sizePixels_.y > 0);
+        assert(sizePixels_.x > 0);
+        assert(sizePixels_.y > 0);
         std::array<EGLDeviceEXT, 32> storage{};
         requireEgl();
         const auto chosen = choose(devices(storage), device);

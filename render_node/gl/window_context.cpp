@@ -140,7 +140,8 @@ class WindowContext : public Context {
                   glm::ivec2 sizePixels,
                   bool quadBuffered)
         : display_{display}, size_{sizePixels}, quadBuffered_{quadBuffered} {
-        assert(size_.x > 0 && size_.y > 0);
+        assert(size_.x > 0);
+        assert(size_.y > 0);
         open(title);
         GLFWwindow* window = window_.get();
         // The callbacks find this object by the user pointer, so it must not move.

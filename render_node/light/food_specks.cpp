@@ -50,7 +50,8 @@ void FoodSpecks::update(std::span<const FoodParticle> food, const Viewpoint& vie
 }
 
 void FoodSpecks::draw() const {
-    assert(pelletCount_ >= 0 && static_cast<std::size_t>(pelletCount_) <= seen_.size());
+    assert(pelletCount_ >= 0);
+    assert(static_cast<std::size_t>(pelletCount_) <= seen_.size());
     const gl::Stage stage{"food"};
     if (seen_.empty()) return;
     glBindVertexArray(empty_.name());

@@ -238,7 +238,8 @@ void SceneRenderer::update(const SceneFrame& frame) {
 // The order of a view: computation, opaque bodies and place, water, then all that is blended, in a
 // fixed order, then the passes over the picture.
 unsigned SceneRenderer::draw(const View& view) {
-    assert(view.sizePixels.x > 0 && view.sizePixels.y > 0);
+    assert(view.sizePixels.x > 0);
+    assert(view.sizePixels.y > 0);
     Parts& parts = *parts_;
     setView(parts.uniforms, view);
     parts.setUniforms();

@@ -78,7 +78,8 @@ void ScenePicture::allocate(glm::ivec2 sizePixels) {
 }
 
 void ScenePicture::begin(glm::ivec2 sizePixels) {
-    assert(sizePixels.x > 0 && sizePixels.y > 0);
+    assert(sizePixels.x > 0);
+    assert(sizePixels.y > 0);
     if (sizePixels != size_) allocate(sizePixels);
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.target.name());
     glViewport(0, 0, size_.x, size_.y);
@@ -119,7 +120,8 @@ void ScenePicture::pass(unsigned framebuffer, unsigned program) const {
 
 unsigned ScenePicture::finish() {
     // begin() comes first.
-    assert(size_.x > 0 && size_.y > 0);
+    assert(size_.x > 0);
+    assert(size_.y > 0);
     glDisable(GL_DEPTH_TEST);
     if (quality_.samples > 1) resolve();
     const Layer& light = quality_.samples > 1 ? resolved_ : drawn_;

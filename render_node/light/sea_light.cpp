@@ -34,7 +34,8 @@ constexpr float kDispersion = 0.6F;
 
 // Two triangles for each cell of a square grid of (cells + 1)^2 vertices, as 16-bit indices.
 std::vector<std::uint16_t> gridIndices(int cells) {
-    assert(cells > 0 && (cells + 1) * (cells + 1) <= 65536);
+    assert(cells > 0);
+    assert((cells + 1) * (cells + 1) <= 65536);
     std::vector<std::uint16_t> indices;
     for (int row = 0; row < cells; ++row)
         for (int column = 0; column < cells; ++column) {
@@ -49,7 +50,8 @@ std::vector<std::uint16_t> gridIndices(int cells) {
 // Depth at which the sunlight of a layer is computed, metres. The layer on the sand is the last but
 // one, so that one lies below it; with one or two layers it is the last.
 float layerDepth(int layer, int layers) {
-    assert(layer >= 0 && layer < layers);
+    assert(layer >= 0);
+    assert(layer < layers);
     const int onTheSand = layers > 2 ? layers - 2 : layers - 1;
     return place::kMeanFloorDepthMetres *
            std::pow(kLayerRatio, static_cast<float>(layer - onTheSand));

@@ -73,8 +73,8 @@ void shadeSand(std::vector<ShadeTexel>& texels, const place::Rock& rock, float s
             const glm::vec3 place{xz.x, sand, xz.y};
             ShadeTexel& texel = texels[static_cast<std::size_t>(row) * kShadeTexels +
                                        static_cast<std::size_t>(column)];
-            darken(texel.r, sunOpenness(own, place));
-            darken(texel.g, skyOpenness(own, place, {0.0F, 1.0F, 0.0F}));
+            darken(texel.r, sunVisibility(own, place));
+            darken(texel.g, ambientOcclusion(own, place, {0.0F, 1.0F, 0.0F}));
             // Rubble lies around rocks that stand on the sand, not under those that hang above it.
             const float away = glm::distance(xz, glm::vec2{rock.centre.x, rock.centre.z});
             const float heap = glm::smoothstep(1.9F, 0.75F, away / rock.radiusMetres) *
@@ -111,7 +111,8 @@ gl::Texture makeShade(const std::vector<ShadeTexel>& texels) {
 }  // namespace
 
 Mesh layPatch(std::uint32_t seed, glm::vec2 corner, float sideMetres, int cells) {
-    assert(sideMetres > 0.0F && cells > 0);
+    assert(sideMetres > 0.0F);
+    assert(cells > 0);
     Mesh mesh;
     // The corners of the cells, and the rim on both sides.
     const int width = cells + 3;

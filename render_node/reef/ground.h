@@ -39,8 +39,8 @@ struct GroundTables {
     std::vector<std::uint32_t> indices;
     std::vector<Patch> patches;
     std::vector<Level> levels;
-    // A map of kFloorShadeMetres about the origin, by rows: openness to the sun (r) and from above
-    // (g), rubble (b).
+    // A map of kFloorShadeMetres about the origin, by rows: sun visibility (r) and ambient
+    // occlusion (g), rubble (b).
     std::vector<glm::u8vec4> shade;
 
     auto arrays() { return std::tie(vertices, indices, patches, levels, shade); }

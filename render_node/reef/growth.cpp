@@ -26,7 +26,8 @@ constexpr std::array<void (*)(Mesh&, std::size_t, Dice), kForms> kGrow{
 }  // namespace
 
 Levels grow(Form form, int shape) {
-    assert(shape >= 0 && shape < kShapesOfForm);
+    assert(shape >= 0);
+    assert(shape < kShapesOfForm);
     const auto at = static_cast<std::size_t>(form);
     const std::uint32_t seed =
         hashOf(hashOf(static_cast<std::uint32_t>(at)), static_cast<std::uint32_t>(shape));

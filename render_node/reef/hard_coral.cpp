@@ -57,7 +57,7 @@ void branch(
     Joint to{middle.centre + bent * (0.5F * length),
              from.radius * habit.thin,
              tissue(light),
-             middle.openness};
+             middle.ambientOcclusion};
     if (left == 1) {
         const Joint tip{
             to.centre + bent * (0.7F * to.radius), 0.25F * to.radius, tissue(1.75F), 1.0F};

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "render_node/reef/mesh.h"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_node/reef/strands.h"
 #include "render_node/water/water_tables.h"
 
 namespace aquarama::scene {
@@ -32,15 +38,18 @@ bool isBefore(glm::vec3 a, glm::vec3 b) {
 
 }  // namespace
 
-std::uint32_t addVertex(
-    Mesh& mesh, glm::vec3 position, glm::vec3 normal, const Surface& surface, float skyOpenness) {
+std::uint32_t addVertex(Mesh& mesh,
+                        glm::vec3 position,
+                        glm::vec3 normal,
+                        const Surface& surface,
+                        float ambientOcclusion) {
     SolidVertex vertex;
     vertex.position = position;
     vertex.normal = glm::i8vec4(packedNormal(normal), glm::i8(surface.roughness * 127.0F));
     vertex.albedo = {packedUnit(surface.albedo.r),
                      packedUnit(surface.albedo.g),
                      packedUnit(surface.albedo.b),
-                     packedUnit(skyOpenness)};
+                     packedUnit(ambientOcclusion)};
     vertex.response = {packedUnit(surface.sway),
                        packedUnit(surface.translucency),
                        packedUnit(surface.fluorescence),
@@ -54,7 +63,8 @@ void addQuad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std:
 }
 
 void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns) {
-    assert(rows > 0 && columns > 0);
+    assert(rows > 0);
+    assert(columns > 0);
     assert(mesh.vertices.size() >=
            first + static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
     const auto width = static_cast<std::uint32_t>(columns);
@@ -67,7 +77,8 @@ void joinRows(Mesh& mesh, std::uint32_t first, int rows, int columns) {
 }
 
 void turnOver(Mesh& mesh, std::size_t firstIndex) {
-    assert(firstIndex % 3 == 0 && mesh.indices.size() % 3 == 0);
+    assert(firstIndex % 3 == 0);
+    assert(mesh.indices.size() % 3 == 0);
     for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3)
         std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
 }
@@ -90,7 +101,8 @@ std::vector<std::uint32_t> seamsOf(const Mesh& mesh, std::uint32_t first) {
 }
 
 void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex) {
-    assert(first <= mesh.vertices.size() && firstIndex % 3 == 0);
+    assert(first <= mesh.vertices.size());
+    assert(firstIndex % 3 == 0);
     std::vector<glm::vec3> sums(mesh.vertices.size() - first, glm::vec3{0.0F});
     for (std::size_t i = firstIndex; i < mesh.indices.size(); i += 3) {
         const std::uint32_t* corner = &mesh.indices[i];
@@ -120,7 +132,7 @@ constexpr float kBodyShare = 0.74F;
 
 }  // namespace
 
-float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place) {
+float sunVisibility(std::span<const place::Rock> rocks, glm::vec3 place) {
     const glm::vec3 sun = sunInWater();
     float open = 1.0F;
     for (const place::Rock& rock : rocks) {
@@ -137,7 +149,7 @@ float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place) {
     return open;
 }
 
-float skyOpenness(std::span<const place::Rock> rocks, glm::vec3 place, glm::vec3 normal) {
+float ambientOcclusion(std::span<const place::Rock> rocks, glm::vec3 place, glm::vec3 normal) {
     float open = 1.0F;
     for (const place::Rock& rock : rocks) {
         const float radius = rock.radiusMetres * kBodyShare;
@@ -158,10 +170,225 @@ void shade(Mesh& mesh, std::span<const place::Rock> others) {
         const glm::vec3 normal = glm::vec3(vertex.normal) / 127.0F;
         // A little above the surface, so that it does not shade itself.
         const glm::vec3 place = vertex.position + normal * 0.05F;
-        const float sky = skyOpenness(others, place, normal);
+        const float sky = ambientOcclusion(others, place, normal);
         vertex.albedo.w = static_cast<glm::u8>(static_cast<float>(vertex.albedo.w) * sky);
-        vertex.response.x = static_cast<glm::u8>(255.0F * sunOpenness(others, place));
+        vertex.response.x = static_cast<glm::u8>(255.0F * sunVisibility(others, place));
     }
+}
+
+namespace {
+
+// The sphere is a cube whose faces are grids of this many cells along an edge.
+constexpr int kFaces = 6;
+constexpr int kFinest = 32;
+
+// The parameters in which the shapes differ.
+struct Habit {
+    std::uint32_t seed;
+    glm::vec3 stretch;
+    // Depth of the ledges, relative to the radius.
+    float beds;
+    // Number of beds over a height of 1.
+    float thick;
+    // How much narrower its foot is, relative to the radius.
+    float undercut;
+    // Height of the lobes.
+    float crags;
+};
+
+Habit habitOf(int shape) {
+    Dice dice{hashOf(0x5eaU, static_cast<std::uint32_t>(shape))};
+    Habit habit{};
+    habit.seed = dice.seed();
+    habit.stretch = {
+        dice.between(0.82F, 1.0F), dice.between(0.78F, 1.0F), dice.between(0.82F, 1.0F)};
+    habit.beds = dice.between(0.05F, 0.17F);
+    habit.thick = dice.between(2.0F, 4.2F);
+    habit.undercut = dice.between(0.05F, 0.36F);
+    habit.crags = dice.between(0.16F, 0.30F);
+    return habit;
+}
+
+// Profile of the beds of limestone, 0 to 1: each stands out at its top and recedes below.
+float bedAt(const Habit& habit, glm::vec3 place) {
+    const float height =
+        place.y * habit.thick + 0.7F * solidNoise(habit.seed ^ 3U, place * 1.7F) + 9.0F;
+    const float within = height - std::floor(height);
+    return glm::smoothstep(0.0F, 0.55F, within) * (1.0F - glm::smoothstep(0.80F, 1.0F, within));
+}
+
+// Lobes, as of corals that have grown together: cellular noise, 1 minus the distance to the nearest
+// of jittered points. The points stay in the middle half of their cells, so that eight cells are
+// enough to search.
+float lobes(std::uint32_t seed, glm::vec3 place) {
+    const glm::vec3 low = glm::floor(place - 0.5F);
+    float nearest2 = 4.0F;
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 cell = low + glm::vec3{i % 2, i / 2 % 2, i / 4};
+        const glm::ivec3 at{cell};
+        std::uint32_t hash = hashOf(seed, static_cast<std::uint32_t>(at.x));
+        hash = hashOf(hash, static_cast<std::uint32_t>(at.y));
+        hash = hashOf(hash, static_cast<std::uint32_t>(at.z));
+        const glm::vec3 jitter{unitOf(hash), unitOf(hashOf(hash)), unitOf(hashOf(hash, 1))};
+        const glm::vec3 way = cell + 0.25F + 0.5F * jitter - place;
+        nearest2 = std::min(nearest2, glm::dot(way, way));
+    }
+    return 1.0F - std::sqrt(nearest2);
+}
+
+// The point of the surface in a direction: body, then ledges and undercut, then crags, then a
+// limit.
+glm::vec3 pointTowards(const Habit& habit, glm::vec3 direction) {
+    const float body = 0.70F + 0.26F * billows(habit.seed, direction * 1.3F, 2);
+    glm::vec3 place = direction * body * habit.stretch;
+    const float beds = bedAt(habit, place);
+    // Ledges fade towards top and bottom, where the surface is level.
+    const float level = 1.0F - 0.8F * direction.y * direction.y;
+    const float foot = glm::smoothstep(0.25F, -0.55F, place.y);
+    const float wide = 1.0F + habit.beds * (beds - 0.4F) * 2.0F * level - habit.undercut * foot;
+    place *= glm::vec3{wide, 1.0F, wide};
+    const float crag = habit.crags * (lobes(habit.seed ^ 5U, place * 2.3F) - 0.45F) +
+                       0.10F * ridges(habit.seed ^ 7U, place * 3.4F, 3) +
+                       0.05F * lobes(habit.seed ^ 6U, place * 6.5F) - 0.05F;
+    place += direction * crag;
+    constexpr float kMost = 0.985F;
+    const float radius = glm::length(place);
+    // Beyond a radius of 0.8 the surface is compressed smoothly, so that it stays within the ball
+    // without being cut off.
+    const float held = radius < 0.8F
+                           ? radius
+                           : 0.8F + (kMost - 0.8F) * std::tanh((radius - 0.8F) / (kMost - 0.8F));
+    return place * (held / radius);
+}
+
+// Direction of a point (u, v in -1 to 1) of a face of the cube. The tangent makes the cells nearly
+// equal in angle.
+glm::vec3 directionOn(int face, float u, float v) {
+    const float x = std::tan(u * std::numbers::pi_v<float> / 4.0F);
+    const float y = std::tan(v * std::numbers::pi_v<float> / 4.0F);
+    switch (face) {
+        case 0:
+            return glm::normalize(glm::vec3{1, y, -x});
+        case 1:
+            return glm::normalize(glm::vec3{-1, y, x});
+        case 2:
+            return glm::normalize(glm::vec3{x, 1, -y});
+        case 3:
+            return glm::normalize(glm::vec3{x, -1, y});
+        case 4:
+            return glm::normalize(glm::vec3{x, y, 1});
+        default:
+            return glm::normalize(glm::vec3{-x, y, -1});
+    }
+}
+
+// The finest surface: grids on the faces of a cube, projected onto the rock.
+Mesh skinOf(const Habit& habit) {
+    Mesh mesh;
+    for (int face = 0; face < kFaces; ++face) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (int row = 0; row <= kFinest; ++row)
+            for (int column = 0; column <= kFinest; ++column) {
+                const auto side = static_cast<float>(kFinest);
+                const glm::vec3 direction =
+                    directionOn(face,
+                                2.0F * static_cast<float>(column) / side - 1.0F,
+                                2.0F * static_cast<float>(row) / side - 1.0F);
+                // Rounded, so that the vertices where faces meet are equal bit by bit and seamsOf()
+                // finds them.
+                const glm::vec3 rounded = glm::round(direction * 65536.0F) / 65536.0F;
+                addVertex(mesh, pointTowards(habit, rounded), rounded, {}, 1.0F);
+            }
+        joinRows(mesh, first, kFinest + 1, kFinest + 1);
+    }
+    turnOver(mesh, 0);
+    setSmoothNormals(mesh, 0, 0);
+    return mesh;
+}
+
+// How far each vertex lies behind the surface, smoothed by this many steps, along its normal:
+// positive in hollows. Few steps find cracks, many find caves.
+std::vector<float> hollowsOf(const Mesh& mesh, int steps) {
+    const std::vector<std::uint32_t> same = seamsOf(mesh);
+    std::vector<glm::vec3> places;
+    for (const SolidVertex& vertex : mesh.vertices) places.push_back(vertex.position);
+    std::vector<glm::vec4> sums(places.size());
+    for (int step = 0; step < steps; ++step) {
+        std::ranges::fill(sums, glm::vec4{0.0F});
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            // Each edge counts in both directions; vertices of a seam share one sum.
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t from = mesh.indices[i + k];
+                const std::uint32_t to = mesh.indices[i + (k + 1) % 3];
+                sums[same[to]] += glm::vec4{places[from], 1.0F};
+                sums[same[from]] += glm::vec4{places[to], 1.0F};
+            }
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i] = glm::vec3(sums[same[i]]) / sums[same[i]].w;
+    }
+    std::vector<float> hollows;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        hollows.push_back(glm::dot(places[i] - mesh.vertices[i].position,
+                                   glm::vec3(mesh.vertices[i].normal) / 127.0F));
+    return hollows;
+}
+
+// The shades of bare rock; the shader adds what grows on it. r: lightness; g: amount of turf; b:
+// amount of pink crust, which prefers the shade.
+glm::vec3 mottleAt(const Habit& habit, glm::vec3 place, glm::vec3 normal, float hollow) {
+    const float patches = solidNoise(habit.seed ^ 0x91U, place * 2.6F);
+    const float turf = glm::smoothstep(-0.1F, 0.75F, normal.y + 0.5F * patches);
+    const float crust = glm::smoothstep(
+        0.05F, 0.45F, solidNoise(habit.seed ^ 0x92U, place * 3.6F) - 0.3F * normal.y);
+    const float light = 0.5F + 0.16F * patches - 0.25F * glm::clamp(hollow, 0.0F, 1.0F);
+    return {light, turf, crust};
+}
+
+// Sets albedo and ambient occlusion of all vertices.
+void paint(Mesh& mesh, const Habit& habit) {
+    const std::vector<float> cracks = hollowsOf(mesh, 2);
+    const std::vector<float> caves = hollowsOf(mesh, 24);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        SolidVertex& vertex = mesh.vertices[i];
+        const glm::vec3 normal = glm::normalize(glm::vec3(vertex.normal));
+        const float hollow = 14.0F * cracks[i] + 5.0F * caves[i];
+        const float open = glm::clamp(1.0F - hollow, 0.12F, 1.0F) *
+                           glm::mix(0.35F, 1.0F, glm::smoothstep(-0.9F, 0.5F, normal.y));
+        const glm::vec3 mottle =
+            glm::clamp(mottleAt(habit, vertex.position, normal, hollow), 0.0F, 1.0F);
+        vertex.normal.w = 127;
+        vertex.albedo = glm::u8vec4(glm::vec4(mottle, open) * 255.0F + 0.5F);
+    }
+}
+
+// The mesh with every step-th vertex in both directions of each face; vertices keep the normals and
+// albedos of the finest mesh.
+Mesh thinned(const Mesh& finest, int step) {
+    assert(step > 0);
+    assert(kFinest % step == 0);
+    Mesh mesh;
+    const int cells = kFinest / step;
+    for (int face = 0; face < kFaces; ++face) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (int row = 0; row <= cells; ++row)
+            for (int column = 0; column <= cells; ++column)
+                mesh.vertices.push_back(finest.vertices[static_cast<std::size_t>(
+                    (face * (kFinest + 1) + row * step) * (kFinest + 1) + column * step)]);
+        joinRows(mesh, first, cells + 1, cells + 1);
+    }
+    turnOver(mesh, 0);
+    return mesh;
+}
+
+}  // namespace
+
+Levels growRock(int shape) {
+    assert(shape >= 0);
+    assert(shape < kRockShapes);
+    const Habit habit = habitOf(shape);
+    Mesh finest = skinOf(habit);
+    paint(finest, habit);
+    return {thinned(finest, 1), thinned(finest, 2), thinned(finest, 4), thinned(finest, 8)};
 }
 
 }  // namespace aquarama::scene

@@ -21,7 +21,7 @@ struct SolidVertex {
     glm::vec3 position{};
     // Unit normal in 127ths; w: roughness, 0 smooth to 127 bare rock.
     glm::i8vec4 normal{};
-    // Albedo in 255ths, of which a half stands for the tint; w: openness to the light from above.
+    // Albedo in 255ths, of which a half stands for the tint; w: ambient occlusion.
     glm::u8vec4 albedo{};
     // In 255ths: share of the sway, translucency, fluorescence, relief.
     glm::u8vec4 response{};
@@ -53,8 +53,11 @@ struct Surface {
 };
 
 // Appends a vertex in packed form and returns its index.
-std::uint32_t addVertex(
-    Mesh& mesh, glm::vec3 position, glm::vec3 normal, const Surface& surface, float skyOpenness);
+std::uint32_t addVertex(Mesh& mesh,
+                        glm::vec3 position,
+                        glm::vec3 normal,
+                        const Surface& surface,
+                        float ambientOcclusion);
 // Appends the triangles a b c and a c d.
 void addQuad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
 // Joins rows of equal length by quads. The vertices must have been added row by row, from `first`
@@ -74,12 +77,24 @@ void setSmoothNormals(Mesh& mesh, std::uint32_t first, std::size_t firstIndex);
 
 // 0 is dark, 1 is open. Boulders count as balls; edges are soft, as the sun's light is already
 // spread by the water. Cost: a step for each rock.
-[[nodiscard]] float sunOpenness(std::span<const place::Rock> rocks, glm::vec3 place);
-[[nodiscard]] float skyOpenness(std::span<const place::Rock> rocks,
-                                glm::vec3 place,
-                                glm::vec3 normal);
+[[nodiscard]] float sunVisibility(std::span<const place::Rock> rocks, glm::vec3 place);
+[[nodiscard]] float ambientOcclusion(std::span<const place::Rock> rocks,
+                                     glm::vec3 place,
+                                     glm::vec3 normal);
 
-// Darkens a rock's mesh by the other rocks; its own hollows are already in its baked openness.
+// Darkens a rock's mesh by the other rocks. The rock's own hollows are already in its baked ambient
+// occlusion.
 void shade(Mesh& mesh, std::span<const place::Rock> others);
+
+// The shapes of rock: worn limestone with ledges, undercuts and hollows, within the unit ball.
+
+// Number of shapes.
+inline constexpr int kRockShapes = 12;
+
+// Makes one shape at all levels, the same on every machine. It lies within the unit ball. y is up:
+// a rock may be turned about y, so that its ledges stay level. Coarser levels are every second
+// vertex of the finer one. The albedo of a vertex holds lightness, amount of turf and amount of
+// pink crust. shape: 0 to kRockShapes - 1.
+[[nodiscard]] Levels growRock(int shape);
 
 }  // namespace aquarama::scene

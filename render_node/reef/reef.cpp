@@ -214,7 +214,8 @@ void Reef::fillBuffers(const ReefTables& tables) {
 }
 
 void Reef::stir(std::size_t fish, float fraction) const {
-    assert(fraction >= 0.0F && fraction <= 1.0F);
+    assert(fraction >= 0.0F);
+    assert(fraction <= 1.0F);
     const gl::Stage stage{"place stir"};
     // The grid stays at rest then, as the constructor has cleared it.
     if (!quality_.plantsGiveWay) return;

@@ -197,7 +197,9 @@ glm::vec4 packed(const glm::quat& turn) {
 
 // A random vertex of the rock, in the world.
 Spot spotOn(const Bed& bed, Dice& dice) {
-    assert(bed.rock != nullptr && bed.stone != nullptr && !bed.stone->vertices.empty());
+    assert(bed.rock != nullptr);
+    assert(bed.stone != nullptr);
+    assert(!bed.stone->vertices.empty());
     const auto count = static_cast<float>(bed.stone->vertices.size());
     const SolidVertex& vertex = bed.stone->vertices[static_cast<std::size_t>(dice.unit() * count)];
     return {bed.rock->centre + bed.turn * (vertex.position * bed.rock->radiusMetres),
@@ -273,7 +275,7 @@ glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
     return glm::quat_cast(glm::mat3{x, up, glm::cross(x, up)});
 }
 
-// Fills in an instance; its openness is that of a point just above the spot.
+// Fills in an instance; its occlusion is that of a point just above the spot.
 Instance instanceOf(const place::PlaceKey& place,
                     std::span<const place::Rock> rocks,
                     Form form,
@@ -287,7 +289,7 @@ Instance instanceOf(const place::PlaceKey& place,
     return {glm::vec4(spot.place, size),
             packed(turn),
             tintAndSway,
-            {sunOpenness(rocks, above), skyOpenness(rocks, above, glm::vec3{0, 1, 0})},
+            {sunVisibility(rocks, above), ambientOcclusion(rocks, above, glm::vec3{0, 1, 0})},
             place::floorHeight(place, {spot.place.x, spot.place.z}),
             static_cast<std::uint32_t>(prototypeOf(form, shape))};
 }
@@ -373,12 +375,13 @@ void addPebble(
     // Lighter than living rock: bleached.
     const float light = dice.between(1.3F, 2.1F);
     const glm::vec3 above = spot.place + glm::vec3{0, 0.1F, 0};
-    all.push_back({glm::vec4(spot.place + glm::vec3{0, 0.15F * size, 0}, size),
-                   packed(turn),
-                   glm::vec4(glm::vec3{light}, 0.0F),
-                   {sunOpenness(bed.others, above), skyOpenness(bed.others, above, {0, 1, 0})},
-                   spot.place.y,
-                   static_cast<std::uint32_t>(dice.seed() % kRockShapes)});
+    all.push_back(
+        {glm::vec4(spot.place + glm::vec3{0, 0.15F * size, 0}, size),
+         packed(turn),
+         glm::vec4(glm::vec3{light}, 0.0F),
+         {sunVisibility(bed.others, above), ambientOcclusion(bed.others, above, {0, 1, 0})},
+         spot.place.y,
+         static_cast<std::uint32_t>(dice.seed() % kRockShapes)});
 }
 
 // Scatters broken pieces and young corals about the foot of a rock.

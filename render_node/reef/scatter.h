@@ -13,7 +13,6 @@
 #include "common/place/place.h"
 #include "render_node/reef/growth.h"
 #include "render_node/reef/mesh.h"
-#include "render_node/reef/rock_mesh.h"
 #include "render_node/reef/strands.h"
 
 namespace aquarama::scene {
@@ -40,8 +39,8 @@ struct Instance {
     glm::vec4 turn{0, 0, 0, 1};
     // Linear albedo; w: share of the swell that its top follows.
     glm::vec4 tintAndSway{};
-    // Openness to the sun and to the sky.
-    glm::vec2 openness{1, 1};
+    // Sun visibility and ambient occlusion, 0 to 1.
+    glm::vec2 occlusion{1, 1};
     // Height of the sand below it.
     float sandHeightMetres = 0;
     std::uint32_t prototype = 0;

@@ -33,7 +33,9 @@ void setSampling(unsigned name, int levels, Edge edge) {
 }  // namespace
 
 gl::Texture makeTexture(GLenum format, glm::ivec2 size, int levels, Edge edge) {
-    assert(levels >= 1 && size.x > 0 && size.y > 0);
+    assert(levels >= 1);
+    assert(size.x > 0);
+    assert(size.y > 0);
     gl::Texture texture{static_cast<GLenum>(GL_TEXTURE_2D)};
     glTextureStorage2D(texture.name(), levels, format, size.x, size.y);
     setSampling(texture.name(), levels, edge);

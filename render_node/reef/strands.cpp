@@ -90,7 +90,8 @@ float waverAt(std::uint32_t seed, glm::vec3 place) {
 }
 
 void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 facing) {
-    assert(joints.size() >= 2 && (sides == 0 || sides >= 3));
+    assert(joints.size() >= 2);
+    assert((sides == 0 || sides >= 3));
     if (sides == 0) {
         const glm::vec3 across = glm::cross(joints.back().centre - joints.front().centre, facing);
         const float width = glm::length(across);
@@ -109,7 +110,7 @@ void addStrand(Mesh& mesh, std::span<const Joint> joints, int sides, glm::vec3 f
                       joints[i].centre + outward * joints[i].radius,
                       outward,
                       joints[i].surface,
-                      joints[i].openness);
+                      joints[i].ambientOcclusion);
         }
     }
     joinRows(mesh, first, static_cast<int>(joints.size()), sides + 1);
@@ -134,7 +135,7 @@ void addLeaf(Mesh& mesh, std::span<const Joint> joints, const Leaf& leaf) {
                       joint.centre + leaf.side * (edge * joint.radius) + normal * wave,
                       glm::normalize(normal + leaf.side * (0.45F * edge)),
                       shaded(joint.surface, edge == 0.0F && ribbed ? 0.72F : 1.0F),
-                      joint.openness);
+                      joint.ambientOcclusion);
         }
     }
     joinRows(mesh, first, static_cast<int>(joints.size()), static_cast<int>(edges.size()));
@@ -144,7 +145,8 @@ void addTurned(Mesh& mesh,
                std::span<const Ring> rings,
                const Turning& turning,
                const Surface& surface) {
-    assert(rings.size() >= 2 && turning.around >= 3);
+    assert(rings.size() >= 2);
+    assert(turning.around >= 3);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
     const glm::mat3 frame = frameAbout(turning.up, 0.0F);
@@ -162,14 +164,15 @@ void addTurned(Mesh& mesh,
                       turning.centre + frame * glm::vec3{out.x * radius, height, out.z * radius},
                       turning.up,
                       shaded(surface, ring.shade),
-                      ring.openness);
+                      ring.ambientOcclusion);
         }
     joinRows(mesh, first, static_cast<int>(rings.size()), turning.around + 1);
     setSmoothNormals(mesh, first, firstIndex);
 }
 
 void addBall(Mesh& mesh, const Ball& ball, const Surface& surface) {
-    assert(ball.rings >= 1 && ball.around >= 3);
+    assert(ball.rings >= 1);
+    assert(ball.around >= 3);
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const std::size_t firstIndex = mesh.indices.size();
     // From the lower rim up to the top, as addTurned() from foot to crown.

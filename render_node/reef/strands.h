@@ -43,13 +43,13 @@ class Dice {
 
 // Tubes, ribbons, leaves and bodies of revolution. Each function appends to the mesh.
 
-// A point of a strand's axis, with radius (half the width of a ribbon), material and openness to
-// the light from above there.
+// A point of a strand's axis, with radius (half the width of a ribbon), material and ambient
+// occlusion there.
 struct Joint {
     glm::vec3 centre{};
     float radius = 0.0F;
     Surface surface{};
-    float openness = 1.0F;
+    float ambientOcclusion = 1.0F;
 };
 // A tube through the joints, with so many sides; 0 sides: a flat ribbon that faces `facing`. At
 // least two joints, whose places differ.
@@ -68,11 +68,11 @@ struct Leaf {
 void addLeaf(Mesh& mesh, std::span<const Joint> joints, const Leaf& leaf);
 
 // A body of revolution about an axis, from foot to crown, made irregular by noise.
-// One ring of its outline: radius and height along the axis, openness to the light from above.
+// One ring of its outline: radius and height along the axis, ambient occlusion.
 struct Ring {
     float radius;
     float height;
-    float openness = 1.0F;
+    float ambientOcclusion = 1.0F;
     // Factor of the albedo.
     float shade = 1.0F;
     // Share of the irregularity that the ring takes.

@@ -5,7 +5,7 @@
 #ifndef BLOOM_GLSL
 #define BLOOM_GLSL
 #include "look_around.glsl"
-#include "post_radii.h"
+#include "shader_interface.h"
 
 // The share of the light that is spread.
 const float kBloomShare = 0.012;

@@ -45,6 +45,6 @@ void main() {
         vec3 slope = vec3(fine.x - 0.5, 0.0, fine.y - 0.5);
         n = normalize(n - 1.2 * normal.w * (slope - n * dot(slope, n)));
     }
-    vec3 light = litUnder(Openness(open.x, sky), colour, place, n, matter.x) + fluorescent(colour, matter.y * sky);
+    vec3 light = litUnder(Occlusion(open.x, sky), colour, place, n, matter.x) + fluorescent(colour, matter.y * sky);
     radiance = vec4(seen(light, place), 1.0);
 }

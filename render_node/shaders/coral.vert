@@ -1,6 +1,6 @@
 // What grows, near by: lit at each pixel.
 // In: a SolidVertex and the chosen instance (grown.glsl). Out: world place, place without sway
-// (rest), normal, albedo, openness, material.
+// (rest), normal, albedo, occlusion, material.
 #include "grown.glsl"
 layout(location = 0) centroid out vec3 place;
 layout(location = 1) centroid out vec3 rest;

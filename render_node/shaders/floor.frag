@@ -3,7 +3,7 @@
 #include "shader_interface.h"
 #include "light.glsl"
 layout(binding = kDetailTileUnit) uniform sampler2D detail;  // slopes, albedo, crest
-layout(binding = kFloorShadeUnit) uniform sampler2D shade;   // openness to the sun and to the light from above, rubble
+layout(binding = kFloorShadeUnit) uniform sampler2D shade;   // sun visibility and ambient occlusion, rubble
 layout(binding = kFloorRockUnit) uniform sampler2D rock;    // as `detail`
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
@@ -34,10 +34,10 @@ void main() {
         sky *= mix(1.0, 0.35 + 0.8 * stones.w, lies);
     }
     vec3 n = normalize(normal - vec3(slope.x, 0.0, slope.y));
-    Openness openness = Openness(open.r, sky);
+    Occlusion occlusion = Occlusion(open.r, sky);
     if (kFine) {
-        openness = openAt(place, normal);
-        openness.sky *= sky / max(open.g, 0.01);
+        occlusion = openAt(place, normal);
+        occlusion.sky *= sky / max(open.g, 0.01);
     }
-    radiance = vec4(seen(litUnder(openness, albedo, place, n, 0.0), place), 1.0);
+    radiance = vec4(seen(litUnder(occlusion, albedo, place, n, 0.0), place), 1.0);
 }

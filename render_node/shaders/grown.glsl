@@ -1,6 +1,6 @@
 // A corner of what grows on the reef: where the swell has carried it, and how it is lit.
 // grown() reads the vertex attributes and the chosen instance, and returns place and normal in the
-// world, albedo and openness.
+// world, albedo and occlusion.
 #include "shader_interface.h"
 #include "instance.glsl"
 #include "plant_bend.h"
@@ -34,7 +34,7 @@ vec2 pushedAt(vec3 place) {
 }
 struct Grown {
     vec3 place, rest, normal, albedo;
-    Openness open;
+    Occlusion open;
 };
 Grown grown() {
     Instance one = instances[chosen];
@@ -59,10 +59,10 @@ Grown grown() {
     // Sand close below takes some of the light from above.
     float contact = mix(0.55, 1.0, smoothstep(-0.05, 0.35, it.rest.y - one.sandHeightMetres));
     float own = albedoAndSky.w;
-    it.open = Openness(one.openness.x * mix(0.35, 1.0, own), one.openness.y * own * contact);
+    it.open = Occlusion(one.occlusion.x * mix(0.35, 1.0, own), one.occlusion.y * own * contact);
     if (kFine) {
-        Openness mapped = openAt(it.place, it.normal);
-        it.open = Openness(min(it.open.sun, mapped.sun), min(it.open.sky, mapped.sky));
+        Occlusion mapped = openAt(it.place, it.normal);
+        it.open = Occlusion(min(it.open.sun, mapped.sun), min(it.open.sky, mapped.sky));
     }
     return it;
 }

@@ -8,7 +8,7 @@ struct Instance {
     vec4 placeAndScale;  // world metres
     vec4 turn;           // quaternion
     vec4 tintAndSway;    // w: share of the swell that its top follows
-    vec2 openness;       // to sun and sky
+    vec2 occlusion;      // sun visibility, ambient occlusion
     float sandHeightMetres;
     uint prototype;
 };

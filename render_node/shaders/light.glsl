@@ -6,7 +6,7 @@
 #define LIGHT_GLSL
 #include "shading.glsl"
 
-vec3 litUnder(Openness open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
+vec3 litUnder(Occlusion open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
     // Root of the area that a pixel covers: the longer side alone would blur the sand away, and an
     // area is the same whichever way a neighbour's picture is turned.
     float footprint = sqrt(length(cross(dFdx(place), dFdy(place)))) * (256.0 / kTileMetres);

@@ -40,7 +40,7 @@ void main() {
 
     vec3 place = speck.place + corners[gl_VertexID % 3] * (radius * larger);
     vec3 albedo = kCrumb * mix(0.7, 1.2, unit(speck.seed, 12u));
-    light = seen(litAt(1.0, Openness(1.0, 1.0), albedo, speck.place, normal, 0.2), speck.place);
+    light = seen(litAt(1.0, Occlusion(1.0, 1.0), albedo, speck.place, normal, 0.2), speck.place);
     coverage = smoothstep(kPelletMetres, 0.7 * kPelletMetres, range) / (larger * larger);
     // The far side is hidden by the near one.
     bool hidden = dot(normal, speck.place + middle * (radius * larger) - eyeAndTime.xyz) >= 0.0;

@@ -1,6 +1,6 @@
 // Rock: grit, pits and knobs at two or three scales, laid on from three sides; turf on what looks
 // up, pink crusts of algae in the shade, sponges in patches.
-// In: world place and normal, colours and openness from rock.vert; the rock tile. Out: scene
+// In: world place and normal, colours and occlusion from rock.vert; the rock tile. Out: scene
 // radiance, opaque.
 #include "shader_interface.h"
 #include "light.glsl"
@@ -48,10 +48,10 @@ void main() {
     vec3 sponge = vec3(0.58, 0.27, 0.07) * (0.7 + 0.5 * middle.tone.y);
     vec3 colour = rockColour(mottle, tone, patches, middle.tone.y);
     colour = mix(colour, sponge, 0.8 * smoothstep(0.86, 0.94, patches + 0.15 * (fine.tone.y - 0.5)) * step(n.y, 0.6));
-    Openness openness = Openness(open.x * mix(0.6, 1.0, pits), open.y * pits);
+    Occlusion occlusion = Occlusion(open.x * mix(0.6, 1.0, pits), open.y * pits);
     if (kFine) {
-        Openness mapped = openAt(place, normalize(normal));
-        openness = Openness(min(openness.sun, mapped.sun), min(openness.sky, mapped.sky));
+        Occlusion mapped = openAt(place, normalize(normal));
+        occlusion = Occlusion(min(occlusion.sun, mapped.sun), min(occlusion.sky, mapped.sky));
     }
-    radiance = vec4(seen(litUnder(openness, colour * tint, place, n, 0.0), place), 1.0);
+    radiance = vec4(seen(litUnder(occlusion, colour * tint, place, n, 0.0), place), 1.0);
 }

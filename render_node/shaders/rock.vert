@@ -1,11 +1,11 @@
 // Rock: worn limestone, lit at each pixel.
-// In: a SolidVertex and the chosen instance. Out: world place, normal, mottle, openness, tint; clip
+// In: a SolidVertex and the chosen instance. Out: world place, normal, mottle, occlusion, tint; clip
 // space.
 #include "shader_interface.h"
 #include "instance.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normalAndRoughness;
-layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; openness
+layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; occlusion
 layout(location = 4) in uint chosen;
 layout(location = kDetailLocation) uniform float detail;
 layout(location = 0) centroid out vec3 place;

@@ -7,7 +7,7 @@
 #include "shading.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normalAndRoughness;
-layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; openness
+layout(location = 2) in vec4 mottleAndSky;  // lightness, turf, pink crust; occlusion
 layout(location = 4) in uint chosen;
 layout(location = kDetailLocation) uniform float detail;
 layout(location = 0) out vec3 place;
@@ -25,7 +25,7 @@ void main() {
     vec3 n = normalize(normal), way = place - eyeAndTime.xyz;
     float range = length(way), depth = max(-place.y, 0.1);
     // The whole light less the sun's, at the mean of the waves.
-    vec3 all = litAt(5.0, Openness(0.0, it.open.y), it.tint, place, n, 0.0);
+    vec3 all = litAt(5.0, Occlusion(0.0, it.open.y), it.tint, place, n, 0.0);
     vec3 sun = it.tint * (unscatteredShare(depth) * it.open.x * daylight.x * max(dot(n, sunAndFilterDepth.xyz), 0.0) / kPi);
     sunlit = direct(sun, range, depth);
     skylit = direct(all, range, depth);

@@ -160,13 +160,24 @@ AQUARAMA_CONSTANT float kTileMetres = 12.0F;       // caustics and waves; waves 
 AQUARAMA_CONSTANT float kRippleTileMetres = 2.9F;  // the shorter waves
 AQUARAMA_CONSTANT float kSandTileMetres = 2.6F;
 AQUARAMA_CONSTANT float kRockTileMetres = 1.1F;
-AQUARAMA_CONSTANT float kFloorShadeMetres = 72.0F;  // the floor's openness, round the origin
+AQUARAMA_CONSTANT float kFloorShadeMetres = 72.0F;  // the floor's occlusion, round the origin
 AQUARAMA_CONSTANT float kPlaceMetres = 80.0F;       // maps of the place's shadows, round the origin
 AQUARAMA_CONSTANT float kMapDepthMetres = 64.0F;    // depth 0 of those maps; 1 is the surface
 
 // How far food is seen, metres.
 AQUARAMA_CONSTANT float kPlanktonMetres = 8.0F;
 AQUARAMA_CONSTANT float kPelletMetres = 16.0F;
+
+// How far the passes over a picture reach, radians. A channel draws a margin of at least kPostReach
+// about what its projector shows (channel_picture.cpp), so that neighbours soften and bloom alike
+// where they overlap.
+// Water scatters by sigma = 0.0016 sqrt(r) rad over r metres; taps go to two sigma.
+AQUARAMA_CONSTANT float kScatterSigma = 0.0016F;
+AQUARAMA_CONSTANT float kScatterMostSigma = 0.0080F;
+// The glow about what is bright: rings of taps of so wide a mean.
+AQUARAMA_CONSTANT float kBloomNear = 0.0035F;
+AQUARAMA_CONSTANT float kBloomFar = 0.0095F;
+AQUARAMA_CONSTANT float kPostReach = 0.0170F;
 
 #ifdef __cplusplus
 }  // namespace aquarama::shaders

@@ -23,7 +23,7 @@ vec3 lampLight(vec3 place, vec3 normal) {
 // Outgoing radiance of a matte surface, before the way down, which `seen` adds: sun through the
 // waves, soft light from above, light from the sand; and, through thin things, light from behind.
 // lod: of the caustics, by how much of the sand a pixel covers.
-vec3 litAt(float lod, Openness open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
+vec3 litAt(float lod, Occlusion open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
     float depth = max(-place.y, 0.1);
     float share = unscatteredShare(depth);
     float towardsSun = dot(normal, sunAndFilterDepth.xyz);

@@ -13,7 +13,7 @@ layout(binding = kTopHeightsUnit) uniform sampler2D topHeights;  // the same str
 layout(binding = kFishOnTheWayUnit) uniform sampler2D fishOnTheWay;  // optical depth along the sun's ray; times height; times its square
 
 // How much of the sun and of the light from above reaches a place (1: nothing stands in the way).
-struct Openness {
+struct Occlusion {
     float sun;
     float sky;
 };
@@ -74,25 +74,25 @@ float pastFish(vec2 uv, float height, float lod) {
     return exp(-sums.x * above);
 }
 vec2 fishPlace(vec3 place) { return (surfacePoint(place) - fishWindow.xy) * fishWindow.z + 0.5; }
-Openness pastFish(vec3 place) {
+Occlusion pastFish(vec3 place) {
     vec2 uv = fishPlace(place);
-    if (any(greaterThan(abs(uv - 0.5), vec2(0.49)))) return Openness(1.0, 1.0);
+    if (any(greaterThan(abs(uv - 0.5), vec2(0.49)))) return Occlusion(1.0, 1.0);
     if (!kFine) {
         float both = pastFish(uv, place.y, 0.0);
-        return Openness(both, 0.4 + 0.6 * both);
+        return Occlusion(both, 0.4 + 0.6 * both);
     }
     float perMetre = fishWindow.z * float(textureSize(fishOnTheWay, 0).x);
     float sun = pastFish(uv, place.y, log2(max(0.05 * perMetre, 1.0)));
     float sky = pastFish(uv, place.y, log2(max(0.9 * perMetre, 1.0)));
-    return Openness(sun, sky);
+    return Occlusion(sun, sky);
 }
 
-// The openness of what stands in the place, past the place and the fish; the hollows of a thing
-// itself are in its own openness.
-Openness openAt(vec3 place, vec3 normal) {
-    Openness open = Openness(sunPast(place + 0.05 * normal), mix(0.25, 1.0, skyPast(place, normal)));
+// The occlusion of what stands in the place, past the place and the fish; the hollows of a thing
+// itself are in its own occlusion.
+Occlusion openAt(vec3 place, vec3 normal) {
+    Occlusion open = Occlusion(sunPast(place + 0.05 * normal), mix(0.25, 1.0, skyPast(place, normal)));
     if (!kFine) return open;
-    Openness school = pastFish(place);
-    return Openness(open.sun * school.sun, open.sky * school.sky);
+    Occlusion school = pastFish(place);
+    return Occlusion(open.sun * school.sun, open.sky * school.sky);
 }
 #endif

@@ -5,7 +5,6 @@
 // metres.
 #include "shader_interface.h"
 #include "look_around.glsl"
-#include "post_radii.h"
 layout(binding = kSceneUnit) uniform sampler2D scene;
 layout(binding = kDepthUnit) uniform sampler2D depth;
 layout(location = 0) in vec2 uv;

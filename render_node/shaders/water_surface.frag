@@ -61,7 +61,7 @@ vec3 mirroredSea(vec3 down, vec2 xz, float range) {
     }
     float further = depth / max(-down.y, 0.05);
     vec3 bottom = vec3(hit.x, -depth, hit.y);
-    vec3 sand = litAt(2.0, Openness(sunPast(bottom), 1.0), vec3(0.30, 0.27, 0.22), bottom,
+    vec3 sand = litAt(2.0, Occlusion(sunPast(bottom), 1.0), vec3(0.30, 0.27, 0.22), bottom,
                       vec3(0.0, 1.0, 0.0), 0.0);
     return direct(sand, range + further, depth) +
            direct(water * (0.8 - 0.8 * exp(-0.11 * further)), range, sunAndFilterDepth.w);

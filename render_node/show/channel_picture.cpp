@@ -20,7 +20,7 @@
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
 #include "render_node/gl/program.h"
-#include "render_node/shaders/post_radii.h"
+#include "render_node/shaders/shader_interface.h"
 #include "render_node/show/channel_show.h"
 
 namespace aquarama::show {
@@ -330,7 +330,8 @@ void writeSnapshot(const std::string& folder,
 }
 
 WindowFit fitInto(glm::ivec2 windowPixels, glm::ivec2 picturePixels) {
-    assert(picturePixels.x > 0 && picturePixels.y > 0);
+    assert(picturePixels.x > 0);
+    assert(picturePixels.y > 0);
     const glm::vec2 size(picturePixels);
     const glm::vec2 room = glm::vec2(windowPixels) / size;
     const glm::ivec2 fitted(size * std::min(room.x, room.y));

@@ -205,7 +205,9 @@ std::vector<Label> mindLabels(const FishPlace& fish,
                               const WatchedMind& mind,
                               glm::ivec2 pictureSize,
                               float dotPixels) {
-    assert(dotPixels > 0.0F && pictureSize.x > 0 && pictureSize.y > 0);
+    assert(dotPixels > 0.0F);
+    assert(pictureSize.x > 0);
+    assert(pictureSize.y > 0);
     const glm::vec2 size(pictureSize);
     const glm::vec2 glyph =
         glm::vec2(extentInDots("A").x - extentInDots("").x, extentInDots("").y) * dotPixels;

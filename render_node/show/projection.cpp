@@ -81,7 +81,8 @@ PairProjection::PairProjection(glm::ivec2 sizePixels,
       channelId_{channelId},
       mode_{mode},
       program_{gl::makeProgram({"quad.vert", "project_pair.frag"})} {
-    assert(mode != config::StereoMode::Mono && mode != config::StereoMode::QuadBuffer);
+    assert(mode != config::StereoMode::Mono);
+    assert(mode != config::StereoMode::QuadBuffer);
     makeBilinear(bilinear_);
 }
 
@@ -125,7 +126,8 @@ glm::vec4 place(const glm::vec4& pointAndWeight, const wall::ChannelFrustum& fru
 }  // namespace
 
 ProjectionMap projectionMap(const wall::WarpMap& warp, const wall::ChannelFrustum& frustum) {
-    assert(frustum.right > frustum.left && frustum.top > frustum.bottom);
+    assert(frustum.right > frustum.left);
+    assert(frustum.top > frustum.bottom);
     ProjectionMap map{.sizePixels = warp.sizePixels, .placeAndWeight = {}};
     map.placeAndWeight.reserve(warp.pointAndWeight.size());
     for (const glm::vec4& point : warp.pointAndWeight)

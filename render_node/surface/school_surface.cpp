@@ -420,7 +420,8 @@ SchoolSurface::SchoolSurface(SchoolSurface&&) noexcept = default;
 SchoolSurface& SchoolSurface::operator=(SchoolSurface&&) noexcept = default;
 
 void SchoolSurface::update(const SchoolMoment& moment) {
-    assert(moment.fraction >= 0.0F && moment.fraction <= 1.0F);
+    assert(moment.fraction >= 0.0F);
+    assert(moment.fraction <= 1.0F);
     const gl::Stage stage{"fish records"};
     Parts& parts = *parts_;
     parts.recordsUploaded = std::min(moment.after.size(), parts.fish);

@@ -51,7 +51,8 @@ Detail detailOf(const SharedView& view,
                 DetailLevel finest,
                 glm::vec3 placeMetres,
                 float lengthMetres) {
-    assert(finest <= DetailLevel::CloseUp && view.pixelRadians > 0.0F);
+    assert(finest <= DetailLevel::CloseUp);
+    assert(view.pixelRadians > 0.0F);
     const float pixels =
         lengthMetres / (glm::distance(view.eyeMetres, placeMetres) * view.pixelRadians);
     std::size_t level = 0;

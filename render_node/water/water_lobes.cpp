@@ -63,7 +63,8 @@ double henyeyGreenstein(double cosine, double g) {
 }  // namespace
 
 WaterLobe waterLobe(double albedo, double opticalDepth, double rise, double azimuthDegrees) {
-    assert(albedo >= 0 && albedo <= 1);
+    assert(albedo >= 0);
+    assert(albedo <= 1);
     const Stencil a = smooth(placeAmong(kLobeAlbedos, albedo), kLobeAlbedos.size());
     const Stencil d = smooth(opticalDepthIndex(opticalDepth), kLobeDepths.size());
     const Stencil r = smooth(placeAmong(kLobeRises, rise), kLobeRises.size());

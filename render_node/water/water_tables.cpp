@@ -223,7 +223,9 @@ constexpr double kDeepestEyeMetres = 40.0;
 
 // 0 to 1 in equal steps. The functions below give the value of each axis at an index.
 double evenly(int i, int count) {
-    assert(count > 1 && i >= 0 && i < count);
+    assert(count > 1);
+    assert(i >= 0);
+    assert(i < count);
     return static_cast<double>(i) / (count - 1);
 }
 double rangeAt(int i, int count) {
@@ -379,7 +381,8 @@ Inscatter::Inscatter(std::span<const glm::vec3> texels, std::vector<double> expo
     : exposures_{std::move(exposures)} {
     constexpr std::size_t kTexels =
         std::size_t{shaders::kSightRanges} * shaders::kSightRises * shaders::kSightAzimuths;
-    assert(texels.size() == kEyes * kTexels && exposures_.size() == kEyes);
+    assert(texels.size() == kEyes * kTexels);
+    assert(exposures_.size() == kEyes);
     for (std::size_t eye = 0; eye < kEyes; ++eye) {
         const auto own = texels.subspan(eye * kTexels, kTexels);
         slices_.push_back({shaders::kSightRanges,

@@ -167,7 +167,8 @@ class RootMeanSquare {
 
 // The least of the values such that at least this share of them is not greater; 0 of none.
 double quantile(std::vector<double> values, double share) {
-    assert(share >= 0 && share <= 1);
+    assert(share >= 0);
+    assert(share <= 1);
     if (values.empty()) return 0;
     std::ranges::sort(values);
     const double rank = std::ceil(share * static_cast<double>(values.size()));
@@ -190,7 +191,8 @@ Comparison compare(const Script& script, const Traces& traces) {
     const auto& [fish, replica, loose] = traces;
     assert(!script.empty());
     assert(fish.size() == static_cast<std::size_t>(script.front().ticks + ticksOf(script)) + 1);
-    assert(replica.size() == fish.size() && loose.size() == fish.size());
+    assert(replica.size() == fish.size());
+    assert(loose.size() == fish.size());
     Comparison comparison;
     auto first = static_cast<std::size_t>(script.front().ticks);
     comparison.openLoop =
@@ -241,7 +243,8 @@ Summary summarise(std::span<const CommandErrors> commands) {
 }
 
 double headingAt(const Trace& trace, std::size_t tick, double beatTicks) {
-    assert(tick < trace.size() && beatTicks > 0);
+    assert(tick < trace.size());
+    assert(beatTicks > 0);
     glm::dvec3 sum{};
     // Backwards from the tick; the last summand may be a fraction of a tick.
     double left = beatTicks;
@@ -258,7 +261,8 @@ double wrapped(double radians) {
 }
 
 double pathLength(const Trace& trace, std::size_t from, std::size_t to) {
-    assert(from <= to && to < trace.size());
+    assert(from <= to);
+    assert(to < trace.size());
     double length = 0;
     for (std::size_t tick = from; tick < to; ++tick)
         length += glm::distance(trace[tick].frame.origin, trace[tick + 1].frame.origin);

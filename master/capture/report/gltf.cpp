@@ -54,7 +54,8 @@ SwimmingSkin skinOf(const body::FishBody& body,
                     const motion::ActionSegment& segment,
                     double lengthMetres,
                     int shapes) {
-    assert(shapes >= 1 && motion::kPhases % shapes == 0);
+    assert(shapes >= 1);
+    assert(motion::kPhases % shapes == 0);
     const skin::LimitTable table = skin::makeLimitTable(body, kSurfaceLevel);
     SwimmingSkin skin{.triangles = table.indices, .shapes = {}};
     for (int phase = 0; phase < motion::kPhases; phase += motion::kPhases / shapes)

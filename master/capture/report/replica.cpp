@@ -95,8 +95,8 @@ void Replica::command(Manoeuvre manoeuvre) {
 void Replica::play(motion::Action action, double tempo) {
     commands_.segment[0] = static_cast<std::uint8_t>(action);
     const auto rate = std::lround(tempo * motion::recordedPhaseRate(*tables_, action));
-    assert(rate >= std::numeric_limits<std::int16_t>::min() &&
-           rate <= std::numeric_limits<std::int16_t>::max());
+    assert(rate >= std::numeric_limits<std::int16_t>::min());
+    assert(rate <= std::numeric_limits<std::int16_t>::max());
     commands_.phaseRate[0] = static_cast<std::int16_t>(rate);
 }
 

@@ -48,7 +48,8 @@ double between(double a, double b, double share) {
 
 // Piecewise linear between the three gaits, in frequency and in gain.
 config::Gait gaitAt(const config::Swim& swim, double grade) {
-    assert(grade >= 0 && grade <= 1);
+    assert(grade >= 0);
+    assert(grade <= 1);
     const config::Gait& from = grade < 0.5 ? swim.slow : swim.medium;
     const config::Gait& to = grade < 0.5 ? swim.medium : swim.fast;
     const double share = grade < 0.5 ? 2 * grade : 2 * grade - 1;
@@ -57,7 +58,8 @@ config::Gait gaitAt(const config::Swim& swim, double grade) {
 
 // Piecewise linear between no bend (at the tempo of the gradual one), gradual and sharp.
 config::Bend bendAt(const config::Turn& turn, double grade) {
-    assert(grade >= 0 && grade <= 1);
+    assert(grade >= 0);
+    assert(grade <= 1);
     if (grade < 0.5) return {2 * grade * turn.gradual.strength, turn.gradual.tempo};
     const double share = 2 * grade - 1;
     return {between(turn.gradual.strength, turn.sharp.strength, share),

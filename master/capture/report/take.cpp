@@ -51,7 +51,8 @@ Take makeTake(const motion::Repertoire& repertoire,
               int cycles,
               std::size_t frames,
               double secondsPerFrame) {
-    assert(cycles >= 1 && frames >= 1);
+    assert(cycles >= 1);
+    assert(frames >= 1);
     const motion::ActionSegment& segment = segmentOf(repertoire, action);
     Take take{.species = repertoire.species,
               .segment = motion::nameOf(action),
@@ -89,7 +90,8 @@ Take takeAtPhases(const motion::Repertoire& repertoire,
                   motion::Action action,
                   int cycles,
                   int framesPerCycle) {
-    assert(cycles >= 1 && framesPerCycle >= 1);
+    assert(cycles >= 1);
+    assert(framesPerCycle >= 1);
     const auto frames = static_cast<std::size_t>(cycles * framesPerCycle) + 1;
     return makeTake(
         repertoire,

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "calibration/check.h"
+#include "calibration/theatre/check.h"
 #include "calibration/theatre/compose.h"
 #include "common/config/rig.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "master/capture/species_text.h"
-
 #include <fstream>
 #include <iterator>
 

@@ -14,7 +14,7 @@
 
 #include "common/base/picture.h"
 #include "render_node/gl/context.h"
-#include "render_node/shaders/post_radii.h"
+#include "render_node/shaders/shader_interface.h"
 #include "tests/support/golden_stills.h"
 
 namespace aquarama::test {

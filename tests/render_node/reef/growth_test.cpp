@@ -12,7 +12,6 @@
 #include "render_node/reef/ground.h"
 #include "render_node/reef/mesh.h"
 #include "render_node/reef/reef.h"
-#include "render_node/reef/rock_mesh.h"
 #include "render_node/reef/scatter.h"
 #include "render_node/reef/solid_array.h"
 #include "render_node/shaders/plant_bend.h"
@@ -180,10 +179,10 @@ TEST(Ground, theSandIsWhereTheMasterHasIt) {
 TEST(Shade, aBoulderShadesWhatLiesBehindIt) {
     const std::array rocks{place::Rock{{0.0F, -8.0F, 0.0F}, 1.0F, 1}};
     const glm::vec3 behind = rocks[0].centre - 2.0F * sunInWater();
-    EXPECT_LT(sunOpenness(rocks, behind), 0.05F);
-    EXPECT_EQ(sunOpenness(rocks, rocks[0].centre + 2.0F * sunInWater()), 1.0F);
-    EXPECT_LT(skyOpenness(rocks, {0.9F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.75F);
-    EXPECT_GT(skyOpenness(rocks, {7.0F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.95F);
+    EXPECT_LT(sunVisibility(rocks, behind), 0.05F);
+    EXPECT_EQ(sunVisibility(rocks, rocks[0].centre + 2.0F * sunInWater()), 1.0F);
+    EXPECT_LT(ambientOcclusion(rocks, {0.9F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.75F);
+    EXPECT_GT(ambientOcclusion(rocks, {7.0F, -8.0F, 0.0F}, {0.0F, 1.0F, 0.0F}), 0.95F);
 }
 
 TEST(Tiles, reliefIsLevelOnTheWhole) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/check.h"
+#include "calibration/theatre/check.h"
 
 #include <algorithm>
 #include <cassert>
@@ -13,7 +13,7 @@
 #include "common/wall/pinhole.h"
 #include "common/wall/wall.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 namespace {
 
@@ -226,4 +226,4 @@ std::string oneLine(const ChannelSurvey& survey) {
     return line;
 }
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -9,7 +9,7 @@
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 
-namespace aquarama {
+namespace aquarama::theatre {
 
 // Several lines. `path`: of the file that it was read from. Throws Error with file:line:column
 // where the scene has no room for its fish, or for a mistake in a file of its cast.
@@ -41,4 +41,4 @@ struct ChannelSurvey {
 // The survey in one line.
 [[nodiscard]] std::string oneLine(const ChannelSurvey& survey);
 
-}  // namespace aquarama
+}  // namespace aquarama::theatre

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "calibration/check.h"
+#include "calibration/theatre/check.h"
 #include "calibration/theatre/compose.h"
 #include "calibration/theatre/film.h"
 #include "common/base/log.h"
@@ -38,11 +38,11 @@ config::Rig readCheckedRig(const std::string& path) {
 // Says what each channel lights; checks the scene that the rig shows as well.
 void checkRig(const config::Rig& rig, const std::string& path) {
     for (std::size_t i = 0; i < rig.channels.size(); ++i)
-        std::printf("%s\n", oneLine(surveyChannel(rig, i)).c_str());
-    const double worst = worstBlendSum(rig);
+        std::printf("%s\n", theatre::oneLine(theatre::surveyChannel(rig, i)).c_str());
+    const double worst = theatre::worstBlendSum(rig);
     if (worst > 1e-6) throw Error(path + ": the channels' shares of light do not sum to one");
     const std::string scene = config::scenePathOf(rig, path);
-    (void)inventoryOf(config::readScene(scene), scene);
+    (void)theatre::inventoryOf(config::readScene(scene), scene);
     std::printf(
         "%s: good; the channels' shares of light sum to one within %.0e\n", path.c_str(), worst);
 }
@@ -54,9 +54,9 @@ void show(const std::string& path, void (*showRig)(const config::Rig&, const std
         case config::FileKind::Rig:
             return showRig(checkedRig(text, path), path);
         case config::FileKind::Scene:
-            return say(inventoryOf(config::parseScene(text, path), path));
+            return say(theatre::inventoryOf(config::parseScene(text, path), path));
         case config::FileKind::Species:
-            return say(inventoryOf(config::parseSpecies(text, path), path));
+            return say(theatre::inventoryOf(config::parseSpecies(text, path), path));
     }
 }
 
