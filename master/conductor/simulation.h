@@ -9,7 +9,6 @@
 #include "common/base/units.h"
 #include "common/motion/motion_state.h"
 #include "common/net/clock.h"
-#include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
 #include "master/world/events.h"
 
@@ -38,7 +37,6 @@ class Simulation {
     [[nodiscard]] virtual std::uint64_t hash() const = 0;
     [[nodiscard]] virtual Snapshot snapshot() const = 0;
     // What goes on in the mind of a fish, as lines of printable ASCII within the bounds of
-    // common/wire/messages.h; none for one that is not of the school.
     [[nodiscard]] virtual std::vector<std::string> explain(std::uint32_t fish) const = 0;
 };
 

@@ -13,7 +13,6 @@
 
 #include "common/base/picture.h"
 #include "common/motion/reconstruct.h"
-#include "common/wire/messages.h"
 #include "common/wire/state_codec.h"
 #include "render_node/gl/handle.h"
 #include "render_node/light/scene.h"
