@@ -152,7 +152,7 @@ void compareAll(const FidelityOptions& options) {
     writeText(out / "fidelity_ticks.csv", report::ticksCsv(fidelities));
     writeText(out / "fidelity_vocabularies.csv", report::vocabulariesCsv(vocabularies));
     cli::runPython({"matplotlib"},
-                   "master/capture/fidelity/draw_fidelity.py",
+                   "master/capture/report/draw_fidelity.py",
                    {options.out, std::to_string(options.seed)});
 }
 

@@ -43,9 +43,9 @@ class FaceGrid {
     std::vector<Location> locations_;
 };
 
-// Level 0 is the control mesh itself (paper, section 6); 1 and 2 lie on the Catmull-Clark limit
+// Level 0 is the control mesh itself (paper, section 6); 1 to 3 lie on the Catmull-Clark limit
 // surface, at the corners of the faces that so many refinements make.
-inline constexpr int kSurfaceLevels = 3;
+inline constexpr int kSurfaceLevels = 4;
 
 // How much one control point contributes to the position and the two tangents of one vertex, as the
 // compute shader reads it (std430).

@@ -111,9 +111,12 @@ config::Scene chosenScene(const std::string& path, const AssetChoice& choice) {
 }  // namespace
 
 Assets readAssets(const std::string& scenePath, const AssetChoice& choice) {
-    Assets assets{.bytes = {.seed = choice.seed, .sceneFile = scenePath, .scene = {}, .cast = {}},
-                  .scene = chosenScene(scenePath, choice),
-                  .species = {}};
+    // Member by member: where an initialiser of an aggregate throws, GCC 12 destroys the members
+    // before it twice.
+    Assets assets;
+    assets.scene = chosenScene(scenePath, choice);
+    assets.bytes.seed = choice.seed;
+    assets.bytes.sceneFile = scenePath;
     const config::Scene& scene = assets.scene;
     assets.bytes.scene = scene.text;
     for (config::CastSpecies& member : config::readCastSpecies(scene, scenePath)) {
@@ -153,9 +156,9 @@ world::WorldOptions worldOptionsOf(const Assets& assets) {
 }
 
 world::WorldOptions worldOptionsOf(const wire::AssetBundle& recorded) {
-    Assets assets{.bytes = recorded,
-                  .scene = config::parseScene(recorded.scene, recorded.sceneFile),
-                  .species = {}};
+    Assets assets;
+    assets.bytes = recorded;
+    assets.scene = config::parseScene(recorded.scene, recorded.sceneFile);
     if (assets.scene.cast.size() != recorded.cast.size())
         throw Error(recorded.sceneFile + ": its cast has " +
                     std::to_string(assets.scene.cast.size()) + " members, and there are " +

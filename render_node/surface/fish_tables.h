@@ -38,6 +38,7 @@ inline constexpr std::size_t kSurfaces = shaders::kSurfaces;
 inline constexpr std::size_t kMeshes = 1 + kSurfaces;
 inline constexpr std::size_t kTails = shaders::kTails;
 static_assert(kTails == 2 * kMeshes + 1);
+static_assert(kSurfaces <= skin::kSurfaceLevels);
 // Fish that one workgroup of fish_cull.comp tests.
 inline constexpr std::size_t kGroup = shaders::kGroupSize;
 
