@@ -79,9 +79,6 @@ void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
 }
 
 void EnvelopeSystem::addOffDiagonalBlock(int first, int second, const glm::dmat3& block) {
-    assert(first >= 0);
-    assert(first < second);
-    assert(static_cast<std::size_t>(second) <= lastNeighbour(static_cast<std::size_t>(first)));
     const std::size_t row = 3 * static_cast<std::size_t>(first);
     const std::size_t offset = 3 * static_cast<std::size_t>(second - first);
     for (std::size_t p = 0; p < 3; ++p)
