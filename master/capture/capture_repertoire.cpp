@@ -223,8 +223,6 @@ std::vector<fs::path> speciesFiles(const std::vector<std::string>& namesOrFiles,
 
 namespace {
 
-namespace fs = std::filesystem;
-
 // Cache.
 
 // Part of every key: raise it when a change of the simulation or of the compilation changes the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The instances of a reef: what stands where, and in which colours.
+// The instances of a reef: what stands where.
 #pragma once
 
 #include <array>
@@ -16,10 +16,6 @@
 #include "render_node/reef/strands.h"
 
 namespace aquarama::scene {
-
-// A tint for a form in a patch of the reef: linear Rec. 709 albedo. Each patch has a few hues in
-// harmony; accents are rare.
-[[nodiscard]] glm::vec3 tintOf(Form form, std::uint32_t patch, Dice& dice);
 
 // The instances of all prototypes, from the place's rocks and its seed alone. They are only drawn:
 // the simulation knows the rocks and the kelp of common/place.
