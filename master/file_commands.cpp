@@ -31,7 +31,7 @@ void printDoubts(const std::string& path, const wire::Recording& recording) {
         std::cout << path << ": " << doubt << '\n';
 }
 
-// An input in words.
+// An input as text for a person.
 std::string wordsFor(const wire::RecordedInput& input) {
     if (const auto* food = std::get_if<wire::RecordedFood>(&input.input))
         return fmt::format("food, {} pellets at {:.2f} {:.2f} {:.2f} m",

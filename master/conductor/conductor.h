@@ -133,10 +133,10 @@ class Conductor {
     void beginNext(net::Instant now);  // as soon as there is somebody to draw it
     void release(net::Instant now);    // of the frame that is drawn, to all prepared nodes
     bool publish(Frame frame, net::Instant now);
-    // The last two states, for whoever may lack them.
+    // Sends the last two states once more, for nodes that missed them.
     void publishAgain(net::Instant now);
-    // When a frame that is ready now is shown: one refresh after the last, and not before every
-    // node can have heard of it.
+    // When a frame that is ready now is shown: one refresh after the last, and not before the
+    // release can have reached every node.
     [[nodiscard]] net::Instant nextRelease(net::Instant now) const;
     [[nodiscard]] bool isLast(Frame frame) const;
 
@@ -161,7 +161,7 @@ class Conductor {
     bool over_ = false;
     std::string failure_;
 
-    // From the tick thread; whoever hears no answer asks again.
+    // Written by the tick thread. A full queue drops the answer, and the client asks again.
     net::BoundedQueue<std::pair<net::PeerId, wire::Packet>> explanations_{256};
     std::unique_ptr<SimulationThread> simulationThread_;
     SnapshotBuffer snapshots_;

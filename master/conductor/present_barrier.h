@@ -66,8 +66,8 @@ class PresentBarrier {
     [[nodiscard]] bool hasMembers() const;
     // The first frame after the one that is drawn now from which on some member is waited for.
     [[nodiscard]] std::optional<Frame> nextAwaited() const;
-    // Somebody has become ready for the frame since it was begun. Who was ready for it before,
-    // ahead of the others, does not count.
+    // Whether a node has become ready for the frame since it was begun. A node that was ready
+    // before that, ahead of the others, does not count.
     [[nodiscard]] bool anyReady() const { return anyReady_; }
     [[nodiscard]] std::uint64_t timesLate(std::size_t node) const { return nodes_[node].timesLate; }
 

@@ -18,7 +18,7 @@ class RequestClient {
         : address_(controlAddress), channels_(net::connectNode(controlAddress)) {}
 
     // The newest answer; the question is repeated until there is one, since the connection may not
-    // stand yet. Throws Error where nobody answers within two seconds.
+    // be there yet. Throws Error where nobody answers within two seconds.
     v1::StatusReply status();
     v1::Explanation explain(std::uint32_t fish);
 

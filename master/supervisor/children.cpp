@@ -38,7 +38,7 @@ std::vector<char*> argumentVector(const Command& command) {
     return vector;
 }
 
-// Every child that has died and was not yet told of.
+// The children that have ended and were not yet reported.
 std::vector<Ending> reap() {
     std::vector<Ending> endings;
     int status = 0;

@@ -30,7 +30,7 @@ struct Ending {
     [[nodiscard]] bool clean() const { return signal == 0 && exitCode == 0; }
 };
 
-// What a wait heard.
+// The result of one wait: a signal, and the processes that have ended.
 struct Heard {
     bool interrupted = false;  // Ctrl-C, SIGTERM or SIGHUP reached us
     std::vector<Ending> endings;

@@ -128,8 +128,8 @@ void signalAll(const std::vector<Process>& processes, int signal) {
     }
 }
 
-// Marks every process that has died, before the first death is judged: nobody may wait for a dead
-// process.
+// Marks every process that has ended, before the cause of the first end is judged: a process that
+// has ended must not be waited for.
 std::vector<std::pair<Process*, Ending>> deaths(std::vector<Process>& processes,
                                                 const Heard& heard) {
     std::vector<std::pair<Process*, Ending>> dead;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -20,7 +21,29 @@ namespace aquarama::report {
 
 namespace {
 
+using nlohmann::json;
+
 // Trials.
+
+// The fish at one instant.
+struct Moment {
+    double seconds = 0;            // since the order
+    capture::NodeVectors nodes{};  // body lengths; the origin is where the fish was at the order
+    capture::PectoralFins fins;
+};
+
+// What a fish does after an order.
+struct ControllerTrial {
+    std::vector<Moment> moments;  // kMoments + 1, evenly in time, the first at the order
+    // Mean speeds along the body axis before the order and after the last moment, body lengths a
+    // second; negative is backward.
+    double speedBefore = 0, speedAfter = 0;
+};
+
+// The origin of the body frame.
+glm::dvec3 middleOf(const capture::NodeVectors& nodes) {
+    return capture::frameOf(nodes).origin;
+}
 
 // Advances the swimmer and returns its mean speed along the body axis at the end, body lengths a
 // second; negative is backward.
@@ -58,45 +81,24 @@ ControllerTrial record(capture::Swimmer swimmer,
     return trial;
 }
 
-}  // namespace
-
-glm::dvec3 middleOf(const capture::NodeVectors& nodes) {
-    return capture::frameOf(nodes).origin;
-}
-
-ControllerTrial swimmingThen(const config::Species& species,
-                             const capture::Order& order,
-                             double seconds,
-                             double runUpBeats) {
+// A fish that has swum `beats` beats at the medium gait from rest.
+capture::Swimmer afterRunUp(const config::Species& species, double beats) {
     const config::Gait& medium = species.swim.medium;
     capture::Swimmer swimmer(species);
     swimmer.give({.controller = capture::Controller::ForwardSwim, .gait = medium});
-    speedOver(swimmer, runUpBeats / medium.beatHertz);
-    const double speed = speedOver(swimmer, 1 / medium.beatHertz);
-    return record(std::move(swimmer), order, seconds, speed);
+    speedOver(swimmer, beats / medium.beatHertz);
+    return swimmer;
 }
 
-ControllerTrial rolledThen(const config::Species& species,
-                           double rollRadians,
-                           const capture::Order& order,
-                           double seconds) {
+// A fish at rest, rolled about the body axis, the right side up for a positive angle.
+capture::Swimmer rolled(const config::Species& species, double rollRadians) {
     const double cosine = std::cos(rollRadians);
     const double sine = std::sin(rollRadians);
     capture::BiomechanicalFish fish = capture::makeBiomechanicalFish(species);
     for (glm::dvec3& x : fish.restPositions)
         x = {x.x, cosine * x.y + sine * x.z, -sine * x.y + cosine * x.z};
-    return record({fish, species.swim, capture::longestStepSeconds(fish)}, order, seconds, 0);
+    return {fish, species.swim, capture::longestStepSeconds(fish)};
 }
-
-ControllerTrial restingThen(const config::Species& species,
-                            const capture::Order& order,
-                            double seconds) {
-    return record(capture::Swimmer(species), order, seconds, 0);
-}
-
-namespace {
-
-using nlohmann::json;
 
 // Data of the figure.
 
@@ -157,29 +159,34 @@ std::string controllersData(const config::Species& species) {
                               .bend = species.turn.sharp,
                               .pitchRadians = kPitch};
     };
-    const auto add = [&](const char* name, const ControllerTrial& trial, ViewSide view, int fish) {
+    const auto add = [&](const char* name,
+                         const capture::Swimmer& swimmer,
+                         capture::Controller controller,
+                         double seconds,
+                         double speedBefore,
+                         ViewSide view,
+                         int fish) {
+        const ControllerTrial trial = record(swimmer, order(controller), seconds, speedBefore);
         trials.push_back(trialData(name, trial, body, view, fish));
     };
-    const auto addSwimming = [&](const char* name,
-                                 capture::Controller controller,
-                                 double seconds,
-                                 ViewSide view,
-                                 int fish,
-                                 double beats = kRunUpBeats) {
-        add(name, swimmingThen(species, order(controller), seconds, beats), view, fish);
-    };
+    // All that swim at the order continue from one run-up.
+    capture::Swimmer swimming = afterRunUp(species, kRunUpBeats);
+    const double oneBeat = 1 / species.swim.medium.beatHertz;
+    const double speed = speedOver(swimming, oneBeat);
+    // Half a beat later, so that the right turn is the mirror image of the left turn.
+    capture::Swimmer halfABeatLater = swimming;
+    speedOver(halfABeatLater, oneBeat / 2);
     using enum capture::Controller;
     using enum ViewSide;
-    addSwimming("forward swim", ForwardSwim, 1.5, Above, 4);
-    addSwimming("left turn", LeftTurn, 1, Above, 5);
-    // Half a beat later, so that it is the mirror image of the left turn.
-    addSwimming("right turn", RightTurn, 1, Above, 5, kRunUpBeats + 0.5);
-    addSwimming("glide", Glide, 1.5, Above, 4);
-    addSwimming("ascend", Ascend, 1.5, ViewSide::Side, 4);
-    addSwimming("descend", Descend, 1.5, ViewSide::Side, 4);
-    add("balance", rolledThen(species, kRoll, order(Balance), 2.5), Above, 6);
-    addSwimming("brake", Brake, 1.5, Above, 4);
-    add("retreat", restingThen(species, order(Retreat), 3.25), Above, 4);
+    add("forward swim", swimming, ForwardSwim, 1.5, speed, Above, 4);
+    add("left turn", swimming, LeftTurn, 1, speed, Above, 5);
+    add("right turn", halfABeatLater, RightTurn, 1, speed, Above, 5);
+    add("glide", swimming, Glide, 1.5, speed, Above, 4);
+    add("ascend", swimming, Ascend, 1.5, speed, ViewSide::Side, 4);
+    add("descend", swimming, Descend, 1.5, speed, ViewSide::Side, 4);
+    add("balance", rolled(species, kRoll), Balance, 2.5, 0, Above, 6);
+    add("brake", swimming, Brake, 1.5, speed, Above, 4);
+    add("retreat", capture::Swimmer(species), Retreat, 3.25, 0, Above, 4);
     return json{{"species", species.name}, {"trials", trials}}.dump() + "\n";
 }
 
