@@ -25,7 +25,7 @@ constexpr config::QualityTier kQuality = config::QualityTier::High;
 session::Admission admissionToTheSea() {
     session::Admission admission = show::admissionTo(wire::Pattern::World);
     admission.rig = wall::shippedRig("touring");  // its overlaps are wide
-    constexpr int kSmaller = 4;
+    constexpr int kSmaller = 5;
     admission.rig.panoramaPixels /= kSmaller;
     for (config::Channel& channel : admission.rig.channels) {
         channel.sizePixels /= kSmaller;
@@ -132,7 +132,7 @@ TEST_F(Crossing, bothProjectorsShowTheSameFish) {
     ASSERT_GT(azimuths.size(), 20U);
     // Nearer and nearer, through the levels of detail.
     const std::vector<float> ranges{9.0F, 5.0F, 3.0F, 1.8F, 1.2F};
-    constexpr int kBlock = 16;  // both sample the scene on grids of their own: single pixels differ
+    constexpr int kBlock = 10;  // both sample the scene on grids of their own: single pixels differ
     double worst = 0;
     int blocks = 0;
     for (std::size_t i = 0; i < ranges.size(); ++i) {

@@ -130,7 +130,7 @@ glm::dvec2 displacement(const Alone& first,
 TEST(Neighbours, showTheSameFishAtTheSamePlaceOfTheScreen) {
     const Installation installation("touring");  // its overlaps are wide
     const config::Rig& rig = installation.rig();
-    const auto channels = installation.show("--frames 6 --fish 2000 --deep");
+    const auto channels = installation.show("--frames 2 --fish 2000 --deep");
     for (std::size_t left = 0; left + 1 < rig.channels.size(); ++left) {
         const Alone first(rig, channels, left);
         const Alone second(rig, channels, left + 1);
