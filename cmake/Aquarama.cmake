@@ -142,6 +142,6 @@ endfunction()
 function(aquarama_suite name)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/processor_time)
   add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${ARGN})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 600 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1800 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;LP_NUM_THREADS=1")
 endfunction()

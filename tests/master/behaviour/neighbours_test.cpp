@@ -34,7 +34,8 @@ struct School {
             parameters.first = borders[kind];
             parameters.last = borders[kind + 1U];
             speciesParameters.push_back(parameters);
-            std::fill(&view.kind[0] + parameters.first, &view.kind[0] + parameters.last, kind);
+            std::fill(
+                view.kind.data() + parameters.first, view.kind.data() + parameters.last, kind);
         }
     }
     School(std::uint32_t seed, std::size_t fish, const place::Region& region)
