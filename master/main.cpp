@@ -31,6 +31,8 @@ const std::array kGroups{
 
 }  // namespace aquarama
 
+// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports them; before, only memory can
+// lack
 int main(int count, char** arguments) {
     using namespace aquarama;
     CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors", "aquarama"};

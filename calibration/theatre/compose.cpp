@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "calibration/theatre/room.h"
@@ -195,7 +196,7 @@ void composeSnapshot(const config::Rig& rig, const std::string& folder, int bits
     writePanoramaAndHall(rig, map.compose(readChannels(rig, folder)), folder, bits);
     if (!hasStereo(rig)) return;
     for (const std::string eye : {".left_eye", ".right_eye"})
-        writePng(folder + "/panorama" + eye + ".png",
+        writePng(fmt::format("{}/panorama{}.png", folder, eye),
                  pictureOf(map.compose(readEye(rig, folder, eye)), bits, 0));
 }
 

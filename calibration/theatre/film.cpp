@@ -69,6 +69,7 @@ class Camera {
   private:
     [[nodiscard]] Light panoramaOf(const std::vector<FilmedFrame>& frames) const {
         std::vector<Light> channels;
+        channels.reserve(frames.size());
         for (const FilmedFrame& frame : frames) channels.push_back(lightOf(frame.picture));
         return map_->compose(channels);
     }

@@ -70,6 +70,7 @@ bool succeeds(const std::string& program, std::vector<std::string> arguments, Ou
 }
 
 std::vector<std::string> pythons() {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody sets it
     if (const char* chosen = std::getenv("AQUARAMA_PYTHON")) return {chosen};
     return {"python3", "/usr/bin/python3"};
 }

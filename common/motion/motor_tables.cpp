@@ -213,10 +213,12 @@ void fill(const ActionSegment& segment, SegmentTables& tables) {
 // fish that comes from medium swimming plays the turn as recorded.
 void enterFromMedium(MotorTables& tables) {
     const SegmentTables& medium = tables.segments[static_cast<std::size_t>(Action::ForwardMedium)];
-    const float speed = medium.path.front().translationAndSpeed[3] * medium.phaseRate;
+    const float speed =
+        medium.path.front().translationAndSpeed[3] * static_cast<float>(medium.phaseRate);
     for (SegmentTables& segment : tables.segments)
         if (segment.playsToEnd)
-            segment.path.front().translationAndSpeed[3] = speed / segment.phaseRate;
+            segment.path.front().translationAndSpeed[3] =
+                speed / static_cast<float>(segment.phaseRate);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace aquarama::behaviour {
 namespace {
 
 // Periods of shadowing, in ticks, and how many hosts are drawn until one is in sight.
-constexpr std::uint64_t kTicksOfBout = 50 * 60;
+constexpr std::uint64_t kTicksOfBout = std::uint64_t{50} * 60;
 constexpr std::uint32_t kShortestShadowing = 10 * 60;
 constexpr std::uint32_t kShadowingSpread = 30 * 60;
 constexpr std::uint32_t kHostsTried = 4;

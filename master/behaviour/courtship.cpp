@@ -161,8 +161,6 @@ fish::Course court(const Situation& situation,
         case CourtshipStage::Follow:
             break;
         case CourtshipStage::Impress:
-            return couple.isFemale ? hoverAndBob(situation, mind)
-                                   : loopBefore(situation, mind, couple);
         case CourtshipStage::Loop:
             return couple.isFemale ? hoverAndBob(situation, mind)
                                    : loopBefore(situation, mind, couple);

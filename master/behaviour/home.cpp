@@ -15,7 +15,7 @@ namespace aquarama::behaviour {
 namespace {
 
 // A new point every 15 s.
-constexpr std::uint64_t kTicksToAPlace = 15 * 60;
+constexpr std::uint64_t kTicksToAPlace = std::uint64_t{15} * 60;
 // Share of the half extent of the water in which points lie.
 constexpr float kInside = 0.75F;
 // Spread about the best depth, as a share of the half height.
@@ -28,7 +28,7 @@ constexpr float kHomeInside = 0.6F;
 constexpr float kBeatCosine = 0.766F;
 constexpr float kBeatSine = 0.643F;
 // Period in which some predators pass through the bait ball.
-constexpr std::uint64_t kTicksOfPass = 16 * 60;
+constexpr std::uint64_t kTicksOfPass = std::uint64_t{16} * 60;
 
 // A point drawn from the cube -1 to 1.
 glm::vec3 shareOf(std::uint32_t hash) {
@@ -158,7 +158,7 @@ Bound boundFor(const Environment& environment,
 namespace {
 
 // A pace lasts 5 s; a turn may begin it and lasts 1 s.
-constexpr std::uint64_t kTicksOfPace = 5 * 60;
+constexpr std::uint64_t kTicksOfPace = std::uint64_t{5} * 60;
 constexpr std::uint64_t kTicksOfTurn = 60;
 // Share of paces that begin with a random turn.
 constexpr float kTurns = 0.35F;

@@ -93,7 +93,7 @@ constexpr std::array kRound{
     Station{{-0.2F, -5.5F, -5.2F}, 0.3F, 7 * 60},
 };
 // A show begins this far into the round, when the school comes close: visitors see it at once.
-constexpr std::uint64_t kOpeningTicks = 26 * 60;
+constexpr std::uint64_t kOpeningTicks = std::uint64_t{26} * 60;
 // How far the seed may shift a station up or down.
 constexpr float kHeightShiftMetres = 0.35F;
 
@@ -161,7 +161,7 @@ namespace {
 // Greatest share of the half height of the water that the ball takes.
 constexpr float kHeightOfMill = 0.75F;
 // Period of rising and sinking.
-constexpr std::uint64_t kTicksOfMill = 20 * 60;
+constexpr std::uint64_t kTicksOfMill = std::uint64_t{20} * 60;
 // Above and below the middle.
 constexpr float kRiseMetres = 0.5F;
 // Radius of a ball of one fish, in body lengths: 0.36 in a dense ball, times 1.6, because a living

@@ -58,6 +58,8 @@ void describe(CLI::App& app, aquarama::show::NodeOptions& options) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports them; before, only memory can
+// lack
 int main(int count, char** arguments) {
     using namespace aquarama;
     show::NodeOptions options;
