@@ -248,9 +248,12 @@ double headingAt(const Trace& trace, std::size_t tick, double beatTicks) {
     glm::dvec3 sum{};
     // Backwards from the tick; the last summand may be a fraction of a tick.
     double left = beatTicks;
-    for (std::size_t at = tick; left > 0; --at, left -= 1) {
+    std::size_t at = tick;
+    while (left > 0) {
         sum += std::min(left, 1.0) * trace[at].frame.worldFromBody[0];
         if (at == 0) break;
+        --at;
+        left -= 1;
     }
     return std::atan2(-sum.z, sum.x);
 }
