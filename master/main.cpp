@@ -31,8 +31,7 @@ const std::array kGroups{
 
 }  // namespace aquarama
 
-// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports them; before, only memory can
-// lack
+// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports all but a want of memory
 int main(int count, char** arguments) {
     using namespace aquarama;
     CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors", "aquarama"};

@@ -61,8 +61,9 @@ void Chart::list(std::span<const Footprint> footprints) {
     const int rows = steps(extent_.y, kCellMetres);
     for (int cell = 0; cell < cells_ * rows; ++cell) {
         starts_.push_back(static_cast<std::uint32_t>(listed_.size()));
+        const int row = cell / cells_;
         const glm::vec2 least{origin_.x + static_cast<float>(cell % cells_) * kCellMetres,
-                              origin_.y + static_cast<float>(cell / cells_) * kCellMetres};
+                              origin_.y + static_cast<float>(row) * kCellMetres};
         for (std::uint32_t i = 0; i < footprints.size(); ++i) {
             const float reach = footprints[i].radiusMetres + kChartReachMetres;
             if (squaredDistanceToCell(footprints[i].xz, least) < reach * reach)
@@ -81,7 +82,7 @@ float Chart::sand(glm::vec2 xz) const {
     const int z = static_cast<int>(at.y);
     const float u = at.x - static_cast<float>(x);
     const float v = at.y - static_cast<float>(z);
-    const auto corner = sand_.begin() + z * corners_ + x;
+    const auto corner = sand_.begin() + std::ptrdiff_t{z} * corners_ + x;
     const float near = corner[0] + (corner[1] - corner[0]) * u;
     const float far = corner[corners_] + (corner[corners_ + 1] - corner[corners_]) * u;
     return near + (far - near) * v;

@@ -123,6 +123,7 @@ float secondsOfLeg(std::uint64_t index) {
 // The spline's velocity at a station: that of the chord between its neighbours.
 glm::vec3 velocityAt(std::uint32_t seed, std::uint64_t index) {
     const float seconds = secondsOfLeg(index - 1) + secondsOfLeg(index);
+    assert(seconds > 0);
     return (stationAt(seed, index + 1) - stationAt(seed, index - 1)) / seconds;
 }
 

@@ -85,9 +85,9 @@ void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
 // The positive root of b v^2 + a v = thrust.
 float terminalSpeed(float newtons) {
     assert(newtons >= 0);
-    constexpr float a = kDragNewtonsPerSpeed;
-    constexpr float b = kDragNewtonsPerSpeedSquared;
-    return (std::sqrt(a * a + 4 * b * newtons) - a) / (2 * b);
+    constexpr float kA = kDragNewtonsPerSpeed;
+    constexpr float kB = kDragNewtonsPerSpeedSquared;
+    return (std::sqrt(kA * kA + 4 * kB * newtons) - kA) / (2 * kB);
 }
 
 namespace {

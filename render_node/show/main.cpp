@@ -58,8 +58,7 @@ void describe(CLI::App& app, aquarama::show::NodeOptions& options) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports them; before, only memory can
-// lack
+// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports all but a want of memory
 int main(int count, char** arguments) {
     using namespace aquarama;
     show::NodeOptions options;
