@@ -200,7 +200,7 @@ bool driverHasBinaries() {
 // binaries that it wrote itself.
 DerivedKey binaryKey(std::span<const ShaderStage> stages) {
     DerivedKey key("program");
-    for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION})
+    for (const GLenum name : std::initializer_list<GLenum>{GL_VENDOR, GL_RENDERER, GL_VERSION})
         key.add(reinterpret_cast<const char*>(glGetString(name)));
     for (const ShaderStage& stage : stages) key.add(stage.source.text);
     return key;
@@ -265,6 +265,7 @@ ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                           const Replacements& replacements) {
     assert(!shaderFiles.empty());
     std::vector<ShaderStage> stages;
+    stages.reserve(shaderFiles.size());
     for (const std::string& file : shaderFiles)
         stages.push_back({file, expand(file, shaderSource, replacements)});
     ProgramHandle program = linkedOrLoaded(stages);

@@ -291,12 +291,12 @@ void growFeathers(Mesh& mesh, std::size_t level, Dice dice) {
     for (int arm = 0; arm < kArms.at(level); ++arm) {
         const float turn = kGoldenAngle * static_cast<float>(arm);
         const glm::vec3 out{std::cos(turn), 0, std::sin(turn)};
-        const float long_ = dice.between(0.7F, 1.0F);
+        const float reach = dice.between(0.7F, 1.0F);
         const float lean = dice.between(0.25F, 1.0F);
         std::vector<Joint> joints;
         for (int i = 0; i < kJoints.at(level); ++i) {
             const float t = static_cast<float>(i) / static_cast<float>(kJoints.at(level) - 1);
-            const glm::vec3 at = long_ * (out * (lean * std::sin(2.2F * t)) +
+            const glm::vec3 at = reach * (out * (lean * std::sin(2.2F * t)) +
                                           glm::vec3{0, t * (1.15F - 0.3F * lean), 0});
             const bool dark = (i + arm) % 2 == 0;
             joints.push_back({at,

@@ -180,23 +180,23 @@ glm::u8 packed(float x) {
 // Evaluates the relief at each texel, then its slopes by central differences across the edges.
 template <class ReliefAt>
 Tile tileOf(float sideMetres, ReliefAt reliefAt) {
-    constexpr int texels = kDetailTexels;
-    const auto side = static_cast<std::size_t>(texels);
+    constexpr int kTexels = kDetailTexels;
+    const auto side = static_cast<std::size_t>(kTexels);
     std::vector<Relief> reliefs;
     reliefs.reserve(side * side);
-    for (int y = 0; y < texels; ++y)
-        for (int x = 0; x < texels; ++x)
-            reliefs.push_back(reliefAt((glm::vec2{x, y} + 0.5F) / static_cast<float>(texels)));
+    for (int y = 0; y < kTexels; ++y)
+        for (int x = 0; x < kTexels; ++x)
+            reliefs.push_back(reliefAt((glm::vec2{x, y} + 0.5F) / static_cast<float>(kTexels)));
     const auto heightAt = [&](int x, int y) {
-        const auto column = static_cast<std::size_t>((x + texels) % texels);
-        const auto row = static_cast<std::size_t>((y + texels) % texels);
+        const auto column = static_cast<std::size_t>((x + kTexels) % kTexels);
+        const auto row = static_cast<std::size_t>((y + kTexels) % kTexels);
         return reliefs[row * side + column].height;
     };
     // Metres between the two neighbours of a texel.
-    const float twoTexels = 2.0F * sideMetres / static_cast<float>(texels);
+    const float twoTexels = 2.0F * sideMetres / static_cast<float>(kTexels);
     Tile tile;
-    for (int y = 0; y < texels; ++y)
-        for (int x = 0; x < texels; ++x) {
+    for (int y = 0; y < kTexels; ++y)
+        for (int x = 0; x < kTexels; ++x) {
             const float slopeX = (heightAt(x + 1, y) - heightAt(x - 1, y)) / twoTexels;
             const float slopeZ = (heightAt(x, y + 1) - heightAt(x, y - 1)) / twoTexels;
             const Relief& relief = reliefs[tile.values.size()];

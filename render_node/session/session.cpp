@@ -28,6 +28,7 @@ std::vector<wire::SpeciesAssets> castOf(const Admitted& admitted) {
 
 std::vector<motion::FishTraits> schoolOf(const v1::Welcome& welcome) {
     std::vector<motion::FishTraits> school;
+    school.reserve(static_cast<std::size_t>(welcome.fish_ids_size()));
     for (int i = 0; i < welcome.fish_ids_size(); ++i)
         school.push_back(
             {welcome.fish_ids(i), static_cast<std::uint16_t>(welcome.length_millimetres(i))});

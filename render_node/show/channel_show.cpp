@@ -286,7 +286,8 @@ glm::dmat4 wallFromWorld(const wire::Eye& eye) {
 Trace::Trace(const std::string& folder, const std::string& name) {
     if (folder.empty()) return;
     const std::string path = folder + "/" + name + ".csv";
-    std::ofstream(path, std::ios::trunc);
+    file_.open(path, std::ios::trunc);
+    file_.close();
     // Opened for appending: where another program empties the file meanwhile, the next line starts
     // at its new end.
     file_.open(path, std::ios::app);
