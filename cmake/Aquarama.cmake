@@ -137,11 +137,11 @@ function(aquarama_test name)
 endfunction()
 
 # aquarama_suite(motion COMMAND...): a ctest row whose processor time is compared with its line in tests/budgets.csv. The
-# timeout is only for programs that hang. Software OpenGL draws with one thread, since ctest runs as many suites at once as
-# there are processors. The user's cache of the programs is in the build folder.
+# timeouts of the test presets are only for programs that hang. Software OpenGL draws with one thread, since ctest runs as
+# many suites at once as there are processors. The user's cache of the programs is in the build folder.
 function(aquarama_suite name)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/processor_time)
   add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name} ${ARGN})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 1800 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+  set_tests_properties(${name} PROPERTIES WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;LP_NUM_THREADS=1")
 endfunction()

@@ -31,7 +31,7 @@ const std::array kGroups{
 
 }  // namespace aquarama
 
-// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports all but a want of memory
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
 int main(int count, char** arguments) {
     using namespace aquarama;
     CLI::App app{"Aquarama: one living undersea world on a curved wall of projectors", "aquarama"};

@@ -50,8 +50,8 @@ std::string lineOf(const config::Species& species) {
     std::string line = said("%s, %s, %.3g to %.3g m",
                             species.name.c_str(),
                             nameOf(habits.role),
-                            static_cast<double>(species.size.leastMetres),
-                            static_cast<double>(species.size.mostMetres));
+                            double{species.size.leastMetres},
+                            double{species.size.mostMetres});
     if (!habits.hunts.empty()) line += "; hunts " + joined(habits.hunts);
     if (!habits.shadows.empty()) line += "; shadows " + joined(habits.shadows);
     return line;

@@ -167,7 +167,7 @@ void describeClip(CLI::App& app, Clip& options, cli::Job& job) {
 }  // namespace
 }  // namespace aquarama
 
-// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports all but a want of memory
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
 int main(int count, char** arguments) {
     using namespace aquarama;
     CLI::App app("Checks a rig and composes what its projectors show.", "aquarama-calibrate");

@@ -297,9 +297,8 @@ void KindsAbout::clear() {
 
 // Index of the block that a cell is in.
 std::size_t KindsAbout::blockOf(int x, int y, int z) const {
-    const int index =
-        ((z >> kBlockBits) * blocks_.y + (y >> kBlockBits)) * blocks_.x + (x >> kBlockBits);
-    return static_cast<std::size_t>(index);
+    return static_cast<std::size_t>(
+        ((z >> kBlockBits) * blocks_.y + (y >> kBlockBits)) * blocks_.x + (x >> kBlockBits));
 }
 
 void KindsAbout::note(const SpatialGrid& grid,
@@ -339,10 +338,9 @@ bool KindsAbout::mayHoldOthers(const SpatialGrid::Cell& from,
     std::uint64_t kinds = 0;
     for (int z = from.z >> kBlockBits; z <= to.z >> kBlockBits; ++z)
         for (int y = from.y >> kBlockBits; y <= to.y >> kBlockBits; ++y)
-            for (int x = from.x >> kBlockBits; x <= to.x >> kBlockBits; ++x) {
-                const int index = (z * blocks_.y + y) * blocks_.x + x;
-                kinds |= kindsOfBlock_[static_cast<std::size_t>(index)];
-            }
+            for (int x = from.x >> kBlockBits; x <= to.x >> kBlockBits; ++x)
+                kinds |=
+                    kindsOfBlock_[static_cast<std::size_t>((z * blocks_.y + y) * blocks_.x + x)];
     return (kinds & ~(std::uint64_t{1} << own)) != 0;
 }
 

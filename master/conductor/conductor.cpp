@@ -155,21 +155,21 @@ ShowReport Conductor::run() {
 // while a node still sends would discard our last message to it.
 void Conductor::sayFarewell() {
     constexpr net::Instant kLongest = std::chrono::seconds(2);
-    constexpr net::Instant kBetween = std::chrono::milliseconds(100);
+    constexpr net::Instant kFarewellRepeat = std::chrono::milliseconds(100);
     const net::Instant begin = net::monotonicNow();
-    net::Instant lastSaid = begin - kBetween;
+    net::Instant lastSaid = begin - kFarewellRepeat;
     v1::Envelope farewell;
     farewell.mutable_farewell();
     while (
         std::ranges::any_of(slots_, [](const ChannelSlot& slot) { return !slot.peer.empty(); })) {
         const net::Instant now = net::monotonicNow();
         if (now - begin > kLongest) return;
-        if (now - lastSaid >= kBetween) {
+        if (now - lastSaid >= kFarewellRepeat) {
             for (const ChannelSlot& slot : slots_)
                 if (!slot.peer.empty()) say(slot.peer, farewell);
             lastSaid = now;
         }
-        channels_->wait(kBetween / 4);
+        channels_->wait(kFarewellRepeat / 4);
         hear(net::monotonicNow());
     }
 }

@@ -22,7 +22,7 @@ namespace aquarama::study {
 namespace {
 
 // A run is not watched before these ticks, while its fish settle.
-constexpr std::uint64_t kSettlingTicks = 1800;  // half a minute
+constexpr std::uint64_t kSettlingTicks = static_cast<std::uint64_t>(30 * kTicksPerSecond);
 
 // One run.
 struct Task {
@@ -87,7 +87,7 @@ std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(dou
 
 namespace {
 
-constexpr std::uint64_t kTicksBetweenPinches = 1800;  // half a minute
+constexpr std::uint64_t kTicksBetweenPinches = static_cast<std::uint64_t>(30 * kTicksPerSecond);
 
 }  // namespace
 

@@ -82,12 +82,12 @@ void pushVessel(Vessel& vessel, const Push& wanted, float slew) {
         (vessel.velocity + newtons * kSecondsPerKilogram) / (1 + drag * kSecondsPerKilogram);
 }
 
-// The positive root of b v^2 + a v = thrust.
+// The speed at which the drag, kSquared v^2 + kLinear v, equals the thrust.
 float terminalSpeed(float newtons) {
     assert(newtons >= 0);
-    constexpr float kA = kDragNewtonsPerSpeed;
-    constexpr float kB = kDragNewtonsPerSpeedSquared;
-    return (std::sqrt(kA * kA + 4 * kB * newtons) - kA) / (2 * kB);
+    constexpr float kLinear = kDragNewtonsPerSpeed;
+    constexpr float kSquared = kDragNewtonsPerSpeedSquared;
+    return (std::sqrt(kLinear * kLinear + 4 * kSquared * newtons) - kLinear) / (2 * kSquared);
 }
 
 namespace {

@@ -200,8 +200,8 @@ bool driverHasBinaries() {
 // binaries that it wrote itself.
 DerivedKey binaryKey(std::span<const ShaderStage> stages) {
     DerivedKey key("program");
-    for (const GLenum name : std::initializer_list<GLenum>{GL_VENDOR, GL_RENDERER, GL_VERSION})
-        key.add(reinterpret_cast<const char*>(glGetString(name)));
+    constexpr std::array<GLenum, 3> kNames{GL_VENDOR, GL_RENDERER, GL_VERSION};
+    for (const GLenum name : kNames) key.add(reinterpret_cast<const char*>(glGetString(name)));
     for (const ShaderStage& stage : stages) key.add(stage.source.text);
     return key;
 }

@@ -288,8 +288,8 @@ Trace::Trace(const std::string& folder, const std::string& name) {
     const std::string path = folder + "/" + name + ".csv";
     file_.open(path, std::ios::trunc);
     file_.close();
-    // Opened for appending: where another program empties the file meanwhile, the next line starts
-    // at its new end.
+    // Now empty, and opened for appending: where another program empties the file meanwhile, the
+    // next line starts at its new end.
     file_.open(path, std::ios::app);
     if (!(file_ << "frame,state_ns,ready_ns,present_ns\n" << std::flush))
         throw Error(path + ": cannot be written; choose a folder that exists for --trace");

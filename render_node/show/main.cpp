@@ -58,7 +58,7 @@ void describe(CLI::App& app, aquarama::show::NodeOptions& options) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(bugprone-exception-escape): runProgram() reports all but a want of memory
+// NOLINTNEXTLINE(bugprone-exception-escape): outside runProgram() only a lack of memory throws
 int main(int count, char** arguments) {
     using namespace aquarama;
     show::NodeOptions options;

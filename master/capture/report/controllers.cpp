@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
