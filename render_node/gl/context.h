@@ -20,7 +20,7 @@
 namespace aquarama::gl {
 
 // Keys that steer for as long as they are held down. All other keys are events: see
-// Context::nextKey(). kCount is the number of keys and is not a key itself.
+// Context::nextKey().
 enum class HeldKey : std::uint8_t {
     W,
     A,
@@ -33,9 +33,9 @@ enum class HeldKey : std::uint8_t {
     PageUp,
     PageDown,
     Home,
-    End,
-    kCount
+    End
 };
+inline constexpr std::size_t kHeldKeys = 12;
 
 // A gamepad's axes. Sticks: -1 to 1, right and up positive; triggers: 0 released to 1 pressed.
 struct Pad {
@@ -49,7 +49,7 @@ struct Pad {
 // is used.
 struct Hands {
     // One bit for each HeldKey; read with holds().
-    std::bitset<static_cast<std::size_t>(HeldKey::kCount)> keys;
+    std::bitset<kHeldKeys> keys;
     // Vector from where the right mouse button was pressed to the pointer, in window heights: x
     // right, y up. Empty while the button is not pressed.
     std::optional<glm::vec2> drag;
@@ -57,11 +57,11 @@ struct Hands {
     Pad pad;
 
     [[nodiscard]] bool holds(HeldKey key) const {
-        assert(key < HeldKey::kCount);
+        assert(static_cast<std::size_t>(key) < kHeldKeys);
         return keys[static_cast<std::size_t>(key)];
     }
     void hold(HeldKey key) {
-        assert(key < HeldKey::kCount);
+        assert(static_cast<std::size_t>(key) < kHeldKeys);
         keys.set(static_cast<std::size_t>(key));
     }
 };

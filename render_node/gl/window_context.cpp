@@ -311,7 +311,7 @@ void WindowContext::onDrag(bool begins) {
 
 // When the window loses the keyboard focus, GLFW reports all keys as released.
 Hands WindowContext::hands() const {
-    constexpr std::array<std::pair<int, HeldKey>, static_cast<std::size_t>(HeldKey::kCount)> kKeys{{
+    constexpr std::array<std::pair<int, HeldKey>, kHeldKeys> kKeys{{
         {GLFW_KEY_W, HeldKey::W},
         {GLFW_KEY_A, HeldKey::A},
         {GLFW_KEY_S, HeldKey::S},

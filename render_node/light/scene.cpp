@@ -122,8 +122,8 @@ struct SceneRenderer::Parts {
           water{gl::makeProgram({"quad.vert", "water.frag"}, shaders)},
           snow{gl::makeProgram({"snow.vert", "snow.frag"}, shaders)} {
         if (bottomTables.reef.valid())
-            bottom.emplace(Ground{bottomTables.ground.get(), shaders},
-                           Reef{bottomTables.reef.get(), quality});
+            bottom = Bottom{Ground{bottomTables.ground.get(), shaders},
+                            Reef{bottomTables.reef.get(), quality}};
         if (bottom && quality.light.isFine) bakeShadows();
     }
 

@@ -49,20 +49,25 @@ Surface leaf(float lightness, float sway) {
     return {.albedo = glm::vec3{0.5F * lightness}, .translucency = 0.8F, .sway = sway};
 }
 
+// A blade of kelp. rows: of its mesh, at least 2.
+struct Blade {
+    float length, width;
+    int rows;
+};
+
 // A blade of kelp: long and narrow, hanging out and up from the stipe, thinnest at its ends. It
 // sways with its foot.
-void addBlade(
-    Mesh& mesh, glm::vec3 foot, glm::vec3 out, float length, float width, int rows, Dice& dice) {
+void addBlade(Mesh& mesh, glm::vec3 foot, glm::vec3 out, const Blade& blade, Dice& dice) {
     const glm::vec3 side = glm::normalize(glm::cross(out, glm::vec3{0, 1, 0}) +
                                           glm::vec3{0, dice.between(-0.3F, 0.3F), 0});
     const float droop = dice.between(0.1F, 0.65F);
     const float light = dice.between(0.75F, 1.3F);
     std::vector<Joint> joints;
-    for (int row = 0; row < rows; ++row) {
-        const float v = static_cast<float>(row) / static_cast<float>(rows - 1);
-        const glm::vec3 at = foot + length * (out * v - glm::vec3{0, droop * v * v, 0});
+    for (int row = 0; row < blade.rows; ++row) {
+        const float v = static_cast<float>(row) / static_cast<float>(blade.rows - 1);
+        const glm::vec3 at = foot + blade.length * (out * v - glm::vec3{0, droop * v * v, 0});
         const float broad =
-            width * std::pow(std::sin(kPi * (0.05F + 0.93F * std::pow(v, 0.55F))), 0.8F);
+            blade.width * std::pow(std::sin(kPi * (0.05F + 0.93F * std::pow(v, 0.55F))), 0.8F);
         joints.push_back({at,
                           broad,
                           leaf(light * (0.85F + 0.35F * v), foot.y + 0.06F * v),
@@ -148,9 +153,9 @@ void growKelp(Mesh& mesh, std::size_t level, Dice dice) {
         addBlade(mesh,
                  foot + out * 0.009F,
                  out,
-                 dice.between(0.070F, 0.125F) * (1.1F - 0.35F * share),
-                 0.0052F * broader,
-                 kRows.at(level),
+                 {.length = dice.between(0.070F, 0.125F) * (1.1F - 0.35F * share),
+                  .width = 0.0052F * broader,
+                  .rows = kRows.at(level)},
                  dice);
     }
 }

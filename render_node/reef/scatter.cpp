@@ -172,23 +172,28 @@ glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
     return glm::quat_cast(glm::mat3{x, up, glm::cross(x, up)});
 }
 
+// What an instance is, its spot apart. size: scale, metres; turn: its own frame to the world.
+struct Placement {
+    Form form;
+    float size;
+    glm::quat turn;
+    glm::vec4 tintAndSway;
+};
+
 // Fills in an instance; its occlusion is that of a point just above the spot.
 Instance instanceOf(const place::PlaceKey& place,
                     std::span<const place::Rock> rocks,
-                    Form form,
                     const Spot& spot,
-                    float size,
-                    const glm::quat& turn,
-                    const glm::vec4& tintAndSway,
+                    const Placement& placement,
                     Dice& dice) {
     const int shape = static_cast<int>(dice.unit() * kShapesOfForm);
     const glm::vec3 above = spot.place + spot.normal * 0.15F;
-    return {glm::vec4(spot.place, size),
-            packed(turn),
-            tintAndSway,
+    return {glm::vec4(spot.place, placement.size),
+            packed(placement.turn),
+            placement.tintAndSway,
             {sunVisibility(rocks, above), ambientOcclusion(rocks, above, glm::vec3{0, 1, 0})},
             place::floorHeight(place, {spot.place.x, spot.place.z}),
-            static_cast<std::uint32_t>(prototypeOf(form, shape))};
+            static_cast<std::uint32_t>(prototypeOf(placement.form, shape))};
 }
 
 // Adds an instance of a form, sunk a little into the ground.
@@ -201,8 +206,8 @@ void plant(std::vector<Instance>& all,
     const std::uint32_t patch = patchAt(*bed.place, spot.place, 4.5F);
     const glm::vec4 tint{tintOf(way.form, patch, dice), way.sway};
     const Spot sunk{spot.place - spot.normal * (0.05F * size), spot.normal};
-    all.push_back(instanceOf(
-        *bed.place, bed.others, way.form, sunk, size, stance(way, spot.normal, dice), tint, dice));
+    const Placement placement{way.form, size, stance(way, spot.normal, dice), tint};
+    all.push_back(instanceOf(*bed.place, bed.others, sunk, placement, dice));
 }
 
 // Plants one large coral on top of a boulder, so that each boulder has an outline of its own: a
@@ -365,7 +370,7 @@ void sow(std::vector<Instance>& all,
         const glm::quat turn = glm::quat_cast(frameAbout(up, about));
         const glm::vec4 tint{tintOf(form, 0, dice), kelp ? 0.12F : 0.45F};
         all.push_back(instanceOf(
-            place, rocks, form, {one.root, {0, 1, 0}}, one.heightMetres, turn, tint, dice));
+            place, rocks, {one.root, {0, 1, 0}}, {form, one.heightMetres, turn, tint}, dice));
     }
 }
 

@@ -83,6 +83,7 @@ void solveByEnvelope(benchmark::State& run) {
 BENCHMARK(solveByEnvelope)->Name("solve/envelope");
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
+constexpr int kUnknowns = 3 * body::kNodalPoints;
 
 SparseMatrix assembledByEigen() {
     std::vector<Eigen::Triplet<double>> elements;
@@ -98,7 +99,7 @@ SparseMatrix assembledByEigen() {
         add(joint.first, joint.second, -joint.block);
         add(joint.second, joint.first, -joint.block);
     }
-    SparseMatrix matrix(3 * body::kNodalPoints, 3 * body::kNodalPoints);
+    SparseMatrix matrix(kUnknowns, kUnknowns);
     matrix.setFromTriplets(elements.begin(), elements.end());
     return matrix;
 }
@@ -107,9 +108,9 @@ SparseMatrix assembledByEigen() {
 template <class Ordering>
 void solveByEigen(benchmark::State& run) {
     const SparseMatrix matrix = assembledByEigen();
-    Eigen::VectorXd right(3 * body::kNodalPoints);
+    Eigen::VectorXd right(kUnknowns);
     for (int node = 0; node < body::kNodalPoints; ++node)
-        right.segment<3>(3 * node) = Eigen::Vector3d(1, 2, 3);
+        right.segment<3>(Eigen::Index{3} * node) = Eigen::Vector3d(1, 2, 3);
     Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Ordering> solver;
     solver.analyzePattern(matrix);
     Eigen::VectorXd solution;
@@ -123,9 +124,8 @@ BENCHMARK(solveByEigen<Eigen::AMDOrdering<int>>)->Name("solve/eigen_simplicial_a
 BENCHMARK(solveByEigen<Eigen::NaturalOrdering<int>>)->Name("solve/eigen_simplicial_natural");
 
 void solveByDenseEigen(benchmark::State& run) {
-    const Eigen::Matrix<double, 3 * body::kNodalPoints, 3 * body::kNodalPoints> matrix =
-        assembledByEigen();
-    const Eigen::VectorXd right = Eigen::VectorXd::Ones(3 * body::kNodalPoints);
+    const Eigen::Matrix<double, kUnknowns, kUnknowns> matrix = assembledByEigen();
+    const Eigen::VectorXd right = Eigen::VectorXd::Ones(kUnknowns);
     for (auto _ : run) {
         Eigen::VectorXd solution = matrix.llt().solve(right);
         benchmark::DoNotOptimize(solution.data());

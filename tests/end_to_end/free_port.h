@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include <netinet/in.h>
@@ -18,9 +19,11 @@ inline int freePort() {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
-    bind(descriptor, reinterpret_cast<sockaddr*>(&address), size);
-    getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
+    auto* const bound = reinterpret_cast<sockaddr*>(&address);
+    const bool isBound =
+        bind(descriptor, bound, size) == 0 && getsockname(descriptor, bound, &size) == 0;
     close(descriptor);
+    if (!isBound) throw std::runtime_error("no free port on the loopback");
     return ntohs(address.sin_port);
 }
 

@@ -53,17 +53,18 @@ double ciede2000(glm::dvec3 labA, glm::dvec3 labB) {
     const double dC = c2 - c1;
     const double dH =
         2 * std::sqrt(c1 * c2) * std::sin(hueDifference(h1, h2, isGrey) / 2 * kDegree);
-    const double L = (labA.x + labB.x) / 2;
-    const double C = (c1 + c2) / 2;
-    const double H = meanHue(h1, h2, isGrey);
-    const double T = 1 - 0.17 * std::cos((H - 30) * kDegree) + 0.24 * std::cos(2 * H * kDegree) +
-                     0.32 * std::cos((3 * H + 6) * kDegree) -
-                     0.20 * std::cos((4 * H - 63) * kDegree);
-    const double sL = 1 + 0.015 * (L - 50) * (L - 50) / std::sqrt(20 + (L - 50) * (L - 50));
-    const double sC = 1 + 0.045 * C;
-    const double sH = 1 + 0.015 * C * T;
-    const double turn = 30 * std::exp(-std::pow((H - 275) / 25, 2));
-    const double rT = -2 * chromaWeight(C) * std::sin(2 * turn * kDegree);
+    const double meanL = (labA.x + labB.x) / 2;
+    const double meanC = (c1 + c2) / 2;
+    const double hue = meanHue(h1, h2, isGrey);
+    const double t = 1 - 0.17 * std::cos((hue - 30) * kDegree) +
+                     0.24 * std::cos(2 * hue * kDegree) + 0.32 * std::cos((3 * hue + 6) * kDegree) -
+                     0.20 * std::cos((4 * hue - 63) * kDegree);
+    const double sL =
+        1 + 0.015 * (meanL - 50) * (meanL - 50) / std::sqrt(20 + (meanL - 50) * (meanL - 50));
+    const double sC = 1 + 0.045 * meanC;
+    const double sH = 1 + 0.015 * meanC * t;
+    const double turn = 30 * std::exp(-std::pow((hue - 275) / 25, 2));
+    const double rT = -2 * chromaWeight(meanC) * std::sin(2 * turn * kDegree);
     return std::sqrt(std::pow(dL / sL, 2) + std::pow(dC / sC, 2) + std::pow(dH / sH, 2) +
                      rT * dC / sC * dH / sH);
 }

@@ -55,8 +55,8 @@ int main(int count, char** arguments) {
     }
     try {
         const int columns = std::max(std::stoi(words[1]), 1);
-        aquarama::wall::writePng(words[0],
-                                 aquarama::sheetOf({words.begin() + 2, words.end()}, columns));
+        aquarama::writePng(words[0],
+                           aquarama::test::sheetOf({words.begin() + 2, words.end()}, columns));
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "aquarama_draw_sheet: " << error.what() << '\n';

@@ -135,11 +135,11 @@ int main(int count, char** arguments) {
         return 2;
     }
     try {
-        std::vector<aquarama::Fish> fish;
+        std::vector<aquarama::test::Fish> fish;
         for (const std::string& path : std::span(words).subspan(1))
             fish.emplace_back(aquarama::config::readSpecies(path));
-        aquarama::drawViews(fish, words[0] + "/species.png");
-        aquarama::drawSizes(fish, words[0] + "/species_sizes.png");
+        aquarama::test::drawViews(fish, words[0] + "/species.png");
+        aquarama::test::drawSizes(fish, words[0] + "/species_sizes.png");
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "aquarama_draw_species: " << error.what() << '\n';

@@ -114,8 +114,10 @@ Still fishAtLevel(const Level& level) {
     for (int i = 0; i < fish; ++i) {
         Camera towards = still.camera;
         if (fish > 1) {
-            towards.azimuthDegrees = 20.0F * static_cast<float>(i % 4) - 30.0F;
-            towards.elevationDegrees = 18.0F * static_cast<float>(i / 4) - 18.0F;
+            const auto column = i % 4;
+            const auto row = i / 4;
+            towards.azimuthDegrees = 20.0F * static_cast<float>(column) - 30.0F;
+            towards.elevationDegrees = 18.0F * static_cast<float>(row) - 18.0F;
         }
         const std::string species = i % 2 == 0 ? "moorish_idol" : "bigeye_scad";
         still.fish.push_back(

@@ -10,7 +10,7 @@ namespace aquarama::test {
 // The tree that this was built from, or the one that AQUARAMA_SOURCE names, for programs that run
 // on another machine than that which built them.
 inline std::string sourceFolder() {
-    const char* other = std::getenv("AQUARAMA_SOURCE");  // NOLINT(concurrency-mt-unsafe)
+    const char* other = std::getenv("AQUARAMA_SOURCE");
     return other != nullptr ? other : AQUARAMA_SOURCE_DIR;
 }
 

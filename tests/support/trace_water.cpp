@@ -17,6 +17,7 @@
 
 #include "common/base/log.h"
 #include "render_node/water/water_lobes.h"
+#include "render_node/water/water_tables.h"
 #include "tests/support/water_comparison.h"
 #include "tests/support/water_light.h"
 

@@ -2,6 +2,7 @@
 #include "tests/bench/gpu/card_memory.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include <epoxy/gl.h>
@@ -22,18 +23,18 @@ std::int64_t levelParameter(GLuint texture, GLint level, GLenum parameter) {
 
 double bytesOfLevel(GLuint texture, GLint level) {
     const auto of = [&](GLenum parameter) { return levelParameter(texture, level, parameter); };
+    constexpr std::array<GLenum, 6> kSizes{GL_TEXTURE_RED_SIZE,
+                                           GL_TEXTURE_GREEN_SIZE,
+                                           GL_TEXTURE_BLUE_SIZE,
+                                           GL_TEXTURE_ALPHA_SIZE,
+                                           GL_TEXTURE_DEPTH_SIZE,
+                                           GL_TEXTURE_STENCIL_SIZE};
     std::int64_t bits = 0;
-    for (const GLenum channel : {GL_TEXTURE_RED_SIZE,
-                                 GL_TEXTURE_GREEN_SIZE,
-                                 GL_TEXTURE_BLUE_SIZE,
-                                 GL_TEXTURE_ALPHA_SIZE,
-                                 GL_TEXTURE_DEPTH_SIZE,
-                                 GL_TEXTURE_STENCIL_SIZE})
-        bits += of(channel);
+    for (const GLenum size : kSizes) bits += of(size);
     const std::int64_t texels = of(GL_TEXTURE_WIDTH) * of(GL_TEXTURE_HEIGHT) *
                                 std::max<std::int64_t>(of(GL_TEXTURE_DEPTH), 1);
-    return static_cast<double>(texels * bits / 8 *
-                               std::max<std::int64_t>(of(GL_TEXTURE_SAMPLES), 1));
+    const std::int64_t samples = std::max<std::int64_t>(of(GL_TEXTURE_SAMPLES), 1);
+    return static_cast<double>(texels * bits * samples) / 8;
 }
 
 double bytesOfTexture(GLuint texture) {

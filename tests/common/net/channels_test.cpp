@@ -74,7 +74,9 @@ class BothChannels : public testing::TestWithParam<Pair (*)()> {};
 INSTANTIATE_TEST_SUITE_P(Channels, BothChannels, testing::Values(overSockets, inMemory));
 
 TEST_P(BothChannels, theMasterAnswersTheNodeThatSpoke) {
-    auto [master, node] = GetParam()();
+    const Pair pair = GetParam()();
+    const auto& master = pair.master;
+    const auto& node = pair.node;
     const auto heard = heardFrom(*node, *master, bytes("hello"));
     ASSERT_TRUE(heard);
     EXPECT_EQ(text(heard->bytes), "hello");
@@ -85,7 +87,9 @@ TEST_P(BothChannels, theMasterAnswersTheNodeThatSpoke) {
 }
 
 TEST_P(BothChannels, statesReachASubscriberInOrder) {
-    auto [master, node] = GetParam()();
+    const Pair pair = GetParam()();
+    const auto& master = pair.master;
+    const auto& node = pair.node;
     node->subscribeState(master->stateAddress());
     // The first to arrive is a beacon: before it the subscription is still on its way.
     const auto first = await(*node, [&] {
@@ -104,14 +108,18 @@ TEST_P(BothChannels, statesReachASubscriberInOrder) {
 }
 
 TEST_P(BothChannels, aReplyToNobodyIsHarmless) {
-    auto [master, node] = GetParam()();
+    const Pair pair = GetParam()();
+    const auto& master = pair.master;
+    const auto& node = pair.node;
     master->sendControl("nobody", bytes("x"));
     master->sendControl("", bytes("x"));
     EXPECT_TRUE(heardFrom(*node, *master, bytes("still here")));
 }
 
 TEST_P(BothChannels, anotherThreadEndsTheWait) {
-    auto [master, node] = GetParam()();
+    const Pair pair = GetParam()();
+    const auto& master = pair.master;
+    const auto& node = pair.node;
     std::thread other([&, &m = *master, &n = *node] {
         m.wake();
         n.wake();
@@ -162,7 +170,9 @@ TEST(ZmqChannels, aNodeRefusesANonsenseAddress) {
 
 // A node that never reads: the master's memory stays a few states, its time is not taken.
 TEST(ZmqChannels, aStalledSubscriberDoesNotHoldTheOthersUp) {
-    auto [master, stalled] = overSockets();
+    const Pair pair = overSockets();
+    const auto& master = pair.master;
+    const auto& stalled = pair.node;
     const auto quick = connectNode(master->controlAddress());
     const ByteVector state(100'000);
     for (const auto& node : {stalled.get(), quick.get()}) {
@@ -211,7 +221,9 @@ class Stranger {
 };
 
 TEST(ZmqChannels, aStrangersNoiseOnTheStatePortIsCountedAndChangesNothing) {
-    auto [master, node] = overSockets();
+    const Pair pair = overSockets();
+    const auto& master = pair.master;
+    const auto& node = pair.node;
     Stranger stranger(zmq::socket_type::xsub, master->stateAddress());
     std::mt19937 random(3);
     std::size_t noise = 0;
@@ -284,7 +296,8 @@ TEST(ZmqChannels, aStrangersFloodDoesNotFillTheMastersMemory) {
 }
 
 TEST(ZmqChannels, messagesOfSeveralPartsArriveAsNothing) {
-    auto [master, node] = overSockets();
+    const Pair pair = overSockets();
+    const auto& master = pair.master;
     Stranger stranger(zmq::socket_type::dealer, master->controlAddress());
     stranger.sendParts(bytes("part"), 3);
     const auto heard = await(*master, [&] { return master->receiveControl(); });

@@ -182,10 +182,11 @@ TEST(Neighbours, allFishAtOnePointFindTheLowestIndices) {
 TEST(Neighbours, equalDistancesOnALatticeAreSettledByIndex) {
     fish::FishView view = scatteredSchool(4, 1000, kWater);
     for (std::size_t i = 0; i < 1000; ++i) {
+        const std::size_t layer = i / 100;
         view.fish[i].position =
             kWater.centre + glm::vec3{0.25F * static_cast<float>(i % 10),
                                       0.25F * static_cast<float>(i / 10 % 10) - 1,
-                                      0.25F * static_cast<float>(i / 100) - 1};
+                                      0.25F * static_cast<float>(layer) - 1};
     }
     expectVectorsEqualBruteForce(School(view, kWater));
 }

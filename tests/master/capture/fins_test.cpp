@@ -14,7 +14,7 @@ namespace aquarama::capture {
 namespace {
 
 constexpr double kRunUpBeats = 16;
-constexpr double kSettleBeats = 30;
+constexpr int kSettleBeats = 30;
 
 Order with(Controller controller, const config::Species& species, double pitchRadians = 0) {
     return {.controller = controller, .gait = species.swim.medium, .pitchRadians = pitchRadians};

@@ -46,7 +46,7 @@ TEST(SchoolFigures, thoseWhoHeadOneWayArePolarisedAndDoNotRotate) {
 
 TEST(SchoolFigures, whoIsAwayDoesNotCount) {
     fish::FishView view = ring(12);
-    for (const std::size_t away : {1, 3, 5, 7, 9, 11}) view.signs[away] = fish::kAway;
+    for (const std::size_t away : {1U, 3U, 5U, 7U, 9U, 11U}) view.signs[away] = fish::kAway;
     EXPECT_NEAR(
         schoolFigures(view, 0, 12).nearestNeighbour, 2 * 2 * std::sin(std::numbers::pi / 6), 1e-4);
 }

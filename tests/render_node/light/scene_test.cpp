@@ -236,8 +236,10 @@ std::vector<float> differencesAlongTheSeam(const Shot& left, const Shot& right, 
             glm::vec3 sum{0.0F};
             int count = 0;
             for (int i = 0; i < kSteps * kSteps; ++i) {
-                const float a = azimuth + kBlockDegrees * static_cast<float>(i % kSteps) / kSteps;
-                const float e = elevation + kBlockDegrees * static_cast<float>(i / kSteps) / kSteps;
+                const int column = i % kSteps;
+                const int row = i / kSteps;
+                const float a = azimuth + kBlockDegrees * static_cast<float>(column) / kSteps;
+                const float e = elevation + kBlockDegrees * static_cast<float>(row) / kSteps;
                 const auto l = pixelOf(-between / 2.0F, a, e);
                 const auto r = pixelOf(between / 2.0F, a, e);
                 if (!l || !r) continue;

@@ -156,8 +156,10 @@ TEST_F(WaterPicture, neighboursSoftenAlikeWhereTheyOverlap) {
             glm::dvec3 sum{0.0};
             int count = 0;
             for (int i = 0; i < kSteps * kSteps; ++i) {
-                const float a = azimuth + kBlockDegrees * static_cast<float>(i % kSteps) / kSteps;
-                const float e = elevation + kBlockDegrees * static_cast<float>(i / kSteps) / kSteps;
+                const int column = i % kSteps;
+                const int row = i / kSteps;
+                const float a = azimuth + kBlockDegrees * static_cast<float>(column) / kSteps;
+                const float e = elevation + kBlockDegrees * static_cast<float>(row) / kSteps;
                 const auto l = pixelOf(left.camera, a, e);
                 const auto r = pixelOf(right.camera, a, e);
                 if (!l || !r) continue;

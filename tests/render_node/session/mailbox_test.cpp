@@ -18,9 +18,9 @@ std::uint64_t taken(Mailbox& mailbox) {
 
 TEST(Mailbox, lockstepGivesEveryFrameInOrderHoweverTheyArrive) {
     Mailbox mailbox;
-    for (const std::uint64_t frame : {6, 4, 5, 4, 3, 7}) mailbox.put(stateOf(frame));
+    for (const std::uint64_t frame : {6U, 4U, 5U, 4U, 3U, 7U}) mailbox.put(stateOf(frame));
     mailbox.start(wire::Pace::Lockstep, {4});
-    for (const std::uint64_t frame : {4, 5, 6, 7}) EXPECT_EQ(taken(mailbox), frame);
+    for (const std::uint64_t frame : {4U, 5U, 6U, 7U}) EXPECT_EQ(taken(mailbox), frame);
     mailbox.put(stateOf(5));  // sent again for somebody else
     mailbox.put(stateOf(8));
     EXPECT_EQ(taken(mailbox), 8U);
@@ -29,7 +29,7 @@ TEST(Mailbox, lockstepGivesEveryFrameInOrderHoweverTheyArrive) {
 TEST(Mailbox, liveGivesTheNewest) {
     Mailbox mailbox;
     mailbox.start(wire::Pace::Live, {0});
-    for (const std::uint64_t frame : {0, 1, 2}) mailbox.put(stateOf(frame));
+    for (const std::uint64_t frame : {0U, 1U, 2U}) mailbox.put(stateOf(frame));
     EXPECT_EQ(taken(mailbox), 2U);
     mailbox.put(stateOf(1));
     mailbox.put(stateOf(3));

@@ -33,7 +33,7 @@ TEST(Steering, eachKeyDoesItsOwnAndNothingElse) {
         {gl::HeldKey::Home, {.tilt = 127}},
         {gl::HeldKey::End, {.tilt = -127}},
     };
-    ASSERT_EQ(expected.size(), static_cast<std::size_t>(gl::HeldKey::kCount));
+    ASSERT_EQ(expected.size(), gl::kHeldKeys);
     for (const auto& [key, steering] : expected) EXPECT_EQ(holding({key}), steering) << int(key);
     EXPECT_EQ(holding({}), Steering{});
     EXPECT_EQ(holding({gl::HeldKey::W, gl::HeldKey::Up}).ahead, 127) << "full is full";

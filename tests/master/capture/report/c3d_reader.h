@@ -17,7 +17,7 @@ class C3dFile {
   public:
     explicit C3dFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
         if (at<std::uint8_t>(1) != 0x50) throw std::runtime_error("no C3D file");
-        readParameters((at<std::uint8_t>(0) - 1U) * 512U);
+        readParameters((at<std::uint8_t>(0) - std::size_t{1}) * 512);
     }
 
     template <class T>
@@ -67,7 +67,7 @@ class C3dFile {
         std::map<int, std::string> groups;
         for (std::size_t record = section + 4;;) {
             const std::size_t length = at<std::uint8_t>(record);
-            const int group = at<std::int8_t>(record + 1);
+            const auto group = static_cast<int>(at<std::int8_t>(record + 1));
             const std::string name = text(record + 2, length);
             const std::size_t pointer = record + 2 + length;
             if (group < 0) {
