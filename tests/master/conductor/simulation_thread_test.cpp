@@ -95,8 +95,9 @@ TEST(SimulationThread, doesJobsWhileItRunsWhileItIsPausedAndWhileNobodyTakesItsT
     askAndExpectAnAnswer(live);
 
     test::CountingWorld other;
-    SimulationThread lockstep(other, wire::Pace::Lockstep, {}, [] {});
-    while (other.tick().value < SnapshotBuffer::kKept / 2) std::this_thread::yield();
+    std::atomic<std::size_t> ticks = 0;
+    SimulationThread lockstep(other, wire::Pace::Lockstep, {}, [&] { ++ticks; });
+    while (ticks < SnapshotBuffer::kKept / 2) std::this_thread::yield();
     askAndExpectAnAnswer(lockstep);
 }
 
