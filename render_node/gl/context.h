@@ -35,7 +35,7 @@ enum class HeldKey : std::uint8_t {
     Home,
     End
 };
-inline constexpr std::size_t kHeldKeys = 12;
+inline constexpr std::size_t kHeldKeys = static_cast<std::size_t>(HeldKey::End) + 1;
 
 // A gamepad's axes. Sticks: -1 to 1, right and up positive; triggers: 0 released to 1 pressed.
 struct Pad {
