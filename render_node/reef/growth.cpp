@@ -49,7 +49,7 @@ Surface leaf(float lightness, float sway) {
     return {.albedo = glm::vec3{0.5F * lightness}, .translucency = 0.8F, .sway = sway};
 }
 
-// A blade of kelp. rows: of its mesh, at least 2.
+// The size of a blade, on a plant of unit height. rows: of the mesh, at least 2.
 struct Blade {
     float length, width;
     int rows;

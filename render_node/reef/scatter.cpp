@@ -172,7 +172,7 @@ glm::quat stance(const Way& way, glm::vec3 normal, Dice& dice) {
     return glm::quat_cast(glm::mat3{x, up, glm::cross(x, up)});
 }
 
-// What an instance is, its spot apart. size: scale, metres; turn: its own frame to the world.
+// All of an instance but its spot. size: scale, metres; turn: from its own frame to the world.
 struct Placement {
     Form form;
     float size;
