@@ -158,9 +158,8 @@ struct MotionStates {
 // decision instants, not every tick.
 struct MotorCommands {
     std::vector<std::uint8_t> segment;  // Action to play next
-    // How fast to play that action, in 1/65536 of a cycle in a tick; a turn that has to play to its
-    // end first does so as recorded. Negative: the cycle is played backwards, and the fish
-    // retreats. A turn cannot be played backwards: it takes the magnitude.
+    // How fast to play that action, in 1/65536 of a cycle in a tick, not negative; a turn that has
+    // to play to its end first does so as recorded.
     std::vector<std::int16_t> phaseRate;
     // How far the pectoral fins are spread, in 1/255.
     std::vector<std::uint8_t> brake;

@@ -81,10 +81,10 @@ float inverseRoot(float value) {
 // Half the turn (radians, about world axes) that the fish adds in this tick: commanded yaw about
 // up, pitch about the level axis to its right, roll about its nose. Measured on the mean frame;
 // otherwise the fish would steer against its own tail beat.
-Vector halfSteering(const Attitude& attitude, float pitchSine, float yaw) {
+Vector halfSteering(const Attitude& attitude, float pitchSine, float pitchRate, float yaw) {
     const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const float wanted = bounded(pitchSine, kSteepestPitch);
-    const float pitch = bounded(kPitchGain * (wanted - forwardY), kPitchRate);
+    const float pitch = bounded(kPitchGain * (wanted - forwardY), pitchRate);
     const float levelZ = forwardX + kLevelAxisBias;
     const float squared = levelZ * levelZ + forwardZ * forwardZ;
     const float alongLevel = pitch * inverseRoot(std::max(squared, kTiniest));
@@ -172,6 +172,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
     // Last, the fish's own steering, as a quaternion of small angle: 1 and half the turn.
     const Vector steering = halfSteering(attitude,
                                          static_cast<float>(step.commands->pitch[i]) * kPitchUnit,
+                                         step.tables->pitchRate,
                                          static_cast<float>(step.commands->yawRate[i]) * kYawUnit);
     const Quaternion turn{1.0F, steering[0], steering[1], steering[2]};
     const PackedOrientation packed = pack(renormalised(turn * swum));

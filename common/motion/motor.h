@@ -3,6 +3,7 @@
 // section 4).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -23,9 +24,9 @@ class MotorTables;
 // compiler optimisation and any instruction set. Ranges that do not overlap may run on different
 // threads.
 //
-// Of the nine patterns (section 3.2) these are played: swimming and turning as recorded; ascending
-// and descending by commanded pitch; balancing by roll; gliding by a warp to Action::Glide;
-// retreating by a negative phase rate; braking by MotorCommands::brake.
+// Of the nine patterns (section 3.2) these are played: swimming, turning, ascending, descending and
+// retreating as recorded; gliding by a warp to Action::Glide. The fins add pitch, up to the rate of
+// the recorded climb, and roll that balances, and MotorCommands::brake brakes.
 //
 // The speed v of a fish follows that of the path, p, as SpeedResponse says; p is the recorded speed
 // times the phase rate over the recorded one. While a turn plays, v also changes by as much as p
@@ -60,5 +61,17 @@ struct MotorStep {
 [[nodiscard]] float recordedSpeedBodyLengths(const MotorTables& tables, Action action);
 // Mean rate of turn as recorded, radians a second, left positive.
 [[nodiscard]] float recordedTurnRate(const MotorTables& tables, Action action);
+
+// Sine of the pitch by which a fish must be off to begin a slope, and to go on with it. Less is
+// corrected by the fins (MotorCommands::pitch).
+inline constexpr float kSlopeFrom = 0.12F;
+inline constexpr float kSlopeUntil = 0.06F;
+// pitchError: of the wanted pitch less the present one, both as sines.
+[[nodiscard]] inline bool takesSlope(Action present, float pitchError) {
+    return std::abs(pitchError) > (isSlope(present) ? kSlopeUntil : kSlopeFrom);
+}
+[[nodiscard]] constexpr Action slopeOf(Action gait, bool up) {
+    return atGait(up ? Action::ClimbSlow : Action::DiveSlow, gait);
+}
 
 }  // namespace aquarama::motion

@@ -225,12 +225,15 @@ HWY_INLINE Lanes inverseRoot(Lanes value) {
     return root;
 }
 
-HWY_INLINE VectorLanes halfSteering(const AttitudeLanes& attitude, Lanes pitchSine, Lanes yaw) {
+HWY_INLINE VectorLanes halfSteering(const AttitudeLanes& attitude,
+                                    Lanes pitchSine,
+                                    float pitchRate,
+                                    Lanes yaw) {
     const auto& [forwardX, forwardY, forwardZ] = attitude.forward;
     const Lanes half = hn::Set(kFloats, 0.5F);
     const Lanes wanted = bounded(pitchSine, kSteepestPitch);
     const Lanes pitch =
-        bounded(hn::Mul(hn::Set(kFloats, kPitchGain), hn::Sub(wanted, forwardY)), kPitchRate);
+        bounded(hn::Mul(hn::Set(kFloats, kPitchGain), hn::Sub(wanted, forwardY)), pitchRate);
     const Lanes levelZ = hn::Add(forwardX, hn::Set(kFloats, kLevelAxisBias));
     const Lanes squared = sumOfProducts(levelZ, levelZ, forwardZ, forwardZ);
     const Lanes alongLevel =

@@ -105,18 +105,14 @@ HWY_INLINE FishSet playOn(const MotorTables& tables,
         const auto leaves = hn::Ne(segment, bytesAt(columns.wanted + fish));
         const IntLanes turnRate = hn::GatherIndex(kInts, tables.turnRate.data(), segment);
         const auto turns = hn::Gt(turnRate, hn::Zero(kInts));
-        const IntLanes inTurn = hn::IfThenElse(leaves, turnRate, hn::Abs(asked));
-        const IntLanes rate = hn::IfThenElse(turns, inTurn, asked);
+        const IntLanes rate = hn::IfThenElse(hn::And(turns, leaves), turnRate, asked);
         const auto ends = hn::Gt(hn::Add(phase, rate), hn::Set(kInts, 0xFFFF));
         const auto warps =
             hn::Ne(bytesAt(columns.warpFrame + fish), bytesAt(columns.warpLength + fish));
         const auto goes = hn::Or(hn::And(turns, ends), hn::AndNot(turns, leaves));
         restless |= setOf(hn::Or(warps, goes)) << lane;
-        const IntLanes aCycleOn =
-            hn::IfThenElseZero(hn::Lt(rate, hn::Zero(kInts)), hn::Set(kInts, 65536));
-        const IntLanes from = hn::Add(phase, aCycleOn);
-        const IntLanes to = hn::Add(from, rate);
-        hn::Store(from, kInts, block.from + lane);
+        const IntLanes to = hn::Add(phase, rate);
+        hn::Store(phase, kInts, block.from + lane);
         hn::Store(to, kInts, block.to + lane);
         hn::Store(rate, kInts, block.rate + lane);
         const IntLanes next = hn::And(to, hn::Set(kInts, 0xFFFF));
@@ -292,6 +288,7 @@ HWY_INLINE void steer(const MotorStep& step,
                                  hn::Load(kFloats, block.right + lane)};
     const VectorLanes steering = halfSteering(attitude,
                                               commanded(step.commands->pitch, fish, kPitchUnit),
+                                              step.tables->pitchRate,
                                               commanded(step.commands->yawRate, fish, kYawUnit));
     const QuaternionLanes turn{hn::Set(kFloats, 1.0F), steering.x, steering.y, steering.z};
     const QuaternionLanes swam{hn::Load(kFloats, block.swumW + lane), swum.x, swum.y, swum.z};

@@ -79,6 +79,19 @@ std::array<glm::dquat, kCycleSamples> meansOf(const GaitPath& path, bool playsTo
     return means;
 }
 
+// Turns the mean frames of a cycle so that their x axis lies along the path, by one rotation for
+// the whole cycle: the path's mean direction in the mean frame, or for a retreat its opposite.
+void lookAlongPath(const GaitPath& path, std::array<glm::dquat, kCycleSamples>& means) {
+    glm::dvec3 way{};
+    for (std::size_t k = 0; k < kCycle; ++k)
+        way += glm::conjugate(means[k]) * (path.translation[k + 1] - path.translation[k]);
+    const double length = std::sqrt(glm::dot(way, way));
+    if (length < kNoWayBodyLengths) return;
+    way *= (way.x < 0 ? -1 : 1) / length;
+    const glm::dquat turn = glm::normalize(glm::dquat(1 + way.x, 0, -way.z, way.y));
+    for (glm::dquat& mean : means) mean = glm::normalize(mean * turn);
+}
+
 // Body lengths along the mean frame's x axis in 1/64 of a cycle at phase k: a central difference,
 // taken in the second cycle, which has a first before it. Where a turn begins or ends, the
 // difference is one-sided.
@@ -98,7 +111,8 @@ double forwardAt(const GaitPath& path, std::size_t k, bool playsToEnd) {
 GaitPath pathOf(const ActionSegment& segment) {
     GaitPath path;
     integrate(segment, path);
-    const auto means = meansOf(path, segment.playsToEnd);
+    auto means = meansOf(path, segment.playsToEnd);
+    if (!segment.playsToEnd) lookAlongPath(path, means);
     for (std::size_t k = 0; k < kCycleSamples; ++k) {
         path.bodyFromMean[k] = glm::conjugate(path.rotation[k]) * means[k];
     }
@@ -137,14 +151,17 @@ double angleOfHalfTurn(double tangent) {
     return 2 * tangent * (1 - squared * (1.0 / 3 - squared * (1.0 / 5 - squared / 7)));
 }
 
-// Means over the cycle: speed, and rate of turn about the mean frame's y axis.
+// Means over the cycle: speed, and rate of turn about the mean frame's y axis; and half the turn.
 void measure(const GaitPath& path, double periodSeconds, SegmentTables& tables) {
     double forward = 0;
     double turn = 0;
+    glm::dvec3 halfTurn{};
     for (std::size_t k = 0; k < kPhases; ++k) {
         forward += path.mean[k].forward;
         turn += angleOfHalfTurn(path.mean[k].halfTurn.y);
+        halfTurn += path.mean[k].halfTurn;
     }
+    if (!tables.playsToEnd) tables.meanHalfTurn = narrow(halfTurn / 65536.0);
     tables.speedBodyLengths = static_cast<float>(forward / periodSeconds);
     tables.turnRate = static_cast<float>(turn / periodSeconds);
 }
@@ -169,22 +186,31 @@ float squareLoss(float drag) {
     return drag / (kSpeedUnitsPerBodyLength * static_cast<float>(kTicksPerSecond));
 }
 
+// 1 / body length, of an action that swims or turns.
+float swimDragOf(const SpeedResponse& response,
+                 const std::array<SegmentTables, kActions>& segments,
+                 std::size_t action) {
+    const std::size_t gait = indexOf(gaitOf(static_cast<Action>(action)));
+    const float drag = response.swimDrag[gait];
+    if (!swims(static_cast<Action>(action))) return drag;
+    const float slower = segments[gait].speedBodyLengths / segments[action].speedBodyLengths;
+    return drag * slower * slower;
+}
+
 // With a loss of rate / (ticks a second + rate) in each tick, a braking fish travels as far as with
 // the continuous exp(-rate t).
-SpeedLoss lossOf(const SpeedResponse& response) {
+SpeedLoss lossOf(const SpeedResponse& response,
+                 const std::array<SegmentTables, kActions>& segments) {
     const auto& [slow, medium, fast] = response.swimDrag;
-    const bool followsAtOnce = slow + medium + fast <= 0.0F;
     SpeedLoss loss{.brake = response.brakeRate /
                             (static_cast<float>(kTicksPerSecond) + response.brakeRate)};
-    const auto drag = [&](Action action) -> float& {
-        return loss.drag[static_cast<std::size_t>(action)];
-    };
-    loss.drag.fill(followsAtOnce ? 1.0F : squareLoss(medium));
-    if (!followsAtOnce) {
-        drag(Action::ForwardSlow) = squareLoss(slow);
-        drag(Action::ForwardFast) = squareLoss(fast);
+    loss.drag.fill(1.0F);
+    if (slow + medium + fast > 0.0F) {
+        for (std::size_t action = 0; action < kActions; ++action)
+            loss.drag[action] = squareLoss(swimDragOf(response, segments, action));
+        loss.drag[indexOf(Action::Retreat)] = squareLoss(response.retreatDrag);
     }
-    drag(Action::Glide) = squareLoss(response.glideDrag);
+    loss.drag[indexOf(Action::Glide)] = squareLoss(response.glideDrag);
     return loss;
 }
 
@@ -233,7 +259,9 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
         tables->turnRate[action] = made.playsToEnd ? made.phaseRate : 0;
     }
     enterFromMedium(*tables);
-    tables->loss = lossOf(repertoire.response);
+    const SegmentTables& climb = tables->segments[indexOf(Action::ClimbMedium)];
+    tables->pitchRate = 2.0F * climb.meanHalfTurn[2] * static_cast<float>(climb.phaseRate);
+    tables->loss = lossOf(repertoire.response, tables->segments);
     const WarpPlans plans = planWarps(repertoire, phaseRates);
     for (std::size_t action = 0; action < kActions; ++action) {
         tables->segments[action].warpTo = plans[action];

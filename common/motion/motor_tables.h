@@ -36,7 +36,7 @@ struct GaitPath {
     std::array<glm::dquat, kPathSamples> rotation{};
     std::array<glm::dvec3, kPathSamples> translation{};  // body lengths
     // Rotation from the cycle-mean frame to body axes. The tail beat does not sway the mean frame:
-    // its x axis points where the fish goes.
+    // its x axis lies along the path, from which the body of a fish on a curve or slope deviates.
     std::array<glm::dquat, kCycleSamples> bodyFromMean{};
     std::array<MeanMotion, kCycleSamples> mean{};
 };
@@ -44,8 +44,8 @@ struct GaitPath {
 // Integrates the increments of a segment and takes the mean over one cycle around each phase.
 [[nodiscard]] GaitPath pathOf(const ActionSegment& segment);
 
-// What the motor step reads of a species: about 60 kB, of which a steady school touches 36. Kept
-// small so that it stays in the processor's cache.
+// What the motor step reads of a species: about 330 kB, of which a steady school touches 36. What
+// is played stays in the processor's cache.
 
 inline constexpr unsigned kPhaseCellBits = 10;  // a phase of 16 bits is 6 of cell, 10 of fraction
 inline constexpr float kPhaseCellUnit = 1.0F / 1024.0F;
@@ -69,6 +69,10 @@ struct WarpPlan {
 struct SegmentTables {
     std::array<PathSample, kPathSamples> path;
     std::array<Quaternion, kCycleSamples> bodyFromMean;
+    // Half the mean frame's turn, in its own axes, radians for each unit of phase rate in a tick:
+    // the mean over a cycle, zero for a turn and the glide. A fish turns so while it warps to a
+    // curve.
+    std::array<float, 3> meanHalfTurn{};
     std::array<std::array<WarpPlan, kActions>, kPhases> warpTo;
     // As recorded: body lengths a second; radians a second, left positive; 1/65536 of a cycle in a
     // tick.
@@ -95,6 +99,9 @@ class MotorTables {
     // that the vectorised step gathers from.
     std::array<std::int32_t, kActions> turnRate{};
     SpeedLoss loss;
+    // The most that a fish pitches in addition to the played motion, radians in a tick: what it
+    // does on the captured loop at the medium gait.
+    float pitchRate = 0.0F;
 };
 
 // Which phase a motion warp glides to, and in how many frames (paper, section 4.2).
@@ -111,8 +118,7 @@ using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>
 
 // Limits of what a fish adds to the recorded motion, per tick of 1/60 s. The gains let it settle
 // without a jerk; the rates keep it within what a fish does.
-inline constexpr float kPitchGain = 0.1F;
-inline constexpr float kPitchRate = 0.017453293F;     // 60 degrees a second
+inline constexpr float kPitchGain = 0.05F;
 inline constexpr float kSteepestPitch = 0.86602540F;  // sine of 60 degrees
 inline constexpr float kRollGain = 0.05F;
 inline constexpr float kRollRate = 0.013089969F;        // 45 degrees a second
@@ -202,11 +208,6 @@ inline void startWarp(const MotorTables& tables, const MotorColumns& fish, std::
     fish.warpLength[i] = plan.frames;
 }
 
-// The rate at which a fish plays its segment: a turn is not played backwards.
-[[nodiscard]] inline std::int32_t commandedRate(const SegmentTables& playing, std::int32_t rate) {
-    return playing.playsToEnd && rate < 0 ? -rate : rate;
-}
-
 // What a fish does in a tick: it warps, or plays its segment between two phases of the two-cycle
 // path (1/65536 of a cycle).
 struct Playing {
@@ -228,16 +229,14 @@ struct Playing {
     const SegmentTables& playing = tables.segments[fish.segment[i]];
     const bool leaves = fish.wanted[i] != fish.segment[i];
     const std::int32_t phase = fish.phase[i];
-    const std::int32_t rate =
-        leaves ? playing.phaseRate : commandedRate(playing, fish.phaseRate[i]);
+    const std::int32_t rate = leaves ? playing.phaseRate : fish.phaseRate[i];
     const bool mayEnter = fish.wanted[i] < kActions;
     if (mayEnter && (playing.playsToEnd ? phase + rate > 0xFFFF : leaves)) {
         startWarp(tables, fish, i);
         return {};
     }
     fish.phase[i] = static_cast<std::uint16_t>(phase + rate);
-    const std::int32_t from = rate < 0 ? phase + 65536 : phase;
-    return {.warps = false, .from = from, .to = from + rate};
+    return {.warps = false, .from = phase, .to = phase + rate};
 }
 
 // The rotation from the mean frame to the body frame at a phase.
@@ -252,8 +251,8 @@ struct Playing {
 }
 
 // The paper does not say what the body frame does during a warp; if it were frozen, the fish would
-// halt. Here its mean frame goes straight on, while the sway changes from that of the last pose to
-// that of the first: so a warp never turns the course.
+// halt. Here its mean frame goes on as in the mean of a cycle of the next segment, straight on
+// before a turn, while the sway changes from that of the last pose to that of the first.
 [[nodiscard]] inline Travel warpingTravel(const MotorTables& tables,
                                           const MotorColumns& fish,
                                           std::size_t i) {
@@ -265,11 +264,14 @@ struct Playing {
         return normalised(lerp(last, first, static_cast<float>(frames) * steps));
     };
     const Quaternion sway = swayAfter(fish.warpFrame[i] + 1);
-    const std::int32_t rate = commandedRate(next, fish.phaseRate[i]);
+    const std::int32_t rate = fish.phaseRate[i];
+    const auto played = static_cast<float>(rate);
+    const auto& [x, y, z] = next.meanHalfTurn;
+    const Quaternion turn = normalised({1.0F, x * played, y * played, z * played});
     const float speed = next.path[fish.phase[i] >> kPhaseCellBits].translationAndSpeed[3];
-    const float way = pathSpeed(speed, static_cast<float>(rate)) * kLengthsPerSpeedUnit;
+    const float way = pathSpeed(speed, played) * kLengthsPerSpeedUnit;
     return {.start = {conjugate(swayAfter(fish.warpFrame[i])), {0.0F, 0.0F, 0.0F, speed}},
-            .end = {conjugate(sway), {way, 0.0F, 0.0F, speed}},
+            .end = {turn * conjugate(sway), {way, 0.0F, 0.0F, speed}},
             .bodyFromMean = sway,
             .rate = rate};
 }

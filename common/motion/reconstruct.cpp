@@ -33,13 +33,11 @@ float metres(std::int32_t before, std::int32_t after, float fraction) {
     return (static_cast<float>(before) + fraction * step) * kPositionUnitMetres;
 }
 
-// Between two phases, in cycles, [0, 1). Takes the shorter way round: a retreating fish plays its
-// cycle backwards.
+// Between two phases, in cycles, [0, 1).
 float presentedPhase(std::uint16_t before, std::uint16_t after, float fraction) {
-    const auto played = static_cast<std::int16_t>(static_cast<std::uint16_t>(after - before));
+    const auto played = static_cast<std::uint16_t>(after - before);
     const float phase = static_cast<float>(before) + fraction * static_cast<float>(played);
-    const float cycle = phase < 0.0F ? 65536.0F : phase < 65536.0F ? 0.0F : -65536.0F;
-    return (phase + cycle) * kPhaseUnit;
+    return (phase < 65536.0F ? phase : phase - 65536.0F) * kPhaseUnit;
 }
 
 // In this tick the fish left its segment for a warp: it goes on from the pose in which it was last

@@ -17,7 +17,7 @@ namespace {
 
 // The head of the file, and the bounds of its numbers.
 constexpr std::string_view kMagic = "AQREP";
-constexpr std::uint16_t kVersion = 3;
+constexpr std::uint16_t kVersion = 4;
 constexpr std::size_t kLongestSpecies = 64;
 constexpr std::size_t kHeadBytes = 11;  // name, version, length of the whole file
 constexpr std::size_t kDigestBytes = 32;
@@ -27,7 +27,7 @@ constexpr float kLongestPeriodSeconds = 60.0F;
 constexpr float kLongestStepBodyLengths = 1.0F;  // in 1/64 of a cycle; a burst is near 0.02
 constexpr float kMostDrag = 1000.0F;  // 1 / body length, or 1 / s: stops within a thousandth of one
 // Numbers of a SpeedResponse.
-constexpr std::size_t kResponses = kForwardGaits + 2;
+constexpr std::size_t kResponses = kForwardGaits + 3;
 
 template <class Pose>
 void writePose(ByteWriter& out, const Pose& pose) {
@@ -94,7 +94,7 @@ bool inBounds(const FrameIncrement& step) {
 // The numbers of a response in the order of the file.
 std::array<float*, kResponses> numbersOf(SpeedResponse& response) {
     auto& [slow, medium, fast] = response.swimDrag;
-    return {&slow, &medium, &fast, &response.glideDrag, &response.brakeRate};
+    return {&slow, &medium, &fast, &response.retreatDrag, &response.glideDrag, &response.brakeRate};
 }
 
 // What is wrong with a segment, or nothing.
@@ -164,7 +164,7 @@ Repertoire readContent(ByteReader& in, const std::string& source) {
     repertoire.species = in.characters(in.unsignedNumber<std::uint8_t>());
     repertoire.recordedLengthMetres = in.float32();
     for (float* number : numbersOf(repertoire.response)) *number = in.float32();
-    const unsigned withControlPoints = in.unsignedNumber<std::uint8_t>();
+    const unsigned withControlPoints = in.unsignedNumber<std::uint32_t>();
     if (!in.ok() || withControlPoints >> kCapturedActions != 0 ||
         in.remaining() != bytesOfSegments(withControlPoints)) {
         refuse(source, "is not as long as its head says");
@@ -189,6 +189,25 @@ const char* nameOf(Action action) {
     constexpr std::array<const char*, kActions> kNames{"forward_slow",
                                                        "forward_medium",
                                                        "forward_fast",
+                                                       "curve_left_wide_slow",
+                                                       "curve_left_wide_medium",
+                                                       "curve_left_wide_fast",
+                                                       "curve_left_tight_slow",
+                                                       "curve_left_tight_medium",
+                                                       "curve_left_tight_fast",
+                                                       "curve_right_wide_slow",
+                                                       "curve_right_wide_medium",
+                                                       "curve_right_wide_fast",
+                                                       "curve_right_tight_slow",
+                                                       "curve_right_tight_medium",
+                                                       "curve_right_tight_fast",
+                                                       "climb_slow",
+                                                       "climb_medium",
+                                                       "climb_fast",
+                                                       "dive_slow",
+                                                       "dive_medium",
+                                                       "dive_fast",
+                                                       "retreat",
                                                        "turn_left_gradual",
                                                        "turn_left_sharp",
                                                        "turn_right_gradual",
@@ -204,14 +223,14 @@ std::vector<std::byte> encodeRepertoire(const Repertoire& repertoire) {
     out.characters(kMagic);
     out.unsignedNumber(kVersion);
     out.unsignedNumber(static_cast<std::uint32_t>(
-        kHeadBytes + 1 + repertoire.species.size() + (1 + kResponses) * sizeof(float) + 1 +
+        kHeadBytes + 1 + repertoire.species.size() + (1 + kResponses) * sizeof(float) + 4 +
         bytesOfSegments(withControlPoints) + kDigestBytes));
     out.unsignedNumber(static_cast<std::uint8_t>(repertoire.species.size()));
     out.characters(repertoire.species);
     out.float32(repertoire.recordedLengthMetres);
     SpeedResponse response = repertoire.response;
     for (const float* number : numbersOf(response)) out.float32(*number);
-    out.unsignedNumber(static_cast<std::uint8_t>(withControlPoints));
+    out.unsignedNumber(static_cast<std::uint32_t>(withControlPoints));
     for (std::size_t action = 0; action < kCapturedActions; ++action)
         writeSegment(out, repertoire.segments[action]);
     out.characters(digestOf(out.written()).bytes);

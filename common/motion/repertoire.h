@@ -91,11 +91,30 @@ class ByteReader {
 inline constexpr int kPhases = 64;
 
 // The order of the segments in every repertoire: an action is its index there. The numbers are part
-// of files and of the wire.
+// of files and of the wire. Each gait swims straight on, on four curves and on two slopes.
 enum class Action : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
     ForwardFast,
+    CurveLeftWideSlow,
+    CurveLeftWideMedium,
+    CurveLeftWideFast,
+    CurveLeftTightSlow,
+    CurveLeftTightMedium,
+    CurveLeftTightFast,
+    CurveRightWideSlow,
+    CurveRightWideMedium,
+    CurveRightWideFast,
+    CurveRightTightSlow,
+    CurveRightTightMedium,
+    CurveRightTightFast,
+    ClimbSlow,
+    ClimbMedium,
+    ClimbFast,
+    DiveSlow,
+    DiveMedium,
+    DiveFast,
+    Retreat,
     TurnLeftGradual,
     TurnLeftSharp,
     TurnRightGradual,
@@ -103,10 +122,44 @@ enum class Action : std::uint8_t {
     Glide,
 };
 // All but the last are captured; the first kForwardGaits of them are gaits.
-inline constexpr int kCapturedActions = 7;
-inline constexpr int kActions = 8;
+inline constexpr int kCapturedActions = 26;
+inline constexpr int kActions = 27;
 inline constexpr int kForwardGaits = 3;
+// The first kSwimmingActions beat the tail: a gait straight on, on a curve or on a slope. Action a
+// of them is of gait a % kForwardGaits.
+inline constexpr int kSwimmingActions = 21;
 [[nodiscard]] const char* nameOf(Action action);  // "forward_slow", ...
+
+[[nodiscard]] constexpr std::size_t indexOf(Action action) {
+    return static_cast<std::size_t>(action);
+}
+// Straight on, on a curve or on a slope.
+[[nodiscard]] constexpr bool swims(Action action) {
+    return action < Action::Retreat;
+}
+// Straight on.
+[[nodiscard]] constexpr bool isForward(Action action) {
+    return action <= Action::ForwardFast;
+}
+[[nodiscard]] constexpr bool isCurve(Action action) {
+    return action >= Action::CurveLeftWideSlow && action <= Action::CurveRightTightFast;
+}
+[[nodiscard]] constexpr bool isSlope(Action action) {
+    return action >= Action::ClimbSlow && action <= Action::DiveFast;
+}
+// A turn is played from its first phase to its last; the other actions are cycles.
+[[nodiscard]] constexpr bool isTurn(Action action) {
+    return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
+}
+// The gait of an action that swims; medium for every other.
+[[nodiscard]] constexpr Action gaitOf(Action action) {
+    return swims(action) ? static_cast<Action>(indexOf(action) % kForwardGaits)
+                         : Action::ForwardMedium;
+}
+// A gait on the curve or slope of which `slow` is the action at the slow gait.
+[[nodiscard]] constexpr Action atGait(Action slow, Action gait) {
+    return static_cast<Action>(indexOf(slow) + indexOf(gait));
+}
 
 // The change of the body frame from one phase to the next, in the body frame at its start: B' = B *
 // increment (eq. 6 and 7, corrected: the rotation is one of the body frame, R' = R * rotation).
@@ -143,9 +196,12 @@ struct ActionSegment {
 // in both, fins that are spread to a share s also brake by s * brakeRate * v. (The paper leaves
 // this open; the law is ours.)
 struct SpeedResponse {
-    std::array<float, kForwardGaits> swimDrag{};  // 1 / body length; turns have that of medium
-    float glideDrag = 0.0F;                       // 1 / body length
-    float brakeRate = 0.0F;                       // 1 / s
+    // 1 / body length. Turns have that of medium. On a curve or slope the gait's times (q / p)^2,
+    // where q is its speed straight on: the thrust is the same and the drag of the body is more.
+    std::array<float, kForwardGaits> swimDrag{};
+    float retreatDrag = 0.0F;  // 1 / body length
+    float glideDrag = 0.0F;    // 1 / body length
+    float brakeRate = 0.0F;    // 1 / s
 };
 
 // All segments of a species, by Action. Read only once it is complete.
@@ -153,7 +209,7 @@ struct Repertoire {
     std::string species;
     float recordedLengthMetres = 0.0F;
     SpeedResponse response;
-    std::array<ActionSegment, kActions> segments{};
+    std::vector<ActionSegment> segments{kActions};
 };
 
 // Fills in Action::Glide, which is not captured: the relaxed pose in which a gradual turn ends,

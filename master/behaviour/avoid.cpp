@@ -92,7 +92,7 @@ namespace {
 // About the tangent of 12 degrees: a push nearer to straight back says nothing about a side.
 constexpr float kHeadOn = 0.2F;
 
-// A push of this strength straight back makes the fish want to stop.
+// A push of this strength straight back makes the fish want to stop, a stronger one to back out.
 constexpr float kStopsAt = 3.0F;
 
 // Side to take where the push prefers none: towards the middle of the water.
@@ -127,7 +127,7 @@ fish::Course avoidObstacle(const Situation& situation, const fish::Mind& mind) {
     // A fish in the way of the submarine must not stop.
     const float pace = senses.hurry > 0
                            ? parameters.slow + (parameters.fast - parameters.slow) * senses.hurry
-                           : parameters.slow * std::max(0.0F, 1 - back / kStopsAt);
+                           : parameters.slow * std::max(-1.0F, 1 - back / kStopsAt);
     return heading(situation, senses.heading + roomFrom(situation), pace);
 }
 

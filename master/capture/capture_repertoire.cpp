@@ -59,64 +59,116 @@ void ProgressBar::show(double share, const std::string& note) {
 
 namespace {
 
-// Capture. A species has six jobs in two groups of three. Jobs 0 to 2 simulate its gaits; jobs 3 to
-// 5, the gradual turn, the sharp turn and the speed response, start from those gaits. Within a
-// group the jobs are independent of one another, so they run in parallel.
+// Capture. A species has jobs in two groups. The first simulates what it does steadily: each gait
+// straight on, on two curves and on a loop upwards, and the retreat. The second, the two turns and
+// the speed response, starts from the gaits. Within a group the jobs are independent of one
+// another, so they run in parallel.
 
-constexpr std::size_t kGaits = 3;  // slow, medium, fast
-constexpr std::size_t kJobs = 2 * kGaits;
+constexpr std::size_t kGaits = motion::kForwardGaits;  // slow, medium, fast
+enum class Way : std::uint8_t { Straight, WideCurve, TightCurve, Loop };
+constexpr std::size_t kWays = 4;
+constexpr std::size_t kRetreatJob =
+    kGaits * kWays;  // job i before it: gait i % kGaits, way i / kGaits
+constexpr std::size_t kSteadyJobs = kRetreatJob + 1;
+constexpr std::size_t kLaterJobs = 3;
+constexpr std::size_t kJobs = kSteadyJobs + kLaterJobs;
+
+// Of Order. Found by trials: a fish of any species swims a wide curve in NN to NN seconds.
+constexpr double kWideCurve = 0.2;
+constexpr double kTightCurve = 0.4;
+constexpr double kLoopLiftRadians = 0.2;
 
 // The results of one species' jobs. Each job writes its own member only, so no lock is needed.
 struct Swum {
-    std::array<std::optional<SteadySwimming>, kGaits> forward;
+    std::array<std::optional<SteadySwimming>, kSteadyJobs> steady;
     std::array<RecordedCycle, 2> leftTurn;  // gradual, sharp
     motion::SpeedResponse response;
     std::array<std::string, kJobs> errors;  // of each job
+
+    [[nodiscard]] const RecordedCycle& beat(std::size_t gait, Way way) const {
+        return steady.at(static_cast<std::size_t>(way) * kGaits + gait)->beat;
+    }
 };
 
-// Throws Error where the simulation fails. A job of the second group does nothing when a gait is
-// missing; the error of that gait is reported instead.
+Order orderOf(const config::Species& species, std::size_t job) {
+    if (job == kRetreatJob) return retreatOf(species);
+    const config::Swim& swim = species.swim;
+    Order order{.controller = Controller::ForwardSwim,
+                .gait = *std::array{&swim.slow, &swim.medium, &swim.fast}.at(job % kGaits)};
+    switch (static_cast<Way>(job / kGaits)) {
+        case Way::Straight:
+            break;
+        case Way::WideCurve:
+            order.curve = kWideCurve;
+            break;
+        case Way::TightCurve:
+            order.curve = kTightCurve;
+            break;
+        case Way::Loop:
+            order.liftRadians = kLoopLiftRadians;
+            break;
+    }
+    return order;
+}
+
+// Throws Error where the simulation fails. A job of the second group does nothing when one of the
+// first has failed; the error of that one is reported instead.
 void runJob(const config::Species& species, std::size_t job, Swum& swum) {
     assert(job < kJobs);
-    const auto& [slow, medium, fast] = swum.forward;
-    const config::Swim& swim = species.swim;
-    const std::array gaits{&swim.slow, &swim.medium, &swim.fast};
-    if (job < kGaits)
-        swum.forward.at(job) = swimUntilSteady(species, *gaits.at(job));
-    else if (!slow || !medium || !fast)
+    if (job < kSteadyJobs) {
+        swum.steady.at(job) = swimUntilSteady(species, orderOf(species, job));
         return;
-    else if (job == 3)
-        swum.leftTurn[0] = recordTypicalLeftTurn(species, *medium, species.turn.gradual);
-    else if (job == 4)
-        swum.leftTurn[1] = recordTypicalLeftTurn(species, *medium, species.turn.sharp);
+    }
+    if (!std::ranges::all_of(swum.steady, [](const auto& steady) { return steady.has_value(); }))
+        return;
+    const auto steady = [&](std::size_t first) -> const SteadySwimming& {
+        return *swum.steady.at(first);
+    };
+    if (job == kSteadyJobs)
+        swum.leftTurn[0] = recordTypicalLeftTurn(species, steady(1), species.turn.gradual);
+    else if (job == kSteadyJobs + 1)
+        swum.leftTurn[1] = recordTypicalLeftTurn(species, steady(1), species.turn.sharp);
     else
-        swum.response = fitResponse(swimTransitions(species, {&*slow, &*medium, &*fast}));
+        swum.response = fitResponse(
+            swimTransitions(species, {&steady(0), &steady(1), &steady(2)}, steady(kRetreatJob)));
+}
+
+// The segments of one gait: those to the right and downwards are mirror images.
+void compileGait(const Swum& swum, std::size_t gait, motion::Repertoire& repertoire) {
+    using motion::Action;
+    const auto segment = [&](Action slow) -> motion::ActionSegment& {
+        return repertoire.segments.at(indexOf(atGait(slow, static_cast<Action>(gait))));
+    };
+    segment(Action::ForwardSlow) = compileForward(swum.beat(gait, Way::Straight));
+    segment(Action::CurveLeftWideSlow) = compileCurve(swum.beat(gait, Way::WideCurve));
+    segment(Action::CurveLeftTightSlow) = compileCurve(swum.beat(gait, Way::TightCurve));
+    segment(Action::CurveRightWideSlow) = mirroredLeftRight(segment(Action::CurveLeftWideSlow));
+    segment(Action::CurveRightTightSlow) = mirroredLeftRight(segment(Action::CurveLeftTightSlow));
+    segment(Action::ClimbSlow) = compileSlope(swum.beat(gait, Way::Loop));
+    segment(Action::DiveSlow) = mirroredTopBottom(segment(Action::ClimbSlow));
 }
 
 // From recordings to a repertoire; right turns are the mirror images of the left ones, the glide is
 // derived from the captured segments. All jobs of the species must have succeeded.
 motion::Repertoire compile(const config::Species& species, const Swum& swum) {
-    assert(swum.forward[0]);
-    assert(swum.forward[1]);
-    assert(swum.forward[2]);
+    using motion::Action;
     const body::FishBody body = body::makeBody(species);
     motion::Repertoire repertoire;
     repertoire.species = species.name;
     repertoire.recordedLengthMetres = body.typicalLengthMetres;
     repertoire.response = swum.response;
-    const auto segment = [&](motion::Action action) -> motion::ActionSegment& {
-        return repertoire.segments.at(static_cast<std::size_t>(action));
+    const auto segment = [&](Action action) -> motion::ActionSegment& {
+        return repertoire.segments.at(indexOf(action));
     };
-    segment(motion::Action::ForwardSlow) = compileForward(swum.forward[0]->beat);
-    segment(motion::Action::ForwardMedium) = compileForward(swum.forward[1]->beat);
-    segment(motion::Action::ForwardFast) = compileForward(swum.forward[2]->beat);
-    segment(motion::Action::TurnLeftGradual) = compileLeftTurn(swum.leftTurn[0]);
-    segment(motion::Action::TurnLeftSharp) = compileLeftTurn(swum.leftTurn[1]);
-    segment(motion::Action::TurnRightGradual) = compileRightTurn(swum.leftTurn[0]);
-    segment(motion::Action::TurnRightSharp) = compileRightTurn(swum.leftTurn[1]);
+    for (std::size_t gait = 0; gait < kGaits; ++gait) compileGait(swum, gait, repertoire);
+    segment(Action::Retreat) = compileForward(swum.steady.at(kRetreatJob)->beat);
+    segment(Action::TurnLeftGradual) = compileLeftTurn(swum.leftTurn[0]);
+    segment(Action::TurnLeftSharp) = compileLeftTurn(swum.leftTurn[1]);
+    segment(Action::TurnRightGradual) = mirroredLeftRight(segment(Action::TurnLeftGradual));
+    segment(Action::TurnRightSharp) = mirroredLeftRight(segment(Action::TurnLeftSharp));
     if (species.recordsControlPoints)
         for (int action = 0; action < motion::kCapturedActions; ++action)
-            addControlPoints(body, segment(static_cast<motion::Action>(action)));
+            addControlPoints(body, segment(static_cast<Action>(action)));
     motion::addGlide(repertoire);
     return repertoire;
 }
@@ -158,9 +210,11 @@ std::vector<CaptureOutcome> captureRepertoires(const std::vector<config::Species
     // The pool's jobs may not throw: runOne() keeps each error. The second group starts when all
     // jobs of the first have ended, of every species.
     WorkerPool pool(run.threads);
-    for (const std::size_t first : {std::size_t{0}, kGaits})
-        pool.run(kGaits * species.size(),
-                 [&](std::size_t i) { runOne(first + i / species.size(), i % species.size()); });
+    for (const auto& [first, jobs] :
+         {std::pair{std::size_t{0}, kSteadyJobs}, std::pair{kSteadyJobs, kLaterJobs}})
+        pool.run(jobs * species.size(), [&, first](std::size_t i) {
+            runOne(first + i / species.size(), i % species.size());
+        });
 
     std::vector<CaptureOutcome> outcomes(species.size());
     pool.run(species.size(), [&](std::size_t i) { outcomes[i] = outcomeOf(species[i], swum[i]); });
@@ -227,8 +281,8 @@ namespace {
 
 // Part of every key: raise it when a change of the simulation or of the compilation changes the
 // repertoires.
-constexpr const char* kCaptureVersion = "aquarama capture 4\n";
-constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 1.2 MB
+constexpr const char* kCaptureVersion = "aquarama capture 5\n";
+constexpr std::uintmax_t kMostBytes = 64U << 20U;  // a repertoire takes 5 MB
 
 // SPECIES-DIGEST.aqrep. The digest covers only the parts of the species file that influence motion:
 // a change of colours or habits does not capture again.

@@ -19,33 +19,37 @@ constexpr std::size_t kCount = motion::kPhases;
 // The swimming pose at the start of a turn is faded out over this share of the turn.
 constexpr double kEntryShare = 0.2;
 
-// The fish and its muscles are symmetric top to bottom, so the exact motion lies in a plane and the
-// body frame only yaws. Pitch, roll and climb in a recording are rounding errors. They are removed
-// here; else they would add up over hours of repetition.
-struct PlanarMotion {
+// One cycle as a fish swam it. Lengths are body lengths.
+struct FrameMotion {
     double periodSeconds = 0;
     bool playsToEnd = false;
-    double yawOffCourse = 0;           // of the first pose, left positive, radians
-    std::array<double, kCount> yaw{};  // from phase k to k + 1, left positive, radians
-    // From phase k to k + 1, in the body frame at phase k, body lengths; y is zero.
+    double yawOffCourse = 0;  // of the first pose, left positive, radians
+    // From phase k to k + 1, in the body frame at phase k.
+    std::array<glm::dquat, kCount> rotation{};
     std::array<glm::dvec3, kCount> translation{};
-    std::array<NodeVectors, kCount + 1> poses{};  // in the body frame, body lengths
+    std::array<NodeVectors, kCount + 1> poses{};  // in the body frame
 };
 
-// The mirror image of a pose: `partner` gives the node that takes a node's place, `signs` is -1 for
-// the coordinate that is reversed and 1 for the others.
-NodeVectors mirrored(const NodeVectors& pose, int (*partner)(int), const glm::dvec3& signs) {
+// A reflection in a plane through the body axis: `partner` gives the node that takes a node's
+// place, `signs` is -1 for the coordinate that is reversed and 1 for the others.
+struct Mirror {
+    int (*partner)(int);
+    glm::dvec3 signs;
+};
+constexpr Mirror kLeftRight{mirroredLeftRight, {1, 1, -1}};
+constexpr Mirror kTopBottom{mirroredTopBottom, {1, -1, 1}};
+
+NodeVectors reflected(const NodeVectors& pose, const Mirror& mirror) {
     NodeVectors image{};
     for (int i = 0; i < body::kNodalPoints; ++i)
         image.at(static_cast<std::size_t>(i)) =
-            signs * pose.at(static_cast<std::size_t>(partner(i)));
+            mirror.signs * pose.at(static_cast<std::size_t>(mirror.partner(i)));
     return image;
 }
-NodeVectors swappedLeftRight(const NodeVectors& pose) {
-    return mirrored(pose, mirroredLeftRight, {1, 1, -1});
-}
-NodeVectors swappedTopBottom(const NodeVectors& pose) {
-    return mirrored(pose, mirroredTopBottom, {1, -1, 1});
+
+// A rotation turns the other way about the axes that lie in the plane.
+glm::dquat reflected(const glm::dquat& q, const Mirror& mirror) {
+    return {q.w, -mirror.signs.x * q.x, -mirror.signs.y * q.y, -mirror.signs.z * q.z};
 }
 
 NodeVectors blended(const NodeVectors& a, const NodeVectors& b, double shareOfB) {
@@ -56,42 +60,47 @@ NodeVectors blended(const NodeVectors& a, const NodeVectors& b, double shareOfB)
 
 // Eq. 6-8, with the rotation in the body frame: R' = R * dR (the paper's eq. 6 is in world axes,
 // which is right only for a fish that swims level).
-PlanarMotion planarMotionOf(const RecordedCycle& recording) {
+FrameMotion frameMotionOf(const RecordedCycle& recording) {
     assert(recording.poses.size() == kCount + 1);
-    PlanarMotion motion{.periodSeconds = recording.periodSeconds,
-                        .playsToEnd = recording.playsToEnd,
-                        .yawOffCourse = yawRadians(
-                            recording.course, frameOf(recording.poses.front()).worldFromBody[0])};
-    for (std::size_t k = 0; k <= kCount; ++k) {
-        const NodeVectors pose = inBodyFrame(recording.poses.at(k));
-        motion.poses.at(k) = blended(pose, swappedTopBottom(pose), 0.5);
-    }
+    FrameMotion motion{.periodSeconds = recording.periodSeconds,
+                       .playsToEnd = recording.playsToEnd,
+                       .yawOffCourse = yawRadians(
+                           recording.course, frameOf(recording.poses.front()).worldFromBody[0])};
+    for (std::size_t k = 0; k <= kCount; ++k)
+        motion.poses.at(k) = inBodyFrame(recording.poses.at(k));
     for (std::size_t k = 0; k < kCount; ++k) {
         const PoseFrame now = frameOf(recording.poses.at(k));
         const PoseFrame next = frameOf(recording.poses.at(k + 1));
         const glm::dmat3 bodyFromWorld = glm::transpose(now.worldFromBody);
-        motion.yaw.at(k) = yawRadians(now.worldFromBody[0], next.worldFromBody[0]);
-        motion.translation.at(k) =
-            glm::dvec3(1, 0, 1) * (bodyFromWorld * (next.origin - now.origin));
+        motion.rotation.at(k) = glm::normalize(glm::quat_cast(bodyFromWorld * next.worldFromBody));
+        motion.translation.at(k) = bodyFromWorld * (next.origin - now.origin);
     }
     return motion;
 }
 
-// In straight swimming the second half of a beat is the mirror image of the first. The mean of each
-// phase and of the mirror image half a beat later has this symmetry exactly, so that a cycle
-// neither turns nor drifts to a side.
-PlanarMotion straightened(const PlanarMotion& motion) {
-    PlanarMotion straight = motion;
+// The mean of each phase and of the mirror image `later` phases on. A motion that has this symmetry
+// then has it exactly; else the rounding errors of the simulation would add up over hours of
+// repetition, and the fish would turn, drift, lean or climb.
+FrameMotion symmetric(const FrameMotion& motion, const Mirror& mirror, std::size_t later) {
+    FrameMotion even = motion;
+    const auto afterwards = [&](std::size_t k) { return later == 0 ? k : (k + later) % kCount; };
+    for (std::size_t k = 0; k <= kCount; ++k)
+        even.poses.at(k) =
+            blended(motion.poses.at(k), reflected(motion.poses.at(afterwards(k)), mirror), 0.5);
     for (std::size_t k = 0; k < kCount; ++k) {
-        const std::size_t half = (k + kCount / 2) % kCount;
-        straight.yaw.at(k) = (motion.yaw.at(k) - motion.yaw.at(half)) / 2;
-        straight.translation.at(k) =
-            (motion.translation.at(k) + glm::dvec3(1, 1, -1) * motion.translation.at(half)) / 2.0;
-        straight.poses.at(k) =
-            blended(motion.poses.at(k), swappedLeftRight(motion.poses.at(half)), 0.5);
+        const std::size_t other = afterwards(k);
+        even.rotation.at(k) =
+            glm::normalize(motion.rotation.at(k) + reflected(motion.rotation.at(other), mirror));
+        even.translation.at(k) =
+            (motion.translation.at(k) + mirror.signs * motion.translation.at(other)) / 2.0;
     }
-    straight.poses.back() = straight.poses.front();
-    return straight;
+    return even;
+}
+FrameMotion planar(const FrameMotion& motion) {
+    return symmetric(motion, kTopBottom, 0);
+}
+FrameMotion straightened(const FrameMotion& motion) {
+    return symmetric(motion, kLeftRight, kCount / 2);
 }
 
 // The weight of the correction at a phase: 1 at phase 0, falling smoothly to 0 at kEntryShare of
@@ -105,28 +114,21 @@ double fadeAt(std::size_t k) {
 // ends straight. The correction makes the first pose equal to the last one and the first heading
 // equal to the course. It fades out over kEntryShare. So the segment is closed, and its total yaw
 // is the change of course.
-PlanarMotion fadedIn(const PlanarMotion& motion) {
-    PlanarMotion result = motion;
+FrameMotion fadedIn(const FrameMotion& motion) {
+    constexpr glm::dvec3 kUp{0, 1, 0};
+    FrameMotion result = motion;
     for (std::size_t k = 0; k <= kCount; ++k) {
         for (std::size_t i = 0; i < std::size_t{body::kNodalPoints}; ++i)
             result.poses.at(k).at(i) +=
                 fadeAt(k) * (motion.poses.back().at(i) - motion.poses.front().at(i));
         if (k == kCount) break;
-        result.yaw.at(k) += motion.yawOffCourse * (fadeAt(k) - fadeAt(k + 1));
+        result.rotation.at(k) =
+            motion.rotation.at(k) *
+            glm::angleAxis(motion.yawOffCourse * (fadeAt(k) - fadeAt(k + 1)), kUp);
         result.translation.at(k) =
-            glm::angleAxis(motion.yawOffCourse * fadeAt(k), glm::dvec3(0, 1, 0)) *
-            motion.translation.at(k);
+            glm::angleAxis(motion.yawOffCourse * fadeAt(k), kUp) * motion.translation.at(k);
     }
     return result;
-}
-
-// Left and right exchanged: a left turn becomes a right one.
-PlanarMotion mirrored(const PlanarMotion& motion) {
-    PlanarMotion mirror = motion;
-    for (double& yaw : mirror.yaw) yaw = -yaw;
-    for (glm::dvec3& translation : mirror.translation) translation.z = -translation.z;
-    for (NodeVectors& pose : mirror.poses) pose = swappedLeftRight(pose);
-    return mirror;
 }
 
 // To units of kPoseUnit. The comparison is written so that NaN throws too.
@@ -151,31 +153,58 @@ body::NodalPoints nodesOf(const motion::NodalPose& pose) {
     return nodes;
 }
 
-motion::ActionSegment segmentOf(const PlanarMotion& motion) {
+motion::ActionSegment segmentOf(const FrameMotion& motion) {
     motion::ActionSegment segment;
     segment.periodSeconds = static_cast<float>(motion.periodSeconds);
     segment.playsToEnd = motion.playsToEnd;
     for (std::size_t k = 0; k < kCount; ++k) {
-        segment.increments.at(k) = {
-            glm::quat(glm::angleAxis(motion.yaw.at(k), glm::dvec3(0, 1, 0))),
-            glm::vec3(motion.translation.at(k))};
+        segment.increments.at(k) = {glm::quat(motion.rotation.at(k)),
+                                    glm::vec3(motion.translation.at(k))};
         std::ranges::transform(motion.poses.at(k), segment.nodes.at(k).begin(), quantised);
     }
     return segment;
 }
 
+motion::ActionSegment reflected(const motion::ActionSegment& segment, const Mirror& mirror) {
+    motion::ActionSegment image = segment;
+    for (motion::FrameIncrement& step : image.increments) {
+        step.rotation = glm::quat(reflected(glm::dquat(step.rotation), mirror));
+        step.translation *= glm::vec3(mirror.signs);
+    }
+    for (std::size_t k = 0; k < kCount; ++k)
+        for (int i = 0; i < body::kNodalPoints; ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                image.nodes.at(k).at(static_cast<std::size_t>(i)).at(c) = static_cast<std::int16_t>(
+                    mirror.signs[static_cast<int>(c)] *
+                    segment.nodes.at(k).at(static_cast<std::size_t>(mirror.partner(i))).at(c));
+    image.controlPoints.clear();
+    return image;
+}
+
 }  // namespace
 
 motion::ActionSegment compileForward(const RecordedCycle& recording) {
-    return segmentOf(straightened(planarMotionOf(recording)));
+    return segmentOf(straightened(planar(frameMotionOf(recording))));
+}
+
+motion::ActionSegment compileCurve(const RecordedCycle& recording) {
+    return segmentOf(planar(frameMotionOf(recording)));
+}
+
+motion::ActionSegment compileSlope(const RecordedCycle& recording) {
+    return segmentOf(straightened(frameMotionOf(recording)));
 }
 
 motion::ActionSegment compileLeftTurn(const RecordedCycle& recording) {
-    return segmentOf(fadedIn(planarMotionOf(recording)));
+    return segmentOf(fadedIn(planar(frameMotionOf(recording))));
 }
 
-motion::ActionSegment compileRightTurn(const RecordedCycle& leftTurn) {
-    return segmentOf(mirrored(fadedIn(planarMotionOf(leftTurn))));
+motion::ActionSegment mirroredLeftRight(const motion::ActionSegment& segment) {
+    return reflected(segment, kLeftRight);
+}
+
+motion::ActionSegment mirroredTopBottom(const motion::ActionSegment& segment) {
+    return reflected(segment, kTopBottom);
 }
 
 void addControlPoints(const body::FishBody& body, motion::ActionSegment& segment) {

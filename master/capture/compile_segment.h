@@ -30,12 +30,23 @@ struct RecordedCycle {
 }
 
 // The segment of a recording: body-frame increments (eq. 6, 7) and deformations (eq. 8), without
-// control points. It is closed: repeated any number of times it neither jumps nor drifts. A right
-// turn is compiled from a recorded left one. All throw Error where a nodal point is farther from
-// the body frame's origin, along an axis, than a body length, which 16 bits cannot hold.
+// control points. It is closed: repeated any number of times it neither jumps nor drifts. A
+// symmetry that the exact motion has is given to it. All throw Error where a nodal point is farther
+// from the body frame's origin, along an axis, than a body length, which 16 bits cannot hold.
+//
+// Straight on or backwards: the motion lies in a horizontal plane, and half a beat later it is its
+// mirror image.
 [[nodiscard]] motion::ActionSegment compileForward(const RecordedCycle& recording);
+// On a curve: the motion lies in a horizontal plane.
+[[nodiscard]] motion::ActionSegment compileCurve(const RecordedCycle& recording);
+// On a slope: half a beat later the motion is its mirror image, left and right exchanged.
+[[nodiscard]] motion::ActionSegment compileSlope(const RecordedCycle& recording);
 [[nodiscard]] motion::ActionSegment compileLeftTurn(const RecordedCycle& recording);
-[[nodiscard]] motion::ActionSegment compileRightTurn(const RecordedCycle& leftTurn);
+
+// A segment with left and right exchanged, or top and bottom: the fish and its muscles have both
+// symmetries, so its motions have them too. Control points are not exchanged: add them afterwards.
+[[nodiscard]] motion::ActionSegment mirroredLeftRight(const motion::ActionSegment& segment);
+[[nodiscard]] motion::ActionSegment mirroredTopBottom(const motion::ActionSegment& segment);
 
 // Adds the control points that belong to the nodal points of each phase (eq. 9).
 void addControlPoints(const body::FishBody& body, motion::ActionSegment& segment);

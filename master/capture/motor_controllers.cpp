@@ -60,17 +60,19 @@ MuscleActivation mirrored(const MuscleActivation& muscles) {
             .backRight = muscles.backLeft};
 }
 
-// Left and right of a segment always add up to the drive: one side relaxes as the other contracts.
-MuscleActivation beatAt(const config::Swim& swim, double gain, double beat) {
+// Straight on, left and right of a segment always add up to the drive: one side relaxes as the
+// other contracts.
+MuscleActivation beatAt(const config::Swim& swim, double gain, double beat, double curve) {
+    assert(std::abs(curve) <= 1);
     const double phase = 2 * std::numbers::pi * beat;
     const double middle = (1 + std::sin(phase)) / 2;
     const double back = (1 + std::sin(phase - swim.backLagRadians)) / 2;
     const double middleDrive = swim.middleDrive * gain;
     const double backDrive = swim.backDrive * gain;
-    return {.middleLeft = middleDrive * middle,
-            .middleRight = middleDrive * (1 - middle),
-            .backLeft = backDrive * back,
-            .backRight = backDrive * (1 - back)};
+    return {.middleLeft = (1 + curve) * middleDrive * middle,
+            .middleRight = (1 - curve) * middleDrive * (1 - middle),
+            .backLeft = (1 + curve) * backDrive * back,
+            .backRight = (1 - curve) * backDrive * (1 - back)};
 }
 
 MuscleActivation bendLeft(const config::Bend& bend, double ownSeconds) {
@@ -128,6 +130,10 @@ PectoralFins hold(const BodyAngles& attitude, double pitchRadians) {
     const double lift = bounded(kPitchGain * (pitchRadians - attitude.pitchRadians));
     const double level = bounded(kRollGain * attitude.rollRadians);
     return {.left = at(kFlat + lift + level), .right = at(kFlat + lift - level)};
+}
+
+PectoralFins lift(double radians) {
+    return {.left = at(kFlat + radians), .right = at(kFlat + radians)};
 }
 
 PectoralFins brake() {

@@ -19,8 +19,12 @@ namespace aquarama::capture {
 // Swimming at a phase of the beat, in beats: of `beat` only the fraction counts. Middle and back
 // muscles contract left and right in turn, as sines. The back ones follow later by
 // swim.backLagRadians, so that a wave travels down the body (Tu 1996, swim-MC). The activations are
-// proportional to `gain` and are not clamped here.
-[[nodiscard]] MuscleActivation beatAt(const config::Swim& swim, double gain, double beat);
+// proportional to `gain` and are not clamped here. On a curve, those of the left are 1 + curve
+// times as strong and those of the right 1 - curve times.
+[[nodiscard]] MuscleActivation beatAt(const config::Swim& swim,
+                                      double gain,
+                                      double beat,
+                                      double curve = 0);
 
 // A bend of the whole body to the left, at a time since the order. The muscles contract quickly and
 // relax slowly, so that the body straightens without undoing the turn (Tu & Terzopoulos 1994,
@@ -44,6 +48,10 @@ inline constexpr double kRampOwnSeconds = 1;
 // by the error of the pitch, and in opposite directions by the roll (the force law of the fins is
 // Tu & Terzopoulos 1994's; this feedback is ours).
 [[nodiscard]] PectoralFins hold(const BodyAngles& attitude, double pitchRadians);
+
+// Both fins at the same angle from parallel to the flow: the head of a fish that swims forward is
+// lifted by a positive one.
+[[nodiscard]] PectoralFins lift(double radians);
 
 // Both fins perpendicular to the flow (Tu & Terzopoulos 1994, brake-MC).
 [[nodiscard]] PectoralFins brake();

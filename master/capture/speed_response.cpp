@@ -74,14 +74,14 @@ double differenceOf(const RecordedCycle& beat, const RecordedCycle& next) {
 }
 
 // The step divides the beat exactly, so that poses of the same phase can be compared.
-SteadySwimming swimUntilSteady(const config::Species& species, const config::Gait& gait) {
-    assert(gait.beatHertz > 0);
-    const double periodSeconds = 1 / gait.beatHertz;
+SteadySwimming swimUntilSteady(const config::Species& species, const Order& order) {
+    assert(order.gait.beatHertz > 0);
+    const double periodSeconds = 1 / order.gait.beatHertz;
     const int steps = stepsPerPhaseOf(species, periodSeconds);
     SteadySwimming steady{.swimmer = Swimmer(species, periodSeconds / (motion::kPhases * steps)),
                           .beat = {},
                           .stepsPerPhase = steps};
-    steady.swimmer.give({.controller = Controller::ForwardSwim, .gait = gait});
+    steady.swimmer.give(order);
     steady.beat = recordBeat(steady.swimmer, periodSeconds, steps);
     for (steady.beats = 2; steady.beats <= kMostBeats; ++steady.beats) {
         RecordedCycle next = recordBeat(steady.swimmer, periodSeconds, steps);
@@ -90,7 +90,15 @@ SteadySwimming swimUntilSteady(const config::Species& species, const config::Gai
         if (difference <= kRepeatsBodyLengths) return steady;
         if (std::isnan(difference)) break;
     }
-    refuse(species, gait);
+    refuse(species, order.gait);
+}
+
+SteadySwimming swimUntilSteady(const config::Species& species, const config::Gait& gait) {
+    return swimUntilSteady(species, {.controller = Controller::ForwardSwim, .gait = gait});
+}
+
+Order retreatOf(const config::Species& species) {
+    return {.controller = Controller::Retreat, .gait = species.swim.slow};
 }
 
 namespace {
@@ -134,51 +142,62 @@ Transition coast(const SteadySwimming& from,
     return transition;
 }
 
-// From one gait to another, a sample a step. A sample is the mean speed over a beat of `to` around
-// it: the distance of the places half a beat before and after, by time. For the first samples the
-// half beat before the order is extrapolated from the steady speed of `from`.
-Transition changeGait(const SteadySwimming& from,
-                      const SteadySwimming& to,
-                      const config::Gait& gait,
-                      const Masses& masses) {
+// From one gait to another or to a retreat, a sample a step. A sample is the mean speed over a beat
+// of `to` around it, along the course of `from`: from the place half a beat before to that half a
+// beat after, by time. For the first samples the half beat before the order is extrapolated from
+// the steady speed of `from`.
+Transition changeTo(const SteadySwimming& to,
+                    const SteadySwimming& from,
+                    const Order& order,
+                    const Masses& masses) {
     Swimmer swimmer = from.swimmer;
-    swimmer.give({.controller = Controller::ForwardSwim, .gait = gait});
+    swimmer.give(order);
     const double step = swimmer.stepSeconds();
     const auto halfBeat = static_cast<std::size_t>(std::lround(to.beat.periodSeconds / step / 2));
-    const glm::dvec3 course = meanVelocityOf(from.beat);
+    const glm::dvec3 velocity = meanVelocityOf(from.beat);
+    const glm::dvec3 course = glm::normalize(velocity);
     const glm::dvec3 start = meanOf(swimmer.state().positions, masses);
     // Centres of mass, from half a beat before the order on.
     std::vector<glm::dvec3> places;
     for (std::size_t back = halfBeat; back > 0; --back)
-        places.push_back(start - course * (step * static_cast<double>(back)));
+        places.push_back(start - velocity * (step * static_cast<double>(back)));
     for (std::size_t i = 0; i <= (2 * kSwumBeats + 1) * halfBeat; ++i) {
         places.push_back(meanOf(swimmer.state().positions, masses));
         swimmer.advance(1);
     }
+    const double steady = glm::length(meanVelocityOf(to.beat));
     Transition transition{
-        .sampleSeconds = step, .segmentSpeed = glm::length(meanVelocityOf(to.beat)), .speeds = {}};
+        .sampleSeconds = step,
+        .segmentSpeed = order.controller == Controller::Retreat ? -steady : steady,
+        .speeds = {}};
     for (std::size_t i = 0; i + 2 * halfBeat < places.size(); ++i)
-        transition.speeds.push_back(glm::distance(places[i], places[i + 2 * halfBeat]) /
+        transition.speeds.push_back(glm::dot(places[i + 2 * halfBeat] - places[i], course) /
                                     (step * static_cast<double>(2 * halfBeat)));
-    transition.speeds.front() = glm::length(course);
+    transition.speeds.front() = glm::length(velocity);
     return transition;
 }
 
 }  // namespace
 
-Transitions swimTransitions(const config::Species& species, const SteadyGaits& gaits) {
+Transitions swimTransitions(const config::Species& species,
+                            const SteadyGaits& gaits,
+                            const SteadySwimming& retreat) {
     assert(std::ranges::none_of(gaits, [](const SteadySwimming* gait) { return !gait; }));
     const Masses masses = makeBiomechanicalFish(species).masses;
     const std::array orders{&species.swim.slow, &species.swim.medium, &species.swim.fast};
     const SteadySwimming& medium = *gaits[static_cast<std::size_t>(motion::Action::ForwardMedium)];
     Transitions transitions{.swim = {},
                             .glide = coast(medium, Controller::Glide, kGlidedBeats, masses),
-                            .brake = coast(medium, Controller::Brake, kBrakedBeats, masses)};
+                            .brake = coast(medium, Controller::Brake, kBrakedBeats, masses),
+                            .retreat = changeTo(retreat, medium, retreatOf(species), masses)};
     for (std::size_t to = 0; to < gaits.size(); ++to)
         for (std::size_t from = 0; from < gaits.size(); ++from)
             if (from != to)
                 transitions.swim.at(to).push_back(
-                    changeGait(*gaits.at(from), *gaits.at(to), *orders.at(to), masses));
+                    changeTo(*gaits.at(to),
+                             *gaits.at(from),
+                             {.controller = Controller::ForwardSwim, .gait = *orders.at(to)},
+                             masses));
     return transitions;
 }
 
@@ -222,6 +241,8 @@ motion::SpeedResponse fitResponse(const Transitions& transitions) {
     for (std::size_t gait = 0; gait < transitions.swim.size(); ++gait)
         response.swimDrag.at(gait) =
             static_cast<float>(fitTerm(transitions.swim.at(gait), &SpeedLaw::swimDrag, {}));
+    response.retreatDrag =
+        static_cast<float>(fitTerm({transitions.retreat}, &SpeedLaw::swimDrag, {}));
     response.brakeRate =
         static_cast<float>(fitTerm({transitions.brake}, &SpeedLaw::brakeRate, gliding));
     return response;

@@ -28,9 +28,11 @@ struct SteadySwimming {
     int beats = 0;          // from rest to the end of that beat
 };
 
-// Starts from rest. A phase has a whole number of steps, none longer than longestStepSeconds().
-// Throws Error, naming species and gait, when no beat of the first kMostBeats repeats the one
-// before.
+// Obeys the order, which has a gait, from rest on. A phase has a whole number of steps, none longer
+// than longestStepSeconds(). Throws Error, naming species and gait, when no beat of the first
+// kMostBeats repeats the one before.
+[[nodiscard]] SteadySwimming swimUntilSteady(const config::Species& species, const Order& order);
+// Straight on.
 [[nodiscard]] SteadySwimming swimUntilSteady(const config::Species& species,
                                              const config::Gait& gait);
 
@@ -41,10 +43,12 @@ struct SteadySwimming {
 // How the speed of a fish follows what it does.
 
 // A change of speed in the dynamics, from the moment of the order on. A speed is that of the centre
-// of mass along its course; while the tail beats, it is the mean over one beat around the sample.
+// of mass along the course before the order; in a beat or stroke, it is the mean over one of them
+// around the sample.
 struct Transition {
     double sampleSeconds = 0;  // from sample to sample
-    double segmentSpeed = 0;   // the steady speed that it leads to; 0 for a glide and a brake
+    // The steady speed that it leads to; 0 for a glide and a brake, negative for a retreat.
+    double segmentSpeed = 0;
     std::vector<double> speeds;
 };
 
@@ -52,11 +56,16 @@ struct Transition {
 struct Transitions {
     // To each gait from the other two.
     std::array<std::vector<Transition>, motion::kForwardGaits> swim;
-    Transition glide, brake;  // out of medium swimming
+    Transition glide, brake, retreat;  // out of medium swimming
 };
 // Slow, medium and fast, none of them null; not owned.
 using SteadyGaits = std::array<const SteadySwimming*, motion::kForwardGaits>;
-[[nodiscard]] Transitions swimTransitions(const config::Species& species, const SteadyGaits& gaits);
+[[nodiscard]] Transitions swimTransitions(const config::Species& species,
+                                          const SteadyGaits& gaits,
+                                          const SteadySwimming& retreat);
+
+// A retreat rows with the strokes of the slow gait.
+[[nodiscard]] Order retreatOf(const config::Species& species);
 
 // The law of motion::SpeedResponse while one segment plays, where v is the fish's speed and p the
 // segment's:
@@ -80,7 +89,7 @@ struct SpeedLaw {
                              const SpeedLaw& known);
 
 // swimDrag of a gait is fitted to the changes to that gait, from slower and from faster ones;
-// glideDrag to the glide; brakeRate, with that glideDrag, to the brake.
+// retreatDrag to the retreat; glideDrag to the glide; brakeRate, with that glideDrag, to the brake.
 [[nodiscard]] motion::SpeedResponse fitResponse(const Transitions& transitions);
 
 }  // namespace aquarama::capture

@@ -126,7 +126,8 @@ MuscleActivation Swimmer::muscleProgram() const {
 // beat grows over kRampOwnSeconds.
 MuscleActivation Swimmer::tailBeat(double share) const {
     const double grown = std::min(1.0, ownSecondsSwum_ / kRampOwnSeconds);
-    return beatAt(swim_, share * beating_.gain * grown, beat_);
+    const double curve = order_.controller == Controller::ForwardSwim ? order_.curve : 0;
+    return beatAt(swim_, share * beating_.gain * grown, beat_, curve);
 }
 
 PectoralFins Swimmer::finProgram() const {
@@ -142,6 +143,7 @@ PectoralFins Swimmer::finProgram() const {
         case Controller::Retreat:
             return row(beating_, beat_, attitude_, headingOfOrder_);
         case Controller::ForwardSwim:
+            return lift(order_.liftRadians);
         case Controller::LeftTurn:
         case Controller::RightTurn:
         case Controller::Glide:

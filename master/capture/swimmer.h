@@ -47,6 +47,11 @@ struct Order {
     config::Gait gait{};      // ForwardSwim, Ascend, Descend, Balance, Retreat
     config::Bend bend{};      // LeftTurn, RightTurn
     double pitchRadians = 0;  // Ascend, Descend: slope of the body axis, positive in both
+    // ForwardSwim on a curve: the left muscles pull more by this share, the right ones less.
+    double curve = 0;
+    // ForwardSwim on a loop: both pectoral fins turn by this from parallel to the flow, radians;
+    // the fish pitches up.
+    double liftRadians = 0;
 };
 
 // A simulated fish. It starts at rest at the origin with its nose towards +x. Lengths are body

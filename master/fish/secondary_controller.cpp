@@ -2,7 +2,9 @@
 #include "master/fish/secondary_controller.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
 
 #include "common/base/random_streams.h"
 #include "common/base/units.h"
@@ -19,24 +21,43 @@ Gaits gaitsOf(const motion::MotorTables& tables) {
         // A phase is 16 bits: 65536 steps are one cycle.
         const float secondsOfCycle = 65536.0F / (static_cast<float>(gaits.phaseRate[i]) *
                                                  static_cast<float>(kTicksPerSecond));
-        gaits.turn[i] = motion::recordedTurnRate(tables, action) * secondsOfCycle;
+        gaits.yawRate[i] = motion::recordedTurnRate(tables, action);
+        gaits.turn[i] = gaits.yawRate[i] * secondsOfCycle;
     }
     return gaits;
 }
 
 namespace {
 
-// Yaw errors at which turns begin. Beyond kSideIsOpen the target is nearly straight behind, and a
-// turn under way keeps its side.
-constexpr float kGradualFrom = 22.0F * kRadiansPerDegree<float>;
-constexpr float kSharpFrom = 70.0F * kRadiansPerDegree<float>;
+// Yaw errors at which turns begin. A smaller one is corrected on a curve, and so is a larger one
+// that the tight curve corrects within kCurveSeconds. Beyond kSideIsOpen the target is nearly
+// straight behind, and a turn under way keeps its side.
+constexpr float kGradualFrom = 30.0F * kRadiansPerDegree<float>;
+constexpr float kSharpFrom = 50.0F * kRadiansPerDegree<float>;
 constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree<float>;
 constexpr float kSideIsOpen = 150.0F * kRadiansPerDegree<float>;
+constexpr float kCurveSeconds = 2.0F;
 
-// Small errors are corrected by a yaw rate that is added to the played segment (MotorCommands).
+// Yaw rate by yaw error, 1 / s. The error is that at the end of the next kLeadSeconds if the fish
+// turns on as it does: the command before stands so long.
 constexpr float kYawGain = 1.6F;
-// Radians a second. A larger error is corrected by a turn segment instead.
-constexpr float kMostYaw = 30.0F * kRadiansPerDegree<float>;
+constexpr float kLeadSeconds =
+    static_cast<float>(kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
+// The most yaw that is added to what a segment turns (MotorCommands::yawRate): a share of the rate
+// of the tight curve of its gait, for any segment.
+constexpr float kMostAdded = 0.1F;
+// A hovering fish is turned by its fins, radians a second.
+constexpr float kMostHoverYaw = 30.0F * kRadiansPerDegree<float>;
+// A curve is left for another where that is nearer to the wanted rate by this share of the tight
+// curve's.
+constexpr float kCurveHysteresis = 0.05F;
+// Levels of a command. Within three quarters of a level the command before stands.
+constexpr float kStay = 0.75F;
+constexpr float kRateLevel = 1.0F / 32.0F;  // of the recorded phase rate
+constexpr float kYawLevel = 2.5F * kRadiansPerDegree<float>;
+constexpr float kPitchLevel = 1.0F / 32.0F;  // of the sine
+constexpr float kBrakeLevel = 1.0F / 8.0F;   // of full braking
+
 constexpr float kRadiansOfYawUnit = 1.0F / (1 << 20);  // MotorCommands::yawRate
 constexpr float kUnitsOfPitchSine = 32768.0F;          // MotorCommands::pitch
 // Limits of the phase rate: as shares of the recorded rate, and about the tempo of the fish.
@@ -69,10 +90,22 @@ std::uint16_t patienceOf(std::uint32_t seed, std::size_t fish, std::uint64_t tic
     return static_cast<std::uint16_t>(240 + drawn(seed, fish, Stream::Patience, tick) % 361);
 }
 
-// One of the actions other than the present one, each as likely.
+// One of the patterns that are recommended, other than the present one, each as likely. A curve or
+// slope counts as its gait.
 motion::Action otherThan(motion::Action present, std::uint32_t hash) {
-    const std::size_t step = 1 + hash % (motion::kActions - 1);
-    return static_cast<motion::Action>((indexOf(present) + step) % motion::kActions);
+    using motion::Action;
+    constexpr std::array kPatterns{Action::ForwardSlow,
+                                   Action::ForwardMedium,
+                                   Action::ForwardFast,
+                                   Action::TurnLeftGradual,
+                                   Action::TurnLeftSharp,
+                                   Action::TurnRightGradual,
+                                   Action::TurnRightSharp,
+                                   Action::Glide};
+    const Action pattern = swims(present) ? gaitOf(present) : present;
+    const auto* const found = std::ranges::find(kPatterns, pattern);
+    const auto at = static_cast<std::size_t>(found - kPatterns.begin());
+    return kPatterns[(at + 1 + hash % (kPatterns.size() - 1)) % kPatterns.size()];
 }
 
 motion::Action gradual(bool left) {
@@ -88,7 +121,7 @@ motion::Action gaitFor(const Gaits& gaits, float speed, motion::Action present) 
     const float slowToMedium = 0.5F * (gaits.speed[0] + gaits.speed[1]);
     const float mediumToFast = 0.5F * (gaits.speed[1] + gaits.speed[2]);
     const auto isAbove = [&](float border, motion::Action upper) {
-        const bool isUpper = isForward(present) && present >= upper;
+        const bool isUpper = swims(present) && gaitOf(present) >= upper;
         return speed > border + (isUpper ? -kSpeedHysteresis : kSpeedHysteresis);
     };
     if (isAbove(mediumToFast, motion::Action::ForwardFast)) return motion::Action::ForwardFast;
@@ -104,6 +137,8 @@ struct SecondaryController::Moment {
     motion::Action present;
     // From the heading to the wanted course, radians, left positive.
     float yawError;
+    // Sine of the wanted pitch less that of the present one.
+    float pitchError;
     // Wanted and present speed, body lengths a second.
     float speed;
     float swims;
@@ -124,33 +159,94 @@ bool hovers(const Gaits& gaits, const Moment& moment) {
     return moment.speed < kHoverBelow * gaits.speed[indexOf(motion::Action::ForwardSlow)];
 }
 
-// The segment for the wanted course, without recommendations. The order matters: a sharp turn for a
-// large error, then hovering, then a gradual turn, then a forward gait.
+// The yaw rate of the tight curve at the gait of an action, radians a second.
+float tightRateOf(const Gaits& gaits, motion::Action action) {
+    return gaits.yawRate[indexOf(atGait(motion::Action::CurveLeftTightSlow, gaitOf(action)))];
+}
+
+// The yaw rate that the fish wants, radians a second: proportional to the error.
+float wantedYaw(const Moment& moment) {
+    return kYawGain * moment.yawError;
+}
+
+// Straight on, or the curve whose rate is nearest to the wanted one, with hysteresis about the
+// present one.
+motion::Action curveFor(const Gaits& gaits, const Moment& moment, motion::Action gait) {
+    using motion::Action;
+    constexpr std::array kWays{Action::ForwardSlow,
+                               Action::CurveLeftWideSlow,
+                               Action::CurveLeftTightSlow,
+                               Action::CurveRightWideSlow,
+                               Action::CurveRightTightSlow};
+    const float wanted = wantedYaw(moment);
+    const float advantage = kCurveHysteresis * tightRateOf(gaits, gait);
+    const auto off = [&](Action slow) {
+        const Action way = atGait(slow, gait);
+        const float error = std::abs(wanted - gaits.yawRate[indexOf(way)]);
+        return way == moment.present ? error - advantage : error;
+    };
+    return atGait(*std::ranges::min_element(kWays, {}, off), gait);
+}
+
+// A slope where the pitch is farther from the wanted one than the heading, else straight on or a
+// curve.
+motion::Action wayFor(const Gaits& gaits, const Moment& moment, motion::Action gait) {
+    const float off = moment.pitchError;
+    const bool slopes =
+        motion::takesSlope(moment.present, off) && std::abs(off) > std::abs(moment.yawError);
+    return slopes ? motion::slopeOf(gait, off > 0) : curveFor(gaits, moment, gait);
+}
+
+// The segment for the wanted course, without recommendations. The order matters: a retreat, then a
+// sharp turn for a large error, then hovering, then a gradual turn, then a gait.
 motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
+    if (moment.speed < 0) return motion::Action::Retreat;
     const float error = std::abs(moment.yawError);
     const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
-    if (error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
+    const motion::Action nearest = gaitFor(gaits, moment.speed, moment.present);
+    const bool turns = error > kCurveSeconds * tightRateOf(gaits, nearest);
+    if (turns && error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
     if (hovers(gaits, moment) && moment.urgency < 1) return motion::Action::Glide;
-    if (error > kGradualFrom) return gradual(left);
-    const motion::Action gait = gaitFor(gaits, moment.speed, moment.present);
+    if (turns && error > kGradualFrom) return gradual(left);
     const bool tooSoon =
-        isForward(moment.present) && moment.since < kShortestGaitTicks && moment.urgency < 1;
-    return tooSoon ? moment.present : gait;
+        swims(moment.present) && moment.since < kShortestGaitTicks && moment.urgency < 1;
+    return wayFor(gaits, moment, tooSoon ? gaitOf(moment.present) : nearest);
 }
 
-// Proportional control, in units of MotorCommands::yawRate.
-std::int16_t yawRateFor(float yawError) {
-    const float radiansPerSecond = std::clamp(kYawGain * yawError, -kMostYaw, kMostYaw);
-    return static_cast<std::int16_t>(radiansPerSecond / static_cast<float>(kTicksPerSecond) /
-                                     kRadiansOfYawUnit);
+// The level nearest to `wanted`, or `present` where that is near enough.
+float levelFor(float wanted, float present, float level) {
+    if (std::abs(wanted - present) <= kStay * level) return present;
+    return std::round(wanted / level) * level;
+}
+
+// What is added to the yaw that the chosen segment has by itself, in units of
+// MotorCommands::yawRate.
+std::int16_t yawRateFor(const Gaits& gaits,
+                        const Moment& moment,
+                        motion::Action chosen,
+                        std::int16_t present) {
+    constexpr float kUnit = kRadiansOfYawUnit * static_cast<float>(kTicksPerSecond);
+    const float most =
+        chosen == motion::Action::Glide ? kMostHoverYaw : kMostAdded * tightRateOf(gaits, chosen);
+    const float lacks = wantedYaw(moment) - gaits.yawRate[indexOf(chosen)];
+    const float level =
+        levelFor(std::clamp(lacks, -most, most), static_cast<float>(present) * kUnit, kYawLevel);
+    return static_cast<std::int16_t>(std::clamp(level, -most, most) / kUnit);
 }
 
 // Share of full braking, 0 to 255, by how much the fish is too fast.
-std::uint8_t brakeFor(const Gaits& gaits, const Moment& moment) {
+std::uint8_t brakeFor(const Gaits& gaits, const Moment& moment, std::uint8_t present) {
     const float excess = moment.swims - moment.speed;
     const float share = hovers(gaits, moment) ? excess * kHoverBrakeGain : excess - kBrakeFrom;
-    return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0F, 1.0F));
+    const float level =
+        levelFor(std::clamp(share, 0.0F, 1.0F), static_cast<float>(present) / 255.0F, kBrakeLevel);
+    return static_cast<std::uint8_t>(255 * level);
+}
+
+// The present pattern, on the way that the course asks for now.
+motion::Action held(const Gaits& gaits, const Moment& moment) {
+    return swims(moment.present) ? wayFor(gaits, moment, gaitOf(moment.present)) : moment.present;
 }
 
 // Whether a recommended segment keeps roughly to the wanted course and speed. Sharp turns never do.
@@ -224,19 +320,30 @@ bool SecondaryController::endsTurn(std::size_t fish) const {
 void SecondaryController::decide(std::size_t fish) const {
     const Moment moment = momentOf(fish);
     const motion::Action chosen = choose(fish, moment);
-    if (chosen != moment.present) memory->chosenAt[fish] = tick.value;
-    commands->segment[fish] = static_cast<std::uint8_t>(chosen);
-    commands->phaseRate[fish] = phaseRateFor(fish, chosen, moment);
-    commands->pitch[fish] =
-        static_cast<std::int16_t>((*courses)[fish].direction.y * kUnitsOfPitchSine);
-    commands->yawRate[fish] = isTurn(chosen) ? std::int16_t{0} : yawRateFor(moment.yawError);
-    commands->brake[fish] = isTurn(chosen) ? std::uint8_t{0} : brakeFor(*gaits, moment);
+    if (gaitOf(chosen) != gaitOf(moment.present) || swims(chosen) != swims(moment.present))
+        memory->chosenAt[fish] = tick.value;
+    motion::MotorCommands& to = *commands;
+    to.phaseRate[fish] = phaseRateFor(fish, chosen, moment);
+    to.segment[fish] = static_cast<std::uint8_t>(chosen);
+    to.pitch[fish] = static_cast<std::int16_t>(
+        std::clamp(levelFor((*courses)[fish].direction.y,
+                            static_cast<float>(to.pitch[fish]) / kUnitsOfPitchSine,
+                            kPitchLevel) *
+                       kUnitsOfPitchSine,
+                   -32767.0F,
+                   32767.0F));
+    const bool steers = !isTurn(chosen);
+    to.yawRate[fish] =
+        steers ? yawRateFor(*gaits, moment, chosen, to.yawRate[fish]) : std::int16_t{0};
+    to.brake[fish] = steers ? brakeFor(*gaits, moment, to.brake[fish]) : std::uint8_t{0};
 }
 
 SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) const {
     const Course& course = (*courses)[fish];
+    const glm::vec3 heading = view->heading(fish);
     Moment moment{static_cast<motion::Action>(commands->segment[fish]),
-                  place::yawBetween(view->heading(fish), course.direction),
+                  place::yawBetween(heading, course.direction),
+                  course.direction.y - heading.y,
                   course.speed,
                   motion::speedBodyLengths(*states, fish),
                   course.urgency,
@@ -245,8 +352,9 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
     // A turn will be played to its end: what is chosen comes after it.
     const std::size_t playing = states->segment[fish];
     const float toCome = 1 - static_cast<float>(states->phase[fish]) / 65536.0F;
-    if (isTurn(static_cast<motion::Action>(playing)))
-        moment.yawError -= gaits->turn[playing] * toCome;
+    moment.yawError -= isTurn(static_cast<motion::Action>(playing))
+                           ? gaits->turn[playing] * toCome
+                           : gaits->yawRate[playing] * kLeadSeconds;
     return moment;
 }
 
@@ -256,8 +364,9 @@ SecondaryController::Moment SecondaryController::momentOf(std::size_t fish) cons
 motion::Action SecondaryController::choose(std::size_t fish, const Moment& moment) const {
     const motion::Action chosen = turnOrSwim(*gaits, moment);
     if (tick.value < memory->heldUntil[fish])
-        return moment.isOpen && !isSharp(chosen) ? moment.present : chosen;
-    if (chosen != moment.present || moment.since <= memory->patience[fish]) return chosen;
+        return moment.isOpen && !isSharp(chosen) ? held(*gaits, moment) : chosen;
+    if (gaitOf(chosen) != gaitOf(moment.present) || moment.since <= memory->patience[fish])
+        return chosen;
     memory->chosenAt[fish] = tick.value;
     memory->patience[fish] = patienceOf(seed, fish, tick.value);
     const motion::Action recommended =
@@ -269,17 +378,20 @@ motion::Action SecondaryController::choose(std::size_t fish, const Moment& momen
     return recommended;
 }
 
-// A forward gait is played faster or slower to reach the wanted speed; the rate stays within
-// kRateMargin of the recording and kTempoMargin of the fish's own tempo.
+// A gait is played faster or slower to reach the wanted speed; the rate stays within kRateMargin of
+// the recording and kTempoMargin of the fish's own tempo.
 std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
                                                motion::Action chosen,
                                                const Moment& moment) const {
     const std::size_t action = indexOf(chosen);
+    const auto recorded = static_cast<float>(gaits->phaseRate[action]);
     const float tempo = tempoOf(seed, fish);
-    const float rate = std::clamp(isForward(chosen) ? moment.speed / gaits->speed[action] : tempo,
+    const float rate = std::clamp(swims(chosen) ? moment.speed / gaits->speed[action] : tempo,
                                   std::max(1 - kRateMargin, tempo - kTempoMargin),
                                   std::min(1 + kRateMargin, tempo + kTempoMargin));
-    return static_cast<std::int16_t>(static_cast<float>(gaits->phaseRate[action]) * rate);
+    const float present =
+        chosen == moment.present ? static_cast<float>(commands->phaseRate[fish]) / recorded : 0.0F;
+    return static_cast<std::int16_t>(std::lround(recorded * levelFor(rate, present, kRateLevel)));
 }
 
 }  // namespace aquarama::fish

@@ -29,7 +29,8 @@ inline constexpr std::uint64_t kTicksBetweenThoughts = 8;
 // the paper, section 5.1). Written at every thought, kept until the next.
 struct Course {
     glm::vec3 direction{1, 0, 0};  // unit vector
-    // Body lengths a second. Below a quarter of the slow gait's speed the fish hovers.
+    // Body lengths a second. Below a quarter of the slow gait's speed the fish hovers; a negative
+    // speed asks for a retreat.
     float speed = 0;
     // 0 in open water; from 1 on the fish turns sharply.
     float urgency = 0;
@@ -60,21 +61,11 @@ struct Gaits {
     std::array<float, motion::kActions> speed{};
     // Change of course from start to end of the segment, in radians, left positive.
     std::array<float, motion::kActions> turn{};
+    // Mean rate of turn, radians a second, left positive.
+    std::array<float, motion::kActions> yawRate{};
 };
 [[nodiscard]] Gaits gaitsOf(const motion::MotorTables& tables);
 
-// Index of an action in the arrays of Gaits.
-[[nodiscard]] constexpr std::size_t indexOf(motion::Action action) {
-    return static_cast<std::size_t>(action);
-}
-[[nodiscard]] constexpr bool isForward(motion::Action action) {
-    return action <= motion::Action::ForwardFast;
-}
-// Whether an action is a turn. A turn is played from its first phase to its last and not
-// interrupted; the other actions are cycles.
-[[nodiscard]] constexpr bool isTurn(motion::Action action) {
-    return action >= motion::Action::TurnLeftGradual && action <= motion::Action::TurnRightSharp;
-}
 [[nodiscard]] constexpr bool isSharp(motion::Action action) {
     return action == motion::Action::TurnLeftSharp || action == motion::Action::TurnRightSharp;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -111,6 +112,105 @@ std::vector<BodyOverlap> OverlapLog::all() const {
     std::vector<BodyOverlap> all = ended_;
     for (const auto& [pair, open] : open_) all.push_back(open.overlap);
     return all;
+}
+
+int quantileDegrees(const std::array<std::uint64_t, 91>& slip, double share) {
+    const auto all = std::accumulate(slip.begin(), slip.end(), std::uint64_t{0});
+    std::uint64_t within = 0;
+    for (std::size_t degrees = 0; degrees < slip.size(); ++degrees) {
+        within += slip.at(degrees);
+        if (static_cast<double>(within) >= share * static_cast<double>(all))
+            return static_cast<int>(degrees);
+    }
+    return 0;
+}
+
+namespace {
+
+constexpr std::uint64_t kTicksOfSlip = 30;
+
+// The columns of a command in one number.
+std::uint64_t packed(const motion::MotorCommands& commands, std::size_t fish) {
+    const auto bits = [](std::int16_t value) {
+        return std::uint64_t{static_cast<std::uint16_t>(value)};
+    };
+    return std::uint64_t{commands.segment[fish]} | std::uint64_t{commands.brake[fish]} << 8U |
+           bits(commands.phaseRate[fish]) << 16U | bits(commands.pitch[fish]) << 32U |
+           bits(commands.yawRate[fish]) << 48U;
+}
+
+// Whole degrees between two directions, which need not be of unit length.
+std::size_t degreesBetween(glm::vec3 a, glm::vec3 b) {
+    const float cosine = glm::dot(glm::normalize(a), glm::normalize(b));
+    const float degrees = std::acos(std::clamp(cosine, -1.0F, 1.0F)) / kRadiansPerDegree<float>;
+    return static_cast<std::size_t>(std::min(degrees, 90.0F));
+}
+
+}  // namespace
+
+MotionLog::MotionLog(const world::World& world)
+    : tallies_(world.speciesParameters().size()), fish_(world.view().size()) {}
+
+void MotionLog::note(const world::World& world) {
+    assert(world.view().size() == fish_.size());
+    const bool glances = world.tick().value % kTicksOfSlip == 0;
+    for (std::size_t fish = 0; fish < fish_.size(); ++fish) noteFish(world, fish, glances);
+}
+
+// The view shows the world before the tick, so it shows what the commands of the tick before did.
+void MotionLog::noteFish(const world::World& world, std::size_t fish, bool glances) {
+    constexpr float kRadiansOfUnit = 1.0F / (1 << 20);  // of MotorCommands::yawRate
+    Fish& seen = fish_[fish];
+    MotionTally& tally = tallies_[world.view().kind[fish]];
+    if (world.view().shows(fish, fish::kAway)) {
+        seen.isNew = true;
+        return;
+    }
+    const fish::VisibleFish& now = world.view().fish[fish];
+    const std::uint64_t command = packed(world.commands(), fish);
+    if (!seen.isNew) {
+        const float turned = place::yawBetween(seen.heading, now.heading);
+        tally.captured += static_cast<double>(std::abs(turned - seen.addedYaw));
+        tally.added += static_cast<double>(std::abs(seen.addedYaw));
+        tally.changes += command != seen.command ? 1 : 0;
+        tally.fishSeconds += 1.0 / kTicksPerSecond;
+        if (command != seen.command) commands_.insert(command);
+    }
+    seen.faces += now.heading;
+    seen.bodies += motion::bodyFrameOf(world.states(), fish).rotation * glm::vec3(1, 0, 0);
+    if (glances && !seen.isNew) noteSlip(now, seen, tally);
+    if (glances || seen.isNew) {
+        seen.from = now.position;
+        seen.faces = seen.bodies = glm::vec3{};
+    }
+    seen.heading = now.heading;
+    seen.addedYaw = kRadiansOfUnit * static_cast<float>(world.commands().yawRate[fish]);
+    seen.command = command;
+    seen.isNew = false;
+}
+
+void MotionLog::noteSlip(const fish::VisibleFish& now, const Fish& fish, MotionTally& tally) {
+    const glm::vec3 path = now.position - fish.from;
+    constexpr float kSeconds =
+        static_cast<float>(kTicksOfSlip) / static_cast<float>(kTicksPerSecond);
+    if (now.speed < 0 || glm::length(path) < kSlowestPath * now.length * kSeconds) return;
+    ++tally.meanSlip.at(degreesBetween(path, fish.faces));
+    ++tally.bodySlip.at(degreesBetween(path, fish.bodies));
+}
+
+MotionTally MotionLog::all() const {
+    MotionTally sum;
+    for (const MotionTally& tally : tallies_) {
+        sum.captured += tally.captured;
+        sum.added += tally.added;
+        sum.changes += tally.changes;
+        sum.fishSeconds += tally.fishSeconds;
+        for (std::size_t i = 0; i < sum.meanSlip.size(); ++i) {
+            sum.meanSlip.at(i) += tally.meanSlip.at(i);
+            sum.bodySlip.at(i) += tally.bodySlip.at(i);
+        }
+    }
+    return sum;
 }
 
 namespace {
@@ -238,6 +338,7 @@ Chronicle::Chronicle(const world::World& world,
                      std::vector<float> halfWidths,
                      std::uint64_t ticksOfHour)
     : diary_(world, std::move(halfWidths)),
+      motions_(world),
       ticksOfHour_(ticksOfHour),
       counts_(world.counts()),
       ways_(world.view().size()) {
@@ -261,6 +362,7 @@ void Chronicle::beginHour(const world::World& world) {
 
 void Chronicle::note(const world::World& world) {
     diary_.note(world);
+    motions_.note(world);
     counts_ = world.counts();
     ++now_.ticks;
     if (now_.ticks % kTicksBetweenSteps == 0) notePlaces(world);

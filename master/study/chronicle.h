@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -95,6 +96,57 @@ class OverlapLog {
     std::map<std::pair<std::uint32_t, std::uint32_t>, Open> open_;
     std::vector<BodyOverlap> ended_;
     std::vector<BodyOverlap> fresh_;
+};
+
+// How fish move.
+
+// Sums over the fish of one species, or of a world.
+struct MotionTally {
+    // Radians of heading: turned by played segments, and added by the yaw of commands.
+    double captured = 0, added = 0;
+    // Commands that differ from the one before, and seconds summed over fish.
+    std::uint64_t changes = 0;
+    double fishSeconds = 0;
+    // Angles between what a fish faces and its path over half a second, by whole degrees: of its
+    // mean frame, which is what the motor adds to the captured motion, and of the body, averaged
+    // over the same half second. Fish slower than kSlowestPath or backing are left out.
+    std::array<std::uint64_t, 91> meanSlip{}, bodySlip{};
+
+    [[nodiscard]] double capturedPercent() const { return 100 * captured / (captured + added); }
+};
+inline constexpr float kSlowestPath = 0.2F;  // body lengths a second
+// The least whole number of degrees that `share` of the angles do not exceed; 0 without any.
+[[nodiscard]] int quantileDegrees(const std::array<std::uint64_t, 91>& slip, double share);
+
+// Watches the motion of all fish of one world, tick by tick.
+class MotionLog {
+  public:
+    explicit MotionLog(const world::World& world);
+
+    // Call it after every tick.
+    void note(const world::World& world);
+    // By species, in the order of the cast.
+    [[nodiscard]] std::span<const MotionTally> byKind() const { return tallies_; }
+    [[nodiscard]] MotionTally all() const;
+    // Different commands that were given, of all species.
+    [[nodiscard]] std::size_t distinctCommands() const { return commands_.size(); }
+
+  private:
+    // Of one fish: what it faced and was told in the tick before, and what is averaged for the
+    // slip.
+    struct Fish {
+        glm::vec3 heading{};
+        float addedYaw = 0;  // radians
+        std::uint64_t command = 0;
+        bool isNew = true;                    // just here: nothing to compare with
+        glm::vec3 from{}, faces{}, bodies{};  // since the last glance: place, sums of directions
+    };
+    void noteFish(const world::World& world, std::size_t fish, bool glances);
+    static void noteSlip(const fish::VisibleFish& now, const Fish& fish, MotionTally& tally);
+
+    std::vector<MotionTally> tallies_;
+    std::vector<Fish> fish_;
+    std::set<std::uint64_t> commands_;
 };
 
 // A diary: what happened in a world while it was watched.
@@ -206,6 +258,7 @@ class Chronicle {
     // All hours that are complete, and the present one if it is more than half over.
     [[nodiscard]] std::vector<Hour> hours() const;
     [[nodiscard]] const OverlapLog& overlaps() const { return diary_.overlaps(); }
+    [[nodiscard]] const MotionLog& motions() const { return motions_; }
 
   private:
     // Way of one fish in this hour, and the place where it last left the radius of a stay.
@@ -220,6 +273,7 @@ class Chronicle {
     [[nodiscard]] Hour finished(const Hour& hour) const;
 
     Diary diary_;
+    MotionLog motions_;
     std::uint64_t ticksOfHour_;
     std::vector<Hour> done_;
     Hour now_;

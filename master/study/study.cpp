@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -171,6 +172,36 @@ std::string hoursCsv(std::span<const Hour> hours) {
                        hour.waterUsedPercent);
     }
     return csv.str();
+}
+
+namespace {
+
+void addMotion(std::ostream& text, const std::string& name, const MotionTally& tally) {
+    const auto slip = [&](const auto& angles) {
+        text << " | " << quantileDegrees(angles, 0.5) << " / " << quantileDegrees(angles, 0.99);
+    };
+    text << "| " << name << " | " << tally.capturedPercent();
+    slip(tally.meanSlip);
+    slip(tally.bodySlip);
+    text << " | " << static_cast<double>(tally.changes) / tally.fishSeconds << " |\n";
+}
+
+}  // namespace
+
+std::string motionText(const MotionLog& log, std::span<const world::WorldSpecies> cast) {
+    assert(log.byKind().size() == cast.size());
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1)
+         << "| species | turning by captured segments, % | path against captured motion, degrees: "
+            "median / 99 % | path against the body | changes of command a second |\n"
+            "|---|---|---|---|---|\n";
+    for (std::size_t kind = 0; kind < cast.size(); ++kind)
+        addMotion(text, cast[kind].name, log.byKind()[kind]);
+    const MotionTally all = log.all();
+    addMotion(text, "all", all);
+    text << "\nturning by captured segments: " << all.capturedPercent() << " %\n"
+         << "different commands: " << log.distinctCommands() << '\n';
+    return text.str();
 }
 
 std::string overlapsCsv(const OverlapLog& log,

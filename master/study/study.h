@@ -85,6 +85,11 @@ struct StudyPlan {
 // A line for each hour; shares are of the time of all fish, by routine.
 [[nodiscard]] std::string hoursCsv(std::span<const Hour> hours);
 
+// How the fish moved, in Markdown: a line for each species, and the share of captured turning of
+// all.
+[[nodiscard]] std::string motionText(const MotionLog& log,
+                                     std::span<const world::WorldSpecies> cast);
+
 // A line for each overlap of two fish, with what both intended when it began.
 [[nodiscard]] std::string overlapsCsv(const OverlapLog& log,
                                       const world::World& world,

@@ -302,9 +302,9 @@ fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& c
             .hunts = kindsNamed(cast, habits.hunts),
             .huntedBy = huntersOf(cast, cast[kind].name),
             .shadows = kindsNamed(cast, habits.shadows),
-            .slow = gaits.speed[fish::indexOf(motion::Action::ForwardSlow)],
-            .medium = gaits.speed[fish::indexOf(motion::Action::ForwardMedium)],
-            .fast = gaits.speed[fish::indexOf(motion::Action::ForwardFast)],
+            .slow = gaits.speed[indexOf(motion::Action::ForwardSlow)],
+            .medium = gaits.speed[indexOf(motion::Action::ForwardMedium)],
+            .fast = gaits.speed[indexOf(motion::Action::ForwardFast)],
             .habits = habits};
 }
 

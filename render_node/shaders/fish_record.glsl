@@ -63,12 +63,9 @@ struct Motion {
     uint segment, fromSegment;
 };
 
-// The shorter way round: a retreating fish plays its cycle backwards.
 float phaseBetween(uint from, uint to) {
-    int played = (int(to) - int(from) + 32768 & 65535) - 32768;
-    float phase = float(from) + fraction * float(played);
-    float cycle = phase < 0.0 ? 65536.0 : phase < 65536.0 ? 0.0 : -65536.0;
-    return (phase + cycle) * kPhaseUnit;
+    float phase = float(from) + fraction * float(to - from & 65535u);
+    return (phase < 65536.0 ? phase : phase - 65536.0) * kPhaseUnit;
 }
 
 float weightOf(uint motion) { return float((motion >> 16 & 255u) + 1u) / float((motion >> 24) + 1u); }

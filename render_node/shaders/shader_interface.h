@@ -144,7 +144,7 @@ AQUARAMA_CONSTANT uint kDetailStride = 8U;  // numbers of a species, one a level
 // Recorded poses of a species.
 AQUARAMA_CONSTANT uint kControlPoints = 426U;
 AQUARAMA_CONSTANT uint kPhases = 64U;
-AQUARAMA_CONSTANT uint kActions = 8U;
+AQUARAMA_CONSTANT uint kActions = 27U;
 
 // The water stirred by fish, about the shared eye: cells of a grid, three numbers each.
 AQUARAMA_CONSTANT int kWakeCellsAcross = 40;

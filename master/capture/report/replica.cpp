@@ -20,22 +20,6 @@ namespace {
 
 constexpr std::array kTraits{motion::FishTraits{.id = 0, .lengthMillimetres = 1000}};
 
-// The segment that the replica plays for a manoeuvre.
-motion::Action actionOf(Manoeuvre manoeuvre) {
-    switch (manoeuvre) {
-        case Manoeuvre::Ascend:
-        case Manoeuvre::Descend:
-        case Manoeuvre::Balance:
-            return motion::Action::ForwardMedium;
-        case Manoeuvre::Brake:
-            return motion::Action::Glide;
-        case Manoeuvre::Retreat:
-            return motion::Action::ForwardSlow;  // played backwards
-        default:
-            return static_cast<motion::Action>(manoeuvre);
-    }
-}
-
 // Radians, up positive; 0 where the fish keeps level.
 double pitchOf(Manoeuvre manoeuvre) {
     return manoeuvre == Manoeuvre::Ascend    ? kScriptPitchRadians
@@ -86,7 +70,7 @@ Replica::Replica(const motion::Repertoire& repertoire)
 
 // The motor takes the brake as 0 to 255 and the pitch as its sine in units of 1/32768.
 void Replica::command(Manoeuvre manoeuvre) {
-    play(actionOf(manoeuvre), manoeuvre == Manoeuvre::Retreat ? -1 : 1);
+    play(actionOf(manoeuvre), 1);
     commands_.brake[0] = manoeuvre == Manoeuvre::Brake ? 255 : 0;
     commands_.pitch[0] =
         static_cast<std::int16_t>(std::lround(std::sin(pitchOf(manoeuvre)) * 32768));
@@ -100,7 +84,18 @@ void Replica::play(motion::Action action, double tempo) {
     commands_.phaseRate[0] = static_cast<std::int16_t>(rate);
 }
 
+// As the secondary controller of the show does: a slope while the pitch is off.
+void Replica::takeSlope() {
+    const auto commanded = static_cast<motion::Action>(commands_.segment[0]);
+    if (!swims(commanded)) return;
+    const float pitch = static_cast<float>(commands_.pitch[0]) / 32768.0F;
+    const float error = pitch - (motion::meanRotation(*tables_, states_, 0) * glm::vec3(1, 0, 0)).y;
+    const motion::Action gait = gaitOf(commanded);
+    play(motion::takesSlope(commanded, error) ? motion::slopeOf(gait, error > 0) : gait, 1);
+}
+
 void Replica::tick() {
+    takeSlope();
     motion::MotorStep{.tables = tables_.get(),
                       .traits = kTraits,
                       .commands = &commands_,

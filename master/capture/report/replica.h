@@ -18,10 +18,11 @@ class Replica {
 
     // Sets segment, tempo, pitch and brake for a manoeuvre; in force from the next tick on.
     void command(Manoeuvre manoeuvre);
-    // A segment at `tempo` times its recorded phase rate; backwards when that is negative. The
-    // phase rate must fit into 16 bits.
+    // A segment at `tempo` times its recorded phase rate, which must fit into 16 bits and not be
+    // negative.
     void play(motion::Action action, double tempo);
-    void tick();  // 1/60 s
+    // 1/60 s. A swimming replica whose pitch is off plays the slope of its gait at the tempo 1.
+    void tick();
 
     // Replaces a segment of the repertoire that is not playing.
     void learn(motion::Action action, const motion::ActionSegment& segment);
@@ -37,6 +38,8 @@ class Replica {
     [[nodiscard]] TracePoint point() const;  // where it is now
 
   private:
+    void takeSlope();
+
     motion::Repertoire repertoire_;
     std::shared_ptr<const motion::MotorTables> tables_;  // of repertoire_
     motion::MotionStates states_;

@@ -47,6 +47,7 @@ json fileData(const motion::Repertoire& repertoire) {
         {"nodal_points", body::kNodalPoints},
         {"control_points", repertoire.segments[0].controlPoints.empty() ? 0 : body::kControlPoints},
         {"swim_drag", repertoire.response.swimDrag},
+        {"retreat_drag", repertoire.response.retreatDrag},
         {"glide_drag", repertoire.response.glideDrag},
         {"brake_rate", repertoire.response.brakeRate},
         {"bytes", bytes.size()},
@@ -156,12 +157,15 @@ std::string reportData(const motion::Repertoire& repertoire) {
         {"body", bodyData(repertoire)},
         {"speed_line",
          {{"slope", line.slope}, {"intercept", line.intercept}, {"r_squared", line.rSquared}}}};
-    // The glide is derived from the others and has no figures of its own.
+    // The glide is derived from the others and has no figures of its own; slopes and the retreat
+    // are not seen from above.
     for (std::size_t i = 0; i < motion::kCapturedActions; ++i) {
+        const auto action = static_cast<motion::Action>(i);
+        if (!isForward(action) && !isCurve(action) && !isTurn(action)) continue;
         const motion::ActionSegment& segment = repertoire.segments.at(i);
         const bool isGait = i < kGaits;
         json one = measuresData(segment, isGait);
-        one["name"] = motion::nameOf(static_cast<motion::Action>(i));
+        one["name"] = motion::nameOf(action);
         if (isGait) one["midlines"] = midlinesData(segment);
         addViews(segment, one);
         data["segments"].push_back(one);
@@ -197,20 +201,20 @@ double cleaned(double value) {
 // One row; "-" where a figure has no meaning for the segment.
 std::string rowOf(motion::Action action, const motion::ActionSegment& segment) {
     const capture::SegmentMeasures m = capture::measure(segment);
-    const bool isForward = action <= motion::Action::ForwardFast;
-    std::string row = line("  %-18s %8.4f %8.3f %8.3f",
+    const bool turns = isCurve(action) || isTurn(action);
+    std::string row = line("  %-24s %8.4f %8.3f %8.3f",
                            motion::nameOf(action),
                            m.periodSeconds,
                            m.speedBodyLengths,
                            m.strideBodyLengths);
     // The amplitude is measured across a straight course, so a turn has none.
-    row += isForward ? line(" %7s %8s %8s", "-", "-", "-")
-                     : line(" %7.1f %8.1f %8.2f",
-                            m.turnRadians / kRadiansPerDegree<double>,
-                            m.turnRate / kRadiansPerDegree<double>,
-                            turnRadius(segment));
-    row +=
-        isForward ? line(" %8.3f %8.3f", m.tailAmplitude, m.strouhal) : line(" %8s %8s", "-", "-");
+    row += turns ? line(" %7.1f %8.1f %8.2f",
+                        m.turnRadians / kRadiansPerDegree<double>,
+                        m.turnRate / kRadiansPerDegree<double>,
+                        turnRadius(segment))
+                 : line(" %7s %8s %8s", "-", "-", "-");
+    row += isForward(action) ? line(" %8.3f %8.3f", m.tailAmplitude, m.strouhal)
+                             : line(" %8s %8s", "-", "-");
     row += line(" %9.4f %9.1e %9.1e\n",
                 m.largestStep,
                 cleaned(m.leanRadians / kRadiansPerDegree<double>),
@@ -241,19 +245,21 @@ std::string inspectRepertoire(std::span<const std::byte> bytes, const std::strin
                  body::kNodalPoints,
                  hasCage ? "426 control points recorded" : "control points not recorded");
     // Drag is 1 / body length, the rate of the brake 1 / s: see motion::SpeedResponse.
-    const auto& [swim, glide, brake] = repertoire.response;
+    const auto& [swim, retreat, glide, brake] = repertoire.response;
     text += line(
-        "speed response: drag %.3f, %.3f, %.3f swimming, %.3f gliding, per BL;"
+        "speed response: drag %.3f, %.3f, %.3f swimming, %.3f retreating, %.3f gliding, per BL;"
         " brake %.3f per s\n\n",
         static_cast<double>(swim[0]),
         static_cast<double>(swim[1]),
         static_cast<double>(swim[2]),
+        static_cast<double>(retreat),
         static_cast<double>(glide),
         static_cast<double>(brake));
     text +=
-        "                       period    speed   stride    turn     turn   radius     tail "
+        "                             period    speed   stride    turn     turn   radius     tail "
         "Strouhal   largest      lean     climb\n"
-        "  segment                   s     BL/s       BL     deg    deg/s       BL   p-p BL   "
+        "  segment                         s     BL/s       BL     deg    deg/s       BL   p-p BL  "
+        " "
         "number   BL/tick deg/cycle  BL/cycle\n";
     for (int i = 0; i < motion::kCapturedActions; ++i)
         text += rowOf(static_cast<motion::Action>(i),

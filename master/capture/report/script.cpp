@@ -76,10 +76,8 @@ Manoeuvre choose(std::span<const Choice> choices, Random& random) {
     return choices.back().manoeuvre;
 }
 
-// Only for the first eight manoeuvres, which are actions.
 const motion::ActionSegment& segmentOf(const motion::Repertoire& repertoire, Manoeuvre manoeuvre) {
-    assert(static_cast<int>(manoeuvre) < motion::kActions);
-    return repertoire.segments.at(static_cast<std::size_t>(manoeuvre));
+    return repertoire.segments.at(indexOf(actionOf(manoeuvre)));
 }
 
 // One cycle, in ticks, with its fraction.
@@ -141,11 +139,38 @@ const char* nameOf(Manoeuvre manoeuvre) {
             return "balance";
         case Manoeuvre::Brake:
             return "brake";
-        case Manoeuvre::Retreat:
-            return "retreat";
         default:
-            return motion::nameOf(static_cast<motion::Action>(manoeuvre));
+            return motion::nameOf(actionOf(manoeuvre));
     }
+}
+
+motion::Action actionOf(Manoeuvre manoeuvre) {
+    using motion::Action;
+    switch (manoeuvre) {
+        case Manoeuvre::ForwardSlow:
+            return Action::ForwardSlow;
+        case Manoeuvre::ForwardMedium:
+        case Manoeuvre::Ascend:
+        case Manoeuvre::Descend:
+        case Manoeuvre::Balance:
+            return Action::ForwardMedium;
+        case Manoeuvre::ForwardFast:
+            return Action::ForwardFast;
+        case Manoeuvre::TurnLeftGradual:
+            return Action::TurnLeftGradual;
+        case Manoeuvre::TurnLeftSharp:
+            return Action::TurnLeftSharp;
+        case Manoeuvre::TurnRightGradual:
+            return Action::TurnRightGradual;
+        case Manoeuvre::TurnRightSharp:
+            return Action::TurnRightSharp;
+        case Manoeuvre::Glide:
+        case Manoeuvre::Brake:
+            return Action::Glide;
+        case Manoeuvre::Retreat:
+            return Action::Retreat;
+    }
+    return Action::ForwardMedium;
 }
 
 Script makeScript(const motion::Repertoire& repertoire, std::uint64_t seed, double seconds) {

@@ -14,8 +14,8 @@
 
 namespace aquarama::report {
 
-// What can be commanded. The first eight are the actions of a repertoire, in their order; the
-// replica plays the others by means of these.
+// What can be commanded. The replica swims level, climbs and dives on the captured slopes, and
+// brakes in the glide with its fins spread.
 enum class Manoeuvre : std::uint8_t {
     ForwardSlow,
     ForwardMedium,
@@ -37,6 +37,9 @@ inline constexpr int kManoeuvres = 13;
 [[nodiscard]] constexpr bool isTurn(Manoeuvre m) {
     return m >= Manoeuvre::TurnLeftGradual && m <= Manoeuvre::TurnRightSharp;
 }
+
+// What the replica plays for a manoeuvre while its pitch is the wanted one.
+[[nodiscard]] motion::Action actionOf(Manoeuvre manoeuvre);
 
 // The pitch of Ascend and, downwards, of Descend: 20 degrees.
 inline constexpr double kScriptPitchRadians = 0.35;

@@ -162,8 +162,8 @@ class Library {
             capture::recordTypicalLeftTurn(species_,
                                            capture::swimUntilSteady(species_, species_.swim.medium),
                                            bendAt(species_.turn, grade.value));
-        return grade.way == Way::Left ? capture::compileLeftTurn(turn)
-                                      : capture::compileRightTurn(turn);
+        const motion::ActionSegment left = capture::compileLeftTurn(turn);
+        return grade.way == Way::Left ? left : capture::mirroredLeftRight(left);
     }
 
     const config::Species& species_;

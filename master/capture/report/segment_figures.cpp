@@ -58,7 +58,9 @@ Drift driftAfter(const motion::ActionSegment& segment, int repetitions) {
     const capture::ReplayedPhase& start = phases.front();
     const capture::ReplayedPhase& end = phases.back();
     const double once = headingOf(phases[motion::kPhases]) - headingOf(start);
-    const double told = segment.playsToEnd ? once * repetitions : 0;
+    // What is not straight on is meant to turn.
+    constexpr double kStraightRadians = 1e-3;
+    const double told = std::abs(once) > kStraightRadians ? once * repetitions : 0;
     const glm::dvec3 up{0, 1, 0};
     const double uprightness = glm::dot(end.worldFromBody * up, start.worldFromBody * up);
     return {.headingRadians =
