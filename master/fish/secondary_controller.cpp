@@ -30,8 +30,8 @@ Gaits gaitsOf(const motion::MotorTables& tables) {
 namespace {
 
 // Yaw errors at which turns begin. A smaller one is corrected on a curve, and so is a larger one
-// that the tight curve corrects within kCurveSeconds. Beyond kSideIsOpen the target is nearly
-// straight behind, and a turn under way keeps its side.
+// that the tight curve corrects within kCurveSeconds, unless there is danger. Beyond kSideIsOpen
+// the target is nearly straight behind, and a turn under way keeps its side.
 constexpr float kGradualFrom = 30.0F * kRadiansPerDegree<float>;
 constexpr float kSharpFrom = 50.0F * kRadiansPerDegree<float>;
 constexpr float kSharpFromInDanger = 45.0F * kRadiansPerDegree<float>;
@@ -205,8 +205,9 @@ motion::Action turnOrSwim(const Gaits& gaits, const Moment& moment) {
     const bool turning = isTurn(moment.present);
     const bool left = turning && error > kSideIsOpen ? isLeft(moment.present) : moment.yawError > 0;
     const motion::Action nearest = gaitFor(gaits, moment.speed, moment.present);
-    const bool turns = error > kCurveSeconds * tightRateOf(gaits, nearest);
-    if (turns && error > (moment.urgency > 1 ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
+    const bool urgent = moment.urgency > 1;
+    const bool turns = urgent || error > kCurveSeconds * tightRateOf(gaits, nearest);
+    if (turns && error > (urgent ? kSharpFromInDanger : kSharpFrom)) return sharp(left);
     if (hovers(gaits, moment) && moment.urgency < 1) return motion::Action::Glide;
     if (turns && error > kGradualFrom) return gradual(left);
     const bool tooSoon =
@@ -386,12 +387,13 @@ std::int16_t SecondaryController::phaseRateFor(std::size_t fish,
     const std::size_t action = indexOf(chosen);
     const auto recorded = static_cast<float>(gaits->phaseRate[action]);
     const float tempo = tempoOf(seed, fish);
-    const float rate = std::clamp(swims(chosen) ? moment.speed / gaits->speed[action] : tempo,
-                                  std::max(1 - kRateMargin, tempo - kTempoMargin),
-                                  std::min(1 + kRateMargin, tempo + kTempoMargin));
+    const float least = std::max(1 - kRateMargin, tempo - kTempoMargin);
+    const float most = std::min(1 + kRateMargin, tempo + kTempoMargin);
+    const float rate = swims(chosen) ? moment.speed / gaits->speed[action] : tempo;
     const float present =
         chosen == moment.present ? static_cast<float>(commands->phaseRate[fish]) / recorded : 0.0F;
-    return static_cast<std::int16_t>(std::lround(recorded * levelFor(rate, present, kRateLevel)));
+    const float level = levelFor(std::clamp(rate, least, most), present, kRateLevel);
+    return static_cast<std::int16_t>(std::lround(recorded * std::clamp(level, least, most)));
 }
 
 }  // namespace aquarama::fish

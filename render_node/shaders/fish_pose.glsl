@@ -55,11 +55,16 @@ Posed posedAt(uint species, uint segment, float phase, uint point) {
     return Posed(here.xyz, heading, dot(to.xyz - from.xyz, right) * float(kPhases) / kWholeTurn);
 }
 
-// How far a segment is a turn to the left, to the right. Actions of common/motion/repertoire.h.
+// How far a segment is a turn to the left, to the right: a curve less than a turn. Actions of
+// common/motion/repertoire.h, by the gait within each curve.
 vec2 turnOf(uint segment) {
-    const float kGradual = 0.4;
-    return vec2(segment == 3u ? kGradual : segment == 4u ? 1.0 : 0.0,
-                segment == 5u ? kGradual : segment == 6u ? 1.0 : 0.0);
+    const float kSharp = 1.0, kGradual = 0.4, kTight = 0.3, kWide = 0.15;
+    uint curve = (segment - kFirstCurve) / 3u, turn = segment - kFirstTurn;
+    float much = segment >= kFirstCurve && curve < 4u ? (curve % 2u == 0u ? kWide : kTight)
+                 : segment >= kFirstTurn && turn < 4u ? (turn % 2u == 0u ? kGradual : kSharp)
+                                                      : 0.0;
+    bool left = segment >= kFirstTurn ? turn < 2u : curve < 2u;
+    return left ? vec2(much, 0.0) : vec2(0.0, much);
 }
 
 FinDrive finDriveOf(Fish self) {

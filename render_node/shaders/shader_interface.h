@@ -145,6 +145,8 @@ AQUARAMA_CONSTANT uint kDetailStride = 8U;  // numbers of a species, one a level
 AQUARAMA_CONSTANT uint kControlPoints = 426U;
 AQUARAMA_CONSTANT uint kPhases = 64U;
 AQUARAMA_CONSTANT uint kActions = 27U;
+AQUARAMA_CONSTANT uint kFirstCurve = 3U;
+AQUARAMA_CONSTANT uint kFirstTurn = 22U;
 
 // The water stirred by fish, about the shared eye: cells of a grid, three numbers each.
 AQUARAMA_CONSTANT int kWakeCellsAcross = 40;

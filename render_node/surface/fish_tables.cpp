@@ -25,7 +25,9 @@
 namespace aquarama::surface {
 
 static_assert(shaders::kControlPoints == body::kControlPoints &&
-              shaders::kPhases == motion::kPhases && shaders::kActions == motion::kActions);
+              shaders::kPhases == motion::kPhases && shaders::kActions == motion::kActions &&
+              shaders::kFirstCurve == indexOf(motion::Action::CurveLeftWideSlow) &&
+              shaders::kFirstTurn == indexOf(motion::Action::TurnLeftGradual));
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/master/world/captured_fish.h"
 
 namespace aquarama::bench {
 namespace {
@@ -20,7 +20,7 @@ double threadNanoseconds() {
 
 void schoolTick(benchmark::State& state) {
     const auto fish = static_cast<std::uint32_t>(state.range(0));
-    world::World world = world::syntheticWorld(1, fish);
+    world::World world = world::schoolWorld(1, fish);
     for (int i = 0; i < 120; ++i) world.advance();
     std::vector<double> nanoseconds;
     for ([[maybe_unused]] auto _ : state) {

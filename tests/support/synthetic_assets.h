@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A show for tests: real files of a scene and its species, all moved by the synthetic scad's
-// segments, which need no capture.
+// A show for tests: real files of a scene and its species, all moved by synthetic segments,
+// which need no capture.
 #pragma once
 
 #include <string>
@@ -10,16 +10,15 @@
 #include "common/config/text_file.h"
 #include "common/motion/repertoire.h"
 #include "common/wire/recording.h"
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/support/synthetic_repertoire.h"
 
 namespace aquarama::test {
 
 // A school of 40 about a reef that hungers soon, and a shark that hunts it.
 inline wire::AssetBundle syntheticAssets(std::uint32_t seed = 1) {
     const std::string species = AQUARAMA_SOURCE_DIR "/config/species/";
-    motion::Repertoire scad = world::syntheticScad();
-    scad.species = "synthetic_scad";
-    const std::vector<std::byte> repertoire = motion::encodeRepertoire(scad);
+    const std::vector<std::byte> repertoire =
+        motion::encodeRepertoire(syntheticRepertoire(false, "synthetic_scad"));
     wire::AssetBundle assets{.seed = seed,
                              .sceneFile = "scene",
                              .scene = R"(

@@ -19,34 +19,59 @@ namespace aquarama::synthetic {
 inline constexpr double kOriginStation = 0.385;  // ring 2, the body frame's origin (eq. 1)
 inline constexpr double kStrideBodyLengths = 0.67;
 
+// The path is straight, or an arc in the horizontal or in the vertical plane.
 struct Gait {
     double periodSeconds = 1.0;
     double turnRadians = 0.0;  // of one cycle, left positive
     double stride = kStrideBodyLengths;
-    bool bends = false;  // a C-bend: the turn begins and ends straight
+    bool bends = false;         // a C-bend: the turn begins and ends straight
+    double pitchRadians = 0.0;  // of one cycle, up positive
 };
 
 inline std::array<Gait, motion::kCapturedActions> gaits() {
+    using motion::Action;
     constexpr double kDegree = std::numbers::pi / 180.0;
-    const Gait gradual{
-        .periodSeconds = 0.6, .turnRadians = 30 * kDegree, .stride = 0.8, .bends = true};
-    const Gait sharp{
-        .periodSeconds = 1.0, .turnRadians = 60 * kDegree, .stride = 1.0, .bends = true};
-    const auto right = [](Gait gait) {
-        gait.turnRadians = -gait.turnRadians;
-        return gait;
+    std::array<Gait, motion::kCapturedActions> all;
+    const auto of = [&](Action action) -> Gait& { return all.at(indexOf(action)); };
+    for (std::size_t gait = 0; gait < motion::kForwardGaits; ++gait) {
+        const auto each = static_cast<Action>(gait);
+        const double period = 1.0 / static_cast<double>(gait + 1);  // fast: 2 body lengths a second
+        for (std::size_t a = gait; a < motion::kSwimmingActions; a += motion::kForwardGaits)
+            all.at(a).periodSeconds = period;
+        of(atGait(Action::CurveLeftWideSlow, each)).turnRadians = 8 * kDegree;
+        of(atGait(Action::CurveLeftTightSlow, each)).turnRadians = 16 * kDegree;
+        of(atGait(Action::CurveRightWideSlow, each)).turnRadians = -8 * kDegree;
+        of(atGait(Action::CurveRightTightSlow, each)).turnRadians = -16 * kDegree;
+        of(atGait(Action::ClimbSlow, each)).pitchRadians = 8 * kDegree;
+        of(atGait(Action::DiveSlow, each)).pitchRadians = -8 * kDegree;
+    }
+    of(Action::Retreat) = {.periodSeconds = 1.0, .stride = -0.3};
+    const auto turn = [](double seconds, double degrees, double stride) {
+        return Gait{.periodSeconds = seconds,
+                    .turnRadians = degrees * kDegree,
+                    .stride = stride,
+                    .bends = true};
     };
-    return {Gait{.periodSeconds = 1.0},
-            Gait{.periodSeconds = 1.0 / 2},
-            Gait{.periodSeconds = 1.0 / 3},  // 2 body lengths a second
-            gradual,
-            sharp,
-            right(gradual),
-            right(sharp)};
+    of(Action::TurnLeftGradual) = turn(0.6, 30, 0.8);
+    of(Action::TurnLeftSharp) = turn(1.0, 60, 1.0);
+    of(Action::TurnRightGradual) = turn(0.6, -30, 0.8);
+    of(Action::TurnRightSharp) = turn(1.0, -60, 1.0);
+    return all;
 }
 
 inline double headingAt(const Gait& gait, double phase) {
     return gait.turnRadians * (gait.bends ? phase * phase * (3 - 2 * phase) : phase);
+}
+
+// Turned from the course at phase 0 to that at a phase.
+inline glm::dmat3 turnedAt(const Gait& gait, double phase) {
+    const double c = std::cos(headingAt(gait, phase));
+    const double s = std::sin(headingAt(gait, phase));
+    const double up = gait.pitchRadians * phase;
+    const glm::dmat3 yaw({c, 0, -s}, {0, 1, 0}, {s, 0, c});
+    const glm::dmat3 pitch(
+        {std::cos(up), std::sin(up), 0}, {-std::sin(up), std::cos(up), 0}, {0, 0, 1});
+    return yaw * pitch;
 }
 
 // The course of the cycle-mean frame, by Simpson's rule over its heading.
@@ -54,17 +79,17 @@ inline glm::dvec3 courseAt(const Gait& gait, double phase) {
     constexpr int kIntervals = 64;
     glm::dvec3 sum{};
     for (int i = 0; i <= kIntervals; ++i) {
-        const double heading = headingAt(gait, phase * i / kIntervals);
         const double weight = i == 0 || i == kIntervals ? 1 : i % 2 == 1 ? 4 : 2;
-        sum += weight * glm::dvec3(std::cos(heading), 0, -std::sin(heading));
+        sum += weight * turnedAt(gait, phase * i / kIntervals)[0];
     }
     return sum * (gait.stride * phase / (3.0 * kIntervals));
 }
 
 // Sideways place of the midline at station s (0 nose, 1 tail): Videler and Hess's carangiform
-// envelope; or, without a beat, a bend towards the inside of a turn.
+// envelope; or, without a beat, a bend towards the inside of a turn. A fish that backs is straight.
 inline double midline(const Gait& gait, double s, double phase) {
-    const double envelope = gait.bends ? 0 : 0.02 - 0.0825 * s + 0.1625 * s * s;
+    const bool beats = !gait.bends && gait.stride > 0;
+    const double envelope = beats ? 0.02 - 0.0825 * s + 0.1625 * s * s : 0;
     const double swing = std::sin(std::numbers::pi * phase);
     const double bend = gait.bends ? 0.67 * std::abs(gait.turnRadians) * swing * swing : 0;
     const double side = gait.turnRadians > 0 ? -1 : gait.turnRadians < 0 ? 1 : 0;  // z is right
@@ -81,12 +106,7 @@ inline glm::dvec3 placed(const Gait& gait, double phase, const glm::dvec3& rest)
     const double across = rest.z / std::sqrt(1 + slope * slope);
     const glm::dvec3 inCourse(
         kOriginStation - s - slope * across, rest.y, midline(gait, s, phase) + across);
-    const double heading = headingAt(gait, phase);
-    const double c = std::cos(heading);
-    const double sn = std::sin(heading);
-    return courseAt(gait, phase) + glm::dvec3(c * inCourse.x + sn * inCourse.z,
-                                              inCourse.y,
-                                              -sn * inCourse.x + c * inCourse.z);
+    return courseAt(gait, phase) + turnedAt(gait, phase) * inCourse;
 }
 
 inline std::array<glm::dvec3, body::kNodalPoints> restNodes() {
@@ -190,7 +210,8 @@ inline motion::Repertoire syntheticRepertoire(bool withControlPoints = true,
     for (std::size_t action = 0; action < motion::kCapturedActions; ++action) {
         repertoire.segments[action] = synthetic::segmentOf(gaits[action], withControlPoints);
     }
-    repertoire.response = {.swimDrag = {0.3F, 0.4F, 0.5F}, .glideDrag = 0.5F, .brakeRate = 5.0F};
+    repertoire.response = {
+        .swimDrag = {0.3F, 0.4F, 0.5F}, .retreatDrag = 4.0F, .glideDrag = 0.5F, .brakeRate = 5.0F};
     motion::addGlide(repertoire);
     return repertoire;
 }

@@ -7,12 +7,11 @@
 namespace aquarama::motion {
 namespace {
 
-constexpr std::array<Action, 4> kStraight{
-    Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast, Action::Glide};
-
-bool isTurn(Action action) {
-    return action >= Action::TurnLeftGradual && action <= Action::TurnRightSharp;
-}
+constexpr std::array<Action, 5> kStraight{Action::ForwardSlow,
+                                          Action::ForwardMedium,
+                                          Action::ForwardFast,
+                                          Action::Glide,
+                                          Action::Retreat};
 
 glm::quat looking(double headingDegrees, double pitchDegrees) {
     return aboutAxis(headingDegrees, {0, 1, 0}) * aboutAxis(pitchDegrees, {0, 0, 1});
@@ -76,10 +75,6 @@ TEST_P(Attitude, swimmingIsTheSameAtAnyHeadingPitchAndSize) {
         const Action action = kStraight[static_cast<std::size_t>(trial) % kStraight.size()];
         const int length = static_cast<int>(400 + random() % 4000);
         Twins twins(tablesOf(GetParam()), action, heading(random), pitch(random), length);
-        if (trial % 8 >= 4) {  // half of them retreat
-            for (std::int16_t& rate : twins.school().commands.phaseRate)
-                rate = static_cast<std::int16_t>(-rate);
-        }
         for (int tick = 0; tick < 300; ++tick) {
             twins.school().tick();
             ASSERT_TRUE(twins.areInStep());

@@ -128,7 +128,7 @@ FloatsAt floatsOf(const std::string& species) {
     FloatsAt at;
     at.length = 12 + species.size();
     at.drags = at.length + 4;
-    std::size_t segment = at.drags + 5 * 4 + 1;
+    std::size_t segment = at.drags + 6 * 4 + 4;
     for (int action = 0; action < kCapturedActions; ++action) {
         at.ofSegments.push_back(segment);  // the period
         for (std::size_t i = 0; i < 7 * kPhases; ++i) at.ofSegments.push_back(segment + 5 + 4 * i);
@@ -148,7 +148,7 @@ TEST(Repertoire, anyFloatThatIsNoNumberIsRefusedByWhatItIs) {
                             std::numeric_limits<float>::infinity(),
                             -std::numeric_limits<float>::infinity()}) {
         EXPECT_THAT(refusalOf(withFloat(at.length, bad)), testing::HasSubstr("recorded length"));
-        for (const std::size_t drag : {0U, 1U, 2U, 3U, 4U})
+        for (const std::size_t drag : {0U, 1U, 2U, 3U, 4U, 5U})
             EXPECT_THAT(refusalOf(withFloat(at.drags + 4 * drag, bad)), testing::HasSubstr("drag"));
         for (const std::size_t offset : at.ofSegments)
             ASSERT_THAT(refusalOf(withFloat(offset, bad)), testing::HasSubstr("segment "));
@@ -158,7 +158,7 @@ TEST(Repertoire, anyFloatThatIsNoNumberIsRefusedByWhatItIs) {
 TEST(Repertoire, aDragOutOfBoundsIsRefused) {
     const FloatsAt at = floatsOf("synthetic");
     for (const float bad : {-0.001F, 1000.5F})
-        for (const std::size_t drag : {0U, 1U, 2U, 3U, 4U})
+        for (const std::size_t drag : {0U, 1U, 2U, 3U, 4U, 5U})
             EXPECT_THAT(refusalOf(withFloat(at.drags + 4 * drag, bad)),
                         testing::HasSubstr("drag outside 0 to 1000"));
     EXPECT_EQ(refusalOf(withFloat(at.drags, 1000.0F)), "accepted");

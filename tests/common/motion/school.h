@@ -110,7 +110,7 @@ inline void commandAtRandom(School& school, std::mt19937& random) {
     for (std::size_t i = 0; i < school.traits.size(); ++i) {
         if (random() % 20 != 0) continue;  // a decision every third of a second
         school.commands.segment[i] = static_cast<std::uint8_t>(random() % kActions);
-        school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 8000 - 2000);
+        school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 6000);
         school.commands.brake[i] = static_cast<std::uint8_t>(random() % 2 == 0 ? 0 : random());
         school.commands.pitch[i] = static_cast<std::int16_t>(random());
         school.commands.yawRate[i] = static_cast<std::int16_t>(random());

@@ -50,7 +50,7 @@ void orderAbout(School& school, std::mt19937& random) {
         if (random() % 8 != 0) continue;
         school.command(i, static_cast<Action>(random() % kActions));
         const double rate = school.commands.phaseRate[i] * tempo(random);
-        school.commands.phaseRate[i] = static_cast<std::int16_t>(random() % 4 == 0 ? -rate : rate);
+        school.commands.phaseRate[i] = static_cast<std::int16_t>(rate);
     }
 }
 

@@ -21,8 +21,9 @@ INSTANTIATE_TEST_SUITE_P(Of,
                          testing::Range(std::size_t{0}, allSpecies().size()),
                          nameOfSpecies);
 
-TEST_P(Closed, noSegmentRollsPitchesOrClimbs) {
+TEST_P(Closed, noSegmentButASlopeRollsPitchesOrClimbs) {
     for (int action = 0; action < motion::kActions; ++action) {
+        if (isSlope(static_cast<motion::Action>(action))) continue;
         const ReplayedPhase end =
             replay(segment(static_cast<motion::Action>(action)), kRepetitions).back();
         const glm::dvec3 up = end.worldFromBody * glm::dvec3(0, 1, 0);
@@ -32,10 +33,53 @@ TEST_P(Closed, noSegmentRollsPitchesOrClimbs) {
     }
 }
 
+// A loop: in its vertical plane it goes round without a roll or a yaw, and a dive is the climb
+// turned over.
+TEST_P(Closed, aSlopeStaysInItsVerticalPlane) {
+    using motion::Action;
+    for (const Action gait : {Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast}) {
+        const ReplayedPhase climbs =
+            replay(segment(atGait(Action::ClimbSlow, gait)), kRepetitions).back();
+        const ReplayedPhase dives =
+            replay(segment(atGait(Action::DiveSlow, gait)), kRepetitions).back();
+        const glm::dvec3 right = climbs.worldFromBody * glm::dvec3(0, 0, 1);
+        const glm::dvec3 before = replay(segment(atGait(Action::ClimbSlow, gait)), 1).back().origin;
+        EXPECT_GT(before.y, 0.01) << "it climbs";
+        EXPECT_LT(std::abs(right.y), 1e-6);
+        EXPECT_NEAR(climbs.origin.x, dives.origin.x, 1e-6);
+        EXPECT_NEAR(climbs.origin.y, -dives.origin.y, 1e-6);
+        EXPECT_NEAR(climbs.origin.z, dives.origin.z, 1e-6);
+    }
+}
+
+// Repeated, a curve is a circle: a hundred beats turn as far as a hundred times one, and half way
+// round the fish is a diameter away.
+TEST_P(Closed, aCurveGoesRoundACircle) {
+    for (int i = 0; i < motion::kActions; ++i) {
+        const auto action = static_cast<motion::Action>(i);
+        if (!isCurve(action)) continue;
+        const double turn = measure(segment(action)).turnRadians;
+        EXPECT_EQ(turn > 0, action < motion::Action::CurveRightWideSlow) << motion::nameOf(action);
+        const std::vector<ReplayedPhase> phases = replay(segment(action), kRepetitions);
+        const glm::dvec3 heading = phases.back().worldFromBody * glm::dvec3(1, 0, 0);
+        EXPECT_NEAR(
+            std::remainder(std::atan2(-heading.z, heading.x) - kRepetitions * turn, 360 * kDegree),
+            0,
+            0.5 * kDegree)
+            << motion::nameOf(action);
+        const glm::dvec3 chord = phases[motion::kPhases].origin - phases.front().origin;
+        const double radius = glm::length(chord) / (2 * std::sin(std::abs(turn) / 2));
+        const auto half = static_cast<std::size_t>(std::lround(180 * kDegree / std::abs(turn)));
+        EXPECT_NEAR(glm::length(phases[half * motion::kPhases].origin), 2 * radius, 0.03 * radius)
+            << motion::nameOf(action);
+    }
+}
+
 TEST_P(Closed, swimmingStraightKeepsItsCourse) {
     for (const motion::Action action : {motion::Action::ForwardSlow,
                                         motion::Action::ForwardMedium,
                                         motion::Action::ForwardFast,
+                                        motion::Action::Retreat,
                                         motion::Action::Glide}) {
         const std::vector<ReplayedPhase> phases = replay(segment(action), kRepetitions);
         const glm::dvec3 course = phases[motion::kPhases].origin - phases.front().origin;

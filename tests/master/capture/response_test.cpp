@@ -58,22 +58,26 @@ TEST_P(Response, theLawReplaysEveryChangeOfSpeed) {
     const SteadySwimming slow = swimUntilSteady(species(), gaits.slow);
     const SteadySwimming medium = swimUntilSteady(species(), gaits.medium);
     const SteadySwimming fast = swimUntilSteady(species(), gaits.fast);
-    const Transitions swum = swimTransitions(species(), {&slow, &medium, &fast});
+    const SteadySwimming retreat = swimUntilSteady(species(), retreatOf(species()));
+    const Transitions swum = swimTransitions(species(), {&slow, &medium, &fast}, retreat);
     const motion::SpeedResponse response = fitResponse(swum);
     for (std::size_t gait = 0; gait < swum.swim.size(); ++gait)
         for (const Transition& change : swum.swim.at(gait)) {
             EXPECT_LT(errorOf(change, swimOf(response, gait)), 0.04) << "to gait " << gait;
             EXPECT_LT(wayErrorOf(change, swimOf(response, gait)), 0.05) << "to gait " << gait;
         }
+    const SpeedLaw backing{.swimDrag = static_cast<double>(response.retreatDrag)};
+    EXPECT_LT(errorOf(swum.retreat, backing), 0.05) << swum.retreat.speeds.back();
     EXPECT_LT(errorOf(swum.glide, {.glideDrag = static_cast<double>(response.glideDrag)}), 0.05);
     EXPECT_LT(errorOf(swum.brake, brakeOf(response)), 0.03);
     EXPECT_LT(wayErrorOf(swum.brake, brakeOf(response)), 0.03);
 }
 
 TEST_P(Response, isKeptInTheRepertoire) {
-    const auto& [swim, glide, brake] = repertoire().response;
+    const auto& [swim, retreat, glide, brake] = repertoire().response;
     for (const float drag : swim)
         EXPECT_GT(drag, 0) << "a beating tail holds the fish to its speed";
+    EXPECT_GT(retreat, 0);
     EXPECT_GT(glide, 0);
     const auto medium = segment(motion::Action::ForwardMedium);
     EXPECT_GT(brake * medium.periodSeconds, 0.5F) << "fins stop a fish within some beats";

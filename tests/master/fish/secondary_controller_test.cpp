@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "master/fish/secondary_controller.h"
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -15,9 +16,33 @@ namespace {
 
 // The bigeye scad's gaits in round numbers.
 Gaits scadGaits() {
-    return {{2185, 3277, 5461, 1500, 993, 1500, 993, 3277},
-            {1.0F, 2.0F, 2.6F, 1.7F, 1.5F, 1.7F, 1.5F, 2.0F},
-            {0, 0, 0, 0.52F, 0.96F, -0.52F, -0.96F, 0}};
+    using motion::Action;
+    Gaits gaits;
+    const std::array<std::int16_t, 3> rates{2185, 3277, 5461};
+    const std::array speeds{1.0F, 2.0F, 2.6F};
+    for (std::size_t a = 0; a < motion::kSwimmingActions; ++a) {
+        gaits.phaseRate[a] = rates[a % 3];
+        gaits.speed[a] = speeds[a % 3];
+    }
+    for (const Action gait : {Action::ForwardSlow, Action::ForwardMedium, Action::ForwardFast}) {
+        const float tight = static_cast<float>(1 + indexOf(gait)) * 0.15F;  // radians a second
+        gaits.yawRate[indexOf(atGait(Action::CurveLeftWideSlow, gait))] = tight / 2;
+        gaits.yawRate[indexOf(atGait(Action::CurveLeftTightSlow, gait))] = tight;
+        gaits.yawRate[indexOf(atGait(Action::CurveRightWideSlow, gait))] = -tight / 2;
+        gaits.yawRate[indexOf(atGait(Action::CurveRightTightSlow, gait))] = -tight;
+    }
+    const auto add = [&](Action action, std::int16_t rate, float speed, float turn) {
+        gaits.phaseRate[indexOf(action)] = rate;
+        gaits.speed[indexOf(action)] = speed;
+        gaits.turn[indexOf(action)] = turn;
+    };
+    add(Action::Retreat, 2185, -0.4F, 0);
+    add(Action::TurnLeftGradual, 1500, 1.7F, 0.52F);
+    add(Action::TurnLeftSharp, 993, 1.5F, 0.96F);
+    add(Action::TurnRightGradual, 1500, 1.7F, -0.52F);
+    add(Action::TurnRightSharp, 993, 1.5F, -0.96F);
+    add(Action::Glide, 3277, 2.0F, 0);
+    return gaits;
 }
 
 // One fish that heads along +x and whose intention the test sets.
@@ -85,7 +110,7 @@ TEST(SecondaryController, aGaitIsPlayedFasterOrSlowerButByFifteenPercentAtMost) 
     const float stretch = tempoOf(1, 0) + 0.05F;
     mind.want(0, 2.0F * stretch);
     mind.thinkFor(8);
-    EXPECT_NEAR(mind.commands.phaseRate[0], stretch * 3277, 2);
+    EXPECT_NEAR(mind.commands.phaseRate[0], stretch * 3277, 3277 * 0.75 / 32) << "to a level";
 }
 
 TEST(SecondaryController, aWantedCourseBecomesAGradualOrASharpTurnToItsSide) {
@@ -99,22 +124,77 @@ TEST(SecondaryController, aWantedCourseBecomesAGradualOrASharpTurnToItsSide) {
     }
 }
 
-TEST(SecondaryController, aSmallErrorOfCourseIsSteeredWithinTheStroke) {
+TEST(SecondaryController, aSmallErrorOfCourseIsSwumOffOnACurveToItsSide) {
+    using motion::Action;
+    for (const auto& [degrees, curve] : {std::pair{2.0F, Action::ForwardMedium},
+                                         std::pair{5.0F, Action::CurveLeftWideMedium},
+                                         std::pair{12.0F, Action::CurveLeftTightMedium},
+                                         std::pair{-5.0F, Action::CurveRightWideMedium},
+                                         std::pair{-12.0F, Action::CurveRightTightMedium}}) {
+        Mind mind;
+        mind.want(degrees, 2.0F);
+        EXPECT_EQ(mind.think(), curve) << degrees;
+    }
+}
+
+// In each thought, whatever the fish plays: no more than a tenth of the tight curve's rate.
+TEST(SecondaryController, littleYawIsAddedToWhatASegmentTurns) {
+    constexpr double kUnit = 60.0 / (1 << 20);  // radians a second
+    bool adds = false;
+    for (float degrees = -29; degrees < 30; degrees += 0.5F) {
+        Mind mind;
+        mind.want(degrees, 2.0F);
+        const auto tight = atGait(motion::Action::CurveLeftTightSlow, gaitOf(mind.thinkFor(3)));
+        const double added = std::abs(mind.commands.yawRate[0] * kUnit);
+        EXPECT_LE(added, 0.1 * static_cast<double>(mind.gaits.yawRate[indexOf(tight)]) + kUnit);
+        adds |= added > 0;
+    }
+    EXPECT_TRUE(adds);
+}
+
+TEST(SecondaryController, aClimbOrDiveIsPlayedUntilThePitchIsNearTheWantedOne) {
+    using motion::Action;
     Mind mind;
-    mind.want(10, 2.0F);
-    EXPECT_TRUE(isForward(mind.think()));
-    EXPECT_GT(mind.commands.yawRate[0], 0);
-    mind.want(-10, 2.0F);
-    EXPECT_TRUE(isForward(mind.think()));
-    EXPECT_LT(mind.commands.yawRate[0], 0);
+    mind.courses[0].direction = {std::sqrt(1 - 0.09F), 0.3F, 0};
+    EXPECT_EQ(mind.think(), Action::ClimbMedium);
+    mind.view.fish[0].heading = {std::sqrt(1 - 0.04F), 0.2F, 0};
+    EXPECT_EQ(mind.think(), Action::ClimbMedium) << "it goes on";
+    mind.view.fish[0].heading = {std::sqrt(1 - 0.0625F), 0.25F, 0};
+    EXPECT_EQ(mind.think(), Action::ForwardMedium);
+    mind.courses[0].direction = {1, 0, 0};
+    EXPECT_EQ(mind.think(), Action::DiveMedium);
+}
+
+TEST(SecondaryController, aNegativeSpeedAsksForARetreat) {
+    Mind mind;
+    mind.want(20, -0.5F);
+    EXPECT_EQ(mind.think(), motion::Action::Retreat);
+}
+
+// A mind that wavers by less than a level does not change its command.
+TEST(SecondaryController, aCommandStandsUntilTheCourseDiffersByALevel) {
+    Mind mind;
+    mind.want(3, 2.0F);
+    mind.courses[0].openToChange = false;
+    mind.thinkFor(8);
+    const motion::MotorCommands before = mind.commands;
+    for (int i = 0; i < 20; ++i) {
+        mind.want(i % 2 == 0 ? 3.2F : 2.8F, i % 2 == 0 ? 1.99F : 2.01F);
+        mind.courses[0].openToChange = false;
+        mind.think();
+        EXPECT_EQ(mind.commands.segment, before.segment);
+        EXPECT_EQ(mind.commands.phaseRate, before.phaseRate);
+        EXPECT_EQ(mind.commands.yawRate, before.yawRate);
+        EXPECT_EQ(mind.commands.pitch, before.pitch);
+    }
 }
 
 TEST(SecondaryController, inDangerItTurnsSharplyEarlier) {
     Mind calm;
-    calm.want(60, 2.0F);
+    calm.want(48, 2.0F);
     EXPECT_EQ(calm.think(), motion::Action::TurnLeftGradual);
     Mind alarmed;
-    alarmed.want(60, 2.0F, 1.5F);
+    alarmed.want(48, 2.0F, 1.5F);
     EXPECT_EQ(alarmed.think(), motion::Action::TurnLeftSharp);
 }
 
@@ -128,7 +208,7 @@ TEST(SecondaryController, backwardsItKeepsTheSideOfTheTurnItIsIn) {
 }
 
 TEST(SecondaryController, whatATurnWillHaveDoneCounts) {
-    for (const float degrees : {90.0F, 30.0F}) {
+    for (const float degrees : {90.0F, 40.0F}) {
         Mind mind;
         mind.want(degrees, 2.0F);
         const motion::Action turn = mind.think();

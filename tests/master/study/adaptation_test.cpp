@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "master/study/study.h"
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/master/world/captured_fish.h"
 
 namespace aquarama::study {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 Scenario calmSchool() {
     Scenario scenario;
     scenario.name = "school";
-    world::WorldSpecies school{.tables = world::syntheticTables(), .fish = 51};
+    world::WorldSpecies school{.tables = world::capturedTables("bigeye_scad"), .fish = 51};
     school.name = "synthetic scad";
     school.habits.shares.schooling = 1;
     scenario.world.scene.plankton = 0;

@@ -10,7 +10,7 @@ namespace {
 
 TEST(World, advancingTakesNoMemory) {
     for (const unsigned threads : {1U, 2U}) {
-        World world = syntheticWorld(1, 1000, threads);
+        World world = schoolWorld(1, 1000, threads);
         for (int i = 0; i < 3; ++i) world.advance();
         const std::size_t before = test::bytesTaken;
         for (int i = 0; i < 120; ++i) world.advance();

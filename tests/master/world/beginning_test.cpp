@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/master/world/captured_fish.h"
 
 namespace aquarama::world {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/master/world/captured_fish.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::world {
@@ -18,11 +18,11 @@ constexpr config::SizeRange kLarge{
 WorldOptions reef(unsigned threads) {
     WorldOptions options;
     options.threads = threads;
-    WorldSpecies school{.tables = syntheticTables(), .fish = kSchool};
+    WorldSpecies school{.tables = capturedTables("bigeye_scad"), .fish = kSchool};
     school.habits.shares.schooling = 1;
-    WorldSpecies few{.tables = syntheticTables(), .fish = 8};
+    WorldSpecies few{.tables = capturedTables("bigeye_scad"), .fish = 8};
     few.habits.role = config::Role::Pacifist;
-    WorldSpecies one{.tables = syntheticTables(), .fish = 1, .size = kLarge};
+    WorldSpecies one{.tables = capturedTables("bigeye_scad"), .fish = 1, .size = kLarge};
     one.habits.role = config::Role::Pacifist;
     options.cast = {school, few, one};
     return options;

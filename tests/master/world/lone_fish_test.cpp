@@ -10,7 +10,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/think.h"
 #include "master/fish/secondary_controller.h"
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/master/world/captured_fish.h"
 
 namespace aquarama::world {
 namespace {
@@ -68,7 +68,7 @@ class LoneFish {
                 .adaptation = {}};
     }
 
-    std::shared_ptr<const motion::MotorTables> tables_ = syntheticTables();
+    std::shared_ptr<const motion::MotorTables> tables_ = capturedTables("bigeye_scad");
     fish::Gaits gaits_ = fish::gaitsOf(*tables_);
     std::array<motion::FishTraits, 1> traits_{{{0, 240}}};
     surroundings::Surroundings surroundings_;

@@ -11,7 +11,7 @@
 #include "master/behaviour/home.h"
 #include "master/behaviour/routines.h"
 #include "master/surroundings/obstacles.h"
-#include "tests/master/world/scene_of_synthetic_fish.h"
+#include "tests/master/world/captured_fish.h"
 #include "tests/master/world/school_shape.h"
 
 namespace aquarama::world {
@@ -34,7 +34,7 @@ float distanceBetween(const World& world, std::uint32_t a, std::uint32_t b) {
 
 TEST(AvoidObstacle, noFishEntersRockOrSand) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        World world(syntheticScene("routines/avoid_obstacle", seed));
+        World world(optionsOfScene("routines/avoid_obstacle", seed));
         bool avoided = false;
         for (int i = 0; i < 60 * kSecond; ++i) {
             world.advance();
@@ -54,7 +54,7 @@ TEST(AvoidObstacle, noFishEntersRockOrSand) {
 // Two that swim at each other, each a hand's breadth off the other's line at most.
 TEST(AvoidFish, twoThatMeetHeadOnPassWithoutTouching) {
     for (const float aside : {-0.05F, 0.0F, 0.03F, 0.1F}) {
-        WorldOptions options = syntheticScene("routines/avoid_fish");
+        WorldOptions options = optionsOfScene("routines/avoid_fish");
         options.cast.resize(2);
         for (WorldSpecies& one : options.cast) {
             one.fish = 1;
@@ -78,7 +78,7 @@ TEST(AvoidFish, twoThatMeetHeadOnPassWithoutTouching) {
 
 // A shark that is not hungry swims at the scad.
 WorldOptions scadBeforeAShark(std::uint32_t scad) {
-    WorldOptions options = syntheticScene("routines/escape");
+    WorldOptions options = optionsOfScene("routines/escape");
     options.cast[0].fish = scad;
     options.cast[0].start->centre = {-1.2F, -9, -5};
     options.cast[1].start->hunger = 0;
@@ -103,7 +103,7 @@ TEST(Escape, theDistanceToThePredatorGrows) {
 // Scattered over six metres, 40 scad are one school again in 20 seconds and swim one way in 40.
 TEST(SchoolRoutine, reformsAfterItWasScattered) {
     for (const std::uint32_t seed : {1U, 2U}) {
-        World world(syntheticScene("routines/school", seed));
+        World world(optionsOfScene("routines/school", seed));
         advance(world, kSecond);
         EXPECT_LT(shapeOf(world.view()).largestGroup, 0.6) << "it was one from the start";
         int seconds = 1;
@@ -131,7 +131,7 @@ TEST(SchoolRoutine, reformsAfterItWasScattered) {
 
 TEST(SchoolRoutine, splitsRoundTheSubmarineAndIsOneSchoolAgain) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        World world(syntheticScene("routines/submarine", seed));
+        World world(optionsOfScene("routines/submarine", seed));
         const surroundings::Submarine& submarine = world.surroundings().submarine;
         const std::size_t fish = world.view().size();
         std::vector<char> side(fish);  // by which it passed
@@ -185,7 +185,7 @@ TEST(SchoolRoutine, anAlarmedSchoolClosesUp) {
 }
 
 TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
-    World world(syntheticScene("routines/leave"));
+    World world(optionsOfScene("routines/leave"));
     advance(world, kSecond);
     const auto suits = [&](std::uint32_t fish) {
         const config::Habits& habits = world.speciesParameters()[0].habits;
@@ -205,7 +205,7 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
 }
 
 WorldOptions one(const std::string& species) {
-    WorldOptions options = syntheticScene("reef");
+    WorldOptions options = optionsOfScene("reef");
     std::erase_if(options.cast, [&](const WorldSpecies& each) { return each.name != species; });
     options.scene.plankton = 0;
     return options;
@@ -272,7 +272,7 @@ TEST(Wander, thoseThatLiveInPairsKeepNearEachOther) {
 
 // The reef of the paper, ten minutes of it, as its species live.
 TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
-    WorldOptions options = syntheticScene("reef");
+    WorldOptions options = optionsOfScene("reef");
     options.scene.tour.reset();
     World world(options);
     const surroundings::Obstacles& obstacles = world.surroundings().obstacles;
@@ -309,7 +309,7 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
 
 // It goes through their midst at half a metre a second, and they feel it come.
 TEST(Reef, allMakeWayForASubmarineOnItsTour) {
-    World world(syntheticScene("reef"));
+    World world(optionsOfScene("reef"));
     const surroundings::Submarine& submarine = world.surroundings().submarine;
     float nearest = 99;
     float farthest = 0;
@@ -328,7 +328,7 @@ TEST(Reef, allMakeWayForASubmarineOnItsTour) {
 
 // Three hundred scad and three sharks that are not hungry.
 TEST(BaitBall, millsOpensBeforeASharkAndClosesBehindIt) {
-    WorldOptions options = syntheticScene("bait_ball");
+    WorldOptions options = optionsOfScene("bait_ball");
     options.scene.plankton = 0;
     options.cast[1].habits.digestionPerSecond = 1e-6F;
     options.cast[1].habits.paces = {0, 0, 1, 0};

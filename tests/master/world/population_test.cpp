@@ -21,7 +21,7 @@ constexpr std::uint32_t kScads = 40, kTangs = 6;
 
 WorldOptions livingSea() {
     WorldSpecies hunter = sharks(1);
-    hunter.habits.hunts.emplace_back("synthetic tang");
+    hunter.habits.hunts.emplace_back("blue_tang");
     WorldSpecies prey = scads(kScads);
     prey.habits.fearMetres = 0.8F;  // in so little water farther sight would be endless fear
     WorldOptions options = openWater(4, {prey, pacifists(kTangs), hunter});

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "tests/master/world/captured_fish.h"
 #include "tests/master/world/instruction_sets.h"
-#include "tests/master/world/school_of_synthetic_fish.h"
 
 namespace {
 
@@ -34,9 +34,9 @@ int main(int argc, char** argv) {
     }
     if (argc == 6 && !use(argv[5])) return 2;
     const auto number = [&](int i) { return std::strtoul(argv[i], nullptr, 10); };
-    world::World world = world::syntheticWorld(static_cast<std::uint32_t>(number(1)),
-                                               static_cast<std::uint32_t>(number(2)),
-                                               static_cast<unsigned>(number(4)));
+    world::World world = world::schoolWorld(static_cast<std::uint32_t>(number(1)),
+                                            static_cast<std::uint32_t>(number(2)),
+                                            static_cast<unsigned>(number(4)));
     for (unsigned long i = 0; i < number(3); ++i) world.advance();
     std::printf("%016llx\n", static_cast<unsigned long long>(world.hash()));
 }

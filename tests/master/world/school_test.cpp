@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
-#include "tests/master/world/school_of_synthetic_fish.h"
+#include "tests/master/world/captured_fish.h"
 #include "tests/support/school_region.h"
 
 namespace aquarama::world {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "common/base/log.h"
+#include "tests/master/world/captured_fish.h"
 #include "tests/master/world/instruction_sets.h"
-#include "tests/master/world/school_of_synthetic_fish.h"
 
 namespace aquarama::world {
 namespace {
@@ -21,12 +21,12 @@ std::uint64_t hashAfter(World world, int ticks) {
 
 TEST(World, oneSeedIsOneWorldOnAnyNumberOfThreads) {
     for (const std::uint32_t fish : {51U, 1500U}) {
-        const std::uint64_t alone = hashAfter(syntheticWorld(1, fish, 1), 600);
+        const std::uint64_t alone = hashAfter(schoolWorld(1, fish, 1), 600);
         std::printf("hash of %u fish after 600 ticks: %016llx\n",
                     fish,
                     static_cast<unsigned long long>(alone));
-        EXPECT_EQ(alone, hashAfter(syntheticWorld(1, fish, 2), 600));
-        EXPECT_EQ(alone, hashAfter(syntheticWorld(1, fish, 4), 600));
+        EXPECT_EQ(alone, hashAfter(schoolWorld(1, fish, 2), 600));
+        EXPECT_EQ(alone, hashAfter(schoolWorld(1, fish, 4), 600));
     }
 }
 
@@ -34,19 +34,19 @@ TEST(World, oneSeedIsOneWorldOnEveryInstructionSet) {
     std::set<std::uint64_t> hashes;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         useOnly(target);
-        hashes.insert(hashAfter(syntheticWorld(1, 51), 600));
+        hashes.insert(hashAfter(schoolWorld(1, 51), 600));
         EXPECT_EQ(hashes.size(), 1U) << hwy::TargetName(target);
     }
     useOnly(0);  // all again
 }
 
 TEST(World, anotherSeedIsAnotherWorld) {
-    EXPECT_NE(syntheticWorld(1, 51).hash(), syntheticWorld(2, 51).hash());
-    EXPECT_NE(hashAfter(syntheticWorld(1, 51), 60), hashAfter(syntheticWorld(2, 51), 60));
+    EXPECT_NE(schoolWorld(1, 51).hash(), schoolWorld(2, 51).hash());
+    EXPECT_NE(hashAfter(schoolWorld(1, 51), 60), hashAfter(schoolWorld(2, 51), 60));
 }
 
 TEST(World, theHashSeesASingleTick) {
-    World world = syntheticWorld(1, 51);
+    World world = schoolWorld(1, 51);
     const std::uint64_t before = world.hash();
     world.advance();
     EXPECT_NE(world.hash(), before);
@@ -55,7 +55,7 @@ TEST(World, theHashSeesASingleTick) {
 
 // Before any fish has seen it: a replay that lacks it is told at the next checkpoint.
 TEST(World, theHashSeesAtOnceWhatReachesTheWorldFromOutside) {
-    World world = syntheticWorld(1, 51);
+    World world = schoolWorld(1, 51);
     std::set<std::uint64_t> hashes{world.hash()};
     world.apply(DropFood{.position = {0, -5, -5}});
     hashes.insert(world.hash());
@@ -67,7 +67,7 @@ TEST(World, theHashSeesAtOnceWhatReachesTheWorldFromOutside) {
 }
 
 TEST(World, recordsAreTheStates) {
-    World world = syntheticWorld(1, 51);
+    World world = schoolWorld(1, 51);
     world.advance();
     std::vector<motion::FishRecord> records;
     world.records(records);
@@ -77,7 +77,7 @@ TEST(World, recordsAreTheStates) {
 }
 
 TEST(World, lengthsVaryAboutTheSpeciesMeanWithinItsBounds) {
-    const World world = syntheticWorld(3, 2000);
+    const World world = schoolWorld(3, 2000);
     double sum = 0;
     double squares = 0;
     for (const motion::FishTraits& fish : world.traits()) {
@@ -92,14 +92,14 @@ TEST(World, lengthsVaryAboutTheSpeciesMeanWithinItsBounds) {
 }
 
 TEST(World, tailBeatsBeginAtPhasesOfAllTheCycle) {
-    const World world = syntheticWorld(1, 51);
+    const World world = schoolWorld(1, 51);
     int quarters[4] = {};
     for (const std::uint16_t phase : world.states().phase) ++quarters[phase / 16384];
     for (const int fish : quarters) EXPECT_GT(fish, 5);
 }
 
 TEST(World, withoutFishItIsEmptyWater) {
-    World sea = syntheticWorld(1, 0);
+    World sea = schoolWorld(1, 0);
     for (int i = 0; i < 60; ++i) sea.advance();
     std::vector<motion::FishRecord> records;
     sea.records(records);

@@ -64,12 +64,20 @@ CagePose poseAt(const body::FishBody& body, const motion::ActionSegment& segment
     return pose;
 }
 
-// How far a segment is a turn to the left (0) or right (1).
+// How far a segment is a turn to the left (0) or right (1); a curve is less than a turn.
 float turnOf(std::uint32_t segment, std::size_t side) {
-    constexpr float kGradual = 0.4F;
-    const auto first = static_cast<std::uint32_t>(side == 0 ? motion::Action::TurnLeftGradual
-                                                            : motion::Action::TurnRightGradual);
-    return segment == first ? kGradual : segment == first + 1 ? 1.0F : 0.0F;
+    using motion::Action;
+    const auto action = static_cast<Action>(segment);
+    if (isTurn(action)) {
+        const bool left = action < Action::TurnRightGradual;
+        const bool gradual =
+            action == Action::TurnLeftGradual || action == Action::TurnRightGradual;
+        return left == (side == 0) ? (gradual ? 0.4F : 1.0F) : 0.0F;
+    }
+    if (!isCurve(action)) return 0;
+    const bool left = action < Action::CurveRightWideSlow;
+    const Action tight = left ? Action::CurveLeftTightSlow : Action::CurveRightTightSlow;
+    return left == (side == 0) ? (action < tight ? 0.15F : 0.3F) : 0.0F;
 }
 
 body::FinDrive driveOf(const motion::PresentedFish& fish, float seconds) {

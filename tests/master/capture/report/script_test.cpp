@@ -51,8 +51,7 @@ TEST(FidelityScript, turnsOutOfMediumSwimmingAndForAWholeSegment) {
         for (std::size_t i = 1; i < script.size(); ++i) {
             if (!isTurn(script[i].manoeuvre)) continue;
             EXPECT_EQ(script[i - 1].manoeuvre, Manoeuvre::ForwardMedium);
-            const double seconds =
-                gaits.at(static_cast<std::size_t>(script[i].manoeuvre)).periodSeconds;
+            const double seconds = gaits.at(indexOf(actionOf(script[i].manoeuvre))).periodSeconds;
             EXPECT_EQ(script[i].ticks, std::lround(seconds * kTicksPerSecond));
         }
     }
