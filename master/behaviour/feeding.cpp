@@ -171,7 +171,7 @@ constexpr float kAheadCosine = 0.5F;
 constexpr std::uint32_t kStalkTicks = 20 * 60;
 // Reach of a bite from the mouth, in body lengths, by its gape and suction; twice as far straight
 // ahead.
-constexpr float kBite = 0.05F;
+constexpr float kBite = 0.08F;
 constexpr float kBiteCosine = 0.85F;
 constexpr float kMostHuntLeadSeconds = 0.3F;
 

@@ -22,6 +22,10 @@ constexpr float kReachSeconds = 2.2F;
 constexpr float kReachMetres = 0.4F;
 // A submarine that approaches counts as larger by its way in this time.
 constexpr float kBowWaveSeconds = 1.0F;
+// For so long the submarine is taken to go on; a fish turns aside in two to four seconds.
+constexpr float kSubmarineSeconds = 3.0F;
+// By the push of the submarine: half a push is enough for the greatest haste.
+constexpr float kHurry = 2.0F;
 
 // b1 and b2 of the cost of a prey: schooling and turning make it costlier (Tu & Terzopoulos 1994).
 constexpr float kSchoolingCost = 0.5F;
@@ -334,7 +338,7 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
     if (velocity == glm::vec3{})
         return surroundings::ballPush(
             submarine.position, submarine.radiusMetres, senses.position, senses.heading, reach);
-    const glm::vec3 past = senses.heading * reach - velocity * kReachSeconds;
+    const glm::vec3 past = senses.heading * reach - velocity * kSubmarineSeconds;
     const glm::vec3 towards = place::directionOf(senses.position - submarine.position, {});
     const float comingOn = std::max(0.0F, place::dot(velocity, towards));
     return surroundings::ballPush(submarine.position,
@@ -344,16 +348,20 @@ glm::vec3 submarinePush(const surroundings::Submarine& submarine,
                                   place::lengthOf(past));
 }
 
-void feelSurroundings(const Environment& environment, Senses& senses) {
+// A fish feels what it would meet while it turns by a right angle.
+void feelSurroundings(const Environment& environment,
+                      const fish::SpeciesParameters& parameters,
+                      Senses& senses) {
     const surroundings::Surroundings& around = *environment.surroundings;
-    const float reach = kReachMetres + senses.speed * kReachSeconds;
+    const float reach = kReachMetres + std::max(0.0F, senses.speed) *
+                                           std::max(kReachSeconds, parameters.turnSeconds);
     const surroundings::Submarine& submarine = around.submarine;
     const glm::vec3 fromSubmarine = submarinePush(submarine, senses, reach);
     senses.push =
         surroundings::avoidance(around.obstacles, senses.position, senses.heading, reach) +
         fromSubmarine;
     if (submarine.velocityMetresPerSecond != glm::vec3{})
-        senses.hurry = std::min(1.0F, place::lengthOf(fromSubmarine));
+        senses.hurry = std::min(1.0F, kHurry * place::lengthOf(fromSubmarine));
     senses.urgency = place::lengthOf(senses.push);
     senses.submarineMetres = place::lengthOf(submarine.position - senses.position);
 }
@@ -376,7 +384,7 @@ Senses perceive(const Environment& environment,
     seePrey(onlooker);
     senseFood(onlooker);
     seeMate(onlooker);
-    feelSurroundings(environment, senses);
+    feelSurroundings(environment, parameters, senses);
     feelClimate(*environment.surroundings, parameters, mind.likes, senses);
     feelCollision(environment, parameters, fish, mind, senses);
     return senses;

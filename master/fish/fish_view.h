@@ -27,6 +27,8 @@ struct SpeciesParameters {
     std::uint64_t shadows = 0;
     // Speeds of the three forward gaits of its repertoire, in body lengths a second.
     float slow = 1, medium = 2, fast = 3;
+    // In which it turns by a right angle with sharp turns.
+    float turnSeconds = 1;
     config::Habits habits;
 };
 

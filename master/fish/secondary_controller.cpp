@@ -43,9 +43,10 @@ constexpr float kCurveSeconds = 2.0F;
 constexpr float kYawGain = 1.6F;
 constexpr float kLeadSeconds =
     static_cast<float>(kTicksBetweenThoughts) / static_cast<float>(kTicksPerSecond);
-// The most yaw that is added to what a segment turns (MotorCommands::yawRate): a share of the rate
-// of the tight curve of its gait, for any segment.
-constexpr float kMostAdded = 0.1F;
+// The yaw that is added to what a segment turns where that is not enough (MotorCommands::yawRate),
+// to either side: a share of the rate of the tight curve of its gait. Less than three quarters of
+// it is left to the next thought.
+constexpr float kAdded = 0.5F;
 // A hovering fish is turned by its fins, radians a second.
 constexpr float kMostHoverYaw = 30.0F * kRadiansPerDegree<float>;
 // A curve is left for another where that is nearer to the wanted rate by this share of the tight
@@ -54,7 +55,7 @@ constexpr float kCurveHysteresis = 0.05F;
 // Levels of a command. Within three quarters of a level the command before stands.
 constexpr float kStay = 0.75F;
 constexpr float kRateLevel = 1.0F / 32.0F;  // of the recorded phase rate
-constexpr float kYawLevel = 2.5F * kRadiansPerDegree<float>;
+constexpr float kHoverYawLevel = 2.5F * kRadiansPerDegree<float>;
 constexpr float kPitchLevel = 1.0F / 32.0F;  // of the sine
 constexpr float kBrakeLevel = 1.0F / 8.0F;   // of full braking
 
@@ -228,11 +229,12 @@ std::int16_t yawRateFor(const Gaits& gaits,
                         motion::Action chosen,
                         std::int16_t present) {
     constexpr float kUnit = kRadiansOfYawUnit * static_cast<float>(kTicksPerSecond);
-    const float most =
-        chosen == motion::Action::Glide ? kMostHoverYaw : kMostAdded * tightRateOf(gaits, chosen);
+    const bool hovers = chosen == motion::Action::Glide;
+    const float most = hovers ? kMostHoverYaw : kAdded * tightRateOf(gaits, chosen);
     const float lacks = wantedYaw(moment) - gaits.yawRate[indexOf(chosen)];
-    const float level =
-        levelFor(std::clamp(lacks, -most, most), static_cast<float>(present) * kUnit, kYawLevel);
+    const float level = levelFor(std::clamp(lacks, -most, most),
+                                 static_cast<float>(present) * kUnit,
+                                 hovers ? kHoverYawLevel : most);
     return static_cast<std::int16_t>(std::clamp(level, -most, most) / kUnit);
 }
 

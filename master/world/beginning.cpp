@@ -305,6 +305,8 @@ fish::SpeciesParameters makeSpeciesParameters(const std::vector<WorldSpecies>& c
             .slow = gaits.speed[indexOf(motion::Action::ForwardSlow)],
             .medium = gaits.speed[indexOf(motion::Action::ForwardMedium)],
             .fast = gaits.speed[indexOf(motion::Action::ForwardFast)],
+            .turnSeconds = 90.0F * kRadiansPerDegree<float> /
+                           gaits.yawRate[indexOf(motion::Action::TurnLeftSharp)],
             .habits = habits};
 }
 

@@ -157,7 +157,8 @@ TEST_P(Attitude, whenNotManoeuvringAFishIsUprightWithinFiveDegrees) {
         }
         school.tick();
         for (std::size_t i = 0; i < kFish; ++i) {
-            const bool turns = isTurn(static_cast<Action>(school.states.segment[i]));
+            const auto action = static_cast<Action>(school.states.segment[i]);
+            const bool turns = isTurn(action) || isCurve(action);
             calm[i] = turns ? 0 : calm[i] + 1;
             if (calm[i] < kCalmTicks || (tick + static_cast<int>(i)) % 8 != 0) continue;
             worst = std::max(worst, std::abs(school.roll(i)));

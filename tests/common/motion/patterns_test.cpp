@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The patterns beside swimming and turning (paper, section 3.2): retreat, brake, glide, ascend and
 // descend.
+#include "common/motion/motor_tables.h"
 #include "tests/common/motion/captured_species.h"
 #include "tests/common/motion/school.h"
 
@@ -134,7 +135,8 @@ TEST_P(Patterns, anAscendingOrDescendingFishHoldsTheCommandedPitch) {
             school.play(0, action);
             school.commands.pitch[0] =
                 static_cast<std::int16_t>(std::lround(std::sin(pitch * kDegree) * 32768));
-            school.tick(180);
+            const auto rate = static_cast<double>(school.tables->pitchRate);  // radians a tick
+            school.tick(180 + static_cast<int>(std::abs(pitch) * kDegree / rate));
             const glm::dvec3 from = school.place(0);
             for (int tick = 0; tick < 300; ++tick) {
                 school.tick();

@@ -137,8 +137,9 @@ TEST(SecondaryController, aSmallErrorOfCourseIsSwumOffOnACurveToItsSide) {
     }
 }
 
-// In each thought, whatever the fish plays: no more than a tenth of the tight curve's rate.
-TEST(SecondaryController, littleYawIsAddedToWhatASegmentTurns) {
+// In each thought, whatever the fish plays: half of the tight curve's rate, and none where the
+// curves turn enough.
+TEST(SecondaryController, yawIsAddedOnlyWhereTheCurvesAreNotEnough) {
     constexpr double kUnit = 60.0 / (1 << 20);  // radians a second
     bool adds = false;
     for (float degrees = -29; degrees < 30; degrees += 0.5F) {
@@ -146,7 +147,12 @@ TEST(SecondaryController, littleYawIsAddedToWhatASegmentTurns) {
         mind.want(degrees, 2.0F);
         const auto tight = atGait(motion::Action::CurveLeftTightSlow, gaitOf(mind.thinkFor(3)));
         const double added = std::abs(mind.commands.yawRate[0] * kUnit);
-        EXPECT_LE(added, 0.1 * static_cast<double>(mind.gaits.yawRate[indexOf(tight)]) + kUnit);
+        const auto most = static_cast<double>(mind.gaits.yawRate[indexOf(tight)]);
+        EXPECT_LE(added, 0.5 * most + kUnit);
+        const double wanted = 1.6 * std::abs(static_cast<double>(degrees)) * 3.14159 / 180;
+        if (wanted < 1.3 * most) {
+            EXPECT_EQ(added, 0) << degrees;
+        }
         adds |= added > 0;
     }
     EXPECT_TRUE(adds);
@@ -174,12 +180,12 @@ TEST(SecondaryController, aNegativeSpeedAsksForARetreat) {
 // A mind that wavers by less than a level does not change its command.
 TEST(SecondaryController, aCommandStandsUntilTheCourseDiffersByALevel) {
     Mind mind;
-    mind.want(3, 2.0F);
+    mind.want(1, 2.0F);
     mind.courses[0].openToChange = false;
     mind.thinkFor(8);
     const motion::MotorCommands before = mind.commands;
     for (int i = 0; i < 20; ++i) {
-        mind.want(i % 2 == 0 ? 3.2F : 2.8F, i % 2 == 0 ? 1.99F : 2.01F);
+        mind.want(i % 2 == 0 ? 1.2F : 0.8F, i % 2 == 0 ? 1.99F : 2.01F);
         mind.courses[0].openToChange = false;
         mind.think();
         EXPECT_EQ(mind.commands.segment, before.segment);

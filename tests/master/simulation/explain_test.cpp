@@ -92,7 +92,7 @@ TEST(Explain, aFrightenedFishIsSaidToFlee) {
     ASSERT_TRUE(insight);
     EXPECT_GT(insight->feelings.fear, 0.25F);
     const std::vector<std::string> lines = world.explain(0);
-    EXPECT_THAT(lines, Contains(HasSubstr("synthetic shark, ")));
+    EXPECT_THAT(lines, Contains(HasSubstr("blacktip_reef_shark, ")));
     EXPECT_THAT(lines, Contains(AllOf(HasSubstr("INTENDS"), HasSubstr("escape"))));
     EXPECT_THAT(lines, Contains(HasSubstr("comes after fear")));
     EXPECT_THAT(world.explain(1), Contains(HasSubstr("predator")));

@@ -52,7 +52,7 @@ TEST(Hunt, SometimesCatchesAndNotAlways) {
 }
 
 TEST(Hunt, WhoIsEatenIsAwayAndAnotherComesFromAfar) {
-    World world(seaOfTheHunt(1));
+    World world(seaOfTheHunt(3));
     int catches = 0;
     std::vector<std::uint64_t> awaySince(kScads + 1, 0);
     for (int i = 0; i < 6 * 3600; ++i) {
@@ -115,8 +115,8 @@ TEST(Hunt, TheSchoolFormsAgainAfterAChase) {
 }
 
 TEST(Hunt, IsOneWorldOnAnyNumberOfThreads) {
-    World one(seaOfTheHunt(1));
-    WorldOptions options = seaOfTheHunt(1);
+    World one(seaOfTheHunt(3));
+    WorldOptions options = seaOfTheHunt(3);
     options.threads = 2;
     World two(options);
     options.threads = 4;

@@ -90,14 +90,14 @@ WorldOptions scadBeforeAShark(std::uint32_t scad) {
 TEST(Escape, theDistanceToThePredatorGrows) {
     World world(scadBeforeAShark(1));
     world.advance();
-    bool fled = false;
-    for (int i = 0; i < 5 * kSecond; ++i) {
-        world.advance();
-        fled |= world.minds()[0].intention == fish::Intention::Escape;
-    }
-    EXPECT_TRUE(fled);
-    print("distance after 5 s, m", double{distanceBetween(world, 0, 1)});
-    EXPECT_GT(distanceBetween(world, 0, 1), 2.8F) << "metres; it began 2.3 m before it";
+    const auto flees = [&] { return world.minds()[0].intention == fish::Intention::Escape; };
+    int waited = 0;
+    for (; waited < 20 * kSecond && !flees(); ++waited) world.advance();
+    EXPECT_TRUE(flees()) << "it has come near by then";
+    const float before = distanceBetween(world, 0, 1);
+    advance(world, 5 * kSecond);
+    print("gained within 5 s of flight, m", double{distanceBetween(world, 0, 1) - before});
+    EXPECT_GT(distanceBetween(world, 0, 1), before + 0.5F) << "metres";
 }
 
 // Scattered over six metres, 40 scad are one school again in 20 seconds and swim one way in 40.
@@ -199,7 +199,7 @@ TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
     };
     const std::uint32_t fish = 3;
     for (std::uint32_t i = 0; i < fish; ++i) EXPECT_FALSE(suits(i)) << "there was no need";
-    advance(world, 120 * kSecond);
+    advance(world, 240 * kSecond);
     for (std::uint32_t i = 0; i < fish; ++i)
         EXPECT_TRUE(suits(i)) << world.view().fish[i].position.y;
 }
@@ -301,7 +301,7 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
     print("above the sand, m", double{aboveSand});
     print("from a rock's ball, m", double{aboveRock});
     print("from the submarine's eye, m", double{fromSubmarine});
-    EXPECT_LT(outside, 0.8F) << "half the circle that the shark turns in";
+    EXPECT_LT(outside, 0.6F) << "half the circle that the shark turns in";
     EXPECT_GT(aboveSand, 0.1F);
     EXPECT_GT(aboveRock, 0.0F);
     EXPECT_GT(fromSubmarine, submarine.radiusMetres);
@@ -309,21 +309,24 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
 
 // It goes through their midst at half a metre a second, and they feel it come.
 TEST(Reef, allMakeWayForASubmarineOnItsTour) {
-    World world(optionsOfScene("reef"));
-    const surroundings::Submarine& submarine = world.surroundings().submarine;
-    float nearest = 99;
-    float farthest = 0;
-    for (int i = 0; i < 400 * kSecond; ++i) {
-        world.advance();
-        farthest = std::max(farthest, place::lengthOf(submarine.position - place::kEyePosition));
-        for (std::uint32_t fish = 0; i % 4 == 0 && fish < world.view().size(); ++fish)
-            if (!world.view().shows(fish, fish::kAway))
-                nearest = std::min(
-                    nearest, place::lengthOf(world.view().position(fish) - submarine.position));
+    for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
+        World world(optionsOfScene("reef", seed));
+        const surroundings::Submarine& submarine = world.surroundings().submarine;
+        float nearest = 99;
+        float farthest = 0;
+        for (int i = 0; i < 400 * kSecond; ++i) {
+            world.advance();
+            farthest =
+                std::max(farthest, place::lengthOf(submarine.position - place::kEyePosition));
+            for (std::uint32_t fish = 0; i % 4 == 0 && fish < world.view().size(); ++fish)
+                if (!world.view().shows(fish, fish::kAway))
+                    nearest = std::min(
+                        nearest, place::lengthOf(world.view().position(fish) - submarine.position));
+        }
+        print("from the touring submarine's eye, m", double{nearest});
+        EXPECT_GT(farthest, 4) << "it went through";
+        EXPECT_GT(nearest, 0.65F) << "its hull of half a metre, and half a fish";
     }
-    print("from the touring submarine's eye, m", double{nearest});
-    EXPECT_GT(farthest, 4) << "it went through";
-    EXPECT_GT(nearest, 0.65F) << "its hull of half a metre, and half a fish";
 }
 
 // Three hundred scad and three sharks that are not hungry.

@@ -62,7 +62,7 @@ TEST(Vocabulary, ofSevenSegmentsTurnsMuchBetterThanOfFewer) {
     const VocabularyErrors& one = all.at(0);
     const VocabularyErrors& five = all.at(2);
     const VocabularyErrors& seven = all.at(3);
-    EXPECT_EQ(seven.segments, std::size_t{motion::kCapturedActions});
+    EXPECT_EQ(seven.segments, std::size_t{motion::kForwardGaits + 4});
     EXPECT_LT(seven.turnHeadingError, 0.6 * one.turnHeadingError);
     EXPECT_LT(seven.turnHeadingError, 0.9 * five.turnHeadingError);
     EXPECT_LT(seven.shapeWithin, one.shapeWithin);
