@@ -26,11 +26,16 @@ struct Life {
     std::vector<Hour> hours;
     std::vector<BodyOverlap> overlaps;
     std::string overlapsCsv;
+    MotionTally motion;
     std::uint64_t hash = 0;
 };
 
+Scenario sceneOf(const std::string& name) {
+    return readScenario(AQUARAMA_SOURCE_DIR "/config/scenes/" + name + ".txtpb");
+}
+
 Life lived() {
-    const Scenario scenario = readScenario(AQUARAMA_SOURCE_DIR "/config/scenes/reef.txtpb");
+    const Scenario scenario = sceneOf("reef");
     world::World world(scenario.world);
     const std::uint64_t hour = (isSoak() ? 60 : 5) * kTicksOfMinute;
     Chronicle chronicle(world, scenario.halfWidths, hour);
@@ -45,6 +50,7 @@ Life lived() {
     return {chronicle.hours(),
             chronicle.overlaps().all(),
             overlapsCsv(chronicle.overlaps(), world, scenario.world.cast),
+            chronicle.motions().all(),
             world.hash()};
 }
 
@@ -76,13 +82,13 @@ TEST_F(Reef, noTwoFishOverlapForLong) {
         EXPECT_LE(overlap.ticks, longest) << pair();
         EXPECT_LE(overlap.deepTicks, longestDeep) << pair() << ", over a quarter of a body";
     }
-    everyHour([](const Hour& hour) { EXPECT_LT(hour.overlapPercent, 5); });
+    everyHour([](const Hour& hour) { EXPECT_LT(hour.overlapPercent, 3); });
 }
 
 TEST_F(Reef, nobodyLeavesTheWaterOrEntersTheTerrain) {
     everyHour([](const Hour& hour) {
         EXPECT_EQ(hour.bumps, 0U) << "into rock, sand or surface";
-        EXPECT_LT(hour.farthestOutMetres, 1) << "a turn needs room";
+        EXPECT_LT(hour.farthestOutMetres, 0.6) << "a turn needs room";
     });
 }
 
@@ -94,6 +100,28 @@ TEST_F(Reef, nobodyIsStuckAndNothingCollapsesIntoACorner) {
         EXPECT_GT(hour.spreadMetres, 1.0F);
         EXPECT_GT(hour.waterUsedPercent, 50);
     });
+}
+
+// Fish turn by bending, and go where they look: what the motor adds to the captured motion is a
+// fifth of the turning at most, and slides by 8 degrees at most.
+void expectCapturedMotion(const MotionTally& motion) {
+    EXPECT_GE(motion.capturedPercent(), 80);
+    EXPECT_LE(quantileDegrees(motion.meanSlip, 0.99), 8);
+    EXPECT_LT(static_cast<double>(motion.changes) / motion.fishSeconds, 7) << "changes of command";
+}
+
+TEST_F(Reef, fishTurnByCapturedSegmentsAndDoNotSlide) {
+    expectCapturedMotion(life().motion);
+}
+
+TEST(BaitBall, fishTurnByCapturedSegmentsAndDoNotSlide) {
+    world::World world(sceneOf("bait_ball").world);
+    MotionLog motions(world);
+    for (std::uint64_t tick = 0; tick < kTicksOfMinute; ++tick) {
+        world.advance();
+        motions.note(world);
+    }
+    expectCapturedMotion(motions.all());
 }
 
 TEST_F(Reef, theChronicleHasALineForEachHourAndOverlap) {
