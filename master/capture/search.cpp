@@ -195,7 +195,7 @@ namespace {
 // The optimisation.
 
 // Raise it when a change of the simulation, the objective or the parameters changes the trials.
-constexpr const char* kSearchVersion = "aquarama search 1";
+constexpr const char* kSearchVersion = "aquarama search 2";
 constexpr double kSwims = 0.01;       // the goal: a miss by a tenth of one tolerance
 constexpr double kFirstStep = 0.1;    // of the range of each parameter
 constexpr double kDoesNotSwim = 1e6;  // the miss of a fish that finds no steady beat
