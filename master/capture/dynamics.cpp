@@ -179,15 +179,18 @@ RestShares restShares(const MuscleActivation& muscles, double contraction) {
              {1, left(muscles.backLeft), left(muscles.backRight)}}};
 }
 
-// A Voigt unit: spring and damper in parallel, acting along u = r / |r|. Its force is
-//     f u,  f = stiffness (|r| - length) + damping u.v,  v = dr/dt.
-// Its derivative by v, with that by r counted h/2 times, is
-//     h/2 (stiffness u u^T + g (1 - u u^T)) + damping u u^T,  g = max(0, stiffness (|r| - length) /
-//     |r|).
-// In compression the geometric stiffness g would be negative; it is 0 there, which keeps the system
-// positive definite at any step. The change of the damping force with the direction u is left out,
-// since it is not symmetric. Both slow the convergence of the iteration and leave its limit as it
-// is. `length` is the rest length now, with any contraction.
+// A Voigt unit: spring and damper in parallel, acting along r from the first node to the second:
+//     force = stiffness (1 - length / l) r + damping (u.v) u,  u = r / |r|,  v = dr/dt,
+// where l is the mean of the lengths at the two ends of the step. With |r| in place of l this would
+// be the plain midpoint rule; with l, the work of the spring in the step is the change of its
+// energy exactly, so that stiff springs cannot gain energy from the rule at any step (Greenspan
+// 1984; Simo & Tarnow 1992). `length` is the rest length now, with any contraction.
+//
+// The matrix has, with t = stiffness (1 - length / l),
+//     h/2 (stiffness u u^T + g (1 - u u^T)) + damping u u^T,  g = max(0, t).
+// In compression t is negative; it is left out there, which keeps the system positive definite at
+// any step. So is the change of the damping force with the direction u, which is not symmetric.
+// Both slow the convergence of the iteration a little and leave its limit as it is.
 void addSpring(const Spring& spring,
                double length,
                double damping,
@@ -195,19 +198,21 @@ void addSpring(const Spring& spring,
                const FishState& middle,
                EnvelopeSystem& system) {
     const glm::dvec3 r = middle.positions[spring.second] - middle.positions[spring.first];
+    const glm::dvec3 v = middle.velocities[spring.second] - middle.velocities[spring.first];
+    const double ends = (glm::length(r - halfStep * v) + glm::length(r + halfStep * v)) / 2;
     const double distance = glm::length(r);
     const glm::dvec3 u = r / distance;
-    const glm::dvec3 v = middle.velocities[spring.second] - middle.velocities[spring.first];
-    const double elastic = spring.stiffness * (distance - length);
-    const double force = elastic + damping * glm::dot(u, v);
-    const double geometric = std::max(0.0, elastic / distance);
+    const double tension = spring.stiffness * (1 - length / ends);
+    const double rate = damping * glm::dot(u, v) / distance;
+    const double geometric = std::max(0.0, tension);
     const double along = halfStep * (spring.stiffness - geometric) + damping;
     const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(halfStep * geometric);
+    const glm::dvec3 force = (tension + rate) * r;
     system.addDiagonalBlock(spring.first, block);
     system.addDiagonalBlock(spring.second, block);
     system.addOffDiagonalBlock(spring.first, spring.second, -block);
-    system.addToRightSide(spring.first, force * u);
-    system.addToRightSide(spring.second, -force * u);
+    system.addToRightSide(spring.first, force);
+    system.addToRightSide(spring.second, -force);
 }
 
 // Drag acts only on a face that advances into the water (Tu & Terzopoulos 1994), here with the

@@ -55,7 +55,7 @@ constexpr std::array kParameters{
               [](const config::Species& s) { return s.tissue.tailStiffening; },
               [](config::Species& s, double v) { s.tissue.tailStiffening = v; }},
     Parameter{0.2,
-              8,
+              12,
               [](const config::Species& s) { return s.tissue.damping; },
               [](config::Species& s, double v) { s.tissue.damping = v; }},
     Parameter{150,
