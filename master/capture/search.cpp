@@ -63,7 +63,7 @@ constexpr std::array kParameters{
               [](const config::Species& s) { return s.water.drag; },
               [](config::Species& s, double v) { s.water.drag = v; }},
     Parameter{0.1,
-              0.7,
+              1,
               [](const config::Species& s) { return s.water.frontFactor; },
               [](config::Species& s, double v) { s.water.frontFactor = v; }},
     Parameter{0.1,
