@@ -156,8 +156,10 @@ glm::dvec3 EnvelopeSystem::solution(int node) const {
 
 namespace {
 
-// Forces. Each function adds one force to the system of a step: in the matrix minus the derivative
-// of the force by the velocities at the end of the step, in the right side the rest.
+// Forces. Each function adds one force, at the middle of a step, to the system of one Newton
+// iteration: to the right side the force itself, to the matrix minus its derivative by the
+// velocities at the middle. The places at the middle are x + h/2 v, so that a derivative by places
+// counts h/2 times.
 
 // The left and right nodes of rings 1 and 2, ascending.
 constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
@@ -177,73 +179,168 @@ RestShares restShares(const MuscleActivation& muscles, double contraction) {
              {1, left(muscles.backLeft), left(muscles.backRight)}}};
 }
 
-// A Voigt unit: spring and damper in parallel, acting along u = r / |r|. Its force is linearised in
-// the velocities at the end of the step, so that the step is implicit:
-//     f(t + h) = f(t) + h (k u u^T + g (1 - u u^T)) dv + damping u u^T dv,  g = max(0, f / |r|).
-// In compression the geometric stiffness g would be negative; it is left out there, which keeps the
-// system positive definite at any step. `length` is the rest length now, with any contraction.
+// A Voigt unit: spring and damper in parallel, acting along r from the first node to the second:
+//     force = stiffness (1 - length / l) r + damping (u.v) u,  u = r / |r|,  v = dr/dt,
+// where l is the mean of the lengths at the two ends of the step. With |r| in place of l this would
+// be the plain midpoint rule; with l, the work of the spring in the step is the change of its
+// energy exactly, so that stiff springs cannot gain energy from the rule at any step (Greenspan
+// 1984; Simo & Tarnow 1992). `length` is the rest length now, with any contraction.
+//
+// The matrix has, with t = stiffness (1 - length / l),
+//     h/2 (stiffness u u^T + g (1 - u u^T)) + damping u u^T,  g = max(0, t).
+// In compression t is negative; it is left out there, which keeps the system positive definite at
+// any step. So is the change of the damping force with the direction u, which is not symmetric.
+// Both slow the convergence of the iteration a little and leave its limit as it is.
 void addSpring(const Spring& spring,
                double length,
                double damping,
-               double stepSeconds,
-               const FishState& state,
+               double halfStep,
+               const FishState& middle,
                EnvelopeSystem& system) {
-    const glm::dvec3 r = state.positions[spring.second] - state.positions[spring.first];
+    const glm::dvec3 r = middle.positions[spring.second] - middle.positions[spring.first];
+    const glm::dvec3 v = middle.velocities[spring.second] - middle.velocities[spring.first];
+    const double ends = (glm::length(r - halfStep * v) + glm::length(r + halfStep * v)) / 2;
     const double distance = glm::length(r);
     const glm::dvec3 u = r / distance;
-    const double force = spring.stiffness * (distance - length);
-    const double geometric = std::max(0.0, force / distance);
-    const double along = stepSeconds * (spring.stiffness - geometric) + damping;
-    const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(stepSeconds * geometric);
+    const double tension = spring.stiffness * (1 - length / ends);
+    const double rate = damping * glm::dot(u, v) / distance;
+    const double geometric = std::max(0.0, tension);
+    const double along = halfStep * (spring.stiffness - geometric) + damping;
+    const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(halfStep * geometric);
+    const glm::dvec3 force = (tension + rate) * r;
     system.addDiagonalBlock(spring.first, block);
     system.addDiagonalBlock(spring.second, block);
     system.addOffDiagonalBlock(spring.first, spring.second, -block);
-    system.addToRightSide(spring.first, force * u);
-    system.addToRightSide(spring.second, -force * u);
+    system.addToRightSide(spring.first, force);
+    system.addToRightSide(spring.second, -force);
 }
 
 // Drag acts only on a face that advances into the water (Tu & Terzopoulos 1994), here with the
 // square of its normal speed: -drag A (n.v)^2 n, where A is the area, n the outward normal and v
-// the mean velocity of the three nodes. A third of it acts on each node. One factor (n.v) is taken
-// at the end of the step, which makes the term implicit and linear; the other at its beginning.
-void addDrag(const WettedFace& face, const FishState& state, EnvelopeSystem& system) {
+// the mean velocity of the three nodes. A third of it acts on each node. The derivative by places
+// is left out of the matrix; it is small beside that by velocities.
+void addDrag(const WettedFace& face, const FishState& middle, EnvelopeSystem& system) {
     const auto [a, b, c] = face.nodes;
-    const glm::dvec3 areaVector = glm::cross(state.positions[b] - state.positions[a],
-                                             state.positions[c] - state.positions[a]) /
+    const glm::dvec3 areaVector = glm::cross(middle.positions[b] - middle.positions[a],
+                                             middle.positions[c] - middle.positions[a]) /
                                   2.0;
     const glm::dvec3 velocity =
-        (state.velocities[a] + state.velocities[b] + state.velocities[c]) / 3.0;
+        (middle.velocities[a] + middle.velocities[b] + middle.velocities[c]) / 3.0;
     const double flow = glm::dot(areaVector, velocity);  // area * normal speed
     if (flow <= 0) return;
     const double areaSquared = glm::dot(areaVector, areaVector);
-    const glm::dvec3 scaled = face.drag / 9 * flow / areaSquared * areaVector;
-    const glm::dmat3 block = glm::outerProduct(scaled, areaVector);
+    const glm::dvec3 scaled = face.drag / 3 * flow / areaSquared * areaVector;
+    const glm::dmat3 block = glm::outerProduct(2.0 / 3 * scaled, areaVector);
     for (std::size_t i = 0; i < 3; ++i) {
         system.addDiagonalBlock(face.nodes[i], block);
         const auto next = face.nodes[(i + 1) % 3];
         system.addOffDiagonalBlock(
             std::min(face.nodes[i], next), std::max(face.nodes[i], next), block);
+        system.addToRightSide(face.nodes[i], -flow * scaled);
     }
 }
 
 // -drag (n.v) n, linear in speed as Tu's law. v is the mean velocity of the four nodes at the fin's
-// root at the end of the step, plus the sweep of the fin along the body's x axis; a quarter of the
-// force acts on each of those nodes. Tu distributes it over rings 1 to 3; over the first two rings
-// alone it pitches the fish twice as much.
+// root, plus the sweep of the fin along the body's x axis; a quarter of the force acts on each of
+// those nodes. Tu distributes it over rings 1 to 3; over the first two rings alone it pitches the
+// fish twice as much. `worldFromBody` is the body frame at the middle of the step.
 void addFin(const PectoralFin& fin,
             const std::array<int, 4>& root,
             double drag,
             const glm::dmat3& worldFromBody,
+            const FishState& middle,
             EnvelopeSystem& system) {
     const double across = std::cos(fin.angleRadians);
     const glm::dvec3 normal = worldFromBody * glm::dvec3(across, std::sin(fin.angleRadians), 0);
     const glm::dmat3 block = glm::outerProduct(drag / 16 * normal, normal);
+    glm::dvec3 velocity{};
+    for (const int node : root) velocity += middle.velocities[static_cast<std::size_t>(node)] / 4.0;
+    const double normalSpeed = glm::dot(normal, velocity) + fin.sweepSpeed * across;
     for (std::size_t i = 0; i < root.size(); ++i) {
         system.addDiagonalBlock(root[i], block);
         for (std::size_t j = i + 1; j < root.size(); ++j)
             system.addOffDiagonalBlock(root[i], root[j], block);
-        system.addToRightSide(root[i], -drag / 4 * fin.sweepSpeed * across * normal);
+        system.addToRightSide(root[i], -drag / 4 * normalSpeed * normal);
     }
+}
+
+// The equation of the step. With v the velocities at its middle and v0 those at its beginning, the
+// implicit midpoint rule is
+//     2 m / h (v - v0) = force(x0 + h/2 v, v) + lift.
+// Adds the inertia and the lift.
+void addInertia(const BiomechanicalFish& fish,
+                double halfStep,
+                const FishState& start,
+                const FishState& middle,
+                EnvelopeSystem& system) {
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        const double inertia = fish.masses[node] / halfStep;
+        system.addToDiagonal(i, inertia);
+        system.addToRightSide(i,
+                              inertia * (start.velocities[node] - middle.velocities[node]) +
+                                  glm::dvec3(0, fish.lifts[node], 0));
+    }
+}
+
+// Forces on the body from within and from the water.
+void addForces(const BiomechanicalFish& fish,
+               const MotorControl& control,
+               double halfStep,
+               const FishState& middle,
+               EnvelopeSystem& system) {
+    const RestShares shares = restShares(control.muscles, fish.muscleContraction);
+    const auto& units = anatomy().units;
+    for (std::size_t i = 0; i < kUnits; ++i) {
+        const Spring& spring = fish.springs[i];
+        const double share = shares.at(static_cast<std::size_t>(units[i].kind))
+                                 .at(static_cast<std::size_t>(units[i].side));
+        const double length = spring.restLength * share;
+        addSpring(spring, length, fish.damping, halfStep, middle, system);
+    }
+    for (const WettedFace& face : fish.faces) addDrag(face, middle, system);
+    const glm::dmat3 worldFromBody = frameOf(middle.positions).worldFromBody;
+    addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, middle, system);
+    addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, middle, system);
+}
+
+// The iteration ends when no velocity changed by more than this in its last round, body lengths a
+// second. What remains then is below a hundredth of it, since each round leaves less than that of
+// the error. Steady swimming takes 1 to 1.5 rounds.
+constexpr double kConverged = 0.005;
+// Only a fish that was torn apart needs more; it is left where it is then.
+constexpr int kMostRounds = 12;
+
+// The middle of the step if the acceleration stays that of the step before: its error is of second
+// order in the step.
+FishState extrapolated(const FishState& start, double halfStep) {
+    FishState middle = start;
+    for (std::size_t i = 0; i < middle.positions.size(); ++i) {
+        middle.velocities[i] += halfStep * start.accelerations[i];
+        middle.positions[i] += halfStep * middle.velocities[i];
+    }
+    return middle;
+}
+
+// One round of Newton's method. Returns the largest change of a velocity.
+double improve(const BiomechanicalFish& fish,
+               const MotorControl& control,
+               double halfStep,
+               const FishState& start,
+               FishState& middle) {
+    EnvelopeSystem system;
+    addInertia(fish, halfStep, start, middle, system);
+    addForces(fish, control, halfStep, middle, system);
+    system.solve();
+    double most = 0;
+    for (int i = 0; i < body::kNodalPoints; ++i) {
+        const auto node = static_cast<std::size_t>(i);
+        const glm::dvec3 change = system.solution(i);
+        most = std::max(most, glm::length(change));
+        middle.velocities[node] += change;
+        middle.positions[node] = start.positions[node] + halfStep * middle.velocities[node];
+    }
+    return most;
 }
 
 }  // namespace
@@ -253,36 +350,16 @@ void step(const BiomechanicalFish& fish,
           double stepSeconds,
           FishState& state) {
     assert(stepSeconds > 0);
-    EnvelopeSystem system;
-    // Inertia and lift: m / h on the diagonal, m v / h + lift on the right. The unknowns are the
-    // velocities at the end of the step.
-    for (int i = 0; i < body::kNodalPoints; ++i) {
-        const auto node = static_cast<std::size_t>(i);
-        const double inertia = fish.masses[node] / stepSeconds;
-        system.addToDiagonal(i, inertia);
-        system.addToRightSide(
-            i, inertia * state.velocities[node] + glm::dvec3(0, fish.lifts[node], 0));
-    }
-    // Internal and hydrodynamic forces.
-    const RestShares shares = restShares(control.muscles, fish.muscleContraction);
-    const auto& units = anatomy().units;
-    for (std::size_t i = 0; i < kUnits; ++i) {
-        const Spring& spring = fish.springs[i];
-        const double share = shares.at(static_cast<std::size_t>(units[i].kind))
-                                 .at(static_cast<std::size_t>(units[i].side));
-        const double length = spring.restLength * share;
-        addSpring(spring, length, fish.damping, stepSeconds, state, system);
-    }
-    for (const WettedFace& face : fish.faces) addDrag(face, state, system);
-    const glm::dmat3 worldFromBody = frameOf(state.positions).worldFromBody;
-    addFin(control.fins.left, kLeftFinRoot, fish.finDrag, worldFromBody, system);
-    addFin(control.fins.right, kRightFinRoot, fish.finDrag, worldFromBody, system);
-    // Backward Euler: the places move with the new velocities.
-    system.solve();
-    for (int i = 0; i < body::kNodalPoints; ++i) {
-        const auto node = static_cast<std::size_t>(i);
-        state.velocities[node] = system.solution(i);
-        state.positions[node] += stepSeconds * state.velocities[node];
+    const double halfStep = stepSeconds / 2;
+    FishState middle = extrapolated(state, halfStep);
+    for (int round = 0; round < kMostRounds; ++round)
+        if (improve(fish, control, halfStep, state, middle) < kConverged) break;
+    // The middle is the mean of both ends.
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+        const glm::dvec3 gained = 2.0 * (middle.velocities[i] - state.velocities[i]);
+        state.positions[i] += stepSeconds * middle.velocities[i];
+        state.velocities[i] += gained;
+        state.accelerations[i] = gained / stepSeconds;
     }
 }
 

@@ -83,7 +83,7 @@ RecordedCycle quickBeat(const config::Species& species, const config::Gait& gait
     const auto advance = [&](int count) {
         for (int i = 0; i < count; ++i)
             step(fish,
-                 {.muscles = swim(species, gait, stepSeconds * static_cast<double>(done++)),
+                 {.muscles = swim(species, gait, stepSeconds * (static_cast<double>(done++) + 0.5)),
                   .fins = {}},
                  stepSeconds,
                  state);

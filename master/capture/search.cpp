@@ -55,7 +55,7 @@ constexpr std::array kParameters{
               [](const config::Species& s) { return s.tissue.tailStiffening; },
               [](config::Species& s, double v) { s.tissue.tailStiffening = v; }},
     Parameter{0.2,
-              8,
+              12,
               [](const config::Species& s) { return s.tissue.damping; },
               [](config::Species& s, double v) { s.tissue.damping = v; }},
     Parameter{150,
@@ -63,7 +63,7 @@ constexpr std::array kParameters{
               [](const config::Species& s) { return s.water.drag; },
               [](config::Species& s, double v) { s.water.drag = v; }},
     Parameter{0.1,
-              0.7,
+              1,
               [](const config::Species& s) { return s.water.frontFactor; },
               [](config::Species& s, double v) { s.water.frontFactor = v; }},
     Parameter{0.1,
@@ -195,7 +195,7 @@ namespace {
 // The optimisation.
 
 // Raise it when a change of the simulation, the objective or the parameters changes the trials.
-constexpr const char* kSearchVersion = "aquarama search 1";
+constexpr const char* kSearchVersion = "aquarama search 2";
 constexpr double kSwims = 0.01;       // the goal: a miss by a tenth of one tolerance
 constexpr double kFirstStep = 0.1;    // of the range of each parameter
 constexpr double kDoesNotSwim = 1e6;  // the miss of a fish that finds no steady beat

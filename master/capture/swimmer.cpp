@@ -78,9 +78,10 @@ void Swimmer::advance(int steps) {
     for (int i = 0; i < steps; ++i) advanceOne();
 }
 
-// Controllers act on what was sensed after the step before; then the dynamics move, then the fish
-// senses and the clocks advance.
+// The clocks of the controllers stand at the middle of the step while the dynamics move, as the
+// midpoint rule asks. The attitude is that sensed after the step before.
 void Swimmer::advanceOne() {
+    advanceClocks(stepSeconds_ / 2);
     const double handedOver = std::min(1.0, ownSecondsOfOrder_ / kHandover);
     control_ = {.muscles = mix(musclesBefore_, muscleProgram(), handedOver), .fins = finProgram()};
     step(fish_, control_, stepSeconds_, state_);
@@ -88,10 +89,14 @@ void Swimmer::advanceOne() {
     // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
     attitude_ =
         sense(attitude_, state_, stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
-    const double ownSeconds = stepSeconds_ * fish_.timeScale;
+    advanceClocks(stepSeconds_ / 2);
+}
+
+void Swimmer::advanceClocks(double seconds) {
+    const double ownSeconds = seconds * fish_.timeScale;
     ownSecondsOfOrder_ += ownSeconds;
     if (swims()) ownSecondsSwum_ += ownSeconds;
-    beat_ += stepSeconds_ * beating_.beatHertz;
+    beat_ += seconds * beating_.beatHertz;
     beat_ -= std::floor(beat_);
 }
 

@@ -76,6 +76,8 @@ class Swimmer {
 
   private:
     void advanceOne();
+    // Time of the order, of swimming and of the beat; `seconds` are not the fish's own.
+    void advanceClocks(double seconds);
     // Whether the present order beats the tail.
     [[nodiscard]] bool swims() const;
     // What the present order asks of muscles and fins at this instant, without the change-over from
