@@ -30,13 +30,18 @@ BodyAngles bodyAnglesOf(const FishState& state) {
             .rollRadians = std::atan2(worldFromBody[2].y, worldFromBody[1].y)};
 }
 
-BodyAngles sense(const BodyAngles& before, const FishState& state, double share) {
+BodyAngles sense(const BodyAngles& before,
+                 const FishState& state,
+                 double share,
+                 double stepSeconds) {
+    assert(stepSeconds > 0);
     assert(share >= 0);
     assert(share <= 1);
     const BodyAngles now = bodyAnglesOf(state);
     return {.headingRadians = mixAngles(before.headingRadians, now.headingRadians, share),
             .pitchRadians = std::lerp(before.pitchRadians, now.pitchRadians, share),
-            .rollRadians = now.rollRadians};
+            .rollRadians = now.rollRadians,
+            .pitchRate = share * (now.pitchRadians - before.pitchRadians) / stepSeconds};
 }
 
 namespace {
@@ -48,6 +53,10 @@ constexpr double kLastBeats = 0.5;
 // The change-over from one order's muscle activations to the next one's, in the fish's own seconds.
 // A jump would kick the body.
 constexpr double kHandover = 0.04;
+
+// The fins act on the pitch that the fish will have so much later: a body that pitches goes on to,
+// and without a lead it overshot a commanded slope by 70 %. Times of the low pass, a beat each.
+constexpr double kPitchLeadBeats = 2;
 
 }  // namespace
 
@@ -87,8 +96,8 @@ void Swimmer::advanceOne() {
     step(fish_, control_, stepSeconds_, state_);
     ++steps_;
     // The low pass has a time constant of one beat, or of the fish's own second if that is shorter.
-    attitude_ =
-        sense(attitude_, state_, stepSeconds_ * std::max(beating_.beatHertz, fish_.timeScale));
+    const double hertz = std::max(beating_.beatHertz, fish_.timeScale);
+    attitude_ = sense(attitude_, state_, stepSeconds_ * hertz, stepSeconds_);
     advanceClocks(stepSeconds_ / 2);
 }
 
@@ -135,14 +144,23 @@ MuscleActivation Swimmer::tailBeat(double share) const {
     return beatAt(swim_, share * beating_.gain * grown, beat_, curve);
 }
 
+// The attitude with the pitch that the fish will have in kPitchLeadBeats if it pitches on as it
+// does.
+BodyAngles Swimmer::foreseen() const {
+    BodyAngles ahead = attitude_;
+    ahead.pitchRadians +=
+        attitude_.pitchRate * kPitchLeadBeats / std::max(beating_.beatHertz, fish_.timeScale);
+    return ahead;
+}
+
 PectoralFins Swimmer::finProgram() const {
     switch (order_.controller) {
         case Controller::Ascend:
-            return hold(attitude_, order_.pitchRadians);
+            return hold(foreseen(), order_.pitchRadians);
         case Controller::Descend:
-            return hold(attitude_, -order_.pitchRadians);
+            return hold(foreseen(), -order_.pitchRadians);
         case Controller::Balance:
-            return hold(attitude_, 0);
+            return hold(foreseen(), 0);
         case Controller::Brake:
             return brake();
         case Controller::Retreat:

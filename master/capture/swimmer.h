@@ -15,6 +15,8 @@ struct BodyAngles {
     double headingRadians = 0;  // of the body axis in the horizontal plane, left of +x positive
     double pitchRadians = 0;    // nose up positive
     double rollRadians = 0;     // right side up positive
+    // Change of the sensed pitch, radians a second; 0 without a filter.
+    double pitchRate = 0;
 };
 
 // Heading and roll in -pi .. pi, pitch in -pi/2 .. pi/2; without any filter.
@@ -22,9 +24,12 @@ struct BodyAngles {
 
 // What is sensed now, given what was sensed before. Heading and pitch pass a first-order low pass,
 // since the tail beat makes them oscillate: `share`, 0 to 1, of the difference is taken up in this
-// step. Roll is not filtered: the beat does not roll the fish, and a delay in the roll feedback
-// would make it oscillate.
-[[nodiscard]] BodyAngles sense(const BodyAngles& before, const FishState& state, double share);
+// step of `stepSeconds`. Roll is not filtered: the beat does not roll the fish, and a delay in the
+// roll feedback would make it oscillate.
+[[nodiscard]] BodyAngles sense(const BodyAngles& before,
+                               const FishState& state,
+                               double share,
+                               double stepSeconds);
 
 // The nine motor controllers (the paper's section 3.2).
 enum class Controller : std::uint8_t {
@@ -85,6 +90,7 @@ class Swimmer {
     [[nodiscard]] MuscleActivation muscleProgram() const;
     [[nodiscard]] MuscleActivation tailBeat(double share) const;
     [[nodiscard]] PectoralFins finProgram() const;
+    [[nodiscard]] BodyAngles foreseen() const;
 
     BiomechanicalFish fish_;
     config::Swim swim_;
