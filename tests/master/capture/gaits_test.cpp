@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -107,6 +108,25 @@ TEST_P(Gaits, speedRisesLinearlyWithTheBeat) {
         uu += u * u;
     }
     EXPECT_GT(fu * fu / (ff * uu), 0.95) << "R squared";
+}
+
+// Thrust and resistance both grow with the coefficient of drag, so that it is known badly and
+// matters little. Prints a row of the table in docs/species.md.
+TEST_P(Gaits, changeTheirStrideByAThirdOfAChangeOfDragAtMost) {
+    const config::Gait& medium = gaits_[1];
+    const SegmentMeasures fitted = figuresOf(species_, medium).swum;
+    std::printf(
+        "| %s | %.0f | %.3f |", GetParam().c_str(), species_.water.drag, fitted.strideBodyLengths);
+    for (const double factor : {0.8, 1.2}) {
+        config::Species changed = species_;
+        changed.water.drag *= factor;
+        const SegmentMeasures swum = steadyFigures(changed, medium).swum;
+        const double stride = swum.strideBodyLengths / fitted.strideBodyLengths - 1;
+        const double tail = swum.tailAmplitude / fitted.tailAmplitude - 1;
+        std::printf(" %+.1f %% | %+.1f %% |", 100 * stride, 100 * tail);
+        EXPECT_LT(std::abs(stride), std::abs(factor - 1) / 3);
+    }
+    std::printf("\n");
 }
 
 TEST_P(Gaits, takeAnEvenNumberOfTicks) {

@@ -19,40 +19,6 @@ namespace {
 constexpr std::array kForward{
     motion::Action::ForwardSlow, motion::Action::ForwardMedium, motion::Action::ForwardFast};
 
-// An independent prototype of this model swam a scad of these figures at these speeds.
-TEST(Capture, swimsAsFastAsThePrototype) {
-    config::Species fish = test::scad();
-    fish.skeleton = {.rings = {config::SkeletonRing{0.190, 0.072, 0.042, 6.6},
-                               {0.385, 0.093, 0.051, 11},
-                               {0.580, 0.071, 0.040, 6.6},
-                               {0.770, 0.048, 0.019, 1.1},
-                               {0.850, 0.040, 0.010, 1.1}},
-                     .tailHalfSpan = 0.094,
-                     .noseMass = 1.1,
-                     .tailTipMass = 0.165};
-    fish.tissue = {.timeScale = 1.5,
-                   .stiffness = 436,
-                   .crossStiffness = 554,
-                   .muscleStiffness = 636,
-                   .tailStiffening = 2.6,
-                   .damping = 4.43,
-                   .muscleContraction = 0.308};
-    fish.water.drag = 570;
-    fish.water.frontFactor = 0.1;
-    fish.swim.middleDrive = 0.578;
-    fish.swim.backDrive = 0.976;
-    fish.swim.backLagRadians = 2.02;
-    const std::array<std::pair<config::Gait, double>, 3> expected{
-        {{{.beatHertz = 2, .gain = 0.55}, 1.007},
-         {{.beatHertz = 3, .gain = 1}, 1.958},
-         {{.beatHertz = 5, .gain = 1}, 2.624}}};
-    for (const auto& [gait, speed] : expected) {
-        const SegmentMeasures m = measure(compileForward(swimUntilSteady(fish, gait).beat));
-        EXPECT_NEAR(m.speedBodyLengths / speed, 1, 0.05) << gait.beatHertz << " Hz";
-        EXPECT_NEAR(m.periodSeconds, 1 / gait.beatHertz, 1e-6);
-    }
-}
-
 TEST(Capture, swimsLikeAFish) {
     for (const motion::Action action : kForward) {
         const SegmentMeasures m = measure(test::segmentOf(action));
