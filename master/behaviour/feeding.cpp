@@ -113,7 +113,7 @@ constexpr float kAtTheLips = 0.08F;
 // Stages of eat(). A particle that is near but not before the mouth would only be circled: the fish
 // swims on and turns back from farther off (kRunUp).
 enum Stage : std::uint8_t { kApproach, kRunUp };
-constexpr float kTooNear = 2.0F;  // body lengths
+constexpr float kTooNear = 2.5F;  // body lengths: the radius of the tight curves
 constexpr float kRunUpLengths = 3.0F;
 constexpr float kAsideCosine = 0.35F;
 // Longest run-up.

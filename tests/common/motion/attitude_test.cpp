@@ -133,6 +133,18 @@ TEST_P(Attitude, aTickGoesTheSameWayInTheBodysAxesHoweverTheBodyLies) {
     }
 }
 
+// A slope is left where it would lead away from the commanded pitch, as the secondary controller
+// does.
+void endSlope(School& school, std::size_t fish) {
+    const auto commanded = static_cast<Action>(school.commands.segment[fish]);
+    if (!isSlope(commanded)) return;
+    const float wanted = static_cast<float>(school.commands.pitch[fish]) / 32768.0F;
+    const auto sine = static_cast<float>(std::sin(school.pitch(fish) * kDegree));
+    const bool climbs = commanded < Action::DiveSlow;
+    if (takesSlope(commanded, wanted - sine) && climbs == (wanted > sine)) return;
+    school.command(fish, gaitOf(commanded));
+}
+
 // Told at random to turn either way and to climb or dive, a fish may bank; but a second and a half
 // after its last turn it is upright.
 TEST_P(Attitude, whenNotManoeuvringAFishIsUprightWithinFiveDegrees) {
@@ -154,6 +166,7 @@ TEST_P(Attitude, whenNotManoeuvringAFishIsUprightWithinFiveDegrees) {
             } else if (isTurn(static_cast<Action>(school.commands.segment[i]))) {
                 school.command(i, kStraight[random() % kStraight.size()]);  // one turn at a time
             }
+            endSlope(school, i);
         }
         school.tick();
         for (std::size_t i = 0; i < kFish; ++i) {
