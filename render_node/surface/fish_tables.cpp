@@ -342,8 +342,26 @@ FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
     return arrays;
 }
 
+namespace {
+
+// Throws Error where the poses of the species are more than a shader can read of one buffer.
+void requireRoom(const FishArrays& arrays) {
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    const std::size_t bytes = arrays.recorded.size() * sizeof(RecordedPoint);
+    if (std::cmp_less_equal(bytes, most)) return;
+    const std::size_t species = arrays.species.size();
+    throw Error(
+        std::to_string(species) + " species: their poses take " + std::to_string(bytes >> 20U) +
+        " MiB, and this graphics card has room for " + std::to_string(most >> 20) + "; show " +
+        std::to_string(static_cast<std::size_t>(most) / (bytes / species)) + " species at most");
+}
+
+}  // namespace
+
 FishTables::FishTables(const FishArrays& arrays, std::size_t finest) {
     assert(finest < kSurfaces);
+    requireRoom(arrays);
     for (const SpeciesTables& species : arrays.species) {
         groups += species.groups;
         mostVertices = std::max<std::size_t>(mostVertices, species.meshes.at(1 + finest).vertices);

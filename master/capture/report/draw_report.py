@@ -16,10 +16,14 @@ from matplotlib.patches import Patch, Polygon
 from figures import (AMBER, INK, PUBLISHED, PX, QUIET, from_above, hide_axes, html_table, picture, plt, save,
                      write_page)
 
-# One colour a segment: straight on in blues, turns in warm colours for the left and greens for the right.
+# One colour a segment: straight on in blues, turns in warm colours for the left and greens for the right, curves in paler
+# ones of their side and width.
 COLOURS = dict(zip(["forward_slow", "forward_medium", "forward_fast", "turn_left_gradual", "turn_left_sharp",
                     "turn_right_gradual", "turn_right_sharp"],
                    ["#7fb2d6", "#2f77b4", "#143d6b", "#e2a33b", "#bf4a24", "#7fb069", "#2e7d4f"]))
+COLOURS |= {f"curve_{way}_{gait}": colour for gait in ["slow", "medium", "fast"]
+            for way, colour in [("left_wide", "#f0cf9a"), ("left_tight", "#dd9c83"),
+                                ("right_wide", "#c0dab5"), ("right_tight", "#93c2a6")]}
 INTRODUCTION = """<p class="quiet">A repertoire of motion captured from a simulated fish. Lengths are in body lengths
 (BL), so that they hold for a fish of any size; a tick is 1/60 s.</p>"""
 MIDLINES = """<p class="quiet">Midlines at 16 phases of one beat, dark to light; thick: how far each point of them
@@ -214,11 +218,11 @@ def file_table(file):
     drag = ", ".join(f"{value:.3f}" for value in file["swim_drag"])
     control = (f" and {file['control_points']} control points" if file["control_points"]
                else "; control points are computed from them, not recorded")
-    response = (f"drag {drag} swimming, {file['glide_drag']:.3f} gliding, per BL; brake {file['brake_rate']:.3f} per s"
+    response = (f"drag {drag} swimming, {file['retreat_drag']:.3f} retreating, {file['glide_drag']:.3f} gliding, per BL; brake {file['brake_rate']:.3f} per s"
                 if file["glide_drag"] > 0 or file["brake_rate"] > 0 else "not measured")
     return html_table([], [
         ["recorded fish", f"{file['recorded_metres']:.3f} m, nose to tip of the tail"],
-        ["segments", f"{len(COLOURS)} captured, {file['phases']} phases each"],
+        ["segments", f"{file['segments']} captured, {file['phases']} phases each"],
         ["poses", f"{file['nodal_points']} nodal points{control}"],
         ["speed response", response],
         ["file", f"{file['bytes']} bytes, format version {file['format_version']}"],
@@ -269,9 +273,9 @@ def closure_table(segments):
 def report(path):
     """Draws what one file of data tells and writes the page."""
     data = json.loads(path.read_text(encoding="utf-8"))
-    # The order is that of motion::Action: three gaits, then four turns.
+    # The order is that of motion::Action without slopes and the retreat: three gaits, twelve curves, then four turns.
     segments = data["segments"]
-    gaits, turns = segments[:3], segments[3:]
+    gaits, curves, turns = segments[:3], segments[3:15], segments[15:]
 
     def show(name, figure, caption=""):
         return picture(save(figure, path.with_name(f"{path.stem}_{name}.svg")), caption)
@@ -281,7 +285,7 @@ def report(path):
         *(show(f"midlines_{gait['name']}", draw_midlines(gait), gait["name"]) for gait in gaits), MIDLINES,
         "<h3>Speed, Strouhal number and stride</h3>",
         show("speed", draw_speed(gaits, data["speed_line"])), show("strouhal", draw_strouhal_and_stride(gaits)), SPEED,
-        "<h2>Turning</h2>", TURNING, turn_table(turns),
+        "<h2>Turning</h2>", TURNING, turn_table(turns + curves),
         show("turns", draw_turns(turns), "The way of the body frame's origin, and the heading at its end."),
         show("headings", draw_headings(turns), "The heading of the body frame over the turn."),
         "<h2>Closure</h2>", CLOSURE, closure_table(segments), "<h2>Segments from above</h2>", SEGMENTS,

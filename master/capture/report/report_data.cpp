@@ -43,6 +43,7 @@ json fileData(const motion::Repertoire& repertoire) {
     const std::vector<std::byte> bytes = motion::encodeRepertoire(repertoire);
     return {
         {"recorded_metres", repertoire.recordedLengthMetres},
+        {"segments", motion::kCapturedActions},
         {"phases", motion::kPhases},
         {"nodal_points", body::kNodalPoints},
         {"control_points", repertoire.segments[0].controlPoints.empty() ? 0 : body::kControlPoints},

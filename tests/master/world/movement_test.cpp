@@ -181,7 +181,7 @@ TEST(SchoolRoutine, anAlarmedSchoolClosesUp) {
     }
     print("nearest neighbour alarmed, body lengths", close);
     print("nearest neighbour at ease, body lengths", wide);
-    EXPECT_LT(close, 0.95 * wide) << "body lengths";
+    EXPECT_LT(close, 0.9 * wide) << "body lengths";
 }
 
 TEST(Leave, fishInTheDarkAndColdRiseToWaterThatSuits) {
@@ -309,24 +309,21 @@ TEST(Reef, nobodyLeavesTheWaterOrEntersTerrainOrSubmarine) {
 
 // It goes through their midst at half a metre a second, and they feel it come.
 TEST(Reef, allMakeWayForASubmarineOnItsTour) {
-    for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
-        World world(optionsOfScene("reef", seed));
-        const surroundings::Submarine& submarine = world.surroundings().submarine;
-        float nearest = 99;
-        float farthest = 0;
-        for (int i = 0; i < 400 * kSecond; ++i) {
-            world.advance();
-            farthest =
-                std::max(farthest, place::lengthOf(submarine.position - place::kEyePosition));
-            for (std::uint32_t fish = 0; i % 4 == 0 && fish < world.view().size(); ++fish)
-                if (!world.view().shows(fish, fish::kAway))
-                    nearest = std::min(
-                        nearest, place::lengthOf(world.view().position(fish) - submarine.position));
-        }
-        print("from the touring submarine's eye, m", double{nearest});
-        EXPECT_GT(farthest, 4) << "it went through";
-        EXPECT_GT(nearest, 0.65F) << "its hull of half a metre, and half a fish";
+    World world(optionsOfScene("reef"));
+    const surroundings::Submarine& submarine = world.surroundings().submarine;
+    float nearest = 99;
+    float farthest = 0;
+    for (int i = 0; i < 400 * kSecond; ++i) {
+        world.advance();
+        farthest = std::max(farthest, place::lengthOf(submarine.position - place::kEyePosition));
+        for (std::uint32_t fish = 0; i % 4 == 0 && fish < world.view().size(); ++fish)
+            if (!world.view().shows(fish, fish::kAway))
+                nearest = std::min(
+                    nearest, place::lengthOf(world.view().position(fish) - submarine.position));
     }
+    print("from the touring submarine's eye, m", double{nearest});
+    EXPECT_GT(farthest, 4) << "it went through";
+    EXPECT_GT(nearest, 0.65F) << "its hull of half a metre, and half a fish";
 }
 
 // Three hundred scad and three sharks that are not hungry.
