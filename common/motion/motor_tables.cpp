@@ -289,8 +289,8 @@ constexpr float kSmallestStepBodyLengths = 1.0F / 128.0F;
 
 using Pose = std::array<glm::vec3, body::kNodalPoints>;  // body lengths
 using Cycle = std::array<Pose, kPhases + 1>;             // the last pose repeats the first
-// [phase of A][phase of B]: the largest squared travel from one pose to the other.
-using Travels = std::array<std::array<float, kPhases>, kPhases + 1>;
+// [phase of A][phase of B]: the largest squared travel from one pose to the other, either way.
+using Travels = std::array<std::array<float, kPhases + 1>, kPhases + 1>;
 
 Cycle cycleOf(const ActionSegment& segment) {
     Cycle cycle;
@@ -344,9 +344,16 @@ float largestStep(const std::vector<Cycle>& cycles,
 Travels travelsBetween(const Cycle& a, const Cycle& b) {
     Travels travels;
     for (std::size_t k = 0; k <= kPhases; ++k) {
-        for (std::size_t m = 0; m < kPhases; ++m) travels[k][m] = squaredTravel(a[k], b[m]);
+        for (std::size_t m = 0; m <= kPhases; ++m) travels[k][m] = squaredTravel(a[k], b[m]);
     }
     return travels;
+}
+
+Travels transposed(const Travels& travels) {
+    Travels other;
+    for (std::size_t k = 0; k <= kPhases; ++k)
+        for (std::size_t m = 0; m <= kPhases; ++m) other[m][k] = travels[k][m];
+    return other;
 }
 
 // The largest travel from anywhere within a cell: travel is convex in the phase there, so its ends
@@ -377,13 +384,16 @@ WarpPlans planWarps(const Repertoire& repertoire,
     for (const ActionSegment& segment : repertoire.segments) cycles.push_back(cycleOf(segment));
     const float step = largestStep(cycles, phaseRates);
     WarpPlans plans;
-    for (std::size_t from = 0; from < kActions; ++from) {
-        for (std::size_t to = 0; to < kActions; ++to) {
-            const Travels travels = travelsBetween(cycles[from], cycles[to]);
-            const bool enterAtStart = repertoire.segments[to].playsToEnd;
-            for (std::size_t cell = 0; cell < kPhases; ++cell) {
-                plans[from][cell][to] = planFor(travels, cell, enterAtStart, step);
-            }
+    const auto plan = [&](std::size_t from, std::size_t to, const Travels& travels) {
+        const bool enterAtStart = repertoire.segments[to].playsToEnd;
+        for (std::size_t cell = 0; cell < kPhases; ++cell)
+            plans[from][cell][to] = planFor(travels, cell, enterAtStart, step);
+    };
+    for (std::size_t a = 0; a < kActions; ++a) {
+        for (std::size_t b = a; b < kActions; ++b) {
+            const Travels travels = travelsBetween(cycles[a], cycles[b]);
+            plan(a, b, travels);
+            plan(b, a, transposed(travels));
         }
     }
     return plans;

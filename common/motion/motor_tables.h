@@ -109,7 +109,7 @@ class MotorTables {
 using WarpPlans = std::array<std::array<std::array<WarpPlan, kActions>, kPhases>, kActions>;
 
 // [from][cell of its phase][to]. phaseRates: as recorded, 1/65536 of a cycle in a tick. For every
-// pair of segments compares all pairs of phases, about 270 000 pairs of poses.
+// pair of segments compares all pairs of phases, about 1.6 million pairs of poses.
 [[nodiscard]] WarpPlans planWarps(const Repertoire& repertoire,
                                   const std::array<std::int16_t, kActions>& phaseRates);
 

@@ -9,8 +9,10 @@ from pathlib import Path
 
 from show import ROOT, aquarama, temporary_folder
 
-SEGMENTS = ["forward_slow", "forward_medium", "forward_fast", "turn_left_gradual", "turn_left_sharp",
-            "turn_right_gradual", "turn_right_sharp"]
+SEGMENTS = ["forward_slow", "forward_medium", "forward_fast",
+            *(f"curve_{side}_{width}_{gait}" for side in ["left", "right"] for width in ["wide", "tight"]
+              for gait in ["slow", "medium", "fast"]),
+            "turn_left_gradual", "turn_left_sharp", "turn_right_gradual", "turn_right_sharp"]
 PICTURES = ["body", "speed", "strouhal", "turns", "headings", *SEGMENTS, *(f"midlines_{gait}" for gait in SEGMENTS[:3])]
 REEF = ROOT / "config/scenes/reef.txtpb"
 
@@ -110,7 +112,8 @@ class Reports(Case):
         run = aquarama("study", "chronicle", REEF, "--hours", 0.01,
                        environment={"TMPDIR": str(self.folder / "temporary")})
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(run.stdout.count("\n|---|"), 2, "overlaps by species and by routine; no hour is over")
+        self.assertEqual(run.stdout.count("\n|---|"), 3, "overlaps by species and by routine, motion; no hour is over")
+        self.assertRegex(run.stdout, r"\nturning by captured segments: \d+\.\d %\n")
         self.assertIn("\nhash of the world: ", run.stdout)
         self.assertEqual(list((self.folder / "temporary").iterdir()), [], "nobody asked for the data")
         files, said = self.written("c", "study", "chronicle", REEF, "--hours", 0.01, "--out", self.folder / "c")

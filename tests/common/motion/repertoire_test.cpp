@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/motion/repertoire.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -142,17 +143,20 @@ Bytes withFloat(std::size_t at, float value) {
     return resigned(std::move(file));
 }
 
+// Of the many floats of the segments, each is one of the three.
 TEST(Repertoire, anyFloatThatIsNoNumberIsRefusedByWhatItIs) {
     const FloatsAt at = floatsOf("synthetic");
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
-                            std::numeric_limits<float>::infinity(),
-                            -std::numeric_limits<float>::infinity()}) {
+    constexpr std::array kBad{std::numeric_limits<float>::quiet_NaN(),
+                              std::numeric_limits<float>::infinity(),
+                              -std::numeric_limits<float>::infinity()};
+    for (const float bad : kBad) {
         EXPECT_THAT(refusalOf(withFloat(at.length, bad)), testing::HasSubstr("recorded length"));
         for (const std::size_t drag : {0U, 1U, 2U, 3U, 4U, 5U})
             EXPECT_THAT(refusalOf(withFloat(at.drags + 4 * drag, bad)), testing::HasSubstr("drag"));
-        for (const std::size_t offset : at.ofSegments)
-            ASSERT_THAT(refusalOf(withFloat(offset, bad)), testing::HasSubstr("segment "));
     }
+    for (std::size_t i = 0; i < at.ofSegments.size(); ++i)
+        ASSERT_THAT(refusalOf(withFloat(at.ofSegments[i], kBad[i % kBad.size()])),
+                    testing::HasSubstr("segment "));
 }
 
 TEST(Repertoire, aDragOutOfBoundsIsRefused) {

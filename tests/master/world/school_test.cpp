@@ -169,7 +169,7 @@ class School : public testing::TestWithParam<std::uint32_t> {
 
 TEST_P(School, staysInItsWater) {
     // A turn needs room: half the circle of a gradual one is 0.5 m across.
-    EXPECT_LT(diary().farthestOutOfWater, 0.4F) << "metres outside";
+    EXPECT_LT(diary().farthestOutOfWater, 0.25F) << "metres outside";
     EXPECT_GT(diary().nearestToSand, 0.2F);
     EXPECT_GT(diary().nearestToSurface, 0.5F);
     EXPECT_GT(diary().nearestToEye, 0.9F);
@@ -188,7 +188,7 @@ TEST_P(School, headsOneWayMostOfTheTime) {
 }
 
 TEST_P(School, noTwoFishOverlapForLong) {
-    EXPECT_LE(diary().longestOverlapTicks, 90);
+    EXPECT_LE(diary().longestOverlapTicks, 60);
 }
 
 TEST_P(School, eachFishSwimsInSeveralWays) {
